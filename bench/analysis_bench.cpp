@@ -28,28 +28,28 @@ constexpr int rounds = 5;
 
 struct Sample {
   Frame stored, frame, before;  ///< `frame` with the gamma of neighbourhoods
-  PersistenceDiagram network, network_before;
-  FrameRecord record;
+  analysis::PersistenceDiagram network, network_before;
+  analysis::FrameRecord record;
 };
 
-Sample sample_of(const RunFile& run, const AnalysisParameters& parameters, std::size_t k) {
+Sample sample_of(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k) {
   const RunStatics& statics = run.header().statics;
   Sample sample;
   sample.stored = run.frame(k);
-  sample.frame = with_analysed_gamma(sample.stored, statics, parameters);
+  sample.frame = analysis::with_analysed_gamma(sample.stored, statics, parameters);
   sample.before = run.frame(k - 1);
-  sample.network = force_persistence({sample.frame, statics}, 1.0);
-  sample.network_before = force_persistence({sample.before, statics}, 1.0);
+  sample.network = analysis::force_persistence({sample.frame, statics}, 1.0);
+  sample.network_before = analysis::force_persistence({sample.before, statics}, 1.0);
   return sample;
 }
 
 int measure(int argc, char** argv) {
   if (argc != 2) throw Error(ExitCode::usage, "expected the path of a run");
-  const RunFile run = RunFile::open(argv[1]);
+  const io::RunFile run = io::RunFile::open(argv[1]);
   const RunStatics& statics = run.header().statics;
-  const AnalysisParameters parameters;
+  const analysis::AnalysisParameters parameters;
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(0.35);
-  const Analysis analysis = begin_analysis(statics, parameters, theta_c);
+  const analysis::Analysis analysis = analysis::begin_analysis(statics, parameters, theta_c);
   std::vector<std::size_t> numbers;
   std::vector<Sample> samples;
   for (std::size_t s = 1; s <= sampled; ++s) {
@@ -70,34 +70,37 @@ int measure(int argc, char** argv) {
   std::printf("| part | ms a frame |\n|---|--:|\n");
   row("frame read", [&](Sample&, std::size_t k) { (void)run.frame(k); });
   row("gamma of neighbourhoods",
-      [&](Sample& of, std::size_t) { (void)with_analysed_gamma(of.stored, statics, parameters); });
+      [&](Sample& of, std::size_t) { (void)analysis::with_analysed_gamma(of.stored, statics, parameters); });
   row("thresholds: l_c, clusters, directed paths", [&](Sample& of, std::size_t) {
-    (void)analyse_thresholds({of.frame, statics}, parameters, analysis, 1.0);
+    (void)analysis::analyse_thresholds({of.frame, statics}, parameters, analysis, 1.0);
   });
   row("correlations of forces, gamma and mean stress", [&](Sample& of, std::size_t) {
-    (void)force_correlation({of.frame, statics}, largest, parameters.bins);
-    (void)stress_ratio_correlation({of.frame, statics}, largest, parameters.bins);
-    (void)mean_stress_correlation({of.frame, statics}, largest, parameters.bins);
+    (void)analysis::force_correlation({of.frame, statics}, largest, parameters.bins);
+    (void)analysis::stress_ratio_correlation({of.frame, statics}, largest, parameters.bins);
+    (void)analysis::mean_stress_correlation({of.frame, statics}, largest, parameters.bins);
   });
   row("local solid fraction", [&](Sample& of, std::size_t) {
-    take_local_solid_fraction({of.frame, statics}, of.record);
+    analysis::take_local_solid_fraction({of.frame, statics}, of.record);
   });
   row("granular temperature", [&](Sample& of, std::size_t) {
-    take_granular_temperature({of.frame, statics}, of.record);
+    analysis::take_granular_temperature({of.frame, statics}, of.record);
   });
   row("local deformation", [&](Sample& of, std::size_t) {
-    take_deformation(of.before, {of.frame, statics}, of.record);
+    analysis::take_deformation(of.before, {of.frame, statics}, of.record);
   });
   row("rigid clusters", [&](Sample& of, std::size_t) {
-    take_rigid_clusters({of.frame, statics}, of.record);
+    analysis::take_rigid_clusters({of.frame, statics}, of.record);
   });
-  row("persistence", [&](Sample& of, std::size_t) { (void)force_persistence({of.frame, statics}, 1.0); });
+  row("persistence", [&](Sample& of, std::size_t) {
+    (void)analysis::force_persistence({of.frame, statics}, 1.0);
+  });
   row("change of the network", [&](Sample& of, std::size_t) {
-    std::vector<FrameRecord> records(2);
-    take_network_changes({of.network_before, of.network}, statics.free_count, records);
+    std::vector<analysis::FrameRecord> records(2);
+    analysis::take_network_changes({of.network_before, of.network}, statics.free_count, records);
   });
   row("all of a frame but reading and what it is compared with", [&](Sample& of, std::size_t) {
-    (void)analyse_frame({with_analysed_gamma(of.stored, statics, parameters), statics}, parameters, analysis);
+    (void)analysis::analyse_frame({analysis::with_analysed_gamma(of.stored, statics, parameters), statics},
+                                  parameters, analysis);
   });
   return 0;
 }

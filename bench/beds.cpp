@@ -16,8 +16,8 @@ namespace {
 constexpr Index tile_grains = 4000;
 
 /// No value where the bed is not deposited but tiled.
-std::optional<Scenario> scenario_of(Index grains) {
-  Scenario scenario;
+std::optional<scenario::Scenario> scenario_of(Index grains) {
+  scenario::Scenario scenario;
   switch (grains) {
     case 500:
       scenario.bed.length = 25.0;
@@ -44,63 +44,63 @@ std::string path_of(Index grains, const std::string& state) {
   return std::string(TALUS_BENCH_BEDS) + "/bed-" + std::to_string(grains) + "-" + state + ".h5";
 }
 
-void save(const Scenario& scenario, const Segment& segment, const Checkpoint& checkpoint,
+void save(const scenario::Scenario& scenario, const io::Segment& segment, const io::Checkpoint& checkpoint,
           const std::string& path) {
   std::filesystem::create_directories(TALUS_BENCH_BEDS);
-  RunHeader header;
-  header.statics = run_statics(scenario, checkpoint.world);
-  header.scenario_given = header.scenario_resolved = resolved_toml(scenario);
+  io::RunHeader header;
+  header.statics = session::run_statics(scenario, checkpoint.world);
+  header.scenario_given = header.scenario_resolved = scenario::resolved_toml(scenario);
   header.seed = scenario.seed;
-  RunStore store = RunStore::create(path, header, true);
+  io::RunStore store = io::RunStore::create(path, header, true);
   store.commit(segment, checkpoint);
   store.pack();
 }
 
-void advance_to(Phase end, Session session, const std::string& path) {
+void advance_to(session::Phase end, session::Session session, const std::string& path) {
   while (session.phase() != end) session.advance();
   save(session.scenario(), session.segment(), session.checkpoint(0.0), path);
 }
 
 /// Deposits where that has not been done before.
-Checkpoint flat_bed(Index grains, const Scenario& scenario) {
+io::Checkpoint flat_bed(Index grains, const scenario::Scenario& scenario) {
   const std::string path = path_of(grains, "flat");
-  if (!std::filesystem::exists(path)) advance_to(Phase::tilt, Session(scenario), path);
-  return RunFile::open(path).checkpoint();
+  if (!std::filesystem::exists(path)) advance_to(session::Phase::tilt, session::Session(scenario), path);
+  return io::RunFile::open(path).checkpoint();
 }
 
 /// Tilts where that has not been done before.
-Checkpoint tilted_bed(Index grains, const Scenario& scenario) {
+io::Checkpoint tilted_bed(Index grains, const scenario::Scenario& scenario) {
   const std::string path = path_of(grains, "ten-degrees");
   if (!std::filesystem::exists(path))
-    advance_to(Phase::done, Session(scenario, flat_bed(grains, scenario)), path);
-  return RunFile::open(path).checkpoint();
+    advance_to(session::Phase::done, session::Session(scenario, flat_bed(grains, scenario)), path);
+  return io::RunFile::open(path).checkpoint();
 }
 
 void hold_until_rest(World& world, double h) {
   constexpr int quiet_steps = 50;
-  StepSettings settings = step_settings(Scenario{});
+  dynamics::StepSettings settings = session::step_settings(scenario::Scenario{});
   settings.h = h;
-  StepWorkspace workspace;
-  const double rest = Scenario{}.deposition.rest_velocity * world.gravity * h;
+  dynamics::StepWorkspace workspace;
+  const double rest = scenario::Scenario{}.deposition.rest_velocity * world.gravity * h;
   for (int quiet = 0; quiet < quiet_steps;)
-    quiet = step(world, settings, workspace).motion.rms_velocity < rest ? quiet + 1 : 0;
+    quiet = dynamics::step(world, settings, workspace).motion.rms_velocity < rest ? quiet + 1 : 0;
 }
 
 /// A bed may be in the midst of a rearrangement when it reaches its angle: holds it there, with steps of h,
 /// where that has not been done before.
-Checkpoint rested_bed(Index grains, const Scenario& scenario, double h) {
+io::Checkpoint rested_bed(Index grains, const scenario::Scenario& scenario, double h) {
   const std::string path =
       path_of(grains, "ten-degrees-rest-" + std::to_string(std::llround(1e9 * h)) + "ns");
   if (!std::filesystem::exists(path)) {
-    Checkpoint checkpoint = tilted_bed(grains, scenario);
+    io::Checkpoint checkpoint = tilted_bed(grains, scenario);
     hold_until_rest(checkpoint.world, h);
     save(scenario, {}, checkpoint, path);
   }
-  return RunFile::open(path).checkpoint();
+  return io::RunFile::open(path).checkpoint();
 }
 
 World bed_at_rest(Index grains, Slope slope, double h) {
-  if (const std::optional<Scenario> scenario = scenario_of(grains))
+  if (const std::optional<scenario::Scenario> scenario = scenario_of(grains))
     return (slope == Slope::flat ? flat_bed(grains, *scenario) : rested_bed(grains, *scenario, h)).world;
   if (grains <= 0 || grains % tile_grains != 0)
     throw Error(ExitCode::usage, "no bed of " + std::to_string(grains) +
@@ -113,13 +113,13 @@ World bed_at_rest(Index grains, Slope slope, double h) {
 
 World bed(Index grains, Slope slope, double h) {
   World world = bed_at_rest(grains, slope, h);
-  if (slope == Slope::ten_degrees) world.tilt += radians(Scenario{}.tilt.step);
+  if (slope == Slope::ten_degrees) world.tilt += radians(scenario::Scenario{}.tilt.step);
   return world;
 }
 
-Session session_at_tilt(Index grains) {
-  const Scenario scenario = scenario_of(grains).value();
-  return Session(scenario, flat_bed(grains, scenario));
+session::Session session_at_tilt(Index grains) {
+  const scenario::Scenario scenario = scenario_of(grains).value();
+  return session::Session(scenario, flat_bed(grains, scenario));
 }
 
 }  // namespace talus::bench

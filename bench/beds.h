@@ -21,6 +21,6 @@ enum class Slope { flat, ten_degrees };
 World bed(Index grains, Slope slope, double h);
 
 /// The flat bed of 500, 2000, 4000 or 8000 grains, about to take the first step of its tilt.
-Session session_at_tilt(Index grains);
+session::Session session_at_tilt(Index grains);
 
 }  // namespace talus::bench

@@ -8,9 +8,9 @@
 namespace talus::bench {
 
 struct FrozenStep {
-  ContactProblem problem;
-  ContactSolution guess;      ///< remembered forces times h
-  double gravity_step = 0.0;  ///< g h, the velocity that gravity gives a free grain in the step
+  solver::ContactProblem problem;
+  solver::ContactSolution guess;  ///< remembered forces times h
+  double gravity_step = 0.0;      ///< g h, the velocity that gravity gives a free grain in the step
 };
 
 /// Which near contacts are in the problem: those with a gap below this many mean diameters, and what the
@@ -22,7 +22,7 @@ enum class Candidates {
 };
 
 /// What a run of the paper's scenario asks of a step of length h (s).
-StepSettings run_settings(double h, Candidates candidates = Candidates::of_a_run);
+dynamics::StepSettings run_settings(double h, Candidates candidates = Candidates::of_a_run);
 
 /// In SI units.
 FrozenStep next_step(World world, double h, Candidates candidates = Candidates::of_a_run);
@@ -34,6 +34,6 @@ double seconds_of(double dt);
 FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates);
 
 /// No impulses.
-ContactSolution cold_guess(const ContactProblem& problem);
+solver::ContactSolution cold_guess(const solver::ContactProblem& problem);
 
 }  // namespace talus::bench

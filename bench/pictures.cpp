@@ -9,33 +9,34 @@
 
 namespace talus::bench {
 
-FrameView picture(const PictureSize& size, bool coloured) {
-  FrameView view;
+render::FrameView picture(const PictureSize& size, bool coloured) {
+  render::FrameView view;
   view.furniture = false;
   view.x_max = size.columns;
   view.y_max = 0.25 * size.columns;
   Random random(1);
   for (int row = 0; row < size.rows; ++row)
     for (int column = 0; column < size.columns; ++column) {
-      Disc disc;
+      render::Disc disc;
       disc.x = static_cast<float>(column + (row % 2 ? 0.75 : 0.25));
       disc.y = static_cast<float>(0.5 + row * std::sqrt(0.75));
       disc.radius = static_cast<float>(random.uniform(0.35, 0.5));
-      disc.fill = colour_at(coloured ? ColourMap::viridis : ColourMap::gray, random.uniform());
-      disc.rim = gray(0.6);
+      disc.fill = render::colour_at(coloured ? render::ColourMap::viridis : render::ColourMap::gray,
+                                    random.uniform());
+      disc.rim = render::gray(0.6);
       view.discs.push_back(disc);
     }
   return view;
 }
 
-void write_discs(const std::string& path, const FrameView& view, int width) {
+void write_discs(const std::string& path, const render::FrameView& view, int width) {
   const double scale = width / (view.x_max - view.x_min);
   std::ofstream file(path);
   file << "x,y,radius,fill_red,fill_green,fill_blue,rim_red,rim_green,rim_blue\n";
-  for (const Disc& disc : view.discs) {
+  for (const render::Disc& disc : view.discs) {
     file << scale * static_cast<double>(disc.x) << ',' << scale * static_cast<double>(disc.y) << ','
          << scale * static_cast<double>(disc.radius);
-    for (const Colour& colour : {disc.fill, disc.rim})
+    for (const render::Colour& colour : {disc.fill, disc.rim})
       file << ',' << int{colour.red} << ',' << int{colour.green} << ',' << int{colour.blue};
     file << '\n';
   }

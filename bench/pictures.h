@@ -18,10 +18,10 @@ inline constexpr PictureSize large_picture{800, 125, 4000};  ///< 100 000 discs
 
 /// A bed of discs of unlike sizes and shades with gray rims at the bottom of a picture without furniture, in
 /// gray or in viridis.
-FrameView picture(const PictureSize& size, bool coloured);
+render::FrameView picture(const PictureSize& size, bool coloured);
 
 /// The discs as CSV in drawing order, in px from the left and from the bottom: x, y, radius, and red, green
 /// and blue of fill and rim, 0 ... 255. Throws Error(cannot_create).
-void write_discs(const std::string& path, const FrameView& view, int width);
+void write_discs(const std::string& path, const render::FrameView& view, int width);
 
 }  // namespace talus::bench

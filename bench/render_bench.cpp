@@ -16,35 +16,37 @@ namespace {
 constexpr const char* frame_file = "render_bench_frame.png";
 
 void draw(benchmark::State& state, const PictureSize& size, bool coloured) {
-  Renderer renderer(make_context(std::nullopt));
-  const FrameView view = picture(size, coloured);
+  render::Renderer renderer(render::make_context(std::nullopt));
+  const render::FrameView view = picture(size, coloured);
   for (auto _ : state) benchmark::DoNotOptimize(renderer.draw(view, size.width));
 }
 
 void png(benchmark::State& state, const PictureSize& size, bool coloured) {
-  const Image image = Renderer(make_context(std::nullopt)).draw(picture(size, coloured), size.width);
+  const render::Image image =
+      render::Renderer(render::make_context(std::nullopt)).draw(picture(size, coloured), size.width);
   std::size_t bytes = 0;
-  for (auto _ : state) bytes = encode_png(image).size();
+  for (auto _ : state) bytes = render::encode_png(image).size();
   state.counters["kB"] = static_cast<double>(bytes) / 1000.0;
 }
 
 /// One after the other.
 void frame(benchmark::State& state, const PictureSize& size, bool coloured) {
-  Renderer renderer(make_context(std::nullopt));
-  const FrameView view = picture(size, coloured);
-  for (auto _ : state) write_png(frame_file, renderer.draw(view, size.width));
+  render::Renderer renderer(render::make_context(std::nullopt));
+  const render::FrameView view = picture(size, coloured);
+  for (auto _ : state) render::write_png(frame_file, renderer.draw(view, size.width));
   std::filesystem::remove(frame_file);
 }
 
 /// A second thread writes a frame while the next one is drawn.
 void frame_overlapped(benchmark::State& state, const PictureSize& size, bool coloured) {
-  Renderer renderer(make_context(std::nullopt));
-  const FrameView view = picture(size, coloured);
+  render::Renderer renderer(render::make_context(std::nullopt));
+  const render::FrameView view = picture(size, coloured);
   std::future<void> written;
   for (auto _ : state) {
-    Image image = renderer.draw(view, size.width);
+    render::Image image = renderer.draw(view, size.width);
     if (written.valid()) written.get();
-    written = std::async(std::launch::async, [image = std::move(image)] { write_png(frame_file, image); });
+    written =
+        std::async(std::launch::async, [image = std::move(image)] { render::write_png(frame_file, image); });
   }
   written.get();
   std::filesystem::remove(frame_file);

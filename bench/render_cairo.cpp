@@ -17,22 +17,22 @@
 namespace talus::bench {
 namespace {
 
-void set_colour(cairo_t* cairo, const Colour& colour) {
+void set_colour(cairo_t* cairo, const render::Colour& colour) {
   cairo_set_source_rgb(cairo, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-void fill_disc(cairo_t* cairo, double x, double y, double radius, const Colour& colour) {
+void fill_disc(cairo_t* cairo, double x, double y, double radius, const render::Colour& colour) {
   set_colour(cairo, colour);
   cairo_arc(cairo, x, y, radius, 0.0, 2.0 * std::numbers::pi);
   cairo_fill(cairo);
 }
 
 /// The rim first, then the fill within it, as wide as the shader has it.
-void draw(cairo_t* cairo, const FrameView& view, int width) {
+void draw(cairo_t* cairo, const render::FrameView& view, int width) {
   const double scale = width / view.x_max;
-  set_colour(cairo, white);
+  set_colour(cairo, render::white);
   cairo_paint(cairo);
-  for (const Disc& disc : view.discs) {
+  for (const render::Disc& disc : view.discs) {
     const double x = scale * static_cast<double>(disc.x),
                  y = scale * (view.y_max - static_cast<double>(disc.y)),
                  radius = scale * static_cast<double>(disc.radius);
@@ -49,7 +49,7 @@ double median(std::vector<double> values) {
 int run(int argc, char** argv) {
   if (argc != 5) throw Error(ExitCode::usage, "expected: 8000|100000 gray|colour PICTURE.png DISCS.csv");
   const PictureSize size = std::string(argv[1]) == "8000" ? paper_picture : large_picture;
-  const FrameView view = picture(size, std::string(argv[2]) == "colour");
+  const render::FrameView view = picture(size, std::string(argv[2]) == "colour");
   write_discs(argv[4], view, size.width);
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, size.width, size.width / 4);
   cairo_t* cairo = cairo_create(surface);

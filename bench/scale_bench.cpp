@@ -21,15 +21,15 @@ namespace {
 
 /// Wall seconds of one iteration, from a solve of `iterations` of them.
 double seconds_per_iteration(const FrozenStep& step, int threads, int iterations,
-                             SolverWorkspace& workspace) {
-  SolverSettings settings;
+                             solver::SolverWorkspace& workspace) {
+  solver::SolverSettings settings;
   settings.tolerance = 0.0;
   settings.max_iterations = iterations;
   settings.threads = threads;
   workspace.accelerated.choice = {};  // all threads, even on a busy machine
-  ContactSolution solution = cold_guess(step.problem);
+  solver::ContactSolution solution = cold_guess(step.problem);
   const auto start = std::chrono::steady_clock::now();
-  solve(step.problem, settings, workspace, solution);
+  solver::solve(step.problem, settings, workspace, solution);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / iterations;
 }
 
@@ -38,7 +38,7 @@ std::array<double, 2> pass_seconds(const FrozenStep& step) {
   constexpr int repetitions = 7;
   // As in a run: a solve of more than 512 iterations, which looks for the mean of iterates, is rare.
   const int iterations = std::clamp(150'000'000 / step.problem.contact_count(), 100, 400);
-  std::array<SolverWorkspace, 2> workspaces;
+  std::array<solver::SolverWorkspace, 2> workspaces;
   std::array<std::array<double, repetitions>, 2> seconds{};
   for (int k = 0; k < repetitions; ++k)
     for (std::size_t t = 0; t < 2; ++t)
@@ -62,23 +62,25 @@ double process_bytes(const std::string& name) {
 /// Peak resident memory while steps are taken, the world included, beyond that of the bare program, bytes.
 double peak_of_steps(World world, double bare_program) {
   std::ofstream("/proc/self/clear_refs") << 5;  // the peak is counted from here on
-  StepSettings settings = run_settings(time_step(Scenario{}));
+  dynamics::StepSettings settings = run_settings(scenario::time_step(scenario::Scenario{}));
   settings.solver.max_iterations = 10;
-  StepWorkspace workspace;
-  for (int k = 0; k < 3; ++k) step(world, settings, workspace);
+  dynamics::StepWorkspace workspace;
+  for (int k = 0; k < 3; ++k) dynamics::step(world, settings, workspace);
   return process_bytes("VmHWM") - bare_program;
 }
 
 /// Residual of the remembered forces: that of the tile, where copies of it stand in equilibrium as it does.
 double eta_of_guess(FrozenStep step) {
-  velocities_from_impulses(step.problem, step.guess);
-  return natural_map_residual(step.problem, step.guess).eta;
+  solver::velocities_from_impulses(step.problem, step.guess);
+  return solver::natural_map_residual(step.problem, step.guess).eta;
 }
 
 void print_row(Index grains) {
   const double bare_program = process_bytes("VmRSS");
-  const double peak = peak_of_steps(bed(grains, Slope::flat, time_step(Scenario{})), bare_program);
-  const FrozenStep step = next_step(bed(grains, Slope::flat, time_step(Scenario{})), time_step(Scenario{}));
+  const double peak =
+      peak_of_steps(bed(grains, Slope::flat, scenario::time_step(scenario::Scenario{})), bare_program);
+  const FrozenStep step = next_step(bed(grains, Slope::flat, scenario::time_step(scenario::Scenario{})),
+                                    scenario::time_step(scenario::Scenario{}));
   const double contacts = step.problem.contact_count();
   const std::array<double, 2> seconds = pass_seconds(step);
   std::printf("| %d | %.0f | %.2f | %.2f | %.2f | %.2f | %.0f | %.3e |\n", grains, contacts,

@@ -17,14 +17,14 @@
 namespace talus::bench {
 namespace {
 
-void answer(World& world, int threads, int steps, StepWorkspace& workspace) {
-  StepSettings settings = run_settings(time_step(Scenario{}));
+void answer(World& world, int threads, int steps, dynamics::StepWorkspace& workspace) {
+  dynamics::StepSettings settings = run_settings(scenario::time_step(scenario::Scenario{}));
   settings.solver.threads = threads;
   long iterations = 0;
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < steps; ++k) {
-    iterations += step(world, settings, workspace).solver.iterations;
-    world.tilt += radians(Scenario{}.tilt.step);
+    iterations += dynamics::step(world, settings, workspace).solver.iterations;
+    world.tilt += radians(scenario::Scenario{}.tilt.step);
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("%.6e %ld %016llx\n", seconds, iterations, static_cast<unsigned long long>(state_hash(world)));
@@ -36,8 +36,8 @@ int run(int argc, char** argv) {
   CLI::App app("Steps of the tilt at 10 deg, asked for on the standard input");
   app.add_option("grains", grains, "500, 2000 or a multiple of 4000")->required();
   CLI11_PARSE(app, argc, argv)
-  World world = bed(grains, Slope::ten_degrees, time_step(Scenario{}));
-  StepWorkspace workspace;
+  World world = bed(grains, Slope::ten_degrees, scenario::time_step(scenario::Scenario{}));
+  dynamics::StepWorkspace workspace;
   for (int threads = 0, steps = 0; std::cin >> threads >> steps;) answer(world, threads, steps, workspace);
   return 0;
 }

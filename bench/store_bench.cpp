@@ -19,17 +19,17 @@ namespace {
 constexpr Index grains = 8000;
 
 /// The bed after the first step of its tilt, which has recorded a frame.
-const Session& tilted() {
-  static const Session session = [] {
-    Session begun = session_at_tilt(grains);
+const session::Session& tilted() {
+  static const session::Session session = [] {
+    session::Session begun = session_at_tilt(grains);
     while (begun.segment().frames.empty()) begun.advance();
     return begun;
   }();
   return session;
 }
 
-RunStore new_store(const std::string& path) {
-  return RunStore::create(path, run_header(tilted(), RunOrigin{}), true);
+io::RunStore new_store(const std::string& path) {
+  return io::RunStore::create(path, session::run_header(tilted(), session::RunOrigin{}), true);
 }
 
 std::string run_path(const char* folder) { return std::string(folder) + "/store_bench.h5"; }
@@ -37,13 +37,13 @@ std::string run_path(const char* folder) { return std::string(folder) + "/store_
 /// What a run does at a checkpoint, or at a frame: it waits for this.
 void commit(benchmark::State& state, const char* folder, bool with_frame) {
   const std::string path = run_path(folder);
-  Segment segment = tilted().segment();
+  io::Segment segment = tilted().segment();
   if (!with_frame) segment.frames.clear();
   {
-    RunStore store = new_store(path);
+    io::RunStore store = new_store(path);
     for (auto _ : state) store.commit(segment, tilted().checkpoint(0.0));
   }
-  std::filesystem::remove_all(run_folder(path));
+  std::filesystem::remove_all(io::run_folder(path));
 }
 
 constexpr int frames = 20;
@@ -52,7 +52,7 @@ void pack(benchmark::State& state) {
   const std::string path = run_path(TALUS_BENCH_BEDS);
   for (auto _ : state) {
     state.PauseTiming();
-    RunStore store = new_store(path);
+    io::RunStore store = new_store(path);
     for (int k = 0; k < frames; ++k) store.commit(tilted().segment(), tilted().checkpoint(0.0));
     state.ResumeTiming();
     store.pack();
@@ -62,10 +62,10 @@ void pack(benchmark::State& state) {
 /// Of the run that `pack` has left.
 void open_run(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(RunFile::open(run_path(TALUS_BENCH_BEDS)).frame_tilts().size());
+    benchmark::DoNotOptimize(io::RunFile::open(run_path(TALUS_BENCH_BEDS)).frame_tilts().size());
 }
 void read_frames(benchmark::State& state) {
-  const RunFile run = RunFile::open(run_path(TALUS_BENCH_BEDS));
+  const io::RunFile run = io::RunFile::open(run_path(TALUS_BENCH_BEDS));
   for (auto _ : state)
     for (std::size_t k = 0; k < frames; ++k) benchmark::DoNotOptimize(run.frame(k));
 }

@@ -37,7 +37,7 @@ void print_times(const char* what, std::vector<double> pictures, double elapsed)
 }
 
 /// Draws at most 30 pictures a second for a while, each read back, as the run goes on.
-void look(const char* what, ViewModel& model, OffscreenGui& gui) {
+void look(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   const std::int64_t first = model.live()->status().step;
   std::vector<double> pictures;
   const auto start = Clock::now();
@@ -54,16 +54,16 @@ void look(const char* what, ViewModel& model, OffscreenGui& gui) {
 
 /// What is shown, from the least work to the most.
 template <typename Look>
-void look_at_all(ViewModel& model, const Look& look) {
+void look_at_all(view::ViewModel& model, const Look& look) {
   look("gamma, all plots");
   model.state.selected = model.statics().free_count / 2;
   look("the same, a grain selected");
-  model.state.map.layers = {MapKind::clusters, MapKind::forces};
+  model.state.map.layers = {pictures::MapKind::clusters, pictures::MapKind::forces};
   look("clusters and forces, a grain selected");
 }
 
 /// All frames of a run one after another, as fast as they can be drawn, each read back.
-void replay(const char* what, ViewModel& model, OffscreenGui& gui) {
+void replay(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   std::vector<double> pictures;
   const auto start = Clock::now();
   for (std::size_t k = 0; k < model.frame_count(); ++k) {
@@ -76,15 +76,15 @@ void replay(const char* what, ViewModel& model, OffscreenGui& gui) {
   std::printf("\n");
 }
 
-void measure_replay(ViewModel& model) {
+void measure_replay(view::ViewModel& model) {
   std::printf("Replay: window of %d x %d px, %zu frames of %d grains.\n\n", width, height,
               model.frame_count(), model.statics().free_count);
   std::printf("| what is shown | pictures/s | ms each, median | 95 %% | longest |\n|---|--:|--:|--:|--:|\n");
-  OffscreenGui gui(model, width, height);
+  gui::OffscreenGui gui(model, width, height);
   look_at_all(model, [&](const char* what) { replay(what, model, gui); });
 }
 
-void measure_live(ViewModel& model) {
+void measure_live(view::ViewModel& model) {
   model.live()->finish_deposition();
   while (model.live()->status().depositing || model.live()->status().running)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -100,13 +100,13 @@ void measure_live(ViewModel& model) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds_shown));
   std::printf("| nothing is drawn | | | | | %.0f |\n",
               static_cast<double>(model.live()->status().step - first) / seconds_since(start));
-  OffscreenGui gui(model, width, height);
+  gui::OffscreenGui gui(model, width, height);
   look_at_all(model, [&](const char* what) { look(what, model, gui); });
 }
 
 int run(int argc, char** argv) {
   if (argc != 2) throw Error(ExitCode::usage, "usage: view_bench SCENARIO.toml or RUN.h5");
-  ViewModel model = ViewModel::open(argv[1], {}, "", false, "view_bench");
+  view::ViewModel model = view::ViewModel::open(argv[1], {}, "", false, "view_bench");
   if (model.is_live())
     measure_live(model);
   else

@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 std::uint8_t ground(int channels) { return channels == 4 ? 0 : 255; }
@@ -42,4 +42,4 @@ Image padded(Image image, int height) {
   return image;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace talus {
+namespace talus::render {
 
 /// 8-bit sRGB with straight alpha, as pictures store it.
 struct Colour {
@@ -31,4 +31,4 @@ inline double luma(const Colour& colour) {
   return 0.299 * colour.red + 0.587 * colour.green + 0.114 * colour.blue;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -11,7 +11,7 @@
 #include "base/visible_text.h"
 #include "render/embedded.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 struct Name {
@@ -123,4 +123,4 @@ std::vector<Colour> colour_ramp(ColourMap map) {
   return table_of(256, [&](double share) { return colour_at(map, share); });
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -7,7 +7,7 @@
 
 #include "render/colour.h"
 
-namespace talus {
+namespace talus::render {
 
 enum class ColourMap {
   gray,       ///< white to black, as the paper's maps
@@ -29,4 +29,4 @@ Colour colour_at(ColourMap map, double share);
 /// The map from end to end in 256 steps, for a colour bar.
 std::vector<Colour> colour_ramp(ColourMap map);
 
-}  // namespace talus
+}  // namespace talus::render

@@ -12,7 +12,7 @@
 #include "base/nearest_word.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// The file that names Mesa's driver to libEGL, which takes that of a GPU if there is one.
@@ -126,4 +126,4 @@ std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextM
   }
 }
 
-}  // namespace talus
+}  // namespace talus::render

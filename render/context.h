@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace talus {
+namespace talus::render {
 
 /// An OpenGL 3.3 core context, current on the thread that made it. A process uses one kind of context only.
 class Context {
@@ -50,4 +50,4 @@ using ContextMaker = std::function<std::unique_ptr<Context>()>;
 /// What make_context does when no kind is given.
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second);
 
-}  // namespace talus
+}  // namespace talus::render

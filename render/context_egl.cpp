@@ -10,7 +10,7 @@
 #include "base/errors.h"
 #include "render/context.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr const char* egl_library = "libEGL.so.1";
@@ -108,4 +108,4 @@ class EglContextOwner final : public Context {
 
 std::unique_ptr<Context> make_egl_context() { return std::make_unique<EglContextOwner>(); }
 
-}  // namespace talus
+}  // namespace talus::render

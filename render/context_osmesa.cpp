@@ -10,7 +10,7 @@
 #include "base/errors.h"
 #include "render/context.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr const char* osmesa_library = "libOSMesa.so.8";
@@ -97,4 +97,4 @@ class OSMesaContextOwner final : public Context {
 
 std::unique_ptr<Context> make_osmesa_context() { return std::make_unique<OSMesaContextOwner>(); }
 
-}  // namespace talus
+}  // namespace talus::render

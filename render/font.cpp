@@ -9,7 +9,7 @@
 #include "base/errors.h"
 #include "render/embedded.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr auto special_code_points =
@@ -155,4 +155,4 @@ GlyphAtlas bake_glyphs(double em) {
   throw Error(ExitCode::internal, fmt::format("no glyph atlas holds a font of {:g} px", em));
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::render {
 
 /// The embedded font. A value; its bytes belong to the binary.
 struct Font {
@@ -62,4 +62,4 @@ struct GlyphAtlas {
 };
 GlyphAtlas bake_glyphs(double em);
 
-}  // namespace talus
+}  // namespace talus::render

@@ -8,7 +8,7 @@
 
 #include "render/colour.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A disc in metres, with a rim inside its edge. Hatched is 1 for grains of the floor; lines in
 /// the colour of the rim are then drawn over the fill.
@@ -105,4 +105,4 @@ struct FrameView {
   std::vector<Trace> traces;    ///< below the legends, one below the other
 };
 
-}  // namespace talus
+}  // namespace talus::render

@@ -6,7 +6,7 @@
 #include "render/furniture_shapes.h"
 #include "render/furniture_traces.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 void add_text(Furniture& furniture, const PlacedText& text, double em, const Font& font,
@@ -118,4 +118,4 @@ Furniture furnish(const FrameView& view, const Layout& layout, const Font& font,
   return furniture;
 }
 
-}  // namespace talus
+}  // namespace talus::render

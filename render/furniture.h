@@ -6,7 +6,7 @@
 #include "render/layout.h"
 #include "render/target.h"
 
-namespace talus {
+namespace talus::render {
 
 struct Furniture {
   std::vector<FurnitureVertex> triangles;
@@ -17,4 +17,4 @@ struct Furniture {
 
 Furniture furnish(const FrameView& view, const Layout& layout, const Font& font, const GlyphAtlas& atlas);
 
-}  // namespace talus
+}  // namespace talus::render

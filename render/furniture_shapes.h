@@ -3,7 +3,7 @@
 
 #include "render/furniture.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A plain rectangle whose colour runs from left to right.
 inline void add_gradient(Furniture& furniture, const Box& box, const Colour& left, const Colour& right) {
@@ -34,4 +34,4 @@ inline void add_line(Furniture& furniture, const Point& from, const Point& to, d
                              static_cast<float>(half_width), colour});
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -4,7 +4,7 @@
 
 #include "render/furniture_shapes.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr Colour curve_colour{0, 0, 0, 255};
@@ -46,4 +46,4 @@ void add_trace(Furniture& furniture, const PlacedTrace& trace, double em, double
                                static_cast<float>(0.3 * em), black, black, 0.0f});
 }
 
-}  // namespace talus
+}  // namespace talus::render

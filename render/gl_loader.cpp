@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 template <typename Pointer>
@@ -30,4 +30,4 @@ Gl load_gl(const Context& context) {
   return gl;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -57,7 +57,7 @@
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)
 
-namespace talus {
+namespace talus::render {
 
 /// OpenGL 3.3 core, each function by its name without "gl".
 struct Gl {
@@ -69,4 +69,4 @@ struct Gl {
 /// Loads the functions of a current context. Throws Error(unavailable) below OpenGL 3.3.
 Gl load_gl(const Context& context);
 
-}  // namespace talus
+}  // namespace talus::render

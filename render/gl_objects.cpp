@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr GLsizei log_size = 2048;
@@ -95,4 +95,4 @@ GLuint make_texture(const Gl& gl, int width, int height, int channels, const uns
   return texture;
 }
 
-}  // namespace talus
+}  // namespace talus::render

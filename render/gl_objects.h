@@ -7,7 +7,7 @@
 
 #include "render/gl_loader.h"
 
-namespace talus {
+namespace talus::render {
 
 /// Compiles and links a program. Throws Error(unavailable) with the log of the compiler.
 GLuint make_program(const Gl& gl, const std::string& name, std::span<const unsigned char> vertex,
@@ -42,4 +42,4 @@ void fill_batch(const Gl& gl, const Batch& batch, std::span<const Vertex> vertic
 GLuint make_texture(const Gl& gl, int width, int height, int channels, const unsigned char* pixels,
                     GLint filter);
 
-}  // namespace talus
+}  // namespace talus::render

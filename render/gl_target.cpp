@@ -8,7 +8,7 @@
 #include "render/embedded.h"
 #include "render/gl_objects.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 static_assert(sizeof(Disc) == 6 * sizeof(float) && sizeof(Line) == 6 * sizeof(float) &&
@@ -194,4 +194,4 @@ std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context) 
   return std::make_unique<GlTarget>(std::move(context));
 }
 
-}  // namespace talus
+}  // namespace talus::render

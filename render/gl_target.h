@@ -6,7 +6,7 @@
 #include "render/context.h"
 #include "render/target.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A target whose picture is a texture of the context, which can be drawn there.
 class TextureTarget : public Target {
@@ -19,4 +19,4 @@ class TextureTarget : public Target {
 /// Owns its context and what it made there. Throws Error(unavailable) if a shader does not compile.
 std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context);
 
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::render {
 
 Image stacked(const std::vector<Image>& images) {
   Image stack;
@@ -24,4 +24,4 @@ Image stacked(const std::vector<Image>& images) {
   return stack;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace talus {
+namespace talus::render {
 
 /// 8 bits for each channel, rows from top to bottom. One channel: gray, 0 black, 255 white; three: sRGB;
 /// four: sRGB and straight alpha.
@@ -24,4 +24,4 @@ struct Image {
 /// differ.
 Image stacked(const std::vector<Image>& images);
 
-}  // namespace talus
+}  // namespace talus::render

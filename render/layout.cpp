@@ -10,7 +10,7 @@
 #include "render/layout_groups.h"
 #include "render/layout_traces.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 // In units of the font size.
@@ -204,4 +204,4 @@ LayoutLimits level(std::span<const FrameView> views, int width, const Font& font
   return limits;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -9,7 +9,7 @@
 #include "render/font.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A rectangle, px from the left and from the top of the picture.
 struct Box {
@@ -103,4 +103,4 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
 /// Limits with which the beds of pictures are level, and so are their traces, beside or after each other.
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits);
 
-}  // namespace talus
+}  // namespace talus::render

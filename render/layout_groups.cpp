@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 // In units of the font size.
@@ -172,4 +172,4 @@ void add_group(Layout& layout, const Group& group, double x, double y) {
   if (group.arrow.width > 0.0) layout.arrow = moved(group.arrow, x, y);
 }
 
-}  // namespace talus
+}  // namespace talus::render

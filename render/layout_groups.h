@@ -6,7 +6,7 @@
 
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::render {
 
 // In units of the font size.
 inline constexpr double line_height = text_ascent + text_descent;
@@ -40,4 +40,4 @@ PlacedText place_text(const std::string& text, double x, double y, double em, co
 /// Adds a group to a picture with its upper left corner at (x, y).
 void add_group(Layout& layout, const Group& group, double x, double y);
 
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 
 #include "render/layout_groups.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 // In units of the font size.
@@ -133,4 +133,4 @@ double add_traces(Layout& layout, const std::vector<Trace>& traces, const TraceR
   return y;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::render {
 
 /// The part of a picture that traces have, px, and whether their titles may be broken into lines.
 struct TraceRoom {
@@ -17,4 +17,4 @@ struct TraceRoom {
 /// Returns the lower edge, px; negative if nothing legible fits.
 double add_traces(Layout& layout, const std::vector<Trace>& traces, const TraceRoom& room, const Font& font);
 
-}  // namespace talus
+}  // namespace talus::render

@@ -13,7 +13,7 @@
 #include "base/child_program.h"
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// Filters and encoder by the ending of the path.
@@ -169,4 +169,4 @@ void Movie::fail() {
                           said.empty() ? "; is the size of files limited?" : ": " + said));
 }
 
-}  // namespace talus
+}  // namespace talus::render

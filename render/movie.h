@@ -9,7 +9,7 @@
 #include "base/output_file.h"
 #include "render/image.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A movie being written: H.264 in a file that ends in .mp4, VP9 in .webm; in .gif 64 grays, or the 256 best
 /// colours of each frame in colour. The file appears under its name when finish returns; a movie that is not
@@ -41,4 +41,4 @@ class Movie {
   pid_t ffmpeg_ = -1;
 };
 
-}  // namespace talus
+}  // namespace talus::render

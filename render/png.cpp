@@ -12,7 +12,7 @@
 #include "base/output_file.h"
 #include "render/png_errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using PngEntry = ::png_text;  // our function has that name
@@ -113,4 +113,4 @@ void write_png(const std::string& path, const Image& image, const PngTexts& text
   file.commit();
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -9,7 +9,7 @@
 
 #include "render/image.h"
 
-namespace talus {
+namespace talus::render {
 
 /// Keywords with their texts, kept in the file beside the picture (tEXt chunks). Keywords have 1 to 79
 /// characters; both are printable ASCII.
@@ -28,4 +28,4 @@ void write_png(const std::string& path, const Image& image, const PngTexts& text
 /// such keyword.
 std::optional<std::string> png_text(const std::string& path, const std::string& keyword);
 
-}  // namespace talus
+}  // namespace talus::render

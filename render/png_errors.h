@@ -3,9 +3,9 @@
 
 #include <png.h>
 
-namespace talus {
+namespace talus::render {
 
 [[noreturn]] inline void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 inline void say_nothing(png_structp, png_const_charp) {}
 
-}  // namespace talus
+}  // namespace talus::render

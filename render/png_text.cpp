@@ -8,7 +8,7 @@
 #include "render/png.h"
 #include "render/png_errors.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// Reads all of a picture, row by row. Returns false if libpng finds it damaged; nothing that its jump skips
@@ -50,4 +50,4 @@ std::optional<std::string> png_text(const std::string& path, const std::string& 
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::render

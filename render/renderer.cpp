@@ -5,7 +5,7 @@
 #include "render/furniture.h"
 #include "render/gl_target.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 bool is_gray(const Legend& legend) {
@@ -64,4 +64,4 @@ Layout Renderer::paint(const FrameView& view, int width, const LayoutLimits& lim
   return layout;
 }
 
-}  // namespace talus
+}  // namespace talus::render

@@ -10,7 +10,7 @@
 #include "render/layout.h"
 #include "render/target.h"
 
-namespace talus {
+namespace talus::render {
 
 /// Whether a view is drawn in gray, in colour, or in colour on a transparent background.
 PixelFormat pixel_format(const FrameView& view);
@@ -36,4 +36,4 @@ class Renderer {
   GlyphAtlas atlas_;
 };
 
-}  // namespace talus
+}  // namespace talus::render

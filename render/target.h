@@ -8,7 +8,7 @@
 #include "render/image.h"
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::render {
 
 /// A corner of a triangle: a glyph of the atlas, or a plain area where u < 0.
 struct FurnitureVertex {
@@ -38,4 +38,4 @@ class Target {
   virtual Image end() = 0;
 };
 
-}  // namespace talus
+}  // namespace talus::render

@@ -182,7 +182,7 @@ py::array rows(const std::vector<double>& values, std::size_t count) {
 }
 
 /// (height, width, 4): sRGB and alpha.
-py::array pixels(const Image& image) {
+py::array pixels(const render::Image& image) {
   py::array_t<std::uint8_t> array({image.height, image.width, 4});
   std::uint8_t* to = array.mutable_data();
   const auto channels = static_cast<std::size_t>(image.channels);
@@ -196,21 +196,21 @@ py::array pixels(const Image& image) {
 py::bytes png_of(const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>& array) {
   if (array.ndim() != 3 || array.shape(2) != 4)
     throw Error(ExitCode::usage, "a picture: expected an array (h, w, 4)");
-  Image image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), 4, {}};
+  render::Image image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), 4, {}};
   image.pixels.assign(array.data(), array.data() + array.size());
-  const std::vector<std::uint8_t> bytes = encode_png(image);
+  const std::vector<std::uint8_t> bytes = render::encode_png(image);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-const char* name_of(Phase phase) {
+const char* name_of(session::Phase phase) {
   switch (phase) {
-    case Phase::deposition:
+    case session::Phase::deposition:
       return "deposition";
-    case Phase::tilt:
+    case session::Phase::tilt:
       return "tilt";
-    case Phase::flow:
+    case session::Phase::flow:
       return "flow";
-    case Phase::done:
+    case session::Phase::done:
       break;
   }
   return "done";
@@ -330,8 +330,8 @@ void bind_state(py::class_<Driven, Holder>& type) {
                              [](const Driven& driven) { return driven.seen().statics().periodic; });
   type.def_property_readonly("gravity", [](const Driven& driven) { return driven.seen().statics().gravity; });
   type.def_property_readonly("D", [](const Driven& driven) { return driven.seen().statics().mean_diameter; });
-  type.def_property_readonly("scenario",
-                             [](const Driven& driven) { return resolved_toml(driven.seen().scenario()); });
+  type.def_property_readonly(
+      "scenario", [](const Driven& driven) { return scenario::resolved_toml(driven.seen().scenario()); });
 }
 
 void bind_arrays(py::class_<Driven, Holder>& type) {
@@ -392,7 +392,7 @@ void bind_measures(py::class_<Driven, Holder>& type) {
   type.def("_set_analysis", [](Driven& driven, const std::vector<std::string>& settings) {
     driven.use([&](Simulation& simulation) { simulation.set_analysis(settings); });
   });
-  type.def("_draw", [](Driven& driven, const std::string& map, const MapOptions& options) {
+  type.def("_draw", [](Driven& driven, const std::string& map, const pictures::MapOptions& options) {
     return drawn(
         [&] { return driven.use([&](Simulation& simulation) { return simulation.draw(map, options); }); });
   });
@@ -400,17 +400,17 @@ void bind_measures(py::class_<Driven, Holder>& type) {
 
 /// How a map is drawn.
 void bind_options(py::module_& module) {
-  py::class_<MapOptions>(module, "MapOptions")
+  py::class_<pictures::MapOptions>(module, "MapOptions")
       .def(py::init())
-      .def_readwrite("width", &MapOptions::width)
-      .def_readwrite("theta_c", &MapOptions::theta_c)
-      .def_readwrite("colours", &MapOptions::colours)
-      .def_readwrite("l_min", &MapOptions::l_min)
-      .def_readwrite("length", &MapOptions::length)
-      .def_readwrite("threshold", &MapOptions::threshold)
-      .def_readwrite("range", &MapOptions::range)
-      .def_readwrite("turned", &MapOptions::turned)
-      .def_readwrite("bare", &MapOptions::bare);
+      .def_readwrite("width", &pictures::MapOptions::width)
+      .def_readwrite("theta_c", &pictures::MapOptions::theta_c)
+      .def_readwrite("colours", &pictures::MapOptions::colours)
+      .def_readwrite("l_min", &pictures::MapOptions::l_min)
+      .def_readwrite("length", &pictures::MapOptions::length)
+      .def_readwrite("threshold", &pictures::MapOptions::threshold)
+      .def_readwrite("range", &pictures::MapOptions::range)
+      .def_readwrite("turned", &pictures::MapOptions::turned)
+      .def_readwrite("bare", &pictures::MapOptions::bare);
 }
 
 /// Frames of files, which have the same measures.
@@ -431,9 +431,10 @@ void bind_frames(py::module_& module) {
              return rows(frame.contact_values(name),
                          static_cast<std::size_t>(frame.input().frame.contacts.count()));
            })
-      .def("_draw", [](const MeasuredFrame& frame, const std::string& map, const MapOptions& options) {
-        return drawn([&] { return frame.draw(map, options); });
-      });
+      .def("_draw",
+           [](const MeasuredFrame& frame, const std::string& map, const pictures::MapOptions& options) {
+             return drawn([&] { return frame.draw(map, options); });
+           });
 }
 
 }  // namespace
@@ -446,8 +447,8 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Driven, Holder> type(module, "Simulation");
   type.def(py::init([](const std::string& path, const std::vector<std::string>& settings) {
     std::string text;
-    const Scenario scenario =
-        path.empty() ? parse_scenario("", "settings", settings) : read_scenario(path, settings, &text);
+    const scenario::Scenario scenario = path.empty() ? scenario::parse_scenario("", "settings", settings)
+                                                     : scenario::read_scenario(path, settings, &text);
     return std::make_shared<Driven>(Simulation(scenario, text));
   }));
   type.def("_copy", [](Driven& driven) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// The grid around the points, without the points.
@@ -58,4 +58,4 @@ Cells sort_into_cells(const std::vector<double>& x, const std::vector<double>& y
   return cells;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Points in the cells of a grid. In a periodic bed x is taken modulo the period.
 struct Cells {
@@ -65,4 +65,4 @@ bool visit_ring(const Cells& cells, Index column, Index row, Index ring, const V
   return ring <= left || ring <= right || ring <= row || ring <= cells.rows - 1 - row;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

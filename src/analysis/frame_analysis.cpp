@@ -16,7 +16,7 @@
 #include "analysis/topology/rigid_clusters.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr std::array<double, 2> directions = {60.0, 120.0};  // deg; paper, section V B
@@ -115,7 +115,7 @@ void take_directed(const BedFrame& bed, const std::vector<bool>& overloaded, con
 FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& rule,
                                  const ClusterGround& ground, double height) {
   FrameThreshold record;
-  take_overloaded(count_overloaded(bed, rule.threshold), bed.statics, record);
+  take_overloaded(stress::count_overloaded(bed, rule.threshold), bed.statics, record);
   const CoarseGraining lengths = coarse_graining(bed, rule);
   take_lengths(lengths, record);
   record.lc.assign(bed.statics.radius.size(), std::numeric_limits<float>::quiet_NaN());
@@ -123,7 +123,7 @@ FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& 
                          [](double length) { return static_cast<float>(length); });
   std::vector<bool> overloaded;
   for (const double gamma : of_free_grains(bed.frame.gamma, bed.statics))
-    overloaded.push_back(is_overloaded(gamma, rule.threshold));
+    overloaded.push_back(stress::is_overloaded(gamma, rule.threshold));
   const Clusters clusters = find_clusters(overloaded, ground.links, bed.frame.x, period_of(bed.statics));
   take_clusters(clusters, ground.edges, record);
   record.cluster.assign(bed.statics.radius.size(), -1);
@@ -143,7 +143,7 @@ std::vector<Link> links_of(const BedFrame& bed, Joining joining) {
   return joining == Joining::contacts ? force_links(bed) : neighbour_links(bed);
 }
 
-void take_overloaded(const OverloadCount& count, const RunStatics& statics, FrameThreshold& record) {
+void take_overloaded(const stress::OverloadCount& count, const RunStatics& statics, FrameThreshold& record) {
   record.overloaded_fraction = count.fraction();
   record.overloaded_fraction_of_all = static_cast<double>(count.overloaded) / statics.free_count;
 }
@@ -223,4 +223,4 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
   return record;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

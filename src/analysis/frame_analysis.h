@@ -13,7 +13,7 @@
 #include "core/snapshot.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// The frame with the gamma by which grains count. With `min_contacts` above 1, gamma of a free grain with
 /// fewer force-carrying contacts is NaN, as if it carried nothing; its moment stays. Then gamma is that of
@@ -25,7 +25,7 @@ std::vector<Link> links_of(const BedFrame& bed, Joining joining);
 
 /// What a record says of the overloaded grains as a whole, of their l_c, and of their clusters; without the
 /// values of single grains.
-void take_overloaded(const OverloadCount& count, const RunStatics& statics, FrameThreshold& record);
+void take_overloaded(const stress::OverloadCount& count, const RunStatics& statics, FrameThreshold& record);
 void take_lengths(const CoarseGraining& lengths, FrameThreshold& record);
 void take_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record);
 
@@ -43,4 +43,4 @@ std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const Analys
 FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& parameters,
                           const Analysis& analysis);
 
-}  // namespace talus
+}  // namespace talus::analysis

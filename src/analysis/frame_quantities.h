@@ -13,7 +13,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// A frame, and what its grains are judged with.
 struct GrainSource : BedFrame {       // as it is stored, with the gamma of single grains
@@ -114,4 +114,4 @@ std::vector<double> values_of(const GrainNumber& number, const GrainSource& of);
 /// has no more; `nan` for a number that is none.
 void append_number(std::string& text, double value, FieldNumber number, std::string_view nan = "nan");
 
-}  // namespace talus
+}  // namespace talus::analysis

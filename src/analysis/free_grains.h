@@ -6,7 +6,7 @@
 #include "core/bed_frame.h"
 #include "core/tensor.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Values of the free grains, of an array over all grains.
 inline std::vector<double> of_free_grains(const std::vector<double>& values, const RunStatics& statics) {
@@ -33,4 +33,4 @@ inline double branch_length(const BedFrame& bed, Index c) {
 
 inline void add_to(Tensor2& sum, const Tensor2& term) { matrix(sum) += matrix(term); }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -17,7 +17,7 @@
 #include "core/trigonometry.h"
 #include "stress/bed.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -71,7 +71,7 @@ Numbers pressures(const GrainSource& of) {
 
 Numbers coordination(const GrainSource& of) {
   const FrameContacts& contacts = of.frame.contacts;
-  return copied(loaded_contacts(contacts.a, contacts.b, contacts.fn, of.frame.grain_count()));
+  return copied(stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, of.frame.grain_count()));
 }
 
 Numbers sliding(const GrainSource& of) {
@@ -430,4 +430,4 @@ void append_number(std::string& text, double value, FieldNumber number, std::str
     text += fmt::format("{}", value);
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace talus {
+namespace talus::analysis {
 std::vector<double> equal_edges(double from, double to, int bins) {
   std::vector<double> edges;
   for (int k = 0; k <= bins; ++k) edges.push_back(from + (to - from) * k / bins);
@@ -51,4 +51,4 @@ std::vector<double> logarithmic_edges(double from, double to, int bins) {
   return edges;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace talus {
+namespace talus::analysis {
 
 /// The edges of equal bins.
 std::vector<double> equal_edges(double from, double to, int bins);
@@ -37,4 +37,4 @@ struct Histogram {
 /// Edges of bins of equal ratio, for distributions over decades. 0 < from < to.
 std::vector<double> logarithmic_edges(double from, double to, int bins);
 
-}  // namespace talus
+}  // namespace talus::analysis

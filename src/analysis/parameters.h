@@ -6,7 +6,7 @@
 
 #include "analysis/overload/coarse_graining.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// What joins two overloaded grains to a cluster.
 enum class Joining {
@@ -32,4 +32,4 @@ struct AnalysisParameters {
   std::optional<double> event_size_min;  ///< m g D where the law of sizes begins; without a value: by the fit
 };
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// The numbers of one member, of a run, a threshold or a frame.
@@ -217,4 +217,4 @@ std::string shown_title(const Quantity& quantity) {
   return quantity.display.title + (unit == "1" ? "" : " in " + unit);
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -14,7 +14,7 @@
 #include "analysis/record.h"
 #include "core/observables.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Where a quantity is found in an Analysis. The type of the record says what it is one of: a run, a
 /// threshold, a frame, a frame at a threshold, or an event.
@@ -103,4 +103,4 @@ std::string scaled_unit(std::string_view unit);
 double shown(const Quantity& quantity, double value, double mean_diameter);
 std::string shown_title(const Quantity& quantity);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -1,7 +1,7 @@
 #include "analysis/events/event_quantities.h"
 #include "analysis/quantities.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using QuantityRows = std::vector<Quantity>;
@@ -466,4 +466,4 @@ const std::vector<Quantity>& quantities() {
   return table;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

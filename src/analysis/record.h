@@ -8,7 +8,7 @@
 
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::analysis {
 
 inline constexpr std::array<double, 2> two_not_known = {not_known, not_known};
 
@@ -200,4 +200,4 @@ struct Analysis {
   std::vector<EventRecord> events{};  ///< in their order
 };
 
-}  // namespace talus
+}  // namespace talus::analysis

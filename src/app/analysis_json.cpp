@@ -2,10 +2,12 @@
 #include "app/json.h"
 #include "io/analysis_schema.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
-bool is_of_grains(const Quantity& quantity) { return quantity.shape.find('N') != std::string::npos; }
+bool is_of_grains(const analysis::Quantity& quantity) {
+  return quantity.shape.find('N') != std::string::npos;
+}
 
 /// Numbers in nested lists: `extents` are the sizes from the outer to the inner, none for a single number.
 template <typename T>
@@ -18,28 +20,28 @@ Json nested(std::span<const T> numbers, std::span<const std::uint64_t> extents) 
   return list;
 }
 
-Json values_json(const Quantity& quantity, const Analysis& analysis) {
-  const auto extents = dimensions(data_set_of(quantity), sizes_of(analysis));
+Json values_json(const analysis::Quantity& quantity, const analysis::Analysis& analysis) {
+  const auto extents = io::dimensions(io::data_set_of(quantity), io::sizes_of(analysis));
   return std::visit(
       [&](const auto& array) { return nested(std::span(array), std::span<const std::uint64_t>(extents)); },
-      values_of(quantity, analysis));
+      analysis::values_of(quantity, analysis));
 }
 
 }  // namespace
 
-std::string analysis_json(const RunView& run, std::span<const Quantity> table) {
-  const Analysis& analysis = run.analysis;
+std::string analysis_json(const runs::RunView& run, std::span<const analysis::Quantity> table) {
+  const analysis::Analysis& analysis = run.analysis;
   Json json = {{"path", run.path},
                {"state", run.kept},
                {"key", analysis.key},
                {"mean_diameter", run.statics.mean_diameter},
                {"parameters", object_of(analysis.parameters)},
                {"tilt", Json::array()}};
-  for (const FrameRecord& frame : analysis.frames) json["tilt"].push_back(frame.tilt);
-  for (const Quantity& quantity : table)
-    if (is_present(quantity, analysis) && !is_of_grains(quantity))
+  for (const analysis::FrameRecord& frame : analysis.frames) json["tilt"].push_back(frame.tilt);
+  for (const analysis::Quantity& quantity : table)
+    if (io::is_present(quantity, analysis) && !is_of_grains(quantity))
       json[quantity.name] = values_json(quantity, analysis);
   return json_text(json);
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -12,7 +12,7 @@
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr std::size_t table_rows = 11;
@@ -28,14 +28,14 @@ std::vector<std::size_t> shown_frames(std::size_t count) {
   return frames;
 }
 
-std::string heading(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::string heading(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   const double theta_c = analysis.theta_c, gamma_c = analysis.gamma_c;
-  const std::vector<FrameRecord>& frames = analysis.frames;
-  const auto [lowest, highest] = std::ranges::minmax_element(frames, {}, &FrameRecord::tilt);
+  const std::vector<analysis::FrameRecord>& frames = analysis.frames;
+  const auto [lowest, highest] = std::ranges::minmax_element(frames, {}, &analysis::FrameRecord::tilt);
   std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.kept, frames.size(),
                                  degree_text(lowest->tilt), degree_text(highest->tilt));
-  if (const FramesOfRise rise = last_rise(frames); rise.frames.size() < frames.size())
+  if (const analysis::FramesOfRise rise = analysis::last_rise(frames); rise.frames.size() < frames.size())
     text += fmt::format("theta_c, theta_d and the first slide are of the last rise, from {} deg on; ",
                         degree_text(rise.tilts.front()));
   text += std::isnan(theta_c) ? "the slope has not failed"
@@ -43,29 +43,29 @@ std::string heading(const RunView& run) {
   if (std::isnan(gamma_c))
     return text + ": overloaded grains need a threshold, give one with --set gamma_c=0.3\n";
   const double diameter = run.statics.mean_diameter;
-  const double l_min = from_facts(analysis.parameters).l_min;
+  const double l_min = runs::from_facts(analysis.parameters).l_min;
   text += fmt::format("; Gamma_c = {:.4f}; l_c cut at {:.4g} D\n", gamma_c, analysis.lc_cut / diameter);
   return text + (l_min > 0.0 ? fmt::format("gamma of grains with their neighbours, within {:.4g} D of each\n",
                                            0.5 * l_min)
                              : std::string("gamma of single grains\n"));
 }
 
-std::string span_text(const FrameThreshold& at) {
+std::string span_text(const analysis::FrameThreshold& at) {
   const bool depth = at.spans_depth != 0, length = at.spans_length != 0;
   return std::string(depth ? "H" : "") + (length ? "L" : depth ? "" : "-");
 }
 
-TextTable series_table(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+TextTable series_table(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   TextTable table{{{"theta", true}, {"Gamma", true}, {"sT/sN", true}, {"z", true}, {"dV/V (%)", true}}, {}};
-  for (const RunThreshold& threshold : analysis.thresholds) {
+  for (const analysis::RunThreshold& threshold : analysis.thresholds) {
     const std::string limit =
         fmt::format("gamma >= {:.4g} Gamma_c = {:.4f}", threshold.factor, threshold.gamma);
     table.columns.push_back({"p_o", true, "", limit});
     for (const char* title : {"mean", "max", "largest", "spans"}) table.columns.push_back({title, true});
   }
   for (const std::size_t k : shown_frames(analysis.frames.size())) {
-    const FrameRecord& frame = analysis.frames[k];
+    const analysis::FrameRecord& frame = analysis.frames[k];
     auto& row = table.rows.emplace_back();
     row = {{degree_text(frame.tilt)},
            {number_cell("{:.4f}", frame.stress_ratio)},
@@ -73,7 +73,7 @@ TextTable series_table(const RunView& run) {
            {number_cell("{:.3f}", frame.coordination_number)},
            {number_cell("{:+.4f}", 100.0 * frame.volume_strain)}};
     const double diameter = run.statics.mean_diameter;
-    for (const FrameThreshold& at : frame.thresholds)
+    for (const analysis::FrameThreshold& at : frame.thresholds)
       row.insert(row.end(), {{number_cell("{:.3f}", at.overloaded_fraction)},
                              {number_cell("{:.2f}", at.lc_mean / diameter)},
                              {number_cell("{:.1f}", at.lc_max / diameter)},
@@ -96,14 +96,14 @@ std::string line(const std::string& name, const std::initializer_list<std::strin
   return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
 }
 
-std::string dilation_text(const Analysis& analysis, std::size_t s) {
+std::string dilation_text(const analysis::Analysis& analysis, std::size_t s) {
   const double angle = analysis.dilation[s];
   if (std::isnan(angle)) return "none";
   return fmt::format("{} deg, {} to {}", degree_text(angle), degree_text(analysis.dilation_low[s]),
                      degree_text(analysis.dilation_high[s]));
 }
 
-std::string first_slide_text(const Analysis& analysis) {
+std::string first_slide_text(const analysis::Analysis& analysis) {
   const double angle = analysis.first_slide;
   if (std::isnan(angle)) return "none";
   const bool late = angle > analysis.theta_c;
@@ -112,10 +112,10 @@ std::string first_slide_text(const Analysis& analysis) {
                : "");
 }
 
-std::string transition_table(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::string transition_table(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   std::string text = line("first slide of the surface layer", {first_slide_text(analysis)}) + "theta_d by\n";
-  for (const RunThreshold& threshold : analysis.thresholds) {
+  for (const analysis::RunThreshold& threshold : analysis.thresholds) {
     const std::string at = fmt::format(", {:.4g} Gamma_c", threshold.factor);
     const double size = threshold.lc_jump_size / run.statics.mean_diameter;
     text += line("jump of l_c max" + at, {onset_text(threshold.lc_jump, threshold.lc_jump_error),
@@ -136,7 +136,7 @@ std::string beyond_repose(double theta_c, double tilt) {
       degree_text(tilt));
 }
 
-std::string analysis_text(const RunView& run) {
+std::string analysis_text(const runs::RunView& run) {
   return fmt::format(
       "{}\n{}{}\n{}{}", heading(run), aligned_text(series_table(run), 1),
       !run.analysis.thresholds.empty()
@@ -146,4 +146,4 @@ std::string analysis_text(const RunView& run) {
       transition_table(run), event_summary(run));
 }
 
-}  // namespace talus
+}  // namespace talus::app

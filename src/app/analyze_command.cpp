@@ -11,25 +11,25 @@
 #include "app/terminal.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct AnalyzeArguments {
   std::vector<std::string> runs;
   std::vector<std::string> settings;
-  AnalysisOptions options;
+  runs::AnalysisOptions options;
   bool json = false;
   bool quiet = false;
 };
 
 void analyze(const AnalyzeArguments& arguments) {
-  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
+  const analysis::AnalysisParameters parameters = runs::parse_analysis_settings(arguments.settings);
   const std::vector<std::string> runs = runs_among(arguments.runs);
-  AnalysisOptions options = arguments.options;
+  runs::AnalysisOptions options = arguments.options;
   options.progress = count_shown("analysis", arguments.quiet);
   if (arguments.json) print("[");
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const RunView run = analysed_run(runs[r], parameters, options);
+    const runs::RunView run = runs::analysed_run(runs[r], parameters, options);
     if (arguments.json)
       print("%s%s", r > 0 ? ",\n" : "", analysis_json(run).c_str());
     else
@@ -64,4 +64,4 @@ void add_analyze_command(CLI::App& app) {
   command->callback([arguments] { analyze(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

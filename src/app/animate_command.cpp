@@ -13,13 +13,13 @@
 #include "base/errors.h"
 #include "pictures/run_movie.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct AnimateArguments {
   std::string run;
-  MapOptions maps;
-  MovieTiming timing;
+  pictures::MapOptions maps;
+  pictures::MovieTiming timing;
   std::string output;
   bool overwrite = false;
   bool quiet = false;
@@ -29,8 +29,8 @@ bool is_movie_name(const std::string& path) {
   return path.ends_with(".mp4") || path.ends_with(".webm") || path.ends_with(".gif");
 }
 
-MapPlan plan_movie(const AnimateArguments& arguments) {
-  MapPlan plan = plan_maps(arguments.maps);
+pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
+  pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
   if (plan.maps.size() > 1)
     throw Error(ExitCode::usage, "--map: a movie shows one map, or two overlaid as in gamma+forces");
   if (arguments.maps.transparent)
@@ -42,12 +42,13 @@ MapPlan plan_movie(const AnimateArguments& arguments) {
 }
 
 void animate(const AnimateArguments& arguments) {
-  const MapPlan plan = plan_movie(arguments);
+  const pictures::MapPlan plan = plan_movie(arguments);
   output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
-  DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
+  pictures::DrawnRun run =
+      pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   prepare_folder_of(arguments.output);
-  const std::size_t count = draw_movie(run, arguments.timing, arguments.output,
-                                       {count_shown("animating", arguments.quiet), asked_to_stop});
+  const std::size_t count = pictures::draw_movie(run, arguments.timing, arguments.output,
+                                                 {count_shown("animating", arguments.quiet), asked_to_stop});
   if (!arguments.quiet)
     print("%s: %zu frames, %.3g s\n", arguments.output.c_str(), count,
           static_cast<double>(count) / arguments.timing.fps);
@@ -82,4 +83,4 @@ void add_animate_command(CLI::App& app) {
   command->callback([arguments] { animate(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -18,7 +18,7 @@
 #include "session/estimate.h"
 #include "session/run_check.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct CheckArguments {
@@ -28,16 +28,17 @@ struct CheckArguments {
 };
 
 /// The scenario with every key, by sections.
-Json scenario_json(const Scenario& scenario) {
+Json scenario_json(const scenario::Scenario& scenario) {
   Json json = Json::object();
-  for (const ScenarioKey& key : scenario_keys()) {
+  for (const scenario::ScenarioKey& key : scenario::scenario_keys()) {
     Json& section = key.section.empty() ? json : json[key.section];
     section[key.name] = std::visit([](const auto& value) -> Json { return value; }, key.get(scenario));
   }
   return json;
 }
 
-void print_json(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
+void print_json(const CheckArguments& arguments, const scenario::Scenario& scenario,
+                const session::Estimate& expected) {
   const Json estimate = {{"grains", expected.grains},
                          {"floor_grains", expected.floor_grains},
                          {"contacts", expected.contacts},
@@ -68,38 +69,39 @@ std::string duration(double seconds) {
 void print_line(const char* name, const std::string& text) { print("#   %-11s %s\n", name, text.c_str()); }
 
 /// All of it is a scenario again: what is not TOML stands in comments.
-void print_report(const CheckArguments& arguments, const Scenario& scenario, const Estimate& expected) {
-  print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), resolved_toml(scenario).c_str());
+void print_report(const CheckArguments& arguments, const scenario::Scenario& scenario,
+                  const session::Estimate& expected) {
+  print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), scenario::resolved_toml(scenario).c_str());
   print("# Estimates\n");
   print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
   print_line("contacts", fmt::format("about {} at rest", expected.contacts));
-  print_line("time step", short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
-  const TiltProgram program(scenario);
+  print_line("time step", scenario::short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
+  const scenario::TiltProgram program(scenario);
   const bool until_failure = program.empty() ? !scenario.tilt.end_angle : program.ends_at_repose();
   if (!program.empty())
-    print_line(
-        "programme",
-        fmt::format(
-            "{} parts, repetitions included, {} s{}", program.segments().size(),
-            short_text(std::round(1e3 * expected.time_step * static_cast<double>(expected.tilt_steps)) / 1e3),
-            until_failure ? fmt::format(" if it fails at {} deg", assumed_repose) : ""));
+    print_line("programme",
+               fmt::format(
+                   "{} parts, repetitions included, {} s{}", program.segments().size(),
+                   scenario::short_text(
+                       std::round(1e3 * expected.time_step * static_cast<double>(expected.tilt_steps)) / 1e3),
+                   until_failure ? fmt::format(" if it fails at {} deg", session::assumed_repose) : ""));
   print_line(
       "steps",
       fmt::format("about {} of deposition, {}{} of tilt{}{}", expected.deposition_steps,
                   until_failure ? "about " : "", expected.tilt_steps,
-                  until_failure ? fmt::format(" (failure at {} deg)", assumed_repose) : "",
+                  until_failure ? fmt::format(" (failure at {} deg)", session::assumed_repose) : "",
                   expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""));
   print_line("output",
              fmt::format("{} frames, {} rows of observables", expected.frames, expected.observable_rows));
   print_line("time", fmt::format("about {} on one core", duration(expected.seconds)));
-  print_line("memory", "up to about " + size_text(expected.memory));
-  print_line("disk",
-             fmt::format("about {}, 2.5 times that while the run is packed", size_text(expected.disk)));
+  print_line("memory", "up to about " + session::size_text(expected.memory));
+  print_line("disk", fmt::format("about {}, 2.5 times that while the run is packed",
+                                 session::size_text(expected.disk)));
 }
 
 /// Throws `refusal` again, after it has said which pieces of the run are damaged.
 [[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
-  const std::vector<std::string> pieces = damaged_pieces(arguments.scenario);
+  const std::vector<std::string> pieces = io::damaged_pieces(arguments.scenario);
   if (arguments.json) {
     const Json json = {{"path", arguments.scenario}, {"whole", false}, {"faults", pieces}};
     print("%s\n", json_text(json).c_str());
@@ -112,16 +114,16 @@ void print_report(const CheckArguments& arguments, const Scenario& scenario, con
 }
 
 /// The run, whose bytes are those that were written.
-RunFile open_or_tell(const CheckArguments& arguments) {
+io::RunFile open_or_tell(const CheckArguments& arguments) {
   try {
-    return RunFile::open(arguments.scenario);
+    return io::RunFile::open(arguments.scenario);
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) throw;
     tell_damage(arguments, error);
   }
 }
 
-void print_run_json(const std::string& path, const RunFile& run, const RunCheck& check) {
+void print_run_json(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
   const Json json = {{"path", path},
                      {"whole", check.faults.empty()},
                      {"complete", run.complete()},
@@ -139,7 +141,7 @@ void print_run_json(const std::string& path, const RunFile& run, const RunCheck&
   print("%s\n", json_text(json).c_str());
 }
 
-void print_run(const std::string& path, const RunFile& run, const RunCheck& check) {
+void print_run(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
   print("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
         run.complete() ? "complete" : "not complete");
   if (!run.lost().empty()) print("  lost        %s (before it was repaired)\n", run.lost().c_str());
@@ -166,12 +168,12 @@ void print_run(const std::string& path, const RunFile& run, const RunCheck& chec
 void check_run_file(const CheckArguments& arguments) {
   if (!arguments.settings.empty())
     throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
-  const RunFile run = open_or_tell(arguments);
-  const RunCheck check = [&] {
+  const io::RunFile run = open_or_tell(arguments);
+  const session::RunCheck check = [&] {
     const std::size_t frames = run.all_frame_tilts().size();
     const CountDone progress = count_shown("checking", arguments.json);
     progress(0, frames);
-    return check_run(run, [&](std::size_t done) { progress(done, frames); });
+    return session::check_run(run, [&](std::size_t done) { progress(done, frames); });
   }();
   if (arguments.json)
     print_run_json(arguments.scenario, run, check);
@@ -199,9 +201,9 @@ void add_check_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json, "Print JSON, with units in the names");
   command->callback([arguments] {
-    if (is_run(arguments->scenario)) return check_run_file(*arguments);
-    const Scenario scenario = read_scenario(arguments->scenario, arguments->settings);
-    const Estimate expected = estimate(scenario);
+    if (io::is_run(arguments->scenario)) return check_run_file(*arguments);
+    const scenario::Scenario scenario = scenario::read_scenario(arguments->scenario, arguments->settings);
+    const session::Estimate expected = session::estimate(scenario);
     if (arguments->json)
       print_json(*arguments, scenario, expected);
     else
@@ -209,4 +211,4 @@ void add_check_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::app {
 
 /// Accepts these names only; the message has the nearest. Help and completions show them as {a,b}.
 inline CLI::Validator one_of(const std::vector<std::string>& names) {
@@ -37,4 +37,4 @@ CLI::Validator in_range(Number low, Number high) {
           fmt::format("in [{} - {}]", low, high)};
 }
 
-}  // namespace talus
+}  // namespace talus::app

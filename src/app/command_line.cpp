@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace talus {
+namespace talus::app {
 
 std::string command_line() {
   std::ifstream words("/proc/self/cmdline");
@@ -17,4 +17,4 @@ std::string command_line() {
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// `talus figures runs/a.h5 -o 'my figures'`: as a shell reads it, for provenance.
 std::string command_line();
 
-}  // namespace talus
+}  // namespace talus::app

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// "DEG" of "DEG:in [0 - 90]"; "HH:MM[:SS]" is a word of its own.
@@ -63,4 +63,4 @@ std::string first_clause(const std::string& description) {
 
 std::string last_word(const std::string& name) { return name.substr(name.rfind(' ') + 1); }
 
-}  // namespace talus
+}  // namespace talus::app

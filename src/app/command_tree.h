@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::app {
 
 /// An option, or an argument that has its place instead of a name.
 struct OptionPage {
@@ -34,4 +34,4 @@ std::string first_clause(const std::string& description);
 /// The last word of the name of a command.
 std::string last_word(const std::string& name);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace talus {
+namespace talus::app {
 
 void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
@@ -29,4 +29,4 @@ extern const bool has_window;  ///< whether `talus view` is built in
 void add_replay_command(CLI::App& app);
 void add_repair_command(CLI::App& app);
 
-}  // namespace talus
+}  // namespace talus::app

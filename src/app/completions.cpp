@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 void for_each_command(const CommandPage& page, const std::function<void(const CommandPage&)>& visit) {
@@ -181,4 +181,4 @@ std::string fish_completion(const CommandPage& program) {
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::app

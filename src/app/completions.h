@@ -5,7 +5,7 @@
 
 #include "app/command_tree.h"
 
-namespace talus {
+namespace talus::app {
 
 /// Scripts that the shell loads when `talus` is first completed; where nothing is known it completes names of
 /// files.
@@ -13,4 +13,4 @@ std::string bash_completion(const CommandPage& program);
 std::string zsh_completion(const CommandPage& program);
 std::string fish_completion(const CommandPage& program);
 
-}  // namespace talus
+}  // namespace talus::app

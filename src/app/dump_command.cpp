@@ -14,7 +14,7 @@
 #include "pictures/frame_choice.h"
 #include "problems/problem_file.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct DumpArguments {
@@ -25,7 +25,7 @@ struct DumpArguments {
   bool overwrite = false;
 };
 
-std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
+std::size_t choose_frame(const DumpArguments& arguments, const io::RunFile& run) {
   const std::size_t count = run.frame_count();
   if (count == 0)
     throw Error(ExitCode::bad_data,
@@ -37,7 +37,7 @@ std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
                   arguments.run +
                       ": the slope has not failed, so --at repose has no meaning; give an "
                       "angle, or --frame K");
-    return frames_at(run.frame_tilts(), {arguments.at}, theta_c).front();
+    return pictures::frames_at(run.frame_tilts(), {arguments.at}, theta_c).front();
   }
   if (arguments.frame >= count)
     throw Error(ExitCode::bad_data, fmt::format("{} has {} frames, 0 to {}; there is no frame {}",
@@ -45,20 +45,20 @@ std::size_t choose_frame(const DumpArguments& arguments, const RunFile& run) {
   return arguments.frame;
 }
 
-std::string step_text(const StepProblem& step, std::int64_t number) {
+std::string step_text(const problems::StepProblem& step, std::int64_t number) {
   return fmt::format("step {} at {:.3f} deg", number, degrees(step.scales.tilt));
 }
 
 void dump(const DumpArguments& arguments) {
   output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
-  const RunFile run = RunFile::open(arguments.run);
+  const io::RunFile run = io::RunFile::open(arguments.run);
   const std::size_t k = choose_frame(arguments, run);
   const std::int64_t number = run.frame(k).step + 1;
-  const StepProblem step = problem_after_frame(run, k);
+  const problems::StepProblem step = problems::problem_after_frame(run, k);
   const std::string from = step_text(step, number);
   prepare_folder_of(arguments.output);
-  write_problem(arguments.output, step,
-                fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
+  problems::write_problem(arguments.output, step,
+                          fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
   print("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(), k,
         step.problem.contact_count(), step.problem.body_count(),
         number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
@@ -85,4 +85,4 @@ void add_dump_command(CLI::App& app) {
   command->callback([arguments] { dump(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

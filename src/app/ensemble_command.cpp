@@ -32,7 +32,7 @@
 #include "io/run_file.h"
 #include "runs/analysis_run.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct EnsembleArguments {
@@ -45,7 +45,7 @@ struct EnsembleArguments {
   std::string until;
   std::string keep;
   std::string max_wall;  ///< HH:MM; empty: no limit
-  ClaimTimes times;
+  ensemble::ClaimTimes times;
   int jobs = default_jobs();
   bool json = false;
 };
@@ -54,14 +54,15 @@ void run_ensemble(const EnsembleArguments& arguments) {
   if (arguments.scenario.empty() || arguments.folder.empty())
     throw Error(ExitCode::usage,
                 "expected a scenario and a folder: talus ensemble SCENARIO --seeds 1-50 -o FOLDER");
-  if (!arguments.until.empty()) parse_precision(arguments.until);
-  check_keep(arguments.keep);
-  const EnsembleManifest wanted{"",
-                                parse_seeds(arguments.seeds),
-                                arguments.until,
-                                plan_variants(arguments.scenario, arguments.settings, arguments.axes),
-                                PlainTask{},
-                                arguments.keep};
+  if (!arguments.until.empty()) ensemble::parse_precision(arguments.until);
+  ensemble::check_keep(arguments.keep);
+  const ensemble::EnsembleManifest wanted{
+      "",
+      ensemble::parse_seeds(arguments.seeds),
+      arguments.until,
+      ensemble::plan_variants(arguments.scenario, arguments.settings, arguments.axes),
+      ensemble::PlainTask{},
+      arguments.keep};
   const EnsembleView view = compute_ensemble(
       wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
   print_text(arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view));
@@ -70,35 +71,35 @@ void run_ensemble(const EnsembleArguments& arguments) {
 
 /// Packs the run of a member with its analysis, once what its task asks besides is done: with its file the
 /// member is done. Throws Error(stopped) where it is not to go on; what is computed stays in the folder.
-bool pack_member(const Member& member, const EnsembleManifest& manifest, const std::string& folder,
-                 RunStore& store, const std::function<bool()>& goes_on) {
+bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifest& manifest,
+                 const std::string& folder, io::RunStore& store, const std::function<bool()>& goes_on) {
   const auto progress = [&](std::size_t) {
     if (!goes_on()) throw Error(ExitCode::stopped, "the member was stopped; its analysis begins again");
   };
-  PackedParts parts;
-  const RunFile run = RunFile::open(member.path);
-  const Analysis analysis = analyse_run(run, AnalysisParameters(), 1, progress);
+  io::PackedParts parts;
+  const io::RunFile run = io::RunFile::open(member.path);
+  const analysis::Analysis analysis = runs::analyse_run(run, analysis::AnalysisParameters(), 1, progress);
   parts.analysis = &analysis;
-  if (std::holds_alternative<ReadingsTask>(manifest.task))
-    parts.readings = make_readings(member, run, progress);
-  parts.frames = keeps_frames(manifest, member.seed) || !is_in_folder(member, folder);
+  if (std::holds_alternative<ensemble::ReadingsTask>(manifest.task))
+    parts.readings = ensemble::make_readings(member, run, progress);
+  parts.frames = ensemble::keeps_frames(manifest, member.seed) || !ensemble::is_in_folder(member, folder);
   return store.pack(goes_on, parts);
 }
 
 /// Runs or resumes a member, does what the task of the ensemble asks besides, and packs it with its analysis.
 void compute_member(const EnsembleArguments& arguments) {
-  const EnsembleManifest manifest = read_ensemble(arguments.folder);
-  const EnsemblePlan plan = plan_of(manifest, arguments.folder);
-  const auto member = std::ranges::find(plan.members, arguments.member, &Member::name);
+  const ensemble::EnsembleManifest manifest = ensemble::read_ensemble(arguments.folder);
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(manifest, arguments.folder);
+  const auto member = std::ranges::find(plan.members, arguments.member, &ensemble::Member::name);
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
-  if (const std::string damage = set_damaged_aside(member->path); !damage.empty())
+  if (const std::string damage = io::set_damaged_aside(member->path); !damage.empty())
     print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
-  if (is_complete(*member)) return;  // another worker was faster
-  RunControl control;
+  if (ensemble::is_complete(*member)) return;  // another worker was faster
+  session::RunControl control;
   control.stop = stop_request();
   control.on_step = run_shown(false);
-  control.pack = [&](RunStore& store, const std::function<bool()>& goes_on) {
+  control.pack = [&](io::RunStore& store, const std::function<bool()>& goes_on) {
     return pack_member(*member, manifest, arguments.folder, store, goes_on);
   };
   if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
@@ -111,54 +112,58 @@ void compute_member(const EnsembleArguments& arguments) {
                      {},
                      member->origin.bed};
   request.settings.push_back(fmt::format("seed={}", member->seed));
-  const auto* trials = std::get_if<PerturbationPlan>(&manifest.task);
-  if (trials != nullptr) request.facts = {{trials_fact, plan_text(*trials)}};
-  OpenRun open = run_presence(member->path) == RunPresence::folder ? resume_run(request) : start_run(request);
+  const auto* trials = std::get_if<session::PerturbationPlan>(&manifest.task);
+  if (trials != nullptr) request.facts = {{session::trials_fact, session::plan_text(*trials)}};
+  OpenRun open =
+      io::run_presence(member->path) == io::RunPresence::folder ? resume_run(request) : start_run(request);
   if (trials != nullptr)
-    control.trials =
-        trials_on_the_way(table_of(RunFile::open(member->path), *trials, member->path), stop_request());
+    control.trials = trials_on_the_way(
+        session::table_of(io::RunFile::open(member->path), *trials, member->path), stop_request());
   open.session.use_threads(1);
   const CommitOnSignals commit;
-  if (run_to_end(open.session, open.store, control) == RunEnd::stopped)
+  if (session::run_to_end(open.session, open.store, control) == session::RunEnd::stopped)
     throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
   print("%s is done: state %s\n", member->name.c_str(), hash_text(state_hash(open.session.world())).c_str());
 }
 
 void work(const EnsembleArguments& arguments) {
-  WorkerOptions options{arguments.folder, arguments.times, {}, [](const std::string& member, int code) {
-                          print("%s %s\n", member.c_str(),
-                                code < 0    ? "begun"
-                                : code == 0 ? "done"
-                                            : fmt::format("ended with exit code {}", code).c_str());
-                          std::fflush(stdout);
-                        }};
+  ensemble::WorkerOptions options{
+      arguments.folder, arguments.times, {}, [](const std::string& member, int code) {
+        print("%s %s\n", member.c_str(),
+              code < 0    ? "begun"
+              : code == 0 ? "done"
+                          : fmt::format("ended with exit code {}", code).c_str());
+        std::fflush(stdout);
+      }};
   options.tell_wait = tell_wait;
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  const ensemble::EnsemblePlan plan =
+      ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
   refuse_old_tables(plan);
-  drop_leftovers(plan);
-  const WorkerEnd end = work_on_ensemble(options);
-  drop_leftovers(plan);
+  ensemble::drop_leftovers(plan);
+  const ensemble::WorkerEnd end = ensemble::work_on_ensemble(options);
+  ensemble::drop_leftovers(plan);
   print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
         end.enough ? "; the precision that was asked for is reached" : "");
 }
 
 void average(const EnsembleArguments& arguments) {
-  KnownMembers known;
+  ensemble::KnownMembers known;
   const EnsembleView view = write_averages(arguments.folder, known);
   print_text(ensemble_text(view));
-  for (const MemberState& state : view.states)
+  for (const ensemble::MemberState& state : view.states)
     if (!state.damage.empty()) throw Error(ExitCode::bad_data, state.damage);
 }
 
 void retry(const EnsembleArguments& arguments) {
-  KnownMembers known;
-  const EnsemblePlan plan = plan_of(read_ensemble(arguments.folder), arguments.folder);
+  ensemble::KnownMembers known;
+  const ensemble::EnsemblePlan plan =
+      ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
   std::size_t count = begin_damaged_anew(plan, known);
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
-    if (states[m].stage != MemberStage::failed) continue;
-    remove_file(failure_path(plan.members[m].path));
+    if (states[m].stage != ensemble::MemberStage::failed) continue;
+    io::remove_file(ensemble::failure_path(plan.members[m].path));
     ++count;
   }
   print("%zu members wait again; talus ensemble work %s computes them\n", count,
@@ -194,7 +199,7 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
       add_folder_command(command, arguments, "status", "How far it is, what failed, and the means");
   status->add_flag("--json", arguments->json, "Print it as JSON");
   status->callback([arguments] {
-    KnownMembers known;
+    ensemble::KnownMembers known;
     const EnsembleView view = view_of_ensemble(arguments->folder, known);
     const EnsembleJobs jobs = jobs_of_ensemble(arguments->folder);
     print("%s", (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
@@ -250,4 +255,4 @@ void add_ensemble_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

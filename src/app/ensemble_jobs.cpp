@@ -10,18 +10,18 @@
 #include "base/visible_text.h"
 #include "ensemble/slurm_jobs.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// Asks squeue for the jobs of one cluster.
-void ask(const std::vector<SlurmJob>& jobs, EnsembleJobs& found) {
+void ask(const std::vector<ensemble::SlurmJob>& jobs, EnsembleJobs& found) {
   try {
-    const ProgramOutput output = output_of(squeue_words(jobs), ".", ProgramEnvironment::whole,
+    const ProgramOutput output = output_of(ensemble::squeue_words(jobs), ".", ProgramEnvironment::whole,
                                            "squeue is not on PATH: this is no machine of a Slurm cluster");
     // A job that has left its memory is an error to squeue where no other is asked for.
     const bool gone = output.err.find("Invalid job id") != std::string::npos;
     if (output.status != 0 && !gone) found.unknown = output.err.empty() ? "squeue failed" : output.err;
-    found.queue.merge(parse_queue(output.out));
+    found.queue.merge(ensemble::parse_queue(output.out));
   } catch (const Error& error) {
     if (error.code() != ExitCode::unavailable) throw;
     found.unknown = error.what();
@@ -34,7 +34,7 @@ std::string lower(std::string text) {
   return text;
 }
 
-std::string tasks_text(const QueuedTasks& tasks) {
+std::string tasks_text(const ensemble::QueuedTasks& tasks) {
   std::vector<std::string> parts;
   for (const auto& [state, count] : tasks.count) {
     const std::string why = state == "PENDING" && !tasks.reasons.empty()
@@ -45,7 +45,7 @@ std::string tasks_text(const QueuedTasks& tasks) {
   return joined(parts, ", ");
 }
 
-Json tasks_json(const QueuedTasks& tasks) {
+Json tasks_json(const ensemble::QueuedTasks& tasks) {
   Json states = Json::object();
   for (const auto& [state, count] : tasks.count) states[lower(state)] = count;
   return states;
@@ -54,20 +54,20 @@ Json tasks_json(const QueuedTasks& tasks) {
 }  // namespace
 
 EnsembleJobs jobs_of_ensemble(const std::string& folder) {
-  EnsembleJobs found{recorded_jobs(folder), {}, ""};
-  for (const auto& [cluster, jobs] : by_cluster(found.recorded)) ask(jobs, found);
+  EnsembleJobs found{ensemble::recorded_jobs(folder), {}, ""};
+  for (const auto& [cluster, jobs] : ensemble::by_cluster(found.recorded)) ask(jobs, found);
   return found;
 }
 
 std::size_t count_queued(const EnsembleJobs& jobs) {
   std::size_t count = 0;
-  for (const auto& [id, tasks] : jobs.queue) count += total(tasks);
+  for (const auto& [id, tasks] : jobs.queue) count += ensemble::total(tasks);
   return count;
 }
 
 std::string jobs_text(const EnsembleJobs& jobs) {
   std::string text;
-  for (const SlurmJob& job : jobs.recorded) {
+  for (const ensemble::SlurmJob& job : jobs.recorded) {
     const auto tasks = jobs.queue.find(job.id);
     if (tasks != jobs.queue.end())
       text += fmt::format("job {}: {}\n", job.id, tasks_text(tasks->second));
@@ -81,10 +81,10 @@ std::string jobs_text(const EnsembleJobs& jobs) {
 
 Json jobs_json(const EnsembleJobs& jobs) {
   Json json = Json::object();
-  for (const SlurmJob& job : jobs.recorded) {
+  for (const ensemble::SlurmJob& job : jobs.recorded) {
     const auto found = jobs.queue.find(job.id);
     const bool known = found != jobs.queue.end();
-    const QueuedTasks tasks = known ? found->second : QueuedTasks{};
+    const ensemble::QueuedTasks tasks = known ? found->second : ensemble::QueuedTasks{};
     json[job.id] = {{"cluster", job.cluster},
                     {"tasks", job.tasks},
                     {"queued", known || jobs.unknown.empty() ? tasks_json(tasks) : Json()},
@@ -93,4 +93,4 @@ Json jobs_json(const EnsembleJobs& jobs) {
   return json;
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -8,14 +8,14 @@
 #include "app/json.h"
 #include "ensemble/slurm.h"
 
-namespace talus {
+namespace talus::app {
 
 struct EnsembleJobs {
-  std::vector<SlurmJob> recorded;            ///< in the folder, by their numbers
-  std::map<std::string, QueuedTasks> queue;  ///< of these, by their numbers
-  std::string unknown;                       ///< why squeue told nothing; empty where it did
+  std::vector<ensemble::SlurmJob> recorded;            ///< in the folder, by their numbers
+  std::map<std::string, ensemble::QueuedTasks> queue;  ///< of these, by their numbers
+  std::string unknown;                                 ///< why squeue told nothing; empty where it did
 
-  bool is_queued(const SlurmJob& job) const { return queue.contains(job.id); }
+  bool is_queued(const ensemble::SlurmJob& job) const { return queue.contains(job.id); }
 };
 
 /// The jobs that were submitted from a folder, as squeue knows them; it is asked only where there are any.
@@ -31,4 +31,4 @@ std::string jobs_text(const EnsembleJobs& jobs);
 /// The same as JSON; what is queued is null where squeue told nothing.
 Json jobs_json(const EnsembleJobs& jobs);
 
-}  // namespace talus
+}  // namespace talus::app

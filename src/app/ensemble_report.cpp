@@ -14,7 +14,7 @@
 #include "ensemble/until.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// What is shown of a run, of all that members.csv holds.
@@ -26,14 +26,14 @@ constexpr std::array<const char*, 4> stage_names = {"waiting", "claimed", "faile
 std::vector<double> values_of(const EnsembleView& view, std::size_t variant, const std::string& quantity) {
   std::vector<double> values;
   for (std::size_t m = 0; m < view.plan.members.size(); ++m)
-    if (view.plan.members[m].variant == variant && view.states[m].stage == MemberStage::done)
-      values.push_back(number_called(view.numbers[m], quantity));
+    if (view.plan.members[m].variant == variant && view.states[m].stage == ensemble::MemberStage::done)
+      values.push_back(ensemble::number_called(view.numbers[m], quantity));
   return values;
 }
 
 std::string unit_of(const EnsembleView& view, const std::string& quantity) {
-  for (const MemberNumbers& member : view.numbers)
-    for (const NamedNumber& number : member.numbers)
+  for (const ensemble::MemberNumbers& member : view.numbers)
+    for (const ensemble::NamedNumber& number : member.numbers)
       if (number.name == quantity) return number.unit;
   return "";
 }
@@ -45,7 +45,7 @@ std::string mean_line(const EnsembleView& view, std::size_t variant, const std::
   if (found.count == 0) return "";
   const bool has_error = found.count > 1 && found.error > 0.0;
   const std::string value =
-      has_error ? plus_minus(found.mean, found.error) : fmt::format("{:.4g}", found.mean);
+      has_error ? ensemble::plus_minus(found.mean, found.error) : fmt::format("{:.4g}", found.mean);
   const std::string spread =
       has_error ? fmt::format(", standard deviation {:.2g}", found.deviation) : std::string();
   return fmt::format("  {} = {} {}{}, {} of {} members\n", quantity, value, unit_of(view, quantity), spread,
@@ -66,8 +66,8 @@ std::string means_text(const EnsembleView& view) {
 }
 
 /// Who has taken a member.
-std::string holder_text(const Member& member, const MemberState& state) {
-  const std::optional<ClaimHolder> holder = read_claim(member.path, *state.claim);
+std::string holder_text(const ensemble::Member& member, const ensemble::MemberState& state) {
+  const std::optional<ensemble::ClaimHolder> holder = ensemble::read_claim(member.path, *state.claim);
   return holder ? visible(holder->worker) : "a process that has just begun";
 }
 
@@ -75,15 +75,15 @@ std::string members_text(const EnsembleView& view) {
   std::string text;
   bool failed = false;
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
-    const Member& member = view.plan.members[m];
+    const ensemble::Member& member = view.plan.members[m];
     if (!view.states[m].damage.empty()) {
       text += fmt::format("damaged: {}: {}\n", visible(member.name), visible(view.states[m].damage));
       failed = true;
     }
-    if (view.states[m].stage == MemberStage::claimed)
+    if (view.states[m].stage == ensemble::MemberStage::claimed)
       text += fmt::format("under way: {}, {}\n", visible(member.name), holder_text(member, view.states[m]));
-    if (view.states[m].stage != MemberStage::failed) continue;
-    const MemberFailure failure = read_failure(member.path);
+    if (view.states[m].stage != ensemble::MemberStage::failed) continue;
+    const ensemble::MemberFailure failure = ensemble::read_failure(member.path);
     text += fmt::format("failed: {}, exit code {}: {}\n", visible(member.name), failure.exit_code,
                         failure.message.empty() ? "it printed nothing" : failure.message);
     failed = true;
@@ -106,17 +106,17 @@ Json variant_json(const EnsembleView& view, std::size_t variant) {
 }
 
 Json member_json(const EnsembleView& view, std::size_t m) {
-  const MemberState& state = view.states[m];
-  const Member& member = view.plan.members[m];
+  const ensemble::MemberState& state = view.states[m];
+  const ensemble::Member& member = view.plan.members[m];
   Json json = {{"stage", stage_names.at(static_cast<std::size_t>(state.stage))}};
   if (!state.damage.empty()) json["damage"] = state.damage;
-  if (state.stage == MemberStage::claimed) json["by"] = holder_text(member, state);
-  if (state.stage == MemberStage::done) {
+  if (state.stage == ensemble::MemberStage::claimed) json["by"] = holder_text(member, state);
+  if (state.stage == ensemble::MemberStage::done) {
     json["state_hash"] = view.numbers[m].state_hash;
     json["seconds"] = view.numbers[m].seconds;
   }
-  if (state.stage == MemberStage::failed) {
-    const MemberFailure failure = read_failure(member.path);
+  if (state.stage == ensemble::MemberStage::failed) {
+    const ensemble::MemberFailure failure = ensemble::read_failure(member.path);
     json["exit_code"] = failure.exit_code;
     json["message"] = failure.message;
   }
@@ -126,7 +126,7 @@ Json member_json(const EnsembleView& view, std::size_t m) {
 /// "kept: the analyses of all members that are done, and the frames of 10"; empty where the ensemble keeps
 /// all frames, and has them.
 std::string kept_text(const EnsembleView& view) {
-  const std::size_t done = count_of(view.states, MemberStage::done);
+  const std::size_t done = ensemble::count_of(view.states, ensemble::MemberStage::done);
   const bool keeps_all = view.manifest.keep.empty() || view.manifest.keep == "all";
   if (done == 0 || (keeps_all && view.with_frames == done)) return "";
   return fmt::format("kept: the analyses of all members that are done, and the frames of {}\n",
@@ -135,29 +135,32 @@ std::string kept_text(const EnsembleView& view) {
 
 }  // namespace
 
-EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known) {
-  EnsembleView view{folder, read_ensemble(folder), {}, {}, {}, 0};
-  view.plan = plan_of(view.manifest, folder);
-  view.states = look_at_members(view.plan);
-  look_for_damage(view.plan, view.states, known);
-  view.numbers = numbers_of(view.plan, view.states, known);
+EnsembleView view_of_ensemble(const std::string& folder, ensemble::KnownMembers& known) {
+  EnsembleView view{folder, ensemble::read_ensemble(folder), {}, {}, {}, 0};
+  view.plan = ensemble::plan_of(view.manifest, folder);
+  view.states = ensemble::look_at_members(view.plan);
+  ensemble::look_for_damage(view.plan, view.states, known);
+  view.numbers = ensemble::numbers_of(view.plan, view.states, known);
   for (std::size_t m = 0; m < view.states.size(); ++m)
-    if (view.states[m].stage == MemberStage::done && read_member(view.plan.members[m], known).has_frames)
+    if (view.states[m].stage == ensemble::MemberStage::done &&
+        ensemble::read_member(view.plan.members[m], known).has_frames)
       ++view.with_frames;
   return view;
 }
 
 std::size_t count_ended(const EnsembleView& view) {
   const std::string& until = view.manifest.until;
-  if (!until.empty() && is_reached(parse_precision(until), view.plan, view.numbers))
+  if (!until.empty() && ensemble::is_reached(ensemble::parse_precision(until), view.plan, view.numbers))
     return view.states.size();
-  return count_of(view.states, MemberStage::done) + count_of(view.states, MemberStage::failed);
+  return ensemble::count_of(view.states, ensemble::MemberStage::done) +
+         ensemble::count_of(view.states, ensemble::MemberStage::failed);
 }
 
 std::string count_text(const EnsembleView& view) {
-  std::string text = fmt::format("{} of {} done, {} under way", count_of(view.states, MemberStage::done),
-                                 view.states.size(), count_of(view.states, MemberStage::claimed));
-  if (const std::size_t failed = count_of(view.states, MemberStage::failed); failed > 0)
+  std::string text =
+      fmt::format("{} of {} done, {} under way", ensemble::count_of(view.states, ensemble::MemberStage::done),
+                  view.states.size(), ensemble::count_of(view.states, ensemble::MemberStage::claimed));
+  if (const std::size_t failed = ensemble::count_of(view.states, ensemble::MemberStage::failed); failed > 0)
     text += fmt::format(", {} failed", failed);
   return text;
 }
@@ -166,7 +169,8 @@ std::string count_text(const EnsembleView& view) {
 static std::string versions_text(const EnsembleView& view) {
   std::vector<std::string> versions;
   for (std::size_t m = 0; m < view.numbers.size(); ++m)
-    if (view.states[m].stage == MemberStage::done) versions.push_back(visible_word(view.numbers[m].version));
+    if (view.states[m].stage == ensemble::MemberStage::done)
+      versions.push_back(visible_word(view.numbers[m].version));
   std::ranges::sort(versions);
   versions.erase(std::unique(versions.begin(), versions.end()), versions.end());
   if (versions.size() < 2) return "";
@@ -193,10 +197,10 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
                     {"keep", view.manifest.keep.empty() ? "all" : view.manifest.keep},
                     {"runs", view.with_frames},
                     {"members_in_all", view.states.size()},
-                    {"done", count_of(view.states, MemberStage::done)},
-                    {"claimed", count_of(view.states, MemberStage::claimed)},
-                    {"failed", count_of(view.states, MemberStage::failed)},
-                    {"waiting", count_of(view.states, MemberStage::waiting)},
+                    {"done", ensemble::count_of(view.states, ensemble::MemberStage::done)},
+                    {"claimed", ensemble::count_of(view.states, ensemble::MemberStage::claimed)},
+                    {"failed", ensemble::count_of(view.states, ensemble::MemberStage::failed)},
+                    {"waiting", ensemble::count_of(view.states, ensemble::MemberStage::waiting)},
                     {"jobs", jobs_json(jobs)},
                     {"variants", variants},
                     {"members", members}});
@@ -204,30 +208,30 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
 
 std::string members_csv(const EnsembleView& view) {
   // Members of different versions of Talus may have different numbers.
-  std::vector<NamedNumber> columns;
-  for (const MemberNumbers& member : view.numbers)
-    for (const NamedNumber& number : member.numbers)
-      if (std::ranges::find(columns, number.name, &NamedNumber::name) == columns.end())
+  std::vector<ensemble::NamedNumber> columns;
+  for (const ensemble::MemberNumbers& member : view.numbers)
+    for (const ensemble::NamedNumber& number : member.numbers)
+      if (std::ranges::find(columns, number.name, &ensemble::NamedNumber::name) == columns.end())
         columns.push_back(number);
   TextTable table{{{"variant"}, {"seed"}, {"state_hash"}, {"version"}, {"seconds"}}, {}};
-  for (const NamedNumber& column : columns)
+  for (const ensemble::NamedNumber& column : columns)
     table.columns.push_back({fmt::format("{} ({})", column.name, column.unit)});
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
-    const MemberNumbers& numbers = view.numbers[m];
-    const Member& member = view.plan.members[m];
-    if (view.states[m].stage != MemberStage::done) continue;
+    const ensemble::MemberNumbers& numbers = view.numbers[m];
+    const ensemble::Member& member = view.plan.members[m];
+    if (view.states[m].stage != ensemble::MemberStage::done) continue;
     auto& row = table.rows.emplace_back();
     row = {{csv_quoted(view.plan.variants[member.variant].name)},
            {std::to_string(member.seed)},
            {numbers.state_hash},
            {numbers.version},
-           {short_text(numbers.seconds)}};
-    for (const NamedNumber& column : columns) {
-      const double value = number_called(numbers, column.name);
-      row.push_back({std::isnan(value) ? "" : short_text(value)});
+           {scenario::short_text(numbers.seconds)}};
+    for (const ensemble::NamedNumber& column : columns) {
+      const double value = ensemble::number_called(numbers, column.name);
+      row.push_back({std::isnan(value) ? "" : scenario::short_text(value)});
     }
   }
   return csv_text(table);
 }
 
-}  // namespace talus
+}  // namespace talus::app

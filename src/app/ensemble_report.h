@@ -10,20 +10,20 @@
 #include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
 
-namespace talus {
+namespace talus::app {
 
 /// An ensemble as it is now.
 struct EnsembleView {
   std::string folder;
-  EnsembleManifest manifest;
-  EnsemblePlan plan;
-  std::vector<MemberState> states;     ///< of the members of the plan
-  std::vector<MemberNumbers> numbers;  ///< of those that are done; of the others nothing
-  std::size_t with_frames = 0;         ///< members that are done and have the frames of their runs
+  ensemble::EnsembleManifest manifest;
+  ensemble::EnsemblePlan plan;
+  std::vector<ensemble::MemberState> states;     ///< of the members of the plan
+  std::vector<ensemble::MemberNumbers> numbers;  ///< of those that are done; of the others nothing
+  std::size_t with_frames = 0;                   ///< members that are done and have the frames of their runs
 };
 
 /// Members whose files are damaged wait. Throws as read_ensemble and numbers_of do.
-EnsembleView view_of_ensemble(const std::string& folder, KnownMembers& known);
+EnsembleView view_of_ensemble(const std::string& folder, ensemble::KnownMembers& known);
 
 /// Members that will not be begun any more: done, failed, or not needed for the precision that was asked for.
 std::size_t count_ended(const EnsembleView& view);
@@ -39,4 +39,4 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs = {
 /// their units in the names of the columns.
 std::string members_csv(const EnsembleView& view);
 
-}  // namespace talus
+}  // namespace talus::app

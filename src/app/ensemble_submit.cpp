@@ -25,7 +25,7 @@
 #include "ensemble/slurm_jobs.h"
 #include "io/durable_file.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,12 +35,12 @@ struct SubmitArguments {
   std::string engine = "slurm";
   std::size_t tasks = 0;  ///< 0: as many as are of use
   std::string time;       ///< HH:MM; empty: what the partition allows
-  double stale = ClaimTimes{}.stale;
+  double stale = ensemble::ClaimTimes{}.stale;
   std::vector<std::string> options;  ///< of sbatch
 };
 
-SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
-  SlurmArray array;
+ensemble::SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
+  ensemble::SlurmArray array;
   std::error_code error;
   array.program = fs::read_symlink("/proc/self/exe", error).string();
   if (error) throw system_error(ExitCode::unavailable, "read the link", "/proc/self/exe", error.value());
@@ -55,10 +55,10 @@ SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
 
 /// Why nothing is submitted where nothing is missing.
 std::string nothing_text(const EnsembleView& view) {
-  const bool failed = count_of(view.states, MemberStage::failed) > 0;
+  const bool failed = ensemble::count_of(view.states, ensemble::MemberStage::failed) > 0;
   return fmt::format("{}: {}; nothing is missing{}\n", visible(view.folder), count_text(view),
                      failed ? fmt::format("; talus ensemble retry {} lets what failed wait again",
-                                          shell_quoted(path_word(view.folder)))
+                                          shell_quoted(ensemble::path_word(view.folder)))
                             : "");
 }
 
@@ -66,25 +66,27 @@ std::string nothing_text(const EnsembleView& view) {
 void print_commands(const SubmitArguments& arguments, std::size_t missing) {
   if (!arguments.options.empty())
     throw Error(ExitCode::usage, "options of sbatch mean nothing to --engine print; leave them out");
-  const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, usual_tasks);
-  const std::string command = worker_command(array_of(arguments, tasks));
+  const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, ensemble::usual_tasks);
+  const std::string command = ensemble::worker_command(array_of(arguments, tasks));
   for (std::size_t task = 0; task < tasks; ++task) print("%s\n", command.c_str());
 }
 
 /// The whole of it happens or nothing: a signal is heard when the job has been recorded.
-SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
-  const SlurmArray array = array_of(arguments, tasks);
-  prepare_folder(slurm_folder(arguments.folder));
+ensemble::SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
+  const ensemble::SlurmArray array = array_of(arguments, tasks);
+  prepare_folder(ensemble::slurm_folder(arguments.folder));
   prepare_folder((fs::path(arguments.folder) / "workers").string());
-  write_text((fs::path(slurm_folder(arguments.folder)) / "job.sh").string(), job_script(array));
+  io::write_text((fs::path(ensemble::slurm_folder(arguments.folder)) / "job.sh").string(),
+                 ensemble::job_script(array));
   const CommitOnSignals commit;
   const ProgramOutput output =
-      output_of(sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
+      output_of(ensemble::sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
                 "sbatch is not on PATH: call this where jobs of the cluster are submitted; without Slurm, "
                 "--engine print "
                 "writes the commands of workers, and talus ensemble work is one",
                 true);
-  std::optional<SlurmJob> job = output.status == 0 ? parse_submitted(output.out) : std::nullopt;
+  std::optional<ensemble::SlurmJob> job =
+      output.status == 0 ? ensemble::parse_submitted(output.out) : std::nullopt;
   if (!job) {
     stop_if_asked();
     const std::string said = output.err.empty() ? output.out : output.err;
@@ -92,13 +94,13 @@ SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
                 fmt::format("sbatch submitted nothing{}", said.empty() ? "" : "; it says:\n" + said));
   }
   job->tasks = tasks;
-  record_job(arguments.folder, *job);
+  ensemble::record_job(arguments.folder, *job);
   if (!output.err.empty()) print_error("%s\n", output.err.c_str());
   return *job;
 }
 
 void submit(const SubmitArguments& arguments) {
-  KnownMembers known;
+  ensemble::KnownMembers known;
   const EnsembleView view = view_of_ensemble(arguments.folder, known);
   const std::size_t missing = view.states.size() - count_ended(view);
   if (missing == 0) {
@@ -112,17 +114,18 @@ void submit(const SubmitArguments& arguments) {
   if (arguments.engine == "print") return print_commands(arguments, missing);
   const EnsembleJobs jobs = jobs_of_ensemble(arguments.folder);
   const std::size_t queued = count_queued(jobs);
-  const std::string folder = shell_quoted(path_word(arguments.folder));
+  const std::string folder = shell_quoted(ensemble::path_word(arguments.folder));
   if (arguments.tasks == 0 && queued >= missing) {
     print("%s: %zu members are missing, and %zu tasks are in the queue for them; --tasks adds more\n%s",
           arguments.folder.c_str(), missing, queued, jobs_text(jobs).c_str());
     return;
   }
-  const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing - queued, usual_tasks);
-  const SlurmJob job = submit_array(arguments, tasks);
+  const std::size_t tasks =
+      arguments.tasks > 0 ? arguments.tasks : std::min(missing - queued, ensemble::usual_tasks);
+  const ensemble::SlurmJob job = submit_array(arguments, tasks);
   if (jobs.unknown.empty())
-    for (const SlurmJob& before : jobs.recorded)
-      if (!jobs.is_queued(before) && before.id != job.id) forget_job(arguments.folder, before);
+    for (const ensemble::SlurmJob& before : jobs.recorded)
+      if (!jobs.is_queued(before) && before.id != job.id) ensemble::forget_job(arguments.folder, before);
   print(
       "job %s: %zu task%s for %zu missing members; talus ensemble status %s shows them, talus ensemble "
       "cancel %s ends them\n",
@@ -130,31 +133,31 @@ void submit(const SubmitArguments& arguments) {
 }
 
 void cancel(const std::string& folder) {
-  const std::vector<SlurmJob> recorded = recorded_jobs(folder);
+  const std::vector<ensemble::SlurmJob> recorded = ensemble::recorded_jobs(folder);
   if (recorded.empty()) {
     print("%s: no job of this ensemble is known\n", folder.c_str());
     return;
   }
-  for (const auto& [cluster, jobs] : by_cluster(recorded)) {
+  for (const auto& [cluster, jobs] : ensemble::by_cluster(recorded)) {
     const ProgramOutput output =
-        output_of(scancel_words(jobs), ".", ProgramEnvironment::whole,
+        output_of(ensemble::scancel_words(jobs), ".", ProgramEnvironment::whole,
                   "scancel is not on PATH: call this where jobs of the cluster are submitted");
     // One that has ended and been forgotten by Slurm needs no end.
     if (output.status != 0 && output.err.find("Invalid job id") == std::string::npos)
       throw Error(ExitCode::unavailable, fmt::format("scancel failed; it says:\n{}", output.err));
-    for (const SlurmJob& job : jobs) {
-      forget_job(folder, job);
+    for (const ensemble::SlurmJob& job : jobs) {
+      ensemble::forget_job(folder, job);
       print("job %s is cancelled\n", job.id.c_str());
     }
   }
   print("what is computed stays; talus ensemble submit %s goes on\n",
-        shell_quoted(path_word(folder)).c_str());
+        shell_quoted(ensemble::path_word(folder)).c_str());
 }
 
 /// A number that Slurm gives to each task in its environment.
 std::string slurm_number(const char* variable) {
   const char* const value = std::getenv(variable);
-  if (value == nullptr || !is_slurm_number(value))
+  if (value == nullptr || !ensemble::is_slurm_number(value))
     throw Error(ExitCode::usage,
                 fmt::format("{} is no number: expected to be called by a task of a job array", variable));
   return value;
@@ -164,23 +167,24 @@ std::string slurm_number(const char* variable) {
 /// unless starts have been in vain.
 void requeue(const std::string& folder) {
   const std::string job = slurm_number("SLURM_ARRAY_JOB_ID"), task = slurm_number("SLURM_ARRAY_TASK_ID");
-  KnownMembers known;
+  ensemble::KnownMembers known;
   const EnsembleView view = view_of_ensemble(folder, known);
   if (count_ended(view) == view.states.size()) {
     print("nothing is missing\n");
     return;
   }
-  const TaskMemory memory = after_start(read_memory(folder, job, task), mark_of(view.plan));
-  write_memory(folder, job, task, memory);
-  if (memory.idle_starts >= most_idle_starts)
+  const ensemble::TaskMemory memory =
+      ensemble::after_start(ensemble::read_memory(folder, job, task), ensemble::mark_of(view.plan));
+  ensemble::write_memory(folder, job, task, memory);
+  if (memory.idle_starts >= ensemble::most_idle_starts)
     throw Error(
         ExitCode::stopped,
         fmt::format("the task is not queued again: after {} starts in a row no member had come further; "
                     "give more --time or memory, and submit again",
-                    most_idle_starts));
+                    ensemble::most_idle_starts));
   print("queued again\n");
   std::fflush(stdout);  // Slurm ends this process too
-  const ProgramOutput output = output_of(requeue_words(job, task), ".", ProgramEnvironment::whole,
+  const ProgramOutput output = output_of(ensemble::requeue_words(job, task), ".", ProgramEnvironment::whole,
                                          "scontrol is not on PATH, so the task cannot be queued again");
   if (output.status != 0)
     throw Error(ExitCode::unavailable,
@@ -200,7 +204,7 @@ void add_submit(CLI::App& ensemble) {
   command
       ->add_option("--tasks", arguments->tasks,
                    "Workers; without it as many as members are missing and not queued for, 100 at most")
-      ->check(in_range(std::size_t{1}, most_tasks));
+      ->check(in_range(std::size_t{1}, ensemble::most_tasks));
   command->add_option(
       "--time", arguments->time,
       "Time of a task, HH:MM or HH:MM:SS; its worker stops before it is over, and the task is "
@@ -229,4 +233,4 @@ void add_submit_commands(CLI::App& ensemble) {
   command->callback([folder] { requeue(*folder); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -3,9 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace talus {
+namespace talus::app {
 
 /// Adds submit, cancel, and requeue, which the script of a task calls, to `talus ensemble`.
 void add_submit_commands(CLI::App& ensemble);
 
-}  // namespace talus
+}  // namespace talus::app

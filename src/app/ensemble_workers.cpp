@@ -26,11 +26,12 @@
 #include "io/run_store.h"
 #include "io/writer_lock.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
-double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& states, MemberStage stage) {
-  const std::vector<double> of_variant = estimated_seconds(plan);
+double estimate_of(const ensemble::EnsemblePlan& plan, const std::vector<ensemble::MemberState>& states,
+                   ensemble::MemberStage stage) {
+  const std::vector<double> of_variant = ensemble::estimated_seconds(plan);
   double seconds = 0.0;
   for (std::size_t m = 0; m < plan.members.size(); ++m)
     if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
@@ -39,26 +40,26 @@ double estimate_of(const EnsemblePlan& plan, const std::vector<MemberState>& sta
 
 /// "seed-3 waits for process 12 on host a", of the first member that waits for whoever writes its run; empty
 /// where there is none.
-std::string wait_text(const EnsemblePlan& plan, const std::vector<MemberState>& states) {
+std::string wait_text(const ensemble::EnsemblePlan& plan, const std::vector<ensemble::MemberState>& states) {
   for (std::size_t m = 0; m < states.size(); ++m)
-    if (states[m].stage == MemberStage::waiting)
-      if (const std::string writer = writer_of(run_folder(plan.members[m].path)); !writer.empty())
+    if (states[m].stage == ensemble::MemberStage::waiting)
+      if (const std::string writer = io::writer_of(io::run_folder(plan.members[m].path)); !writer.empty())
         return fmt::format("{} waits for {}", visible(plan.members[m].name), visible(writer));
   return "";
 }
 
 /// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes by
 /// the members that came to an end since the line began; `before`: the estimate of those done before, s.
-void show(StatusLine& line, const EnsemblePlan& plan, double before) {
-  const std::vector<MemberState> states = look_at_members(plan);
-  const std::size_t done = count_of(states, MemberStage::done),
-                    failed = count_of(states, MemberStage::failed);
-  const double finished = estimate_of(plan, states, MemberStage::done) - before;
-  const double left =
-      estimate_of(plan, states, MemberStage::waiting) + estimate_of(plan, states, MemberStage::claimed);
+void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::size_t done = ensemble::count_of(states, ensemble::MemberStage::done),
+                    failed = ensemble::count_of(states, ensemble::MemberStage::failed);
+  const double finished = estimate_of(plan, states, ensemble::MemberStage::done) - before;
+  const double left = estimate_of(plan, states, ensemble::MemberStage::waiting) +
+                      estimate_of(plan, states, ensemble::MemberStage::claimed);
   const std::string failures = failed > 0 ? fmt::format(", {} failed", failed) : "";
   Progress progress{fmt::format("ensemble: {} of {} members done, {} under way{}", done, states.size(),
-                                count_of(states, MemberStage::claimed), failures),
+                                ensemble::count_of(states, ensemble::MemberStage::claimed), failures),
                     static_cast<double>(done) / static_cast<double>(states.size()),
                     line.elapsed(),
                     {}};
@@ -76,12 +77,13 @@ struct AveragesOnTheWay {
 
 /// Makes them anew once a minute, where more members are done than before; for many members less often, so
 /// that it takes a twentieth of the time of this process at most.
-void renew(AveragesOnTheWay& averages, const std::string& folder, KnownMembers& known) {
+void renew(AveragesOnTheWay& averages, const std::string& folder, ensemble::KnownMembers& known) {
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < averages.interval) return;
   averages.made = now;
-  const std::size_t done =
-      count_of(look_at_members(plan_of(read_ensemble(folder), folder)), MemberStage::done);
+  const std::size_t done = ensemble::count_of(
+      ensemble::look_at_members(ensemble::plan_of(ensemble::read_ensemble(folder), folder)),
+      ensemble::MemberStage::done);
   if (done == averages.members) return;
   averages.members = done;
   try {
@@ -95,36 +97,37 @@ void renew(AveragesOnTheWay& averages, const std::string& folder, KnownMembers& 
 }
 
 std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
-  std::vector<std::string> words = {"ensemble", "work", path_word(workers.folder), "--stale",
+  std::vector<std::string> words = {"ensemble", "work", ensemble::path_word(workers.folder), "--stale",
                                     fmt::format("{}", workers.times.stale)};
   if (!workers.max_wall.empty()) words.insert(words.end(), {"--max-wall", workers.max_wall});
   return words;
 }
 
 /// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
-std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const EnsemblePlan& plan,
-                                   KnownMembers& known) {
-  const std::vector<MemberState> states = look_at_members(plan);
-  const std::size_t missing =
-      states.size() - count_of(states, MemberStage::done) - count_of(states, MemberStage::failed);
+std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
+                                             const ensemble::EnsemblePlan& plan,
+                                             ensemble::KnownMembers& known) {
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::size_t missing = states.size() - ensemble::count_of(states, ensemble::MemberStage::done) -
+                              ensemble::count_of(states, ensemble::MemberStage::failed);
   if (missing == 0) return {};
-  std::vector<Job> jobs;
+  std::vector<ensemble::Job> jobs;
   for (std::size_t k = 1; k <= std::min<std::size_t>(missing, static_cast<std::size_t>(workers.jobs)); ++k) {
     const std::string name = fmt::format("worker-{}", k);
     jobs.push_back({worker_words(workers),
                     (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string()});
   }
-  const double before = estimate_of(plan, states, MemberStage::done);
+  const double before = estimate_of(plan, states, ensemble::MemberStage::done);
   StatusLine line(false, 2.0, 60.0);  // a look at ten thousand members takes some hundredths of a second
-  AveragesOnTheWay averages{count_of(states, MemberStage::done)};
+  AveragesOnTheWay averages{ensemble::count_of(states, ensemble::MemberStage::done)};
   const auto show_now_and_then = [&] {
     renew(averages, workers.folder, known);
     if (line.is_due()) show(line, plan, before);
     return true;
   };
-  std::vector<FailedJob> failed = run_jobs(jobs, "the ensemble", show_now_and_then);
+  std::vector<ensemble::FailedJob> failed = ensemble::run_jobs(jobs, "the ensemble", show_now_and_then);
   line.finish();
-  const bool stopped = std::ranges::any_of(failed, [](const FailedJob& worker) {
+  const bool stopped = std::ranges::any_of(failed, [](const ensemble::FailedJob& worker) {
     return worker.exit_code == static_cast<int>(ExitCode::stopped);
   });
   if (stopped) throw Error(ExitCode::stopped, "the ensemble was stopped; repeat the command to continue");
@@ -133,106 +136,113 @@ std::vector<FailedJob> run_workers(const EnsembleWorkers& workers, const Ensembl
 
 }  // namespace
 
-std::size_t begin_damaged_anew(const EnsemblePlan& plan, KnownMembers& known) {
-  std::vector<MemberState> states = look_at_members(plan);
-  look_for_damage(plan, states, known);
+std::size_t begin_damaged_anew(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known) {
+  std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  ensemble::look_for_damage(plan, states, known);
   std::size_t count = 0;
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].damage.empty()) continue;
-    if (const std::string damage = set_damaged_aside(plan.members[m].path); !damage.empty())
+    if (const std::string damage = io::set_damaged_aside(plan.members[m].path); !damage.empty())
       print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
     ++count;
   }
   return count;
 }
 
-void compute_members(const EnsembleWorkers& workers, KnownMembers& known) {
-  ClaimWatch watch{workers.times, {}};
+void compute_members(const EnsembleWorkers& workers, ensemble::KnownMembers& known) {
+  ensemble::ClaimWatch watch{workers.times, {}};
   for (std::size_t ended = 0;;) {
-    const EnsemblePlan plan = plan_of(read_ensemble(workers.folder), workers.folder);
+    const ensemble::EnsemblePlan plan =
+        ensemble::plan_of(ensemble::read_ensemble(workers.folder), workers.folder);
     begin_damaged_anew(plan, known);
-    std::vector<FailedJob> killed;
-    if (has_work(plan, look_at_members(plan), watch)) killed = run_workers(workers, plan, known);
+    std::vector<ensemble::FailedJob> killed;
+    if (ensemble::has_work(plan, ensemble::look_at_members(plan), watch))
+      killed = run_workers(workers, plan, known);
     const EnsembleView view = view_of_ensemble(workers.folder, known);
     const std::size_t ended_now = count_ended(view);
     if (ended_now == view.states.size()) return;
     const bool limited = !workers.max_wall.empty();
     if (!killed.empty() && (limited || ended_now == ended))
-      refuse(killed, "and no member came to an end meanwhile");
+      ensemble::refuse(killed, "and no member came to an end meanwhile");
     if (limited) return;
     ended = ended_now;
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }
 }
 
-void drop_old_frames(const std::string& folder, KnownMembers& known) {
-  const EnsembleManifest manifest = read_ensemble(folder);
-  const EnsemblePlan plan = plan_of(manifest, folder);
-  drop_leftovers(plan);
-  if (const std::size_t dropped = drop_frames(manifest, plan, folder, known); dropped > 0)
+void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known) {
+  const ensemble::EnsembleManifest manifest = ensemble::read_ensemble(folder);
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(manifest, folder);
+  ensemble::drop_leftovers(plan);
+  if (const std::size_t dropped = ensemble::drop_frames(manifest, plan, folder, known); dropped > 0)
     print_error(
         "talus: note: the frames of %zu member%s that %s done are removed (--keep %s); run and analysis "
         "stay\n",
         dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep).c_str());
 }
 
-void refuse_old_tables(const EnsemblePlan& plan) {
-  const std::vector<MemberState> states = look_at_members(plan);
+void refuse_old_tables(const ensemble::EnsemblePlan& plan) {
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m)
-    if (states[m].has_old_table && states[m].stage != MemberStage::done)
+    if (states[m].has_old_table && states[m].stage != ensemble::MemberStage::done)
       throw Error(
           ExitCode::bad_data,
           fmt::format("{} is the table of a member whose run an earlier version of Talus has not kept; go on "
                       "in another folder, or remove it, and the member is computed again",
-                      file_beside(plan.members[m].path, ".csv")));
+                      ensemble::file_beside(plan.members[m].path, ".csv")));
 }
 
 /// What a corrected command has taken out of an ensemble.
-static void tell_withdrawn(const std::vector<Variant>& before, const std::vector<Variant>& now) {
-  for (const Variant& variant : before)
-    if (std::ranges::find(now, variant.name, &Variant::name) == now.end())
+static void tell_withdrawn(const std::vector<ensemble::Variant>& before,
+                           const std::vector<ensemble::Variant>& now) {
+  for (const ensemble::Variant& variant : before)
+    if (std::ranges::find(now, variant.name, &ensemble::Variant::name) == now.end())
       print_error("talus: note: %s is withdrawn from the ensemble: no member of it could be computed\n",
                   variant.name.empty() ? "the scenario as it was" : variant.name.c_str());
 }
 
-void begin_ensemble(const std::string& folder, const EnsembleManifest& wanted,
-                    const std::vector<std::string>& inputs, KnownMembers& known) {
-  const bool is_new = !is_ensemble(folder);
-  EnsembleManifest asked = wanted;
-  take_earlier_names(asked.variants, folder);
-  hash_beds(asked.variants, folder);
+void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest& wanted,
+                    const std::vector<std::string>& inputs, ensemble::KnownMembers& known) {
+  const bool is_new = !ensemble::is_ensemble(folder);
+  ensemble::EnsembleManifest asked = wanted;
+  ensemble::take_earlier_names(asked.variants, folder);
+  ensemble::hash_beds(asked.variants, folder);
   if (is_new)
-    for (const Member& member : plan_of(asked, folder).members) is_complete(member);
-  const std::vector<Variant> before = is_new ? std::vector<Variant>() : read_ensemble(folder).variants;
+    for (const ensemble::Member& member : ensemble::plan_of(asked, folder).members)
+      ensemble::is_complete(member);
+  const std::vector<ensemble::Variant> before =
+      is_new ? std::vector<ensemble::Variant>() : ensemble::read_ensemble(folder).variants;
   prepare_folder(folder);
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
-  tell_withdrawn(before, extend_ensemble(folder, asked).variants);
-  refuse_old_tables(plan_of(read_ensemble(folder), folder));
+  tell_withdrawn(before, ensemble::extend_ensemble(folder, asked).variants);
+  refuse_old_tables(ensemble::plan_of(ensemble::read_ensemble(folder), folder));
   note_missing_locks();
   drop_old_frames(folder, known);
 }
 
-EnsembleView compute_ensemble(const EnsembleManifest& wanted, const EnsembleWorkers& workers,
+EnsembleView compute_ensemble(const ensemble::EnsembleManifest& wanted, const EnsembleWorkers& workers,
                               const std::vector<std::string>& inputs) {
-  KnownMembers known;
+  ensemble::KnownMembers known;
   begin_ensemble(workers.folder, wanted, inputs, known);
   if (workers.jobs > 0) compute_members(workers, known);
   drop_old_frames(workers.folder, known);
   return write_averages(workers.folder, known);
 }
 
-void refuse_failures(const EnsemblePlan& plan, const std::string& consequence) {
-  const std::vector<MemberState> states = look_at_members(plan);
-  std::vector<FailedJob> failed;
+void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& consequence) {
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  std::vector<ensemble::FailedJob> failed;
   for (std::size_t m = 0; m < states.size(); ++m) {
-    if (states[m].stage != MemberStage::failed) continue;
-    const MemberFailure failure = read_failure(plan.members[m].path);
-    failed.push_back({file_beside(plan.members[m].path, ".log"), failure.exit_code, failure.message});
+    if (states[m].stage != ensemble::MemberStage::failed) continue;
+    const ensemble::MemberFailure failure = ensemble::read_failure(plan.members[m].path);
+    failed.push_back(
+        {ensemble::file_beside(plan.members[m].path, ".log"), failure.exit_code, failure.message});
   }
   if (failed.empty()) return;
   const char* const them = failed.size() == 1 ? "it" : "them";
-  refuse(failed, fmt::format("{} until talus ensemble retry lets {} be computed again", consequence, them));
+  ensemble::refuse(failed,
+                   fmt::format("{} until talus ensemble retry lets {} be computed again", consequence, them));
 }
 
 void tell_wait(const std::string& member, const std::string& writer) {
@@ -240,4 +250,4 @@ void tell_wait(const std::string& member, const std::string& writer) {
               writer.c_str());
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -14,7 +14,7 @@
 #include "ensemble/plus_minus.h"
 #include "runs/event_catalogue.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr std::string_view group_of_events = "events/";
@@ -39,24 +39,24 @@ struct EventUnits {
 
   explicit EventUnits(const RunStatics& statics)
       : diameter(statics.mean_diameter),
-        energy(mean_grain_mass(statics) * statics.gravity * diameter),
+        energy(runs::mean_grain_mass(statics) * statics.gravity * diameter),
         velocity(std::sqrt(statics.gravity * diameter)),
         time(std::sqrt(diameter / statics.gravity)) {}
 };
 
-std::string_view mark_of(const EventRecord& event) {
-  switch (static_cast<EventKind>(event.kind)) {
-    case EventKind::failure:
+std::string_view mark_of(const analysis::EventRecord& event) {
+  switch (static_cast<analysis::EventKind>(event.kind)) {
+    case analysis::EventKind::failure:
       return "failure";
-    case EventKind::unfinished:
+    case analysis::EventKind::unfinished:
       return "not over";
-    case EventKind::rearrangement:
+    case analysis::EventKind::rearrangement:
       break;
   }
   return event.sharing > 1 ? "*" : "";
 }
 
-std::vector<TextCell> event_row(const EventRecord& event, const EventUnits& unit) {
+std::vector<TextCell> event_row(const analysis::EventRecord& event, const EventUnits& unit) {
   return {{number_cell("{:.3f}", degrees(event.begin))},
           {number_cell("{:.3f}", degrees(event.waiting))},
           {number_cell("{:.2f}", event.duration / unit.time)},
@@ -73,7 +73,7 @@ std::vector<TextCell> event_row(const EventRecord& event, const EventUnits& unit
 }
 
 /// Places of the events that are shown, in their order.
-std::vector<std::size_t> shown_events(const std::vector<EventRecord>& events, std::size_t largest) {
+std::vector<std::size_t> shown_events(const std::vector<analysis::EventRecord>& events, std::size_t largest) {
   std::vector<std::size_t> places(events.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   if (largest == 0 || largest >= places.size()) return places;
@@ -86,8 +86,8 @@ std::vector<std::size_t> shown_events(const std::vector<EventRecord>& events, st
   return places;
 }
 
-std::string events_heading(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::string events_heading(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   const auto tilt = [](double angle) { return fmt::format("{:.2f} deg", degrees(angle)); };
   const std::size_t count = analysis.events.size();
   return fmt::format(
@@ -96,8 +96,8 @@ std::string events_heading(const RunView& run) {
       std::isnan(analysis.theta_c) ? "the slope has not failed" : "theta_c = " + tilt(analysis.theta_c));
 }
 
-std::string threshold_text(const RunView& run, const EventUnits& unit) {
-  const Analysis& analysis = run.analysis;
+std::string threshold_text(const runs::RunView& run, const EventUnits& unit) {
+  const analysis::Analysis& analysis = run.analysis;
   if (std::isnan(analysis.event_threshold))
     return "The steps of the tilt are not in the file: its events are not known.\n";
   const double noise = analysis.event_noise;
@@ -109,8 +109,8 @@ std::string threshold_text(const RunView& run, const EventUnits& unit) {
       analysis.event_threshold / unit.velocity, over_noise, analysis.event_quiet_time / unit.time);
 }
 
-std::string event_table(const RunView& run, const EventUnits& unit, std::size_t largest) {
-  const std::vector<EventRecord>& events = run.analysis.events;
+std::string event_table(const runs::RunView& run, const EventUnits& unit, std::size_t largest) {
+  const std::vector<analysis::EventRecord>& events = run.analysis.events;
   const std::vector<std::size_t> shown = shown_events(events, largest);
   TextTable table;
   for (const auto& [title, shown_unit] : event_titles) table.columns.push_back({title, true, shown_unit});
@@ -119,63 +119,65 @@ std::string event_table(const RunView& run, const EventUnits& unit, std::size_t 
   std::string text = "\n" + aligned_text(table, 1);
   if (shown.size() < events.size())
     text += fmt::format("the {} largest of {} by their energy\n", shown.size(), events.size());
-  if (std::ranges::any_of(events, [](const EventRecord& event) { return event.sharing > 1; }))
+  if (std::ranges::any_of(events, [](const analysis::EventRecord& event) { return event.sharing > 1; }))
     text += "* shares its frames with other events: grains, depth, x and y are of all of them together\n";
   return text;
 }
 
 std::string too_few(double count) {
-  return fmt::format("no law: {:.0f} where {} are needed", count, fewest_to_tell);
+  return fmt::format("no law: {:.0f} where {} are needed", count, analysis::fewest_to_tell);
 }
 
-std::string sizes_line(const Analysis& analysis, const EventUnits& unit) {
+std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& unit) {
   if (std::isnan(analysis.event_size_exponent)) return too_few(analysis.event_size_count);
   return fmt::format("density ~ E^-a, a = {} from E = {:.3g} m g D on ({:.0f} of {:.0f})",
-                     plus_minus(analysis.event_size_exponent, analysis.event_size_exponent_error),
+                     ensemble::plus_minus(analysis.event_size_exponent, analysis.event_size_exponent_error),
                      analysis.event_size_minimum / unit.energy, analysis.event_size_count,
                      analysis.event_count);
 }
 
-std::string waits_line(const Analysis& analysis) {
+std::string waits_line(const analysis::Analysis& analysis) {
   if (std::isnan(analysis.event_waiting_exponent)) return too_few(analysis.event_waiting_count);
   return fmt::format(
       "mean {} deg beyond the shortest; as a power law a = {} from {:.3g} deg on ({:.0f})",
-      plus_minus(degrees(analysis.event_waiting_mean), degrees(analysis.event_waiting_mean_error)),
-      plus_minus(analysis.event_waiting_exponent, analysis.event_waiting_exponent_error),
+      ensemble::plus_minus(degrees(analysis.event_waiting_mean), degrees(analysis.event_waiting_mean_error)),
+      ensemble::plus_minus(analysis.event_waiting_exponent, analysis.event_waiting_exponent_error),
       degrees(analysis.event_waiting_minimum), analysis.event_waiting_count);
 }
 
-std::string dilating_line(const Analysis& analysis) {
+std::string dilating_line(const analysis::Analysis& analysis) {
   const double share = analysis.event_dilating_share, error = analysis.event_dilating_share_error;
   if (std::isnan(share)) return "none";
-  return error > 0.0 ? plus_minus(share, error) : fmt::format("{:.2f}", share);
+  return error > 0.0 ? ensemble::plus_minus(share, error) : fmt::format("{:.2f}", share);
 }
 
-std::string name_of(const Quantity& quantity) { return quantity.name.substr(group_of_events.size()); }
+std::string name_of(const analysis::Quantity& quantity) {
+  return quantity.name.substr(group_of_events.size());
+}
 
 /// The value of one event, or both of them.
-Json value_json(const Quantity& quantity, std::size_t k, const Analysis& analysis) {
+Json value_json(const analysis::Quantity& quantity, std::size_t k, const analysis::Analysis& analysis) {
   return std::visit(
       [&](const auto& values) -> Json {
         const std::size_t width = values.size() / analysis.events.size();
         if (width == 1) return values[k];
         return {values[width * k], values[width * k + 1]};
       },
-      values_of(quantity, analysis));
+      analysis::values_of(quantity, analysis));
 }
 
-std::vector<Quantity> quantities_of_each() {
-  std::vector<Quantity> chosen = quantities();
-  std::erase_if(chosen, [](const Quantity& quantity) { return !is_of_events(quantity); });
+std::vector<analysis::Quantity> quantities_of_each() {
+  std::vector<analysis::Quantity> chosen = analysis::quantities();
+  std::erase_if(chosen, [](const analysis::Quantity& quantity) { return !analysis::is_of_events(quantity); });
   return chosen;
 }
 
-std::size_t width_of(const Quantity& quantity) { return quantity.shape == "E" ? 1 : 2; }
+std::size_t width_of(const analysis::Quantity& quantity) { return quantity.shape == "E" ? 1 : 2; }
 
 }  // namespace
 
-std::string event_summary(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::string event_summary(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   if (std::isnan(analysis.event_count))
     return "rearrangements: not known, the file has no steps of the tilt\n";
   const EventUnits unit(run.statics);
@@ -190,35 +192,35 @@ std::string event_summary(const RunView& run) {
       line("share that dilates the bed", dilating_line(analysis)));
 }
 
-std::string events_text(const RunView& run, std::size_t largest) {
+std::string events_text(const runs::RunView& run, std::size_t largest) {
   const EventUnits unit(run.statics);
   return fmt::format("{}{}{}\n{}", events_heading(run), threshold_text(run, unit),
                      run.analysis.events.empty() ? "" : event_table(run, unit, largest), event_summary(run));
 }
 
-std::string events_json(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::string events_json(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   Json json = {{"path", run.path},
                {"state", run.kept},
                {"mean_diameter", run.statics.mean_diameter},
-               {"mean_mass", mean_grain_mass(run.statics)},
+               {"mean_mass", runs::mean_grain_mass(run.statics)},
                {"gravity", run.statics.gravity},
                {"theta_c", analysis.theta_c}};
-  for (const Quantity& quantity : quantities())
-    if (quantity.name.starts_with(group_of_events) && !is_of_events(quantity))
-      json[name_of(quantity)] = number_of(quantity, analysis, 0);
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (quantity.name.starts_with(group_of_events) && !analysis::is_of_events(quantity))
+      json[name_of(quantity)] = analysis::number_of(quantity, analysis, 0);
   json["events"] = Json::array();
   for (std::size_t k = 0; k < analysis.events.size(); ++k) {
     Json& event = json["events"].emplace_back(Json::object());
-    for (const Quantity& quantity : quantities_of_each())
+    for (const analysis::Quantity& quantity : quantities_of_each())
       event[name_of(quantity)] = value_json(quantity, k, analysis);
   }
   return json_text(json);
 }
 
-std::string events_csv(const RunView& run, bool titles) {
+std::string events_csv(const runs::RunView& run, bool titles) {
   TextTable table{{{"run"}}, {}};
-  for (const Quantity& quantity : quantities_of_each()) {
+  for (const analysis::Quantity& quantity : quantities_of_each()) {
     const std::string unit = quantity.unit == "1" ? "" : fmt::format(" ({})", quantity.unit);
     for (std::size_t i = 0; i < width_of(quantity); ++i) {
       const std::string element = width_of(quantity) == 1 ? "" : fmt::format("[{}]", i);
@@ -228,16 +230,16 @@ std::string events_csv(const RunView& run, bool titles) {
   for (std::size_t k = 0; k < run.analysis.events.size(); ++k) {
     auto& row = table.rows.emplace_back();
     row.push_back({csv_quoted(run.path)});
-    for (const Quantity& quantity : quantities_of_each())
+    for (const analysis::Quantity& quantity : quantities_of_each())
       std::visit(
           [&](const auto& values) {
             const std::size_t width = width_of(quantity);
             for (std::size_t i = width * k; i < width * (k + 1); ++i)
               row.push_back({std::isnan(static_cast<double>(values[i])) ? "" : fmt::format("{}", values[i])});
           },
-          values_of(quantity, run.analysis));
+          analysis::values_of(quantity, run.analysis));
   }
   return csv_text(table, titles);
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -11,30 +11,30 @@
 #include "app/terminal.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct EventsArguments {
   std::vector<std::string> runs;
   std::vector<std::string> settings;
-  AnalysisOptions options;
+  runs::AnalysisOptions options;
   std::size_t largest = 0;
   bool json = false, csv = false, quiet = false;
 };
 
-std::string text_of(const EventsArguments& arguments, const RunView& run, bool first) {
+std::string text_of(const EventsArguments& arguments, const runs::RunView& run, bool first) {
   if (arguments.json) return (first ? "[" : ",\n") + events_json(run);
   if (arguments.csv) return events_csv(run, first);
   return (first ? "" : "\n") + events_text(run, arguments.largest);
 }
 
 void list_events(const EventsArguments& arguments) {
-  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
-  AnalysisOptions options = arguments.options;
+  const analysis::AnalysisParameters parameters = runs::parse_analysis_settings(arguments.settings);
+  runs::AnalysisOptions options = arguments.options;
   options.progress = count_shown("analysis", arguments.quiet);
   bool first = true;
   for (const std::string& path : runs_among(arguments.runs)) {
-    const RunView run = analysed_run(path, parameters, options);
+    const runs::RunView run = runs::analysed_run(path, parameters, options);
     print_text(text_of(arguments, run, first));
     std::fflush(stdout);
     first = false;
@@ -84,4 +84,4 @@ void add_events_command(CLI::App& app) {
   command->callback([arguments] { list_events(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -19,11 +19,11 @@
 #include "base/nearest_word.h"
 #include "base/text.h"
 #include "base/visible_text.h"
-#include "export/export_files.h"
+#include "exports/export_files.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct ExportArguments {
@@ -37,18 +37,18 @@ struct ExportArguments {
   bool quiet = false;
 };
 
-ExportFormat format_of(const std::string& name) {
-  if (const auto format = export_format(name)) return *format;
+exports::ExportFormat format_of(const std::string& name) {
+  if (const auto format = exports::export_format(name)) return *format;
   throw Error(ExitCode::usage,
               fmt::format("--to {}: no such format; expected one of {}{}", visible_word(name),
-                          joined(export_formats(), ", ", &FormatEntry::name),
-                          did_you_mean(name, names_of(export_formats()))));
+                          joined(exports::export_formats(), ", ", &exports::FormatEntry::name),
+                          did_you_mean(name, names_of(exports::export_formats()))));
 }
 
 /// Without a threshold no grain is overloaded, and none is not.
-void tell_what_is_left_out(const RunFile& run, const ExportPlan& plan) {
+void tell_what_is_left_out(const io::RunFile& run, const exports::ExportPlan& plan) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
-  if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == ExportFormat::vti) return;
+  if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == exports::ExportFormat::vti) return;
   print(
       "Overloaded grains, their lengths and clusters are left out: the slope has not failed in this run, so "
       "its "
@@ -59,18 +59,18 @@ bool asks_for_frames(const FrameOptions& frames) {
   return !frames.numbers.empty() || !frames.at.empty() || frames.every;
 }
 
-ExportPlan plan_export(const ExportArguments& arguments) {
-  ExportPlan plan;
+exports::ExportPlan plan_export(const ExportArguments& arguments) {
+  exports::ExportPlan plan;
   plan.format = format_of(arguments.format);
   plan.output = arguments.output;
   plan.run = arguments.run;
   plan.flow = arguments.frames.flow;
-  plan.parameters = parse_analysis_settings(arguments.settings);
-  check_output_name(plan.format, plan.output);
-  if (arguments.length && plan.format != ExportFormat::vti)
+  plan.parameters = runs::parse_analysis_settings(arguments.settings);
+  exports::check_output_name(plan.format, plan.output);
+  if (arguments.length && plan.format != exports::ExportFormat::vti)
     throw Error(ExitCode::usage, "--length: it is for --to vti, the only format of coarse-grained fields");
   plan.field_width = arguments.length.value_or(plan.field_width);
-  if (!entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
+  if (!exports::entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
     throw Error(
         ExitCode::usage,
         fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no meaning for "
@@ -80,21 +80,21 @@ ExportPlan plan_export(const ExportArguments& arguments) {
 }
 
 void export_run(const ExportArguments& arguments) {
-  ExportPlan plan = plan_export(arguments);
-  const FormatEntry& format = entry_of(plan.format);
-  const RunFile run = RunFile::open(arguments.run);
+  exports::ExportPlan plan = plan_export(arguments);
+  const exports::FormatEntry& format = exports::entry_of(plan.format);
+  const io::RunFile run = io::RunFile::open(arguments.run);
   if (format.has_frames)
     plan.frames = chosen_frames(run, arguments.run, arguments.frames);
   else
     require_flow(run, arguments.run, arguments.frames);
-  for (const std::string& file : files_of(plan))
+  for (const std::string& file : exports::files_of(plan))
     output_target(file, output_of_run(arguments.run, arguments.overwrite));
   if (format.needs_analysis)
-    plan.analysis =
-        analysed_run(arguments.run, plan.parameters, {.progress = count_shown("analysis", arguments.quiet)})
-            .analysis;
+    plan.analysis = runs::analysed_run(arguments.run, plan.parameters,
+                                       {.progress = count_shown("analysis", arguments.quiet)})
+                        .analysis;
   const std::size_t count =
-      export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
+      exports::export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
   if (format.has_frames) tell_what_is_left_out(run, plan);
   print("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
@@ -112,9 +112,10 @@ void add_export_command(CLI::App& app) {
                    "Run to export: RUN.h5, or the folder RUN.h5.run of one that is under way")
       ->required();
   // A name that is none is refused with the nearest, by format_of; the parser shows them.
-  command->add_option("--to", arguments->format, "Format. " + list_of_formats())
+  command->add_option("--to", arguments->format, "Format. " + exports::list_of_formats())
       ->required()
-      ->type_name(fmt::format("FORMAT:{{{}}}", joined(export_formats(), ",", &FormatEntry::name)));
+      ->type_name(
+          fmt::format("FORMAT:{{{}}}", joined(exports::export_formats(), ",", &exports::FormatEntry::name)));
   command
       ->add_option("-o,--output", arguments->output,
                    "File or folder to write, as the format has it; folders are made where they are missing")
@@ -140,4 +141,4 @@ void add_export_command(CLI::App& app) {
   command->callback([arguments] { export_run(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

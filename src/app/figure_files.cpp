@@ -17,12 +17,12 @@
 #include "render/png.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double dots_per_cm = map_resolution / 2.54;
+constexpr double dots_per_cm = figures::map_resolution / 2.54;
 constexpr const char* endings[] = {".pdf", ".svg", ".png"};
 
 /// A folder that vanishes with all that is still in it. One that a kill left is replaced.
@@ -45,18 +45,19 @@ struct Workshop {
   std::optional<Descriptor> lock;
 };
 
-void draw_maps(const Figure& figure, const fs::path& folder, double width) {
+void draw_maps(const figures::Figure& figure, const fs::path& folder, double width) {
   static std::mutex drawing;  // the memory of one picture at a time
   if (figure.maps.empty()) return;
   const std::lock_guard one_at_a_time(drawing);
-  Renderer renderer(make_context(std::nullopt));
-  for (const FigureMap& map : figure.maps)
-    write_png((folder / file_of(figure, map)).string(),
-              renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));
+  render::Renderer renderer(render::make_context(std::nullopt));
+  for (const figures::FigureMap& map : figure.maps)
+    render::write_png(
+        (folder / figures::file_of(figure, map)).string(),
+        renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));
 }
 
 /// gnuplot draws into memory, as it ends well even where it could not write all.
-void draw(const Figure& figure, const fs::path& folder) {
+void draw(const figures::Figure& figure, const fs::path& folder) {
   std::vector<std::pair<std::string, MemoryFile>> drawings;
   for (const char* ending : endings) {
     const std::string path = (folder / (figure.name + ending)).string();
@@ -67,7 +68,7 @@ void draw(const Figure& figure, const fs::path& folder) {
   }
   run_gnuplot(folder.string(), figure.name + ".gp");
   for (const auto& [path, made] : drawings) {
-    remove_file(path);
+    io::remove_file(path);
     OutputFile file(path);
     made.copy_to(file);
     file.commit();
@@ -76,29 +77,29 @@ void draw(const Figure& figure, const fs::path& folder) {
 
 }  // namespace
 
-std::vector<std::string> figure_files(const Figure& figure) {
+std::vector<std::string> figure_files(const figures::Figure& figure) {
   std::vector<std::string> names;
   for (const char* ending : endings) names.push_back(figure.name + ending);
-  for (const Table& table : figure.tables) names.push_back(file_of(figure, table));
-  for (const FigureMap& map : figure.maps) names.push_back(file_of(figure, map));
+  for (const figures::Table& table : figure.tables) names.push_back(figures::file_of(figure, table));
+  for (const figures::FigureMap& map : figure.maps) names.push_back(figures::file_of(figure, map));
   for (const char* ending : {".gp", ".json"}) names.push_back(figure.name + ending);
   return names;
 }
 
-void write_figure(const Figure& figure, std::span<const RunGroup> groups, const std::string& folder,
-                  const FigureOptions& options) {
+void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
+                  const std::string& folder, const FigureOptions& options) {
   const double width = figure_width(figure, options.columns);
   prepare_folder(folder);
   const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
-  for (const Table& table : figure.tables)
-    write_text((workshop.path / file_of(figure, table)).string(), csv_text(table));
-  write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, width));
-  write_text((workshop.path / (figure.name + ".json")).string(),
-             provenance_json(figure, groups, options.command_line));
+  for (const figures::Table& table : figure.tables)
+    io::write_text((workshop.path / figures::file_of(figure, table)).string(), csv_text(table));
+  io::write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, width));
+  io::write_text((workshop.path / (figure.name + ".json")).string(),
+                 provenance_json(figure, groups, options.command_line));
   draw_maps(figure, workshop.path, width);
   draw(figure, workshop.path);
   for (const std::string& name : figure_files(figure))
     give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -8,7 +8,7 @@
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
-namespace talus {
+namespace talus::app {
 
 struct FigureOptions {
   int columns = 0;           ///< 1 or 2: 8.6 or 17.8 cm wide; 0: the figure's own width
@@ -16,13 +16,13 @@ struct FigureOptions {
 };
 
 /// The names of all files of a figure: what is drawn, its tables and maps, its script and its provenance.
-std::vector<std::string> figure_files(const Figure& figure);
+std::vector<std::string> figure_files(const figures::Figure& figure);
 
 /// Writes all files of a figure into a folder, which is made where it is missing. Files that exist are
 /// replaced (refuse_existing asks before). They are made in a folder beside and renamed when all are whole,
 /// the provenance last. `groups` hold the runs of the figure. Throws Error(unavailable) where there is no
 /// gnuplot or no rendering context, Error(cannot_create), and Error(io_error) with what gnuplot said.
-void write_figure(const Figure& figure, std::span<const RunGroup> groups, const std::string& folder,
-                  const FigureOptions& options);
+void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
+                  const std::string& folder, const FigureOptions& options);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -16,7 +16,7 @@
 #include "ensemble/member_state.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 /// What is read so far, and how runs are to be analysed.
 struct Reading {
   const std::vector<std::string>& settings;
-  AnalysisParameters parameters;
-  const AnalysisOptions& options;
+  analysis::AnalysisParameters parameters;
+  const runs::AnalysisOptions& options;
   FigureInput input = {};
 };
 
-RunView open_run(const std::string& path, const AnalysisParameters& parameters,
-                 const AnalysisOptions& options) {
-  RunView run = analysed_run(path, parameters, options);
+runs::RunView open_run(const std::string& path, const analysis::AnalysisParameters& parameters,
+                       const runs::AnalysisOptions& options) {
+  runs::RunView run = runs::analysed_run(path, parameters, options);
   if (!run.is_kept && options.progress) print_error("talus: note: %s: %s\n", path.c_str(), run.kept.c_str());
   return run;
 }
@@ -51,45 +51,46 @@ void refuse_settings(const Reading& reading, const std::string& path) {
 }
 
 void add_ensemble(Reading& reading, const std::string& folder) {
-  const EnsemblePlan plan = plan_of(read_ensemble(folder), folder);
-  const std::vector<MemberState> states = look_at_members(plan);
-  if (count_of(states, MemberStage::done) == 0)
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  if (ensemble::count_of(states, ensemble::MemberStage::done) == 0)
     throw Error(ExitCode::missing_input,
                 fmt::format("{}: no member of this ensemble is done yet; talus ensemble status {} tells how "
                             "far they are",
                             folder, folder));
   for (std::size_t m = 0; m < states.size(); ++m) {
-    if (states[m].stage != MemberStage::done) continue;
+    if (states[m].stage != ensemble::MemberStage::done) continue;
     add_run(reading, plan.members[m].path);
-    require_own_run(plan.members[m], reading.input.runs.back().file->header());
+    ensemble::require_own_run(plan.members[m], reading.input.runs.back().file->header());
   }
 }
 
 void add_values(Reading& reading, const std::string& path) {
   refuse_settings(reading, path);
-  for (const StoredVariant& variant : read_averages(path))
+  for (const ensemble::StoredVariant& variant : ensemble::read_averages(path))
     for (std::size_t m = 0; m < variant.seeds.size(); ++m)
-      reading.input.runs.push_back(view_of_values(path, variant, m));
+      reading.input.runs.push_back(ensemble::view_of_values(path, variant, m));
   reading.input.files.push_back(path);
 }
 
 }  // namespace
 
-std::vector<RunView> open_figure_runs(const std::vector<std::string>& paths,
-                                      const AnalysisParameters& parameters, const AnalysisOptions& options) {
-  std::vector<RunView> runs;
+std::vector<runs::RunView> open_figure_runs(const std::vector<std::string>& paths,
+                                            const analysis::AnalysisParameters& parameters,
+                                            const runs::AnalysisOptions& options) {
+  std::vector<runs::RunView> runs;
   for (const std::string& path : paths) runs.push_back(open_run(path, parameters, options));
   return runs;
 }
 
 FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
-                              const AnalysisOptions& options) {
-  Reading reading{settings, parse_analysis_settings(settings), options};
-  for (const std::string& path : runs_among(paths, holds_averages)) {
+                              const runs::AnalysisOptions& options) {
+  Reading reading{settings, runs::parse_analysis_settings(settings), options};
+  for (const std::string& path : runs_among(paths, ensemble::holds_averages)) {
     const std::string averages = (fs::path(path) / "ensemble.h5").string();
-    if (is_ensemble(path))
+    if (ensemble::is_ensemble(path))
       add_ensemble(reading, path);
-    else if (holds_averages(path))
+    else if (ensemble::holds_averages(path))
       add_values(reading, path);
     else if (is_there(averages))
       add_values(reading, averages);
@@ -99,4 +100,4 @@ FigureInput read_figure_input(const std::vector<std::string>& paths, const std::
   return std::move(reading.input);
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -7,15 +7,16 @@
 #include "figures/run_group.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::app {
 
 /// The runs at `paths`, in that order. Throws as analysed_run does.
-std::vector<RunView> open_figure_runs(const std::vector<std::string>& paths,
-                                      const AnalysisParameters& parameters, const AnalysisOptions& options);
+std::vector<runs::RunView> open_figure_runs(const std::vector<std::string>& paths,
+                                            const analysis::AnalysisParameters& parameters,
+                                            const runs::AnalysisOptions& options);
 
 /// What the arguments of `talus figures` stand for.
 struct FigureInput {
-  std::vector<RunView> runs;
+  std::vector<runs::RunView> runs;
   std::vector<std::string> files;  ///< files and folders that were read, and must not be replaced
 };
 
@@ -24,6 +25,6 @@ struct FigureInput {
 /// anew. Throws Error(missing_input) where an ensemble has no member that is done, Error(usage) where there
 /// are settings and no runs to analyse, and as analysed_run, read_ensemble and read_averages do.
 FigureInput read_figure_input(const std::vector<std::string>& paths, const std::vector<std::string>& settings,
-                              const AnalysisOptions& options);
+                              const runs::AnalysisOptions& options);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -11,20 +11,20 @@
 #include "figures/scripts.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// What the scripts of all figures share, in the order in which one builds on the other.
 constexpr std::string_view common_scripts[] = {"style", "text", "axes", "key", "maps"};
 
-Json table_json(const Figure& figure, const Table& table) {
+Json table_json(const figures::Figure& figure, const figures::Table& table) {
   Json columns = Json::array();
-  for (const Column& column : table.columns)
+  for (const figures::Column& column : table.columns)
     columns.push_back({{"name", column.name}, {"unit", column.unit}, {"meaning", column.meaning}});
-  return {{"file", file_of(figure, table)}, {"columns", columns}};
+  return {{"file", figures::file_of(figure, table)}, {"columns", columns}};
 }
 
-Json run_json(const RunView& run, const std::string& group) {
+Json run_json(const runs::RunView& run, const std::string& group) {
   const std::string& scenario = run.scenario_text;
   return {{"path", run.path},
           {"group", group},
@@ -37,29 +37,29 @@ Json run_json(const RunView& run, const std::string& group) {
 
 }  // namespace
 
-std::string csv_text(const Table& table) {
-  std::string text = joined(table.columns, ",", &Column::name) + "\n";
+std::string csv_text(const figures::Table& table) {
+  std::string text = joined(table.columns, ",", &figures::Column::name) + "\n";
   const std::size_t rows = table.columns.empty() ? 0 : table.columns.front().values.size();
   for (std::size_t r = 0; r < rows; ++r) {
     const std::vector<double>& first = table.columns.front().values;
     if (table.in_blocks && r > 0 && first[r] != first[r - 1]) text += '\n';
-    for (const Column& column : table.columns) {
+    for (const figures::Column& column : table.columns) {
       const double value = column.values[r];
-      text += std::isnan(value) ? std::string("NaN") : short_text(value);
+      text += std::isnan(value) ? std::string("NaN") : scenario::short_text(value);
       text += &column == &table.columns.back() ? '\n' : ',';
     }
   }
   return text;
 }
 
-std::string provenance_json(const Figure& figure, std::span<const RunGroup> groups,
+std::string provenance_json(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                             const std::string& command_line) {
   Json runs = Json::array(), tables = Json::array();
-  for (const RunGroup& group : groups)
-    for (const RunView& run : group.runs)
+  for (const figures::RunGroup& group : groups)
+    for (const runs::RunView& run : group.runs)
       if (std::ranges::find(figure.runs, run.path) != figure.runs.end())
         runs.push_back(run_json(run, group.label));
-  for (const Table& table : figure.tables) tables.push_back(table_json(figure, table));
+  for (const figures::Table& table : figure.tables) tables.push_back(table_json(figure, table));
   return json_text({{"figure", figure.name},
                     {"title", figure.title},
                     {"caption", figure.caption},
@@ -70,19 +70,21 @@ std::string provenance_json(const Figure& figure, std::span<const RunGroup> grou
          "\n";
 }
 
-double figure_width(const Figure& figure, int columns) {
+double figure_width(const figures::Figure& figure, int columns) {
   return column_widths[columns > 0 ? columns - 1 : figure.wide ? 1 : 0];
 }
 
-std::string gnuplot_text(const Figure& figure, double width) {
+std::string gnuplot_text(const figures::Figure& figure, double width) {
   std::string text = fmt::format(
       "# {0}\n# To draw it again as PDF, SVG and PNG: gnuplot {1}.gp\n\nfigure = \"{1}\"\nwidth = {2}  # "
       "cm\nheight = {3}\n",
-      figure.title, figure.name, short_text(width), short_text(width * figure.height_over_width));
+      figure.title, figure.name, scenario::short_text(width),
+      scenario::short_text(width * figure.height_over_width));
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
-  for (const std::string_view part : common_scripts) text += fmt::format("\n{}", figure_script(part));
+  for (const std::string_view part : common_scripts)
+    text += fmt::format("\n{}", figures::figure_script(part));
   return fmt::format("{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
-                     figure_script(figure.script.empty() ? figure.name : figure.script));
+                     figures::figure_script(figure.script.empty() ? figure.name : figure.script));
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -25,14 +25,14 @@
 #include "figures/catalogue.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct FiguresArguments {
   std::vector<std::string> runs;
   std::vector<std::string> only;
   std::vector<std::string> settings;
-  AnalysisOptions analysis;
+  runs::AnalysisOptions analysis;
   bool quiet = false;
   int columns = 0;  ///< 0: each figure's own
   std::string folder;
@@ -53,7 +53,7 @@ std::string long_form(const std::string& word) {
 
 [[noreturn]] void refuse_name(const std::string& word) {
   std::vector<std::string> names;
-  for (const FigureRecipe& recipe : figure_catalogue())
+  for (const figures::FigureRecipe& recipe : figures::figure_catalogue())
     for (const std::string_view name : {recipe.name, short_name(recipe.name)}) names.emplace_back(name);
   const std::string meant = did_you_mean(word, names);
   throw Error(ExitCode::usage, fmt::format("--only {}: there is no such figure{} talus figures --help lists "
@@ -62,36 +62,37 @@ std::string long_form(const std::string& word) {
 }
 
 /// The recipes that are asked for, in the order of the catalogue.
-std::vector<FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
-  const auto catalogue = figure_catalogue();
-  const auto is_called = [](const FigureRecipe& recipe, const std::string& word) {
+std::vector<figures::FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
+  const auto catalogue = figures::figure_catalogue();
+  const auto is_called = [](const figures::FigureRecipe& recipe, const std::string& word) {
     return recipe.name == word || short_name(recipe.name) == long_form(word);
   };
   for (const std::string& word : only)
     if (std::ranges::none_of(catalogue, [&](const auto& recipe) { return is_called(recipe, word); }))
       refuse_name(word);
-  std::vector<FigureRecipe> recipes(catalogue.begin(), catalogue.end());
+  std::vector<figures::FigureRecipe> recipes(catalogue.begin(), catalogue.end());
   if (!only.empty())
-    std::erase_if(recipes, [&](const FigureRecipe& recipe) {
+    std::erase_if(recipes, [&](const figures::FigureRecipe& recipe) {
       return std::ranges::none_of(only, [&](const std::string& word) { return is_called(recipe, word); });
     });
   return recipes;
 }
 
 /// Whether some run has what a figure is made from.
-bool is_there(Material material, std::span<const RunGroup> groups) {
-  const auto has = [material](const RunView& run) {
-    return material == Material::values || (run.file && run.file->has_frames()) ||
-           (material == Material::distributions && !run.analysis.gamma_edge.empty());
+bool is_there(figures::Material material, std::span<const figures::RunGroup> groups) {
+  const auto has = [material](const runs::RunView& run) {
+    return material == figures::Material::values || (run.file && run.file->has_frames()) ||
+           (material == figures::Material::distributions && !run.analysis.gamma_edge.empty());
   };
-  return std::ranges::any_of(groups,
-                             [&](const RunGroup& group) { return std::ranges::any_of(group.runs, has); });
+  return std::ranges::any_of(
+      groups, [&](const figures::RunGroup& group) { return std::ranges::any_of(group.runs, has); });
 }
 
 /// The figures that can be made of the runs; the others are named with what they need.
-std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::span<const RunGroup> groups) {
-  std::vector<Figure> figures;
-  for (const FigureRecipe& recipe : recipes)
+std::vector<figures::Figure> make_figures(const std::vector<figures::FigureRecipe>& recipes,
+                                          std::span<const figures::RunGroup> groups) {
+  std::vector<figures::Figure> figures;
+  for (const figures::FigureRecipe& recipe : recipes)
     if (auto figure = recipe.make(groups))
       figures.push_back(std::move(*figure));
     else
@@ -105,7 +106,7 @@ std::vector<Figure> make_figures(const std::vector<FigureRecipe>& recipes, std::
 }
 
 /// Side by side: gnuplot takes most of the time, and it draws a figure on one processor.
-void write_figures(const std::vector<Figure>& figures, std::span<const RunGroup> groups,
+void write_figures(const std::vector<figures::Figure>& figures, std::span<const figures::RunGroup> groups,
                    const FiguresArguments& arguments) {
   const CountDone progress = count_shown("figures", arguments.quiet);
   progress(0, figures.size());
@@ -114,7 +115,7 @@ void write_figures(const std::vector<Figure>& figures, std::span<const RunGroup>
   const auto work = [&] {
     std::unique_lock lock(counting);
     while (next < figures.size()) {
-      const Figure& figure = figures[next++];
+      const figures::Figure& figure = figures[next++];
       lock.unlock();
       try {
         stop_if_asked();
@@ -135,20 +136,21 @@ void write_figures(const std::vector<Figure>& figures, std::span<const RunGroup>
 }
 
 void make(const FiguresArguments& arguments) {
-  const std::vector<FigureRecipe> recipes = chosen_recipes(arguments.only);
-  parse_analysis_settings(arguments.settings);  // before anything is read
+  const std::vector<figures::FigureRecipe> recipes = chosen_recipes(arguments.only);
+  runs::parse_analysis_settings(arguments.settings);  // before anything is read
   require_gnuplot();
-  AnalysisOptions analysis = arguments.analysis;
+  runs::AnalysisOptions analysis = arguments.analysis;
   if (!arguments.quiet) analysis.progress = count_shown("analysis", false);
   FigureInput input = read_figure_input(arguments.runs, arguments.settings, analysis);
-  const std::vector<RunGroup> groups = group_runs(std::move(input.runs));
-  const std::vector<Figure> figures = make_figures(recipes, groups);
+  const std::vector<figures::RunGroup> groups = figures::group_runs(std::move(input.runs));
+  const std::vector<figures::Figure> figures = make_figures(recipes, groups);
   const std::filesystem::path folder = arguments.folder;
   const OutputRule rule{arguments.overwrite, input.files};
-  for (const Figure& figure : figures)
+  for (const figures::Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
   write_figures(figures, groups, arguments);
-  for (const Figure& figure : figures) print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
+  for (const figures::Figure& figure : figures)
+    print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
   print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
         figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
 }
@@ -156,7 +158,7 @@ void make(const FiguresArguments& arguments) {
 /// All figures, one a line, for the help.
 std::string list_of_figures() {
   std::string text = "Figures:\n";
-  for (const FigureRecipe& recipe : figure_catalogue())
+  for (const figures::FigureRecipe& recipe : figures::figure_catalogue())
     text += fmt::format("  {}: {}\n", recipe.name, recipe.title);
   return text;
 }
@@ -199,4 +201,4 @@ void add_figures_command(CLI::App& app) {
   command->callback([arguments] { make(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -16,27 +16,27 @@
 #include "problems/admissible_forces.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct ForcesArguments {
   std::string run;
   std::vector<std::string> at = {"0", "10", "15", "18"};
   std::vector<std::string> settings;
-  ForceSearch search;
+  problems::ForceSearch search;
   bool json = false;
 };
 
-FrameChoice choose_frames(const ForcesArguments& arguments, const RunFile& run) {
+pictures::FrameChoice choose_frames(const ForcesArguments& arguments, const io::RunFile& run) {
   if (run.frame_count() == 0)
     throw Error(ExitCode::bad_data,
                 arguments.run + " has no frames yet: the first is that of the bed at rest");
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
-  return frames_at(run.frame_tilts(), arguments.at, theta_c);
+  return pictures::frames_at(run.frame_tilts(), arguments.at, theta_c);
 }
 
-Json json_set(const ForceSet& set) {
-  return {{"start", name_of(set.attempt)},
+Json json_set(const problems::ForceSet& set) {
+  return {{"start", problems::name_of(set.attempt)},
           {"iterations", set.report.iterations},
           {"eta", set.report.residual.eta},
           {"converged", set.report.converged},
@@ -47,9 +47,9 @@ Json json_set(const ForceSet& set) {
           {"values", set.values}};
 }
 
-Json json_spread(const FrameForces& forces, std::size_t q) {
-  const ForceQuantity& quantity = forces.quantities[q];
-  const ForceSpread& spread = forces.spreads[q];
+Json json_spread(const problems::FrameForces& forces, std::size_t q) {
+  const problems::ForceQuantity& quantity = forces.quantities[q];
+  const problems::ForceSpread& spread = forces.spreads[q];
   return {{"quantity", quantity.name},
           {"threshold_factor", quantity.factor > 0.0 ? Json(quantity.factor) : Json()},
           {"stored", forces.stored[q]},
@@ -60,7 +60,7 @@ Json json_spread(const FrameForces& forces, std::size_t q) {
           {"largest", spread.largest}};
 }
 
-Json json_frame(const FrameForces& forces, std::size_t k) {
+Json json_frame(const problems::FrameForces& forces, std::size_t k) {
   Json json = {{"frame", k},
                {"tilt_deg", degrees(forces.tilt)},
                {"contacts", forces.contacts},
@@ -69,28 +69,28 @@ Json json_frame(const FrameForces& forces, std::size_t k) {
                {"spreads", Json::array()},
                {"solutions", Json::array()}};
   for (std::size_t q = 0; q < forces.spreads.size(); ++q) json["spreads"].push_back(json_spread(forces, q));
-  for (const ForceSet& set : forces.sets) json["solutions"].push_back(json_set(set));
+  for (const problems::ForceSet& set : forces.sets) json["solutions"].push_back(json_set(set));
   return json;
 }
 
-std::string title(const ForceQuantity& quantity) {
+std::string title(const problems::ForceQuantity& quantity) {
   return quantity.factor > 0.0 ? fmt::format("{} at {:g} Gamma_c", quantity.name, quantity.factor)
                                : quantity.name;
 }
 
-const char* verdict_of(const ForceSet& set) {
+const char* verdict_of(const problems::ForceSet& set) {
   if (set.admissible()) return "";
   return set.report.converged ? "lets grains go, not counted" : "not converged, not counted";
 }
 
-std::string sets_text(const FrameForces& forces) {
+std::string sets_text(const problems::FrameForces& forces) {
   TextTable table{{{"start"}}, {}};
   for (const char* title :
        {"iterations", "eta", "momentum", "unbalanced", "distance", "Gamma", "p_o", "lc_mean"})
     table.columns.push_back({title, true});
   table.columns.push_back({""});
-  for (const ForceSet& set : forces.sets)
-    table.rows.push_back({{name_of(set.attempt)},
+  for (const problems::ForceSet& set : forces.sets)
+    table.rows.push_back({{problems::name_of(set.attempt)},
                           {std::to_string(set.report.iterations)},
                           {fmt::format("{:.1e}", set.report.residual.eta)},
                           {fmt::format("{:.1e}", set.momentum_left)},
@@ -103,12 +103,12 @@ std::string sets_text(const FrameForces& forces) {
   return aligned_text(table, 2);
 }
 
-std::string spreads_text(const FrameForces& forces) {
+std::string spreads_text(const problems::FrameForces& forces) {
   TextTable table{{{"quantity"}}, {}};
   for (const char* title : {"stored", "mean", "deviation", "least", "largest"})
     table.columns.push_back({title, true});
   for (std::size_t q = 0; q < forces.quantities.size(); ++q) {
-    const ForceSpread& spread = forces.spreads[q];
+    const problems::ForceSpread& spread = forces.spreads[q];
     auto& row = table.rows.emplace_back();
     row = {{title(forces.quantities[q])}, {number_cell("{:.5f}", forces.stored[q])}};
     if (spread.count == 0)
@@ -120,19 +120,20 @@ std::string spreads_text(const FrameForces& forces) {
   return aligned_text(table, 2);
 }
 
-void print_frame(const FrameForces& forces, std::size_t k, const ForceSearch& search) {
+void print_frame(const problems::FrameForces& forces, std::size_t k, const problems::ForceSearch& search) {
   print("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n", k,
         degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions, search.tolerance);
   print_text(fmt::format("{}\n{}", sets_text(forces), spreads_text(forces)));
 }
 
 void compare(const ForcesArguments& arguments) {
-  const AnalysisParameters parameters = parse_analysis_settings(arguments.settings);
-  const RunFile run = RunFile::open(arguments.run);
-  const FrameChoice frames = choose_frames(arguments, run);
+  const analysis::AnalysisParameters parameters = runs::parse_analysis_settings(arguments.settings);
+  const io::RunFile run = io::RunFile::open(arguments.run);
+  const pictures::FrameChoice frames = choose_frames(arguments, run);
   if (arguments.json) print("[");
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameForces forces = admissible_forces(run, frames[i], parameters, arguments.search);
+    const problems::FrameForces forces =
+        problems::admissible_forces(run, frames[i], parameters, arguments.search);
     if (i > 0) print(arguments.json ? ",\n" : "\n");
     if (arguments.json)
       print_text(json_text(json_frame(forces, frames[i])));
@@ -143,7 +144,7 @@ void compare(const ForcesArguments& arguments) {
   if (arguments.json) print("]\n");
 }
 
-void add_search(CLI::App& command, ForceSearch& search) {
+void add_search(CLI::App& command, problems::ForceSearch& search) {
   command
       .add_option("--solutions", search.solutions,
                   "How many sets of forces to look for, beside the one from the stored forces")
@@ -189,4 +190,4 @@ void add_forces_command(CLI::App& app) {
   command->callback([arguments] { compare(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

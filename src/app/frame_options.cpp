@@ -8,23 +8,24 @@
 #include "app/choices.h"
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
-FrameChoice frames_of_tilt(const RunFile& run, const std::string& path, const FrameOptions& options) {
+pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& path,
+                                     const FrameOptions& options) {
   const std::vector<double>& tilts = run.frame_tilts();
   const double theta_c =
       find_value(run.checkpoint().results, "theta_c").value_or(std::numeric_limits<double>::quiet_NaN());
-  if (!options.numbers.empty()) return frames_listed(options.numbers, run.all_frame_tilts().size());
+  if (!options.numbers.empty()) return pictures::frames_listed(options.numbers, run.all_frame_tilts().size());
   if (std::ranges::count(options.at, "repose") > 0 && !std::isfinite(theta_c))
     throw Error(ExitCode::bad_data, path +
                                         ": the slope has not failed, so --at repose has no meaning; give an "
                                         "angle, or --frames K");
-  if (!options.at.empty()) return frames_at(tilts, options.at, theta_c);
-  FrameChoice choice;
+  if (!options.at.empty()) return pictures::frames_at(tilts, options.at, theta_c);
+  pictures::FrameChoice choice;
   if (options.every) {
-    choice = frames_every(tilts, *options.every);
-    if (std::isfinite(theta_c)) choice.push_back(frame_at_repose(tilts, theta_c));
+    choice = pictures::frames_every(tilts, *options.every);
+    if (std::isfinite(theta_c)) choice.push_back(pictures::frame_at_repose(tilts, theta_c));
     return choice;
   }
   choice.resize(tilts.size());
@@ -58,23 +59,24 @@ void add_frame_options(CLI::App& command, FrameOptions& options) {
                    "Also all frames of the flow after failure, where the run has followed it");
 }
 
-void require_flow(const RunFile& run, const std::string& path, const FrameOptions& options) {
+void require_flow(const io::RunFile& run, const std::string& path, const FrameOptions& options) {
   if (options.flow && run.all_frame_tilts().size() == run.frame_count())
     throw Error(ExitCode::bad_data, path +
                                         ": --flow: nothing was followed after failure in this run; "
                                         "tilt.after_failure = \"lower\" or \"hold\" does");
 }
 
-FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options) {
+pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
+                                    const FrameOptions& options) {
   const std::size_t count = run.all_frame_tilts().size();
   if (count == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: the first is that of the bed at rest");
   require_flow(run, path, options);
-  FrameChoice choice = frames_of_tilt(run, path, options);
+  pictures::FrameChoice choice = frames_of_tilt(run, path, options);
   for (std::size_t k = run.frame_count(); options.flow && k < count; ++k) choice.push_back(k);
   std::ranges::sort(choice);
   choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
   return choice;
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -9,7 +9,7 @@
 #include "io/run_file.h"
 #include "pictures/frame_choice.h"
 
-namespace talus {
+namespace talus::app {
 
 struct FrameOptions {
   std::vector<std::string> numbers;  ///< as in frames_listed
@@ -23,10 +23,11 @@ void add_frame_options(CLI::App& command, FrameOptions& options);
 
 /// Throws Error(bad_data) where --flow is asked for in a run that has none. `path` is that of the run, for
 /// messages.
-void require_flow(const RunFile& run, const std::string& path, const FrameOptions& options);
+void require_flow(const io::RunFile& run, const std::string& path, const FrameOptions& options);
 
 /// Ascending; all frames of the tilt where nothing is asked for. Throws as frames_listed and frames_at do,
 /// and Error(bad_data) where the run has no frames, or no flow that is asked for.
-FrameChoice chosen_frames(const RunFile& run, const std::string& path, const FrameOptions& options);
+pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
+                                    const FrameOptions& options);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -10,32 +10,33 @@
 #include "io/run_file.h"
 #include "view/frame_values.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 namespace fs = std::filesystem;
 
 /// Only a run can be without an analysis: an ensemble has the values of one.
 void refuse_unanalysed(const std::string& path) {
-  if (run_presence(path) == RunPresence::none || holds_averages(path)) return;
-  if (read_usable_analysis(RunFile::open(path))) return;
+  if (io::run_presence(path) == io::RunPresence::none || ensemble::holds_averages(path)) return;
+  if (view::read_usable_analysis(io::RunFile::open(path))) return;
   throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which curves behind others are "
                                               "taken from; make one first: talus analyze {}",
                                               path, path));
 }
 
-GhostRun ghost_of(const RunView& run) {
-  GhostRun ghost;
-  const FramesOfRise rise = last_rise_of(run);
-  for (const FrameRecord* frame : rise.frames) ghost.frames.push_back(*frame);
+view::GhostRun ghost_of(const runs::RunView& run) {
+  view::GhostRun ghost;
+  const analysis::FramesOfRise rise = runs::last_rise_of(run);
+  for (const analysis::FrameRecord* frame : rise.frames) ghost.frames.push_back(*frame);
   for (std::size_t k = 0; run.file && k < rise.frames.size(); ++k)
     ghost.times.push_back(run.file->all_frame_times()[rise.first + k]);
-  for (const RunThreshold& threshold : run.analysis.thresholds) ghost.factors.push_back(threshold.factor);
+  for (const analysis::RunThreshold& threshold : run.analysis.thresholds)
+    ghost.factors.push_back(threshold.factor);
   ghost.theta_c = run.analysis.theta_c;
   ghost.mean_diameter = run.statics.mean_diameter;
   // What is known of single grains is much, and no curve shows it.
-  for (FrameRecord& frame : ghost.frames)
-    for (FrameThreshold& at : frame.thresholds) {
+  for (analysis::FrameRecord& frame : ghost.frames)
+    for (analysis::FrameThreshold& at : frame.thresholds) {
       at.lc = {};
       at.cluster = {};
     }
@@ -51,15 +52,16 @@ std::string name_of(const std::string& path) {
 
 }  // namespace
 
-Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing) {
+view::Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing) {
   if (missing == MissingAnalysis::refused)
     for (const std::string& path : paths) refuse_unanalysed(path);
-  Ghost ghost;
-  for (const RunView& run : read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs)
+  view::Ghost ghost;
+  for (const runs::RunView& run :
+       read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs)
     ghost.runs.push_back(ghost_of(run));
   ghost.name = name_of(paths.front());
   if (paths.size() > 1) ghost.name += fmt::format(" and {} more", paths.size() - 1);
   return ghost;
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -6,13 +6,13 @@
 
 #include "view/ghost.h"
 
-namespace talus {
+namespace talus::app {
 
 /// Whether a run without an analysis that is stored and valid is analysed, or refused.
 enum class MissingAnalysis { made, refused };
 
 /// Runs, folders of ensembles and ensemble.h5, as `talus figures` takes them, as one ghost. Throws
 /// Error(bad_data) for a run whose analysis is missing and refused, and as read_figure_input does.
-Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing);
+view::Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing);
 
-}  // namespace talus
+}  // namespace talus::app

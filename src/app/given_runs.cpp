@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::app {
 
 std::vector<std::string> runs_among(const std::vector<std::string>& paths,
                                     bool (*is_wanted_too)(const std::string&)) {
@@ -15,7 +15,7 @@ std::vector<std::string> runs_among(const std::vector<std::string>& paths,
   std::vector<std::string> runs;
   for (const std::string& path : paths) {
     std::error_code unknown;
-    const bool is_other = std::filesystem::is_regular_file(path, unknown) && !begins_as_run(path) &&
+    const bool is_other = std::filesystem::is_regular_file(path, unknown) && !io::begins_as_run(path) &&
                           (is_wanted_too == nullptr || !is_wanted_too(path));
     if (is_other)
       print_error("left out: %s is no run\n", path.c_str());
@@ -27,4 +27,4 @@ std::vector<std::string> runs_among(const std::vector<std::string>& paths,
   return runs;
 }
 
-}  // namespace talus
+}  // namespace talus::app

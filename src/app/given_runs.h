@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::app {
 
 /// Several paths without the files that are neither runs nor what `is_wanted_too` takes, such as the contact
 /// problem that `talus dump` has left beside them; each is named on standard error. Folders, and paths where
@@ -13,4 +13,4 @@ namespace talus {
 std::vector<std::string> runs_among(const std::vector<std::string>& paths,
                                     bool (*is_wanted_too)(const std::string&) = nullptr);
 
-}  // namespace talus
+}  // namespace talus::app

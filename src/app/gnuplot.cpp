@@ -6,7 +6,7 @@
 #include "app/program_output.h"
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// Runs gnuplot with arguments in a folder. Settings of the user (~/.gnuplot, -d) do not count.
@@ -30,4 +30,4 @@ void run_gnuplot(const std::string& folder, const std::string& script) {
                           said.empty() ? "; is the size of files limited?" : ": " + said));
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// Throws Error(unavailable) where gnuplot cannot be started. Ask before long work.
 void require_gnuplot();
@@ -11,4 +11,4 @@ void require_gnuplot();
 /// Runs `gnuplot SCRIPT` in a folder. Throws Error(io_error) with what gnuplot said where it gave up.
 void run_gnuplot(const std::string& folder, const std::string& script);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr std::size_t line_width = 80, name_width = 24;
@@ -121,4 +121,4 @@ std::string HelpText::make_subcommand(const CLI::App* command) const {
 
 void add_examples(CLI::App& app) { add_examples_below(app, ""); }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// The text in lines of at most `width` characters, broken at blanks where it can be; lines stay lines.
 std::string wrapped(const std::string& text, std::size_t width);
@@ -24,4 +24,4 @@ extern const char* const first_example;
 /// Ends the help of each command below `app` that has an example with it.
 void add_examples(CLI::App& app);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -20,7 +20,7 @@
 #include "session/command.h"
 #include "session/run_header.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -46,7 +46,7 @@ struct RunInfo {
   double solver_tolerance = none;     ///< asked of a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
   std::string state_hash;
-  std::optional<BranchOrigin> branch;
+  std::optional<io::BranchOrigin> branch;
   std::string lost;  ///< before the run was repaired
   Facts provenance;
   Figures results;  ///< SI
@@ -62,9 +62,9 @@ double figure(const Figures& figures, const std::string& name) {
 }
 
 /// The tolerance of the stored scenario; none where it is a scenario of another version.
-double tolerance_of(const RunHeader& header, const std::string& path) {
+double tolerance_of(const io::RunHeader& header, const std::string& path) {
   try {
-    return stored_scenario(header, path).solver.tolerance;
+    return runs::stored_scenario(header, path).solver.tolerance;
   } catch (const Error&) {
     return none;
   }
@@ -79,17 +79,17 @@ void count_steps(const std::vector<StepRow>& steps, RunInfo& info) {
   }
 }
 
-std::vector<double> tilts_of(const std::vector<Command>& commands, const RunFile& run) {
+std::vector<double> tilts_of(const std::vector<Command>& commands, const io::RunFile& run) {
   const World& end = run.checkpoint().world;
   std::vector<ObservableRow> rows = run.all_observables();
-  if (run.has_state()) rows = rows_up_to(rows, end.step, end.time, end.tilt);
+  if (run.has_state()) rows = session::rows_up_to(rows, end.step, end.time, end.tilt);
   std::vector<double> tilts;
-  for (const Command& command : commands) tilts.push_back(tilt_before(command, commands, rows));
+  for (const Command& command : commands) tilts.push_back(session::tilt_before(command, commands, rows));
   return tilts;
 }
 
 RunInfo look_at(const std::string& path) {
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   const RunStatics& statics = run.header().statics;
   RunInfo info;
   info.path = path;
@@ -109,7 +109,7 @@ RunInfo look_at(const std::string& path) {
   info.has_program = run.has_program();
   info.tilt = run.checkpoint().world.tilt;
   count_steps(run.steps(), info);
-  info.commands = given_commands(run.commands());
+  info.commands = session::given_commands(run.commands());
   info.branch = run.header().branch;
   info.command_tilts = tilts_of(info.commands, run);
   info.solver_tolerance = tolerance_of(run.header(), path);
@@ -122,7 +122,7 @@ RunInfo look_at(const std::string& path) {
 }
 
 void print_json(const RunInfo& info) {
-  const std::optional<BranchOrigin>& branch = info.branch;
+  const std::optional<io::BranchOrigin>& branch = info.branch;
   const Json json = {{"path", info.path},
                      {"complete", info.complete},
                      {"seed", info.seed},
@@ -181,7 +181,8 @@ void print_commands(const RunInfo& info) {
   for (std::size_t k = 0; k < info.commands.size(); ++k) {
     const double tilt = info.command_tilts[k];
     print("  after step %-12lld %-12s %s\n", static_cast<long long>(info.commands[k].step),
-          std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(), command_text(info.commands[k]).c_str());
+          std::isnan(tilt) ? "deposition" : in_degrees(tilt).c_str(),
+          session::command_text(info.commands[k]).c_str());
   }
 }
 
@@ -196,7 +197,7 @@ void print_report(const RunInfo& info) {
                fmt::format("{}, frame {}, at {}, step {}; the end of that run is {}", info.branch->run,
                            info.branch->frame, in_degrees(info.branch->start.world.tilt),
                            info.branch->start.world.step, info.branch->run_hash));
-  print_line("version", version_of(info.provenance));
+  print_line("version", runs::version_of(info.provenance));
   print_line("seed", std::to_string(info.seed));
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));
   print_line("frames",
@@ -242,4 +243,4 @@ void add_info_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -7,7 +7,7 @@
 
 #include "app/choices.h"
 
-namespace talus {
+namespace talus::app {
 
 /// Processors of this machine: how many beds are computed side by side where nothing is asked.
 inline int default_jobs() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
@@ -21,4 +21,4 @@ inline void add_jobs_option(CLI::App& command, int& jobs) {
       ->check(in_range(0, 256));
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -7,7 +7,7 @@
 #include "base/visible_text.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::app {
 
 std::string json_text(const Json& value, std::size_t depth) {
   if (value.is_array())
@@ -22,8 +22,8 @@ std::string json_text(const Json& value, std::size_t depth) {
   }
   if (value.is_string()) return quoted_utf8(value.get_ref<const std::string&>());
   if (value.is_number_float())
-    return std::isfinite(value.get<double>()) ? short_text(value.get<double>()) : "null";
+    return std::isfinite(value.get<double>()) ? scenario::short_text(value.get<double>()) : "null";
   return value.dump();
 }
 
-}  // namespace talus
+}  // namespace talus::app

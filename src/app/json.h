@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace talus {
+namespace talus::app {
 
 /// A value of JSON; the members of an object stay in the order in which they were added.
 using Json = nlohmann::ordered_json;
@@ -23,4 +23,4 @@ Json object_of(const std::vector<std::pair<std::string, Value>>& members) {
   return object;
 }
 
-}  // namespace talus
+}  // namespace talus::app

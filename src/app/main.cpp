@@ -41,25 +41,26 @@ struct CommandGroup {
 void add_commands(CLI::App& app) {
   const std::vector<CommandGroup> groups = {
       {"Runs",
-       {talus::add_run_command, talus::add_check_command, talus::add_info_command, talus::add_replay_command,
-        talus::add_repair_command}},
+       {talus::app::add_run_command, talus::app::add_check_command, talus::app::add_info_command,
+        talus::app::add_replay_command, talus::app::add_repair_command}},
       {"Pictures",
-       {talus::add_view_command, talus::add_render_command, talus::add_panel_command,
-        talus::add_animate_command, talus::add_maps_command}},
+       {talus::app::add_view_command, talus::app::add_render_command, talus::app::add_panel_command,
+        talus::app::add_animate_command, talus::app::add_maps_command}},
       {"Results",
-       {talus::add_analyze_command, talus::add_events_command, talus::add_figures_command,
-        talus::add_export_command}},
+       {talus::app::add_analyze_command, talus::app::add_events_command, talus::app::add_figures_command,
+        talus::app::add_export_command}},
       {"Many runs",
-       {talus::add_ensemble_command, talus::add_study_command, talus::add_perturb_command,
-        talus::add_reproduce_command}},
-      {"Contact problems", {talus::add_dump_command, talus::add_solve_command, talus::add_forces_command}},
+       {talus::app::add_ensemble_command, talus::app::add_study_command, talus::app::add_perturb_command,
+        talus::app::add_reproduce_command}},
+      {"Contact problems",
+       {talus::app::add_dump_command, talus::app::add_solve_command, talus::app::add_forces_command}},
   };
   for (const CommandGroup& group : groups)
     for (void (*const add)(CLI::App&) : group.add) {
       add(app);
       app.get_subcommands([](const CLI::App*) { return true; }).back()->group(group.title);
     }
-  talus::add_program_help_command(app);
+  talus::app::add_program_help_command(app);
 }
 
 /// `talus help COMMAND` is `talus COMMAND --help`.
@@ -72,18 +73,18 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 void run(std::vector<std::string> words, CLI::App& app) {
-  app.set_version_flag("--version", talus::version_report());
+  app.set_version_flag("--version", talus::app::version_report());
   app.require_subcommand(1);
-  app.formatter(std::make_shared<talus::HelpText>());
+  app.formatter(std::make_shared<talus::app::HelpText>());
   add_commands(app);
-  talus::add_examples(app);
-  talus::name_values(app);
+  talus::app::add_examples(app);
+  talus::app::name_values(app);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
       "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n"
       "74 I/O error, 75 stopped and resumable.");
   refuse_empty_words(app);
-  talus::refuse_words(app, words);
+  talus::app::refuse_words(app, words);
   std::ranges::reverse(words);  // as the parser takes them
   app.parse(std::move(words));
 }
@@ -98,17 +99,17 @@ void require_printed() {
 int run_and_tell(int argc, char** argv) {
   CLI::App app{
       std::string("Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\n") +
-          talus::first_example + "\n",
+          talus::app::first_example + "\n",
       "talus"};
   try {
     run(words_of(argc, argv), app);
   } catch (const CLI::ParseError& error) {  // --help and --version among them, which are no errors
     if (error.get_exit_code() != 0)
-      throw talus::Error(talus::ExitCode::usage, talus::usage_message(app, error));
+      throw talus::Error(talus::ExitCode::usage, talus::app::usage_message(app, error));
     app.exit(error);
   }
   require_printed();
-  talus::note_missing_locks();
+  talus::app::note_missing_locks();
   errno = 0;  // whatever could not be had was not needed
   return static_cast<int>(talus::ExitCode::done);
 }
@@ -116,14 +117,14 @@ int run_and_tell(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  talus::end_on_signals();
+  talus::app::end_on_signals();
   // Where a parent ignored it, nobody would learn how children end.
   std::signal(SIGCHLD, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, not the end
   try {
     return run_and_tell(argc, argv);
   } catch (...) {
-    const int code = talus::report_exception();
+    const int code = talus::app::report_exception();
     errno = 0;  // it is told
     return code;
   }

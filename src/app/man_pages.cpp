@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "base/version.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// Text as roff has it: nothing in it is a request or an escape, and hyphens can be copied.
@@ -89,4 +89,4 @@ std::vector<std::pair<std::string, std::string>> man_pages(const CommandPage& pr
   return pages;
 }
 
-}  // namespace talus
+}  // namespace talus::app

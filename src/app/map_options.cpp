@@ -6,25 +6,25 @@
 #include "base/text.h"
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
-std::string list_of_traces() { return joined(trace_kinds(), ", ", trace_name); }
+std::string list_of_traces() { return joined(pictures::trace_kinds(), ", ", pictures::trace_name); }
 
-std::string list_of_colours() { return joined(colour_maps(), ", ", colour_map_name); }
+std::string list_of_colours() { return joined(render::colour_maps(), ", ", render::colour_map_name); }
 
-void add_live_options(CLI::App& command, MapOptions& options) {
+void add_live_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option("--map", options.maps,
                   "What is drawn: one map, or several with commas; two overlaid with a plus, as in "
                   "gamma+forces. The maps: " +
-                      list_of_maps() + "; talus maps says what they show")
+                      pictures::list_of_maps() + "; talus maps says what they show")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
       .add_option("--width", options.width, "Width of the picture in pixels; the height follows from the bed")
       ->capture_default_str()
-      ->check(in_range(smallest_width, largest_side));
+      ->check(in_range(render::smallest_width, render::largest_side));
   command
       .add_option("--theta-c", options.theta_c,
                   "Angle of repose in degrees, for Gamma_c = sin(theta_c) [that of the run]")
@@ -44,7 +44,7 @@ void add_live_options(CLI::App& command, MapOptions& options) {
       ->capture_default_str();
 }
 
-void add_scale_options(CLI::App& command, MapOptions& options) {
+void add_scale_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option("--threshold", options.threshold,
                   "Grains are overloaded from this times Gamma_c on; the paper prints 1 and draws 2 [1]")
@@ -71,7 +71,7 @@ void add_scale_options(CLI::App& command, MapOptions& options) {
       ->expected(2);
 }
 
-void add_frame_options(CLI::App& command, MapOptions& options) {
+void add_frame_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option("--crop", options.crop,
                   "X0,Y0,X1,Y1: this region of the bed only, in mean diameters; 0,0 is the left end on the "
@@ -101,7 +101,7 @@ void add_run_argument(CLI::App& command, std::string& run) {
       ->required();
 }
 
-void add_map_options(CLI::App& command, MapOptions& options, MapOptionSet set, CLI::Option* needs) {
+void add_map_options(CLI::App& command, pictures::MapOptions& options, MapOptionSet set, CLI::Option* needs) {
   const std::size_t before = command.get_options().size();
   add_live_options(command, options);
   if (set == MapOptionSet::all) {
@@ -115,4 +115,4 @@ void add_map_options(CLI::App& command, MapOptions& options, MapOptionSet set, C
   }
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -6,7 +6,7 @@
 
 #include "pictures/map_plan.h"
 
-namespace talus {
+namespace talus::app {
 
 /// What of them a command has.
 enum class MapOptionSet {
@@ -18,6 +18,7 @@ enum class MapOptionSet {
 void add_run_argument(CLI::App& command, std::string& run);
 
 /// In the group "Maps" of the help. `needs`: the option without which they have no meaning, if any.
-void add_map_options(CLI::App& command, MapOptions& options, MapOptionSet set, CLI::Option* needs = nullptr);
+void add_map_options(CLI::App& command, pictures::MapOptions& options, MapOptionSet set,
+                     CLI::Option* needs = nullptr);
 
-}  // namespace talus
+}  // namespace talus::app

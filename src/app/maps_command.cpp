@@ -15,29 +15,29 @@
 #include "pictures/traces.h"
 #include "render/colour_map.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr std::size_t shows_width = 40, options_width = 21;
 
 /// The options that change a map, of those that do not change all.
-std::string options_of(MapKind kind) {
+std::string options_of(pictures::MapKind kind) {
   std::string options;
   const auto add = [&options](bool has, const char* name) {
     if (has) options.append(options.empty() ? "" : ", ").append(name);
   };
-  add(needs_theta_c(kind), "--theta-c");
-  add(shows_gamma(kind), "--l-min");
-  add(kind == MapKind::overloaded || kind == MapKind::clusters, "--threshold");
-  add(kind == MapKind::clusters, "--joined");
-  add(is_coarse(kind), "--length");
-  add(needs_reference(kind), "--since");
+  add(pictures::needs_theta_c(kind), "--theta-c");
+  add(pictures::shows_gamma(kind), "--l-min");
+  add(kind == pictures::MapKind::overloaded || kind == pictures::MapKind::clusters, "--threshold");
+  add(kind == pictures::MapKind::clusters, "--joined");
+  add(pictures::is_coarse(kind), "--length");
+  add(pictures::needs_reference(kind), "--since");
   return options;
 }
 
-std::string options_of(TraceKind kind) {
-  return std::string(needs_theta_c(kind) ? "--theta-c, --l-min, --threshold" : "") +
-         (kind == TraceKind::largest_cluster ? ", --joined" : "");
+std::string options_of(pictures::TraceKind kind) {
+  return std::string(pictures::needs_theta_c(kind) ? "--theta-c, --l-min, --threshold" : "") +
+         (kind == pictures::TraceKind::largest_cluster ? ", --joined" : "");
 }
 
 std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
@@ -59,15 +59,18 @@ void add_row(TextTable& table, std::string_view name, std::string_view shows, co
 
 void print_maps() {
   TextTable maps{{{"--map"}, {"shows"}, {"options"}}, {}}, traces{{{"--trace"}, {"shows"}, {"options"}}, {}};
-  for (const MapKind kind : map_kinds()) add_row(maps, map_name(kind), map_help(kind), options_of(kind));
-  for (const TraceKind kind : trace_kinds())
-    add_row(traces, trace_name(kind), shown_title(trace_quantity(kind)), options_of(kind));
+  for (const pictures::MapKind kind : pictures::map_kinds())
+    add_row(maps, pictures::map_name(kind), pictures::map_help(kind), options_of(kind));
+  for (const pictures::TraceKind kind : pictures::trace_kinds())
+    add_row(traces, pictures::trace_name(kind), analysis::shown_title(pictures::trace_quantity(kind)),
+            options_of(kind));
   print_text(fmt::format(
       "{}\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several "
       "pictures.\n\n{}\n"
       "--colours: {}\n\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows "
       "each.\n",
-      aligned_text(maps), aligned_text(traces), joined(colour_maps(), ", ", colour_map_name)));
+      aligned_text(maps), aligned_text(traces),
+      joined(render::colour_maps(), ", ", render::colour_map_name)));
 }
 
 }  // namespace
@@ -76,4 +79,4 @@ void add_maps_command(CLI::App& app) {
   app.add_subcommand("maps", "List what can be drawn: maps, traces and colours")->callback(print_maps);
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-namespace talus {
+namespace talus::app {
 
 namespace {
 
@@ -11,9 +11,9 @@ bool reached(double eta, double tolerance) { return eta <= tolerance * (1.0 + 1e
 
 }  // namespace
 
-bool is_moving(const StepTolerance& of_run) { return of_run.asked > of_run.at_rest; }
+bool is_moving(const problems::StepTolerance& of_run) { return of_run.asked > of_run.at_rest; }
 
-std::string remark_on_moving(const StepTolerance& of_run, double eta) {
+std::string remark_on_moving(const problems::StepTolerance& of_run, double eta) {
   const char* which = reached(eta, of_run.at_rest) ? "both of them"
                       : reached(eta, of_run.asked) ? "only the first"
                                                    : "neither of them";
@@ -23,4 +23,4 @@ std::string remark_on_moving(const StepTolerance& of_run, double eta) {
       of_run.velocity, of_run.asked, of_run.at_rest, which);
 }
 
-}  // namespace talus
+}  // namespace talus::app

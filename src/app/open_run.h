@@ -6,7 +6,7 @@
 
 #include "session/run.h"
 
-namespace talus {
+namespace talus::app {
 
 /// What a command line asks for.
 struct RunRequest {
@@ -21,9 +21,9 @@ struct RunRequest {
 };
 
 struct OpenRun {
-  RunHeader header;
-  RunStore store;
-  Session session;
+  io::RunHeader header;
+  io::RunStore store;
+  session::Session session;
 };
 
 /// A new run, its first state committed: from now on it can be resumed. Throws as read_scenario,
@@ -32,10 +32,10 @@ OpenRun start_run(const RunRequest& request);
 
 /// Throws Error(bad_data), with the keys that differ, where the file and the settings say another scenario
 /// than the one stored with the run. No scenario file: nothing is asked.
-void require_same_scenario(const RunRequest& request, const Scenario& stored);
+void require_same_scenario(const RunRequest& request, const scenario::Scenario& stored);
 
 /// The run whose folder is there. The scenario is the one stored with it (require_same_scenario).
 /// Throws Error(bad_data) for a replay that was stopped before its end.
 OpenRun resume_run(const RunRequest& request);
 
-}  // namespace talus
+}  // namespace talus::app

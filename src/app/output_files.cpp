@@ -4,15 +4,15 @@
 #include "base/locked_file.h"
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::app {
 
 OutputRule output_of_run(const std::string& run, bool overwrite) {
-  return {overwrite, {run, run_folder(run)}};
+  return {overwrite, {run, io::run_folder(run)}};
 }
 
-OutputRule output_of_scenario(const std::string& file, const Scenario& scenario) {
+OutputRule output_of_scenario(const std::string& file, const scenario::Scenario& scenario) {
   const std::string& bed = scenario.deposition.file;
-  return bed.empty() ? OutputRule{true, {file}} : OutputRule{true, {file, bed, run_folder(bed)}};
+  return bed.empty() ? OutputRule{true, {file}} : OutputRule{true, {file, bed, io::run_folder(bed)}};
 }
 
 void note_missing_locks() {
@@ -23,4 +23,4 @@ void note_missing_locks() {
         problem.c_str());
 }
 
-}  // namespace talus
+}  // namespace talus::app

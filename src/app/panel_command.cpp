@@ -13,39 +13,41 @@
 #include "pictures/panel.h"
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct PanelArguments {
   std::string run;
-  MapOptions maps;
+  pictures::MapOptions maps;
   std::vector<std::string> at;
   std::string output;
   bool overwrite = false;
   bool quiet = false;
 };
 
-MapPlan plan_panel(const PanelArguments& arguments) {
-  MapPlan plan = plan_maps(arguments.maps);
+pictures::MapPlan plan_panel(const PanelArguments& arguments) {
+  pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
   if (!plan.traces.empty())
     throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; see talus render");
   if (!arguments.output.ends_with(".png"))
     throw Error(ExitCode::usage, arguments.output + ": expected a name that ends in .png");
   plan.width /= static_cast<int>(plan.maps.size());
-  for (MapSettings& map : plan.maps) map.printed /= static_cast<double>(plan.maps.size());
-  if (plan.width < smallest_width)
+  for (pictures::MapSettings& map : plan.maps) map.printed /= static_cast<double>(plan.maps.size());
+  if (plan.width < render::smallest_width)
     throw Error(ExitCode::usage,
                 fmt::format("--width {}: each of {} maps beside each other takes {} px or more",
-                            arguments.maps.width, plan.maps.size(), smallest_width));
+                            arguments.maps.width, plan.maps.size(), render::smallest_width));
   return plan;
 }
 
 void make_panel(const PanelArguments& arguments) {
-  const MapPlan plan = plan_panel(arguments);
+  const pictures::MapPlan plan = plan_panel(arguments);
   output_target(arguments.output, output_of_run(arguments.run, true));
-  DrawnRun run = open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
+  pictures::DrawnRun run =
+      pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   prepare_folder_of(arguments.output);
-  const PanelDrawn drawn = draw_panel(run, arguments.at, arguments.output, arguments.overwrite);
+  const pictures::PanelDrawn drawn =
+      pictures::draw_panel(run, arguments.at, arguments.output, arguments.overwrite);
   if (!arguments.quiet)
     print("%s: %zu angle%s%s\n", arguments.output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
           drawn.there_before ? ", there before" : "");
@@ -72,4 +74,4 @@ void add_panel_command(CLI::App& app) {
   command->callback([arguments] { make_panel(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

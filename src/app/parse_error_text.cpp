@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// What stands before a part of a text; all of it if the part is not there.
@@ -100,4 +100,4 @@ std::string parse_error_text(const CLI::App& command, const CLI::ParseError& err
   return said;
 }
 
-}  // namespace talus
+}  // namespace talus::app

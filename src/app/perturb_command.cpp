@@ -29,7 +29,7 @@
 #include "io/durable_file.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct PerturbArguments {
@@ -38,36 +38,39 @@ struct PerturbArguments {
   std::vector<std::string> settings;
   std::string seeds = "1-4";
   std::optional<std::uint64_t> seed;
-  PerturbationPlan plan;
+  session::PerturbationPlan plan;
   std::string patch = "10x2";
   int jobs = default_jobs();
 };
 
 /// One variant without a name: its runs are in the folder itself.
-EnsembleManifest manifest_of(const PerturbArguments& arguments) {
-  return {.seeds = parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
-          .variants = plan_variants(arguments.scenario, arguments.settings, {}),
+ensemble::EnsembleManifest manifest_of(const PerturbArguments& arguments) {
+  return {.seeds = ensemble::parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
+          .variants = ensemble::plan_variants(arguments.scenario, arguments.settings, {}),
           .task = arguments.plan};
 }
 
 /// Adds one seed to the ensemble and has it computed here, whatever else is missing. Waits where another
 /// process computes it.
-void perturb_seed(const PerturbArguments& arguments, const EnsembleManifest& wanted) {
-  KnownMembers known;
+void perturb_seed(const PerturbArguments& arguments, const ensemble::EnsembleManifest& wanted) {
+  ensemble::KnownMembers known;
   begin_ensemble(arguments.folder, wanted, {arguments.scenario}, known);
-  const EnsemblePlan plan = plan_of(wanted, arguments.folder);
-  WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, tell_wait};
-  while (work_on_ensemble(options).elsewhere > 0) std::this_thread::sleep_for(std::chrono::seconds(1));
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
+  ensemble::WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, tell_wait};
+  while (ensemble::work_on_ensemble(options).elsewhere > 0)
+    std::this_thread::sleep_for(std::chrono::seconds(1));
   refuse_failures(plan, "its trials are not complete");
   const std::string& run = plan.members.front().path;
-  table_of(RunFile::open(run), arguments.plan, run);  // it may have been there before, without trials
+  session::table_of(io::RunFile::open(run), arguments.plan,
+                    run);  // it may have been there before, without trials
 }
 
 /// A figure of no state would have nothing to show.
-void refuse_no_states(const PerturbArguments& arguments, const RunGroup& group, const Table& states) {
+void refuse_no_states(const PerturbArguments& arguments, const figures::RunGroup& group,
+                      const figures::Table& states) {
   if (!states.columns.front().values.empty()) return;
   double lowest = not_known, highest = not_known;
-  for (const RunView& run : group.runs) {
+  for (const runs::RunView& run : group.runs) {
     lowest = std::fmin(lowest, degrees(run.analysis.theta_c));
     highest = std::fmax(highest, degrees(run.analysis.theta_c));
   }
@@ -82,20 +85,21 @@ void refuse_no_states(const PerturbArguments& arguments, const RunGroup& group, 
 }
 
 /// Reports the seeds that are done. The tables are written in any case, the figure where there is a gnuplot.
-void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
+void report(const PerturbArguments& arguments, const ensemble::EnsemblePlan& plan) {
   std::vector<std::string> paths;
-  std::vector<PerturbationTable> tables;
-  for (const std::size_t m : done_members(plan)) {
-    const Member& member = plan.members[m];
+  std::vector<session::PerturbationTable> tables;
+  for (const std::size_t m : ensemble::done_members(plan)) {
+    const ensemble::Member& member = plan.members[m];
     paths.push_back(member.path);
-    tables.push_back(table_of(RunFile::open(member.path), arguments.plan, member.path));
+    tables.push_back(session::table_of(io::RunFile::open(member.path), arguments.plan, member.path));
   }
-  const std::vector<RunGroup> groups = group_runs(open_figure_runs(paths, parse_analysis_settings({}), {}));
+  const std::vector<figures::RunGroup> groups =
+      figures::group_runs(open_figure_runs(paths, runs::parse_analysis_settings({}), {}));
   const std::filesystem::path folder = arguments.folder;
-  const Figure figure = perturbation_figure(groups.front(), tables);
-  const std::string text = perturbation_markdown(groups.front(), tables);
-  write_text(folder / file_of(figure, figure.tables.front()), csv_text(figure.tables.front()));
-  write_text(folder / "perturb.md", text);
+  const figures::Figure figure = figures::perturbation_figure(groups.front(), tables);
+  const std::string text = figures::perturbation_markdown(groups.front(), tables);
+  io::write_text(folder / figures::file_of(figure, figure.tables.front()), csv_text(figure.tables.front()));
+  io::write_text(folder / "perturb.md", text);
   refuse_no_states(arguments, groups.front(), figure.tables.front());
   print_text(text);
   try {
@@ -108,20 +112,20 @@ void report(const PerturbArguments& arguments, const EnsemblePlan& plan) {
 }
 
 void run_perturb(PerturbArguments& arguments) {
-  const std::optional<SurfacePatch> patch = parse_patch(arguments.patch);
+  const std::optional<session::SurfacePatch> patch = session::parse_patch(arguments.patch);
   if (!patch)
     throw Error(ExitCode::usage,
                 fmt::format("--patch {}: expected width and depth in mean diameters, such as 10x2",
                             visible_word(arguments.patch)));
   arguments.plan.patch = *patch;
-  const EnsembleManifest wanted = manifest_of(arguments);
+  const ensemble::EnsembleManifest wanted = manifest_of(arguments);
   output_target((std::filesystem::path(arguments.folder) / "perturb.md").string(),
                 {true, {arguments.scenario}});
   if (arguments.seed) return perturb_seed(arguments, wanted);
   const EnsembleView view =
       compute_ensemble(wanted, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
-  const EnsemblePlan plan = plan_of(wanted, arguments.folder);
-  if (done_members(plan).empty()) {
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
+  if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
     print_text(ensemble_text(view));  // others are to compute it
     return;
@@ -150,10 +154,10 @@ void add_perturb_command(CLI::App& app) {
       ->excludes(seeds);
   command->add_option("--from", arguments->plan.first, "First tilt at which copies are pushed, deg")
       ->capture_default_str()
-      ->check(in_range(0.0, PerturbationPlan::highest));
+      ->check(in_range(0.0, session::PerturbationPlan::highest));
   command->add_option("--every", arguments->plan.every, "Tilt between these states, deg")
       ->capture_default_str()
-      ->check(in_range(PerturbationPlan::least_every, PerturbationPlan::highest));
+      ->check(in_range(session::PerturbationPlan::least_every, session::PerturbationPlan::highest));
   command
       ->add_option("--patch", arguments->patch,
                    "Width and depth of the part of the surface that is pushed, D")
@@ -166,4 +170,4 @@ void add_perturb_command(CLI::App& app) {
   command->callback([arguments] { run_perturb(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

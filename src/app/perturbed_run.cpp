@@ -11,25 +11,25 @@
 #include "core/trigonometry.h"
 #include "session/perturbation_threshold.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// The tilt of a session in deg, to the step.
-double tilt_of(const Session& session) {
+double tilt_of(const session::Session& session) {
   const double step = session.scenario().tilt.step;
   return static_cast<double>(std::llround(degrees(session.world().tilt) / step)) * step;
 }
 
 /// Whether the session stands at a tilt of the plan, on its way to failure.
-bool is_due(const Session& session, const PerturbationPlan& plan) {
-  if (session.phase() != Phase::tilt || session.angle_of_repose()) return false;
+bool is_due(const session::Session& session, const session::PerturbationPlan& plan) {
+  if (session.phase() != session::Phase::tilt || session.angle_of_repose()) return false;
   const auto steps = [&](double angle) { return std::llround(angle / session.scenario().tilt.step); };
   const auto since_first = steps(tilt_of(session)) - steps(plan.first);
   return since_first >= 0 && since_first % std::max(1LL, steps(plan.every)) == 0;
 }
 
 /// "[0.32, 0.37] sqrt(g D)": between what started no avalanche and what did.
-std::string bracket_text(const Threshold& threshold) {
+std::string bracket_text(const session::Threshold& threshold) {
   if (!threshold.held) return "does not hold by itself";
   if (std::isinf(threshold.with))
     return fmt::format("no avalanche up to {:.3g} sqrt(g D)", threshold.without);
@@ -39,20 +39,22 @@ std::string bracket_text(const Threshold& threshold) {
 
 }  // namespace
 
-std::function<std::vector<TrialRow>(const Session&)> trials_on_the_way(
-    PerturbationTable known, const volatile std::sig_atomic_t* stop) {
+std::function<std::vector<TrialRow>(const session::Session&)> trials_on_the_way(
+    session::PerturbationTable known, const volatile std::sig_atomic_t* stop) {
   const auto keep_on = [stop] {
     if (*stop != 0)
       throw Error(ExitCode::stopped, "the trials were stopped; they begin again with their state");
   };
-  return [keep_on, table = std::move(known)](const Session& session) mutable {
+  return [keep_on, table = std::move(known)](const session::Session& session) mutable {
     const double tilt = tilt_of(session);
     const bool done = !table.states.empty() && table.states.back().tilt >= tilt;
     if (done || !is_due(session, table.plan)) return std::vector<TrialRow>();
-    table.states.push_back({tilt, perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
-    print_error("%.3f deg: %s\n", tilt, bracket_text(threshold_of(table.states.back().trials)).c_str());
-    return rows_of(table.states.back(), session.world().step);
+    table.states.push_back(
+        {tilt, session::perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
+    print_error("%.3f deg: %s\n", tilt,
+                bracket_text(session::threshold_of(table.states.back().trials)).c_str());
+    return session::rows_of(table.states.back(), session.world().step);
   };
 }
 
-}  // namespace talus
+}  // namespace talus::app

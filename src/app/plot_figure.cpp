@@ -6,7 +6,7 @@
 #include "figures/group_table.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// "packing/stress_ratio" as the name of a file and of a column.
@@ -16,22 +16,22 @@ std::string plain_name(std::string name) {
 }
 
 /// A curve without a quantity is told by its text.
-std::string column_name(const PlotSeries& series) {
+std::string column_name(const view::PlotSeries& series) {
   return series.quantity ? series.quantity->name : series.name;
 }
 
-std::string meaning_of(const PlotSeries& series) {
+std::string meaning_of(const view::PlotSeries& series) {
   return series.quantity ? series.quantity->definition : series.name;
 }
 
-std::string unit_of(const PlotSeries& series) {
+std::string unit_of(const view::PlotSeries& series) {
   if (!series.quantity) return "1";
-  return series.quantity->display.percent ? "%" : scaled_unit(series.quantity->unit);
+  return series.quantity->display.percent ? "%" : analysis::scaled_unit(series.quantity->unit);
 }
 
 /// The table of a figure with these places, made where there is none; tables are called `name`, "name-2", ...
-Table& table_over(const std::vector<double>& x, const Plot& plot, const std::string& name, Figure& figure,
-                  std::size_t first) {
+figures::Table& table_over(const std::vector<double>& x, const view::Plot& plot, const std::string& name,
+                           figures::Figure& figure, std::size_t first) {
   for (std::size_t t = first; t < figure.tables.size(); ++t)
     if (figure.tables[t].columns[0].values == x) return figure.tables[t];
   const std::size_t before = figure.tables.size() - first;
@@ -44,26 +44,28 @@ Table& table_over(const std::vector<double>& x, const Plot& plot, const std::str
   return figure.tables.back();
 }
 
-void add_curve(const Plot& plot, const PlotSeries& series, Figure& figure, std::size_t& curves) {
-  Table& table = table_over(series.x, plot, "", figure, 0);
+void add_curve(const view::Plot& plot, const view::PlotSeries& series, figures::Figure& figure,
+               std::size_t& curves) {
+  figures::Table& table = table_over(series.x, plot, "", figure, 0);
   table.columns.push_back({column_name(series), unit_of(series), meaning_of(series), series.y});
   ++curves;
-  figure.variables.emplace_back(fmt::format("file_{}", curves), gnuplot_string(file_of(figure, table)));
+  figure.variables.emplace_back(fmt::format("file_{}", curves),
+                                figures::gnuplot_string(figures::file_of(figure, table)));
   figure.variables.emplace_back(fmt::format("column_{}", curves), fmt::format("{}", table.columns.size()));
-  figure.variables.emplace_back(fmt::format("title_{}", curves), gnuplot_string(series.name));
+  figure.variables.emplace_back(fmt::format("title_{}", curves), figures::gnuplot_string(series.name));
   figure.variables.emplace_back(fmt::format("law_{}", curves), series.law ? "1" : "0");
 }
 
-void add_behind(const Plot& plot, const PlotSeries& series, std::size_t first, std::size_t curve,
-                Figure& figure, std::size_t& behinds) {
-  Table& table = table_over(series.behind.x, plot, "behind", figure, first);
+void add_behind(const view::Plot& plot, const view::PlotSeries& series, std::size_t first, std::size_t curve,
+                figures::Figure& figure, std::size_t& behinds) {
+  figures::Table& table = table_over(series.behind.x, plot, "behind", figure, first);
   const std::string name = column_name(series), what = "behind: " + meaning_of(series);
   table.columns.push_back({name, unit_of(series), what + ", mean of the runs", series.behind.mean});
   table.columns.push_back(
       {name + "_deviation", unit_of(series), what + ", standard deviation", series.behind.deviation});
   ++behinds;
   figure.variables.emplace_back(fmt::format("behind_file_{}", behinds),
-                                gnuplot_string(file_of(figure, table)));
+                                figures::gnuplot_string(figures::file_of(figure, table)));
   figure.variables.emplace_back(fmt::format("behind_column_{}", behinds),
                                 fmt::format("{}", table.columns.size() - 1));
   figure.variables.emplace_back(fmt::format("behind_curve_{}", behinds), fmt::format("{}", curve));
@@ -71,9 +73,9 @@ void add_behind(const Plot& plot, const PlotSeries& series, std::size_t first, s
 
 }  // namespace
 
-Figure plot_figure(const Plot& plot, const PlotLook& look, const PlotMarks& marks, const std::string& run,
-                   const std::string& behind) {
-  Figure figure;
+figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, const view::PlotMarks& marks,
+                            const std::string& run, const std::string& behind) {
+  figures::Figure figure;
   figure.name = "plot-" + plain_name(plot.name);
   figure.script = "plot";
   figure.title = plot.title;
@@ -81,7 +83,7 @@ Figure plot_figure(const Plot& plot, const PlotLook& look, const PlotMarks& mark
   if (!plot.note.empty()) figure.caption += ", " + plot.note;
   if (!run.empty()) figure.runs.push_back(run);
   std::size_t curves = 0, behinds = 0;
-  for (const PlotSeries& series : plot.series)
+  for (const view::PlotSeries& series : plot.series)
     if (!series.x.empty()) add_curve(plot, series, figure, curves);
   const std::size_t first = figure.tables.size();
   for (std::size_t k = 0; k < plot.series.size(); ++k)
@@ -93,18 +95,18 @@ Figure plot_figure(const Plot& plot, const PlotLook& look, const PlotMarks& mark
   };
   set("plotted", fmt::format("{}", curves));
   set("behinds", fmt::format("{}", behinds));
-  set("behind_title", gnuplot_quoted(behind));
-  set("x_title_of_plot", gnuplot_string(plot.x_title));
-  set("y_title_of_plot", gnuplot_string(plot.title));
-  set("note", gnuplot_string(plot.note));
+  set("behind_title", figures::gnuplot_quoted(behind));
+  set("x_title_of_plot", figures::gnuplot_string(plot.x_title));
+  set("y_title_of_plot", figures::gnuplot_string(plot.title));
+  set("note", figures::gnuplot_string(plot.note));
   set("logarithmic", look.log_y.value_or(plot.log_y) ? "1" : "0");
   set("falling", plot.falling_x ? "1" : "0");
   if (look.zoomed) {
-    set("x_low", short_text((*look.zoomed)[0]));
-    set("x_high", short_text((*look.zoomed)[1]));
+    set("x_low", scenario::short_text((*look.zoomed)[0]));
+    set("x_high", scenario::short_text((*look.zoomed)[1]));
   }
-  if (marks.theta_c && plot.along_run) set("theta_c_at", short_text(*marks.theta_c));
+  if (marks.theta_c && plot.along_run) set("theta_c_at", scenario::short_text(*marks.theta_c));
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::app

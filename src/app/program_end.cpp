@@ -18,7 +18,7 @@
 #include "base/sanitizers.h"
 #include "io/file_in_use.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr std::string_view out_of_memory =
@@ -79,7 +79,7 @@ constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
 /// leaves a core.
 void tell_crash(int signal) {
   if (errno == ENOMEM) _exit(report_out_of_memory());
-  if (file_in_use != nullptr) _exit(report_malformed(file_in_use));
+  if (io::file_in_use != nullptr) _exit(report_malformed(io::file_in_use));
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -125,4 +125,4 @@ int report_exception() {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -14,14 +14,14 @@
 #include "io/durable_file.h"
 #include "io/run_schema.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// A file below the folder, where systems have such files below /usr/share.
 void write_below(const std::string& folder, const std::string& name, const std::string& text) {
   const std::string path = (std::filesystem::path(folder) / name).string();
   prepare_folder_of(path);
-  write_text(path, text);
+  io::write_text(path, text);
 }
 
 }  // namespace
@@ -35,8 +35,8 @@ std::string version_report() {
       "run files     schema version {}\n"
       "analyses      version {}",
       version_text(), compiler, flags.substr(std::min(flags.find_first_not_of(' '), flags.size())),
-      has_window ? "built in (talus view)" : "left out: built without GLFW or Dear ImGui", run_schema_version,
-      analysis_version);
+      has_window ? "built in (talus view)" : "left out: built without GLFW or Dear ImGui",
+      io::run_schema_version, io::analysis_version);
 }
 
 void add_program_help_command(CLI::App& app) {
@@ -56,4 +56,4 @@ void add_program_help_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// Version, compiler, what is built in, and the versions of files that it reads and writes.
 std::string version_report();
@@ -13,4 +13,4 @@ std::string version_report();
 /// shells. The commands before it are those that it describes.
 void add_program_help_command(CLI::App& app);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -9,7 +9,7 @@
 #include "app/stop_signals.h"
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct CloseFile {
@@ -51,4 +51,4 @@ ProgramOutput output_of(const std::vector<std::string>& words, const std::string
   return {status, text_of(out.get()), text_of(err.get())};
 }
 
-}  // namespace talus
+}  // namespace talus::app

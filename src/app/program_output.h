@@ -6,7 +6,7 @@
 
 #include "base/child_program.h"
 
-namespace talus {
+namespace talus::app {
 
 /// How a program ended, and what it said, without blank lines at the ends.
 struct ProgramOutput {
@@ -21,4 +21,4 @@ ProgramOutput output_of(const std::vector<std::string>& words, const std::string
                         ProgramEnvironment environment, const std::string& advice,
                         bool until_its_end = false);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -12,7 +12,7 @@
 #include "core/trigonometry.h"
 #include "session/estimate.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr double seconds_on_terminal = 0.1;
@@ -38,47 +38,48 @@ struct RunPace {
   StatusLine line;
   std::optional<double> deposition_steps;  ///< 0: unknown
   std::optional<double> program_steps;
-  std::optional<Phase> phase;
+  std::optional<session::Phase> phase;
   double began = 0.0;       ///< wall seconds
   double began_with = 0.0;  ///< share of the phase that was done by then
 };
 
 /// Steps until the bed is at rest; 0 where they cannot be estimated without the file that the bed came from.
-double expected_deposition(const Scenario& scenario) {
-  if (scenario.deposition.method == DepositionMethod::file) return 0.0;
-  return static_cast<double>(estimate(scenario).deposition_steps);
+double expected_deposition(const scenario::Scenario& scenario) {
+  if (scenario.deposition.method == scenario::DepositionMethod::file) return 0.0;
+  return static_cast<double>(session::estimate(scenario).deposition_steps);
 }
 
 /// How far the phase is; above 1 where it takes longer than expected, none where nothing is known.
-std::optional<double> share_of(const Session& session, RunPace& pace) {
-  const Scenario& scenario = session.scenario();
-  if (session.phase() == Phase::deposition) {
+std::optional<double> share_of(const session::Session& session, RunPace& pace) {
+  const scenario::Scenario& scenario = session.scenario();
+  if (session.phase() == session::Phase::deposition) {
     if (!pace.deposition_steps) pace.deposition_steps = expected_deposition(scenario);
     if (*pace.deposition_steps == 0.0) return std::nullopt;
     return static_cast<double>(session.world().step) / *pace.deposition_steps;
   }
-  if (session.phase() == Phase::flow) return std::nullopt;
+  if (session.phase() == session::Phase::flow) return std::nullopt;
   if (!session.follows_program())
-    return degrees(session.world().tilt) / scenario.tilt.end_angle.value_or(assumed_repose);
-  if (!pace.program_steps) pace.program_steps = static_cast<double>(expected_tilt_steps(scenario));
+    return degrees(session.world().tilt) / scenario.tilt.end_angle.value_or(session::assumed_repose);
+  if (!pace.program_steps) pace.program_steps = static_cast<double>(session::expected_tilt_steps(scenario));
   return static_cast<double>(session.schedule().tilt_steps) / *pace.program_steps;
 }
 
-RunShown shown_of(const Session& session, RunPace& pace) {
+RunShown shown_of(const session::Session& session, RunPace& pace) {
   const World& world = session.world();
-  const StepReport& report = session.last_report();
+  const dynamics::StepReport& report = session.last_report();
   const bool until_failure =
       session.follows_program() ? session.program().ends_at_repose() : !session.scenario().tilt.end_angle;
-  RunShown shown{.phase = session.phase() == Phase::done ? Phase::tilt : session.phase(),
-                 .time = world.time,
-                 .tilt = degrees(world.tilt),
-                 .share = share_of(session, pace),
-                 .repose_assumed = {},
-                 .residual = report.solver.residual.eta,
-                 .kinetic_energy = report.motion.kinetic_energy,
-                 .velocity = report.motion.rms_velocity / (world.gravity * time_step(session.scenario())),
-                 .contacts = report.contacts};
-  if (shown.phase == Phase::tilt && until_failure) shown.repose_assumed = assumed_repose;
+  RunShown shown{
+      .phase = session.phase() == session::Phase::done ? session::Phase::tilt : session.phase(),
+      .time = world.time,
+      .tilt = degrees(world.tilt),
+      .share = share_of(session, pace),
+      .repose_assumed = {},
+      .residual = report.solver.residual.eta,
+      .kinetic_energy = report.motion.kinetic_energy,
+      .velocity = report.motion.rms_velocity / (world.gravity * scenario::time_step(session.scenario())),
+      .contacts = report.contacts};
+  if (shown.phase == session::Phase::tilt && until_failure) shown.repose_assumed = session::assumed_repose;
   return shown;
 }
 
@@ -102,8 +103,9 @@ std::string progress_text(const Progress& progress, std::optional<int> width) {
   const bool known = share && *share >= 0.0 && *share <= 1.0;
   if (known && width) fields.emplace_back(progress_bar(*share), 4);
   if (known) fields.emplace_back(fmt::format("{:.0f} %", std::floor(100.0 * *share)), 3);
-  fields.emplace_back("elapsed " + duration_text(progress.elapsed), 2);
-  if (known && progress.remaining) fields.emplace_back("ETA " + duration_text(*progress.remaining), 1);
+  fields.emplace_back("elapsed " + session::duration_text(progress.elapsed), 2);
+  if (known && progress.remaining)
+    fields.emplace_back("ETA " + session::duration_text(*progress.remaining), 1);
   fields.insert(fields.end(), progress.more.begin(), progress.more.end());
   const auto columns = static_cast<std::size_t>(std::max(0, width.value_or(1 << 20)));
   for (int highest = 9;; --highest) {
@@ -123,10 +125,10 @@ Progress count_progress(const std::string& label, std::size_t done, std::size_t 
 }
 
 Progress run_progress(const RunShown& shown, double elapsed, std::optional<double> remaining) {
-  const bool deposition = shown.phase == Phase::deposition;
-  Progress progress{deposition                   ? fmt::format("deposition {:.3f} s", shown.time)
-                    : shown.phase == Phase::flow ? fmt::format("flow at {:.3f} deg", shown.tilt)
-                                                 : fmt::format("tilt {:.3f} deg", shown.tilt),
+  const bool deposition = shown.phase == session::Phase::deposition;
+  Progress progress{deposition                            ? fmt::format("deposition {:.3f} s", shown.time)
+                    : shown.phase == session::Phase::flow ? fmt::format("flow at {:.3f} deg", shown.tilt)
+                                                          : fmt::format("tilt {:.3f} deg", shown.tilt),
                     shown.share, elapsed, remaining};
   if (shown.repose_assumed && shown.share && *shown.share <= 1.0)
     progress.more.emplace_back(fmt::format("if it fails at {:.0f} deg", *shown.repose_assumed), 6);
@@ -170,8 +172,8 @@ CountDone count_shown(std::string label, bool quiet) {
   };
 }
 
-std::function<void(const RunProgress&)> run_shown(bool quiet) {
-  return [pace = std::make_shared<RunPace>(quiet)](const RunProgress& progress) {
+std::function<void(const session::RunProgress&)> run_shown(bool quiet) {
+  return [pace = std::make_shared<RunPace>(quiet)](const session::RunProgress& progress) {
     if (!pace->line.is_due()) return;
     const RunShown shown = shown_of(progress.session, *pace);
     const double elapsed = progress.wall_seconds;
@@ -179,4 +181,4 @@ std::function<void(const RunProgress&)> run_shown(bool quiet) {
   };
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -11,7 +11,7 @@
 #include "core/watch.h"
 #include "session/run.h"
 
-namespace talus {
+namespace talus::app {
 
 /// What a line of progress says.
 struct Progress {
@@ -33,7 +33,7 @@ Progress count_progress(const std::string& label, std::size_t done, std::size_t 
 
 /// Where a run is.
 struct RunShown {
-  Phase phase = Phase::deposition;
+  session::Phase phase = session::Phase::deposition;
   double time = 0.0;                     ///< s, of the model
   double tilt = 0.0;                     ///< deg
   std::optional<double> share;           ///< of this phase that is done
@@ -76,6 +76,6 @@ class StatusLine {
 CountDone count_shown(std::string label, bool quiet);
 
 /// Shows where a run is, in the same way; the line ends when the last copy of the function is gone.
-std::function<void(const RunProgress&)> run_shown(bool quiet);
+std::function<void(const session::RunProgress&)> run_shown(bool quiet);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -13,13 +13,13 @@
 #include "app/terminal.h"
 #include "pictures/picture_files.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct RenderArguments {
   std::string run;
-  MapOptions maps;
-  FramesAsked frames;
+  pictures::MapOptions maps;
+  pictures::FramesAsked frames;
   std::string folder;
   bool overwrite = false;
   bool quiet = false;
@@ -37,12 +37,14 @@ void render(const RenderArguments& arguments) {
   const std::string folder = arguments.folder.empty() ? default_folder(arguments.run) : arguments.folder;
   const CountDone reading = count_shown("reading", arguments.quiet);
   const Watch rendering = {count_shown("rendering", arguments.quiet), asked_to_stop};
-  const MapPlan plan = plan_maps(arguments.maps);
-  DrawnRun run = open_drawn_run(arguments.run, plan, reading);
-  const FrameChoice choice = choose_frames(run, arguments.frames);
-  const std::vector<PictureFile> missing = files_to_draw(run, choice, folder, arguments.overwrite);
-  for (const PictureFile& file : missing) output_target(file.path, output_of_run(arguments.run, true));
-  if (!missing.empty()) draw_files(run, missing, folder, rendering);
+  const pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
+  pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
+  const pictures::FrameChoice choice = pictures::choose_frames(run, arguments.frames);
+  const std::vector<pictures::PictureFile> missing =
+      pictures::files_to_draw(run, choice, folder, arguments.overwrite);
+  for (const pictures::PictureFile& file : missing)
+    output_target(file.path, output_of_run(arguments.run, true));
+  if (!missing.empty()) pictures::draw_files(run, missing, folder, rendering);
   if (arguments.quiet) return;
   const std::size_t count = choice.size() * plan.maps.size(), kept = count - missing.size();
   print("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());
@@ -80,4 +82,4 @@ void add_render_command(CLI::App& app) {
   command->callback([arguments] { render(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -7,7 +7,7 @@
 #include "app/terminal.h"
 #include "io/run_repair.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct RepairArguments {
@@ -21,7 +21,7 @@ void print_lines(const char* name, const std::vector<std::string>& lines) {
 }
 
 void repair(const RepairArguments& arguments) {
-  const RepairReport report = repair_run({arguments.run, arguments.output, arguments.overwrite});
+  const io::RepairReport report = io::repair_run({arguments.run, arguments.output, arguments.overwrite});
   if (report.was_whole) {
     print("%s is whole: there was nothing to repair, and nothing was written\n", arguments.run.c_str());
     return;
@@ -48,4 +48,4 @@ void add_repair_command(CLI::App& app) {
   command->callback([arguments] { repair(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -22,7 +22,7 @@
 #include "io/run_file.h"
 #include "session/run_header.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct ReplayArguments {
@@ -45,43 +45,44 @@ std::string end_text(const World& world) {
 void refuse_same(const ReplayArguments& arguments) {
   output_target(arguments.output, output_of_run(arguments.run, true));
   const std::string output = resolved_path(arguments.output), run = resolved_path(arguments.run);
-  if (output == run || run_folder(output) == run)
+  if (output == run || io::run_folder(output) == run)
     throw Error(ExitCode::usage,
                 arguments.output + " is the run that is replayed; choose another output with -o");
 }
 
 /// The output says what it replays, and how far: until then it lacks commands (resume_run).
-std::optional<RunStore> begin_output(const ReplayArguments& arguments, const Session& session,
-                                     const RunFile& run) {
+std::optional<io::RunStore> begin_output(const ReplayArguments& arguments, const session::Session& session,
+                                         const io::RunFile& run) {
   if (arguments.output.empty()) return std::nullopt;
   refuse_same(arguments);
-  if (!arguments.overwrite && run_presence(arguments.output) != RunPresence::none)
+  if (!arguments.overwrite && io::run_presence(arguments.output) != io::RunPresence::none)
     throw Error(
         ExitCode::cannot_create,
         fmt::format("{} exists already; replace it with --overwrite, or choose another output with -o",
                     arguments.output));
   prepare_folder_of(arguments.output);
-  RunHeader header = run_header(
-      session, with_bed({run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
-                         command_line(), arguments.threads, run.header().branch},
-                        session));
+  io::RunHeader header = session::run_header(
+      session, session::with_bed({run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
+                                  command_line(), arguments.threads, run.header().branch},
+                                 session));
   header.provenance.emplace_back("replay_of", arguments.run);
   header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
-  return RunStore::create(arguments.output, header, arguments.overwrite);
+  return io::RunStore::create(arguments.output, header, arguments.overwrite);
 }
 
-void compare(const ReplayArguments& arguments, const RunFile& run, const World& recomputed) {
+void compare(const ReplayArguments& arguments, const io::RunFile& run, const World& recomputed) {
   const World& stored = run.checkpoint().world;
   if (!arguments.quiet)
     print("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
   if (state_hash(stored) == state_hash(recomputed)) return;
   // Runs of earlier versions do not say which bed they began with.
-  const std::string file = stored_scenario(run.header(), arguments.run).deposition.file;
-  const bool may_be_bed = !file.empty() && !run.header().branch && bed_of(run.header().provenance).empty();
+  const std::string file = runs::stored_scenario(run.header(), arguments.run).deposition.file;
+  const bool may_be_bed =
+      !file.empty() && !run.header().branch && session::bed_of(run.header().provenance).empty();
   throw Error(ExitCode::internal,
               fmt::format("{}: its scenario and commands give another end state than the stored one; it was "
                           "computed by version {}, which may give other bits{}",
-                          arguments.run, version_of(run.header().provenance),
+                          arguments.run, runs::version_of(run.header().provenance),
                           may_be_bed ? fmt::format(", or {} was changed since, which holds its bed "
                                                    "(deposition.file)",
                                                    visible(file))
@@ -89,7 +90,7 @@ void compare(const ReplayArguments& arguments, const RunFile& run, const World& 
 }
 
 void replay_run(const ReplayArguments& arguments) {
-  const RunFile run = RunFile::open(arguments.run);
+  const io::RunFile run = io::RunFile::open(arguments.run);
   if (!run.has_state())
     throw Error(ExitCode::bad_data,
                 arguments.run +
@@ -101,21 +102,22 @@ void replay_run(const ReplayArguments& arguments) {
                     " was repaired, and the state that it began from is lost: it cannot be "
                     "computed again");
   const std::vector<Command> commands = run.commands();
-  Session session = session_at_start(run.header(), arguments.run);
+  session::Session session = session::session_at_start(run.header(), arguments.run);
   session.use_threads(arguments.threads);
-  std::optional<RunStore> store = begin_output(arguments, session, run);
-  RunControl control;
+  std::optional<io::RunStore> store = begin_output(arguments, session, run);
+  session::RunControl control;
   control.stop = stop_request();
   control.on_step = run_shown(arguments.quiet);
   if (!arguments.quiet)
     print("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
           static_cast<long long>(run.checkpoint().world.step), commands.size());
-  const RunEnd end = [&] {
+  const session::RunEnd end = [&] {
     const CommitOnSignals commit;
-    return replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step, control);
+    return session::replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step,
+                           control);
   }();
   control.on_step = {};  // ends the line
-  if (end == RunEnd::stopped)
+  if (end == session::RunEnd::stopped)
     throw Error(
         ExitCode::stopped,
         fmt::format("stopped after {} of {} steps: nothing was compared; replay it again from its beginning",
@@ -145,4 +147,4 @@ void add_replay_command(CLI::App& app) {
   command->callback([arguments] { replay_run(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -27,7 +27,7 @@
 #include "io/durable_file.h"
 #include "session/estimate.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,56 +40,56 @@ struct ReproduceArguments {
 };
 
 /// Makes what is missing of members that are done, or is of another version.
-void complete(const ReproductionPlan& plan) {
-  const std::vector<std::size_t> done = done_members(plan);
+void complete(const ensemble::ReproductionPlan& plan) {
+  const std::vector<std::size_t> done = ensemble::done_members(plan);
   const CountDone progress = count_shown("analyses", false);
   for (std::size_t k = 0; k < done.size(); ++k) {
     progress(k, done.size());
-    if (!is_measured(plan.members[done[k]])) complete_readings(plan.members[done[k]]);
+    if (!ensemble::is_measured(plan.members[done[k]])) ensemble::complete_readings(plan.members[done[k]]);
   }
   progress(done.size(), done.size());
 }
 
 /// What is still to be run, and how long that may take.
-void announce(const ReproductionPlan& plan, int jobs) {
+void announce(const ensemble::ReproductionPlan& plan, int jobs) {
   double seconds = 0.0;
-  for (const Member& member : plan.members) seconds += estimate(member.scenario).seconds;
-  const std::vector<std::size_t> done = done_members(plan);
-  for (const std::size_t m : done) seconds -= estimate(plan.members[m].scenario).seconds;
+  for (const ensemble::Member& member : plan.members) seconds += session::estimate(member.scenario).seconds;
+  const std::vector<std::size_t> done = ensemble::done_members(plan);
+  for (const std::size_t m : done) seconds -= session::estimate(plan.members[m].scenario).seconds;
   print_error("%zu of %zu runs to compute, about %s on %d processor%s; then their analyses, and figures\n",
-              plan.members.size() - done.size(), plan.members.size(), duration_text(seconds / jobs).c_str(),
-              jobs, jobs == 1 ? "" : "s");
+              plan.members.size() - done.size(), plan.members.size(),
+              session::duration_text(seconds / jobs).c_str(), jobs, jobs == 1 ? "" : "s");
 }
 
-std::vector<RunGroup> open_groups(const ReproductionPlan& plan) {
-  std::vector<std::size_t> members = done_members(plan);
+std::vector<figures::RunGroup> open_groups(const ensemble::ReproductionPlan& plan) {
+  std::vector<std::size_t> members = ensemble::done_members(plan);
   // By bed, so that groups come in the order of the plan: the paper's preparation first.
   std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
   std::vector<std::string> paths;
   for (const std::size_t m : members) paths.push_back(plan.members[m].path);
-  return group_runs(open_figure_runs(paths, AnalysisParameters(), {}));
+  return figures::group_runs(open_figure_runs(paths, analysis::AnalysisParameters(), {}));
 }
 
 /// `talus figures` that makes the same figure.
-std::string command_of(const Figure& figure, const std::string& folder) {
+std::string command_of(const figures::Figure& figure, const std::string& folder) {
   std::string text = "talus figures";
   for (const std::string& run : figure.runs) text += " " + run;
   return fmt::format("{} --only {} -o {}", text, figure.name, folder);
 }
 
 /// `talus reproduce` that makes the chart.
-std::string command_of(const ReproductionPlan& plan, const std::string& folder) {
+std::string command_of(const ensemble::ReproductionPlan& plan, const std::string& folder) {
   return fmt::format("talus reproduce{} --seeds {} -o {}", plan.quick ? " --quick" : "",
                      joined(plan.seeds, ","), folder);
 }
 
 bool holds(const fs::path& file, const std::string& text) {
-  return is_there(file.string()) && read_text(file.string()) == text;
+  return is_there(file.string()) && io::read_text(file.string()) == text;
 }
 
 /// Whether all files of a figure are there, drawn from the same data in the same way.
-bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::path& folder,
-              const FigureOptions& options) {
+bool is_drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
+              const fs::path& folder, const FigureOptions& options) {
   const auto there = [&](const std::string& file) { return is_there((folder / file).string()); };
   return std::ranges::all_of(figure_files(figure), there) &&
          holds(folder / (figure.name + ".json"), provenance_json(figure, groups, options.command_line)) &&
@@ -97,8 +97,8 @@ bool is_drawn(const Figure& figure, std::span<const RunGroup> groups, const fs::
 }
 
 /// Draws a figure, unless one with the same provenance and script is there, and returns it as a picture.
-ReportPicture drawn(const Figure& figure, std::span<const RunGroup> groups, const std::string& folder,
-                    const FigureOptions& options) {
+ensemble::ReportPicture drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
+                              const std::string& folder, const FigureOptions& options) {
   try {
     if (!is_drawn(figure, groups, folder, options)) write_figure(figure, groups, folder, options);
   } catch (const Error&) {
@@ -108,15 +108,16 @@ ReportPicture drawn(const Figure& figure, std::span<const RunGroup> groups, cons
   return {fmt::format("figures/{}.png", figure.name), figure.title, figure.caption, figure.wide};
 }
 
-std::vector<ReportPicture>& part_of(ReproductionPictures& pictures, Subject subject) {
+std::vector<ensemble::ReportPicture>& part_of(ensemble::ReproductionPictures& pictures,
+                                              figures::Subject subject) {
   switch (subject) {
-    case Subject::packing:
+    case figures::Subject::packing:
       return pictures.packing;
-    case Subject::overload:
+    case figures::Subject::overload:
       return pictures.overload;
-    case Subject::walls:
+    case figures::Subject::walls:
       return pictures.walls;
-    case Subject::further:
+    case figures::Subject::further:
       break;
   }
   return pictures.further;
@@ -124,15 +125,16 @@ std::vector<ReportPicture>& part_of(ReproductionPictures& pictures, Subject subj
 
 /// Draws the chart of agreement, and all figures of the catalogue that can be made of the complete, analysed
 /// runs.
-ReproductionPictures draw_figures(const ReproductionPlan& plan, const ReproductionResult& result,
-                                  const std::string& folder) {
-  const std::vector<RunGroup> groups = open_groups(plan);
+ensemble::ReproductionPictures draw_figures(const ensemble::ReproductionPlan& plan,
+                                            const ensemble::ReproductionResult& result,
+                                            const std::string& folder) {
+  const std::vector<figures::RunGroup> groups = open_groups(plan);
   const std::string into = (fs::path(folder) / "figures").string();
-  const auto catalogue = figure_catalogue();
-  ReproductionPictures pictures;
+  const auto catalogue = figures::figure_catalogue();
+  ensemble::ReproductionPictures pictures;
   const CountDone progress = count_shown("figures", false);
   progress(0, catalogue.size() + 1);
-  if (const auto chart = agreement_figure(result))
+  if (const auto chart = figures::agreement_figure(result))
     pictures.agreement.push_back(drawn(*chart, groups, into, {0, command_of(plan, folder)}));
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
     progress(k + 1, catalogue.size() + 1);
@@ -145,11 +147,12 @@ ReproductionPictures draw_figures(const ReproductionPlan& plan, const Reproducti
   return pictures;
 }
 
-void write_report(const ReproductionResult& result, const ReproductionPictures& pictures,
+void write_report(const ensemble::ReproductionResult& result, const ensemble::ReproductionPictures& pictures,
                   const fs::path& folder) {
-  write_text(folder / "values.csv", values_csv(result));
-  write_text(folder / "report.html", report_html(reproduction_report(result, pictures), folder));
-  for (const std::string& item : reproduction_summary(result)) print("- %s\n", item.c_str());
+  io::write_text(folder / "values.csv", ensemble::values_csv(result));
+  io::write_text(folder / "report.html",
+                 ensemble::report_html(ensemble::reproduction_report(result, pictures), folder));
+  for (const std::string& item : ensemble::reproduction_summary(result)) print("- %s\n", item.c_str());
   print("The report is %s\n", (folder / "report.html").c_str());
 }
 
@@ -158,19 +161,19 @@ void reproduce(const ReproduceArguments& arguments) {
                              : arguments.quick         ? "reproduction-quick"
                                                        : "reproduction";
   const std::string seeds = !arguments.seeds.empty() ? arguments.seeds : arguments.quick ? "1" : "1-2";
-  const ReproductionPlan plan = plan_reproduction(arguments.quick, seeds, folder);
+  const ensemble::ReproductionPlan plan = ensemble::plan_reproduction(arguments.quick, seeds, folder);
   require_gnuplot();
   if (arguments.jobs > 0) announce(plan, arguments.jobs);
   const EnsembleView view =
-      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ReadingsTask{}},
+      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ensemble::ReadingsTask{}},
                        {folder, {}, "", arguments.jobs}, {});
-  if (done_members(plan).empty()) {
+  if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
     print_text(ensemble_text(view));  // others are to compute it
     return;
   }
   complete(plan);
-  const ReproductionResult result = measure_members(plan);
+  const ensemble::ReproductionResult result = ensemble::measure_members(plan);
   write_report(result, draw_figures(plan, result, folder), folder);
   refuse_failures(plan, "left out of the report");
 }
@@ -193,4 +196,4 @@ void add_reproduce_command(CLI::App& app) {
   command->callback([arguments] { reproduce(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

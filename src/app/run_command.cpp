@@ -28,7 +28,7 @@
 #include "pictures/live_maps.h"
 #include "session/run_header.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct RunArguments {
@@ -42,7 +42,7 @@ struct RunArguments {
   bool overwrite = false;
   bool quiet = false;
   std::string frames;  ///< folder of maps drawn meanwhile; empty: none
-  MapOptions maps;
+  pictures::MapOptions maps;
 };
 
 std::string command_line_of(const RunArguments& arguments) {
@@ -58,7 +58,7 @@ void settle_names(RunArguments& arguments) {
   const bool names_run =
       arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
   if (!names_run) {
-    refuse_no_scenario(arguments.scenario);
+    io::refuse_no_scenario(arguments.scenario);
     if (arguments.output.empty())
       arguments.output = std::filesystem::path(arguments.scenario).stem().string() + ".h5";
     return;
@@ -70,12 +70,12 @@ void settle_names(RunArguments& arguments) {
   run = std::move(arguments.scenario);
   arguments.scenario.clear();
   while (run.ends_with('/')) run.pop_back();
-  if (run.ends_with(run_folder(""))) run.resize(run.size() - run_folder("").size());
-  if (run_presence(run) == RunPresence::none)
+  if (run.ends_with(io::run_folder(""))) run.resize(run.size() - io::run_folder("").size());
+  if (io::run_presence(run) == io::RunPresence::none)
     throw Error(ExitCode::missing_input,
                 fmt::format("{}: no run to go on with; expected a run file, or its folder {} with a first "
                             "commit; begin it with: talus run SCENARIO -o {}",
-                            run, run_folder(run), run));
+                            run, io::run_folder(run), run));
 }
 
 /// The settings of the scenario, the seed among them.
@@ -91,7 +91,7 @@ RunRequest request_of(const RunArguments& arguments) {
   return request;
 }
 
-void print_rest(const Session& session) {
+void print_rest(const session::Session& session) {
   const double tilt = degrees(session.world().tilt);
   if (const std::optional<double> theta_r = session.angle_at_rest())
     print("Its flow stopped at a tilt of %.3f deg: angle at rest theta_r = %.3f deg.\n", tilt,
@@ -100,13 +100,13 @@ void print_rest(const Session& session) {
     print("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n", tilt);
 }
 
-void print_end(const RunArguments& arguments, const Session& session) {
+void print_end(const RunArguments& arguments, const session::Session& session) {
   const StepRemark remark = remark_on(session.schedule().record, session.world().step);
   if (!remark.usual) print_error("talus: warning: %s\n", remark.text.c_str());
-  for (std::size_t k = 0; k < guard_count; ++k)
+  for (std::size_t k = 0; k < session::guard_count; ++k)
     if (const std::int64_t steps = session.schedule().warnings.steps[k]; steps > 0)
       print_error("talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
-                  std::string(guard_names[k]).c_str(), static_cast<long long>(steps),
+                  std::string(session::guard_names[k]).c_str(), static_cast<long long>(steps),
                   static_cast<long long>(session.schedule().warnings.first[k]));
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
@@ -115,36 +115,38 @@ void print_end(const RunArguments& arguments, const Session& session) {
           beyond_repose(*theta_c, session.world().tilt).c_str());
   else
     print("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
-  if (theta_c && session.scenario().tilt.after_failure != AfterFailure::stop) print_rest(session);
+  if (theta_c && session.scenario().tilt.after_failure != scenario::AfterFailure::stop) print_rest(session);
   if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
   print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
         static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
 
 /// The maps that are drawn while the run computes, if any. Refuses before the run is touched.
-std::optional<LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request, bool resumed) {
+std::optional<pictures::LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request,
+                                               bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
-  const MapPlan plan = plan_live_maps(arguments.maps);
+  const pictures::MapPlan plan = pictures::plan_live_maps(arguments.maps);
   if (!request.scenario.empty())
-    read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
+    scenario::read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
   if (plan.maps[0].theta_c_assumed && !arguments.quiet)
     print_error(
         "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
         "%g deg; --theta-c DEG gives another\n",
-        assumed_theta_c);
-  return std::optional<LiveMaps>(
+        pictures::assumed_theta_c);
+  return std::optional<pictures::LiveMaps>(
       std::in_place, plan, arguments.frames, resumed, arguments.overwrite,
       [](const std::string& failure) { print_error("talus: warning: %s\n", failure.c_str()); });
 }
 
-void begin_maps(LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
-  const Scenario::Tilt& tilt = open.session.scenario().tilt;
+void begin_maps(pictures::LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
+  const scenario::Scenario::Tilt& tilt = open.session.scenario().tilt;
   maps.begin(open.header, arguments.output, tilt.step, !tilt.program.empty());
-  if (run_presence(arguments.output) == RunPresence::folder) maps.meet(RunFile::open(arguments.output));
+  if (io::run_presence(arguments.output) == io::RunPresence::folder)
+    maps.meet(io::RunFile::open(arguments.output));
 }
 
 /// Maps that could not be drawn are reported last, since the run itself is complete.
-void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
+void finish_maps(pictures::LiveMaps& maps, const RunArguments& arguments) {
   try {
     maps.finish();
   } catch (const Error& error) {
@@ -156,8 +158,9 @@ void finish_maps(LiveMaps& maps, const RunArguments& arguments) {
 }
 
 /// Maps of a complete run that was ended before all of them were drawn.
-void draw_what_is_missing(const RunArguments& arguments, const RunFile& file, const Scenario& scenario) {
-  std::optional<LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
+void draw_what_is_missing(const RunArguments& arguments, const io::RunFile& file,
+                          const scenario::Scenario& scenario) {
+  std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
   if (!maps) return;
   maps->begin(file.header(), arguments.output, scenario.tilt.step, !scenario.tilt.program.empty());
   maps->meet(file);
@@ -166,10 +169,10 @@ void draw_what_is_missing(const RunArguments& arguments, const RunFile& file, co
 /// Of a complete run only what a kill at its end may have left behind remains to be done: its folder is
 /// removed and missing maps are drawn.
 void resume_complete(const RunArguments& arguments) {
-  const RunFile file = RunFile::open(arguments.output);
-  const Scenario scenario = stored_scenario(file.header(), arguments.output + ":/parameters");
+  const io::RunFile file = io::RunFile::open(arguments.output);
+  const scenario::Scenario scenario = runs::stored_scenario(file.header(), arguments.output + ":/parameters");
   require_same_scenario(request_of(arguments), scenario);
-  discard_folder(arguments.output);
+  io::discard_folder(arguments.output);
   if (!arguments.quiet) print("%s is complete already.\n", arguments.output.c_str());
   draw_what_is_missing(arguments, file, scenario);
 }
@@ -194,37 +197,38 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
 /// Maps of the frames are drawn while the run goes on. Meanwhile the solver has a thread less where there is
 /// no processor beside its own: threads that share one hold up the others, which wait for them many times a
 /// step.
-void draw_beside(LiveMaps& maps, int threads, Session& session, RunControl& control) {
+void draw_beside(pictures::LiveMaps& maps, int threads, session::Session& session,
+                 session::RunControl& control) {
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   const int fewer = processors > threads ? threads : std::max(1, threads - 1);
   control.on_frame = [&maps](const Frame& frame) { maps.add(frame); };
   control.on_step = [&maps, &session, threads, fewer,
-                     tell = std::move(control.on_step)](const RunProgress& progress) {
+                     tell = std::move(control.on_step)](const session::RunProgress& progress) {
     tell(progress);
     session.use_threads(maps.drawing() ? fewer : threads);
   };
 }
 
 void run(const RunArguments& arguments) {
-  RunControl control;
+  session::RunControl control;
   control.stop = stop_request();
   control.checkpoint = catch_checkpoint_signal();
   if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-  const RunPresence presence = run_presence(arguments.output);
-  if (arguments.resume && presence == RunPresence::packed) return resume_complete(arguments);
+  const io::RunPresence presence = io::run_presence(arguments.output);
+  if (arguments.resume && presence == io::RunPresence::packed) return resume_complete(arguments);
   const RunRequest request = request_of(arguments);
-  const bool resumed = arguments.resume && presence == RunPresence::folder;
-  std::optional<LiveMaps> maps = prepare_maps(arguments, request, resumed);
+  const bool resumed = arguments.resume && presence == io::RunPresence::folder;
+  std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request, resumed);
   OpenRun open = open_run(arguments, request, resumed);
   if (maps) begin_maps(*maps, open, arguments);
   control.on_step = run_shown(arguments.quiet);
   if (maps) draw_beside(*maps, arguments.threads, open.session, control);
-  const RunEnd end = [&] {
+  const session::RunEnd end = [&] {
     const CommitOnSignals commit;
-    return run_to_end(open.session, open.store, control);
+    return session::run_to_end(open.session, open.store, control);
   }();
   control.on_step = {};  // ends the line
-  if (end == RunEnd::stopped) end_stopped(arguments, open.session.world(), *control.stop != 0);
+  if (end == session::RunEnd::stopped) end_stopped(arguments, open.session.world(), *control.stop != 0);
   print_end(arguments, open.session);
   if (maps) finish_maps(*maps, arguments);
 }
@@ -271,4 +275,4 @@ void add_run_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -6,7 +6,7 @@
 
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::app {
 
 /// `seed`: its digits, for the setting "seed=..."; its range is checked with the scenario. Left empty where
 /// the option is not given.
@@ -22,4 +22,4 @@ inline void add_seed_option(CLI::App& command, std::string& seed) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -19,7 +19,7 @@
 #include "problems/siconos_error.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// Who asked for the tolerance of a solve.
@@ -28,7 +28,7 @@ enum class AskedBy { option, run, default_value };
 struct SolveArguments {
   std::string problem;
   std::string output;
-  SolverSettings settings;
+  solver::SolverSettings settings;
   std::optional<double> tolerance;
   AskedBy asked_by = AskedBy::default_value;
   bool cold = false;
@@ -39,20 +39,20 @@ struct SolveArguments {
 struct SolveResult {
   Index contacts = 0;
   Index bodies = 0;  ///< 0 where they are not known
-  SolverReport report;
-  std::optional<StepTolerance> of_run;
+  solver::SolverReport report;
+  std::optional<problems::StepTolerance> of_run;
   double siconos_error = 0.0;
   double carried_weight = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0.0;
-  LocalSolution solution;
+  solver::LocalSolution solution;
 
   double nanoseconds_per_contact() const {
     return 1e9 * seconds / (static_cast<double>(contacts) * report.iterations);
   }
 };
 
-const char* name_of(SolverKind kind) {
-  return kind == SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
+const char* name_of(solver::SolverKind kind) {
+  return kind == solver::SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
 }
 
 const char* name_of(AskedBy asked_by) {
@@ -66,7 +66,7 @@ const char* words_of(AskedBy asked_by) {
 }
 
 /// The problem of a run is solved as the run would, unless an option says otherwise.
-void choose_tolerance(const StoredProblem& stored, SolveArguments& arguments) {
+void choose_tolerance(const problems::StoredProblem& stored, SolveArguments& arguments) {
   if (arguments.tolerance) {
     arguments.settings.tolerance = *arguments.tolerance;
     arguments.asked_by = AskedBy::option;
@@ -84,30 +84,31 @@ double seconds_of(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void solve_bodies(const StepProblem& step, const SolveArguments& arguments, SolveResult& result) {
-  ContactSolution solution = step.guess;
+void solve_bodies(const problems::StepProblem& step, const SolveArguments& arguments, SolveResult& result) {
+  solver::ContactSolution solution = step.guess;
   if (arguments.cold) {
     solution.pn.assign(solution.pn.size(), 0.0);
     solution.pt.assign(solution.pt.size(), 0.0);
   }
-  SolverWorkspace workspace;
-  result.seconds =
-      seconds_of([&] { result.report = solve(step.problem, arguments.settings, workspace, solution); });
+  solver::SolverWorkspace workspace;
+  result.seconds = seconds_of(
+      [&] { result.report = solver::solve(step.problem, arguments.settings, workspace, solution); });
   result.bodies = step.problem.body_count();
   result.of_run = step.tolerance;
-  result.siconos_error = siconos_error(step.problem, solution);
-  result.carried_weight = carried_weight(step, solution);
-  result.solution = local_form(step.problem, solution);
+  result.siconos_error = problems::siconos_error(step.problem, solution);
+  result.carried_weight = problems::carried_weight(step, solution);
+  result.solution = solver::local_form(step.problem, solution);
 }
 
-void solve_local(const StoredProblem& stored, const SolveArguments& arguments, SolveResult& result) {
-  result.solution.p = arguments.cold ? std::vector<Impulse>(stored.guess.size()) : stored.guess;
+void solve_local(const problems::StoredProblem& stored, const SolveArguments& arguments,
+                 SolveResult& result) {
+  result.solution.p = arguments.cold ? std::vector<solver::Impulse>(stored.guess.size()) : stored.guess;
   result.seconds =
-      seconds_of([&] { result.report = solve(stored.local, arguments.settings, result.solution); });
-  result.siconos_error = siconos_error(stored.local, result.solution.p);
+      seconds_of([&] { result.report = problems::solve(stored.local, arguments.settings, result.solution); });
+  result.siconos_error = problems::siconos_error(stored.local, result.solution.p);
 }
 
-SolveResult solve(const StoredProblem& stored, const SolveArguments& arguments) {
+SolveResult solve(const problems::StoredProblem& stored, const SolveArguments& arguments) {
   SolveResult result;
   result.contacts = stored.local.contact_count();
   if (stored.step)
@@ -119,7 +120,7 @@ SolveResult solve(const StoredProblem& stored, const SolveArguments& arguments) 
 
 void print_json(const SolveArguments& arguments, const SolveResult& result) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const StepTolerance of_run = result.of_run.value_or(StepTolerance{none, none, none});
+  const problems::StepTolerance of_run = result.of_run.value_or(problems::StepTolerance{none, none, none});
   const Json json = {{"problem", arguments.problem},
                      {"solver", name_of(arguments.settings.kind)},
                      {"form", result.bodies > 0 ? "bodies" : "local"},
@@ -151,7 +152,7 @@ void print_number(const char* name, const char* format, double value) {
 }
 
 void print_report(const SolveArguments& arguments, const SolveResult& result) {
-  const SolverReport& report = result.report;
+  const solver::SolverReport& report = result.report;
   print("%-25s%s, on %s, from %s\n", "solver", name_of(arguments.settings.kind),
         result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
   print("%-25s%d\n", "contacts", result.contacts);
@@ -170,7 +171,7 @@ void print_report(const SolveArguments& arguments, const SolveResult& result) {
 
 void run(SolveArguments& arguments) {
   if (!arguments.output.empty()) output_target(arguments.output, {arguments.overwrite, {arguments.problem}});
-  const StoredProblem stored = read_problem(arguments.problem);
+  const problems::StoredProblem stored = problems::read_problem(arguments.problem);
   choose_tolerance(stored, arguments);
   const SolveResult result = solve(stored, arguments);
   if (arguments.json)
@@ -179,14 +180,14 @@ void run(SolveArguments& arguments) {
     print_report(arguments, result);
   if (arguments.output.empty()) return;
   prepare_folder_of(arguments.output);
-  write_solution(arguments.problem, arguments.output, result.solution);
+  problems::write_solution(arguments.problem, arguments.output, result.solution);
 }
 
 void add_settings(CLI::App& command, SolveArguments& arguments) {
-  SolverSettings& settings = arguments.settings;
+  solver::SolverSettings& settings = arguments.settings;
   settings.max_iterations = 100000;
-  const std::map<std::string, SolverKind> kinds = {{"accelerated", SolverKind::accelerated},
-                                                   {"gauss-seidel", SolverKind::gauss_seidel}};
+  const std::map<std::string, solver::SolverKind> kinds = {
+      {"accelerated", solver::SolverKind::accelerated}, {"gauss-seidel", solver::SolverKind::gauss_seidel}};
   command
       .add_option_function<std::string>(
           "--solver", [&settings, kinds](const std::string& name) { settings.kind = kinds.at(name); },
@@ -197,7 +198,7 @@ void add_settings(CLI::App& command, SolveArguments& arguments) {
       .add_option("--tol", arguments.tolerance,
                   fmt::format("Natural-map residual eta to reach; without it what the run asked of the step, "
                               "and {} where the file does not tell",
-                              short_text(settings.tolerance)))
+                              scenario::short_text(settings.tolerance)))
       ->check(in_range(1e-15, 1.0));
   command.add_option("--max-iterations", settings.max_iterations, "Iterations, at most")
       ->capture_default_str()
@@ -231,4 +232,4 @@ void add_solve_command(CLI::App& app) {
   command->callback([arguments] { run(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

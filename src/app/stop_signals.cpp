@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr const char* sentence = "stopped; what was not finished is not kept";
@@ -79,4 +79,4 @@ volatile std::sig_atomic_t* catch_checkpoint_signal() {
   return &checkpoint_requested;
 }
 
-}  // namespace talus
+}  // namespace talus::app

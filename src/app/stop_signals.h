@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-namespace talus {
+namespace talus::app {
 
 /// From now on the first of these signals asks the command to stop, and ends the program a third of a second
 /// later, whatever it computes or waits for; the second ends it at once. Both with ExitCode::stopped.
@@ -29,4 +29,4 @@ class CommitOnSignals {
 /// Catches SIGUSR1 from now on and returns the flag that it sets.
 volatile std::sig_atomic_t* catch_checkpoint_signal();
 
-}  // namespace talus
+}  // namespace talus::app

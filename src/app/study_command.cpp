@@ -15,7 +15,7 @@
 #include "ensemble/study_report.h"
 #include "io/durable_file.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct StudyArguments {
@@ -29,18 +29,19 @@ struct StudyArguments {
   bool json = false;
 };
 
-Json runs_json(const StudyResult& result) {
+Json runs_json(const ensemble::StudyResult& result) {
   Json runs = Json::object();
-  for (const StudyOutcome& outcome : result.outcomes) {
+  for (const ensemble::StudyOutcome& outcome : result.outcomes) {
     Json& run = runs[result.plan.members[outcome.member].name];
-    for (std::size_t k = 0; k < study_quantity_count; ++k) run[study_fields()[k].name] = outcome.figures[k];
+    for (std::size_t k = 0; k < ensemble::study_quantity_count; ++k)
+      run[ensemble::study_fields()[k].name] = outcome.figures[k];
     run["state_hash"] = outcome.state_hash;
     run["version"] = outcome.version;
   }
   return runs;
 }
 
-Json comparison_json(const Comparison& found) {
+Json comparison_json(const ensemble::Comparison& found) {
   static const char* const words[] = {"unknown", "within error", "differs"};
   return {{"seeds", found.value.count},
           {"mean", found.value.mean},
@@ -50,12 +51,12 @@ Json comparison_json(const Comparison& found) {
           {"verdict", words[static_cast<int>(verdict(found.difference))]}};
 }
 
-std::string study_json(const StudyResult& result) {
+std::string study_json(const ensemble::StudyResult& result) {
   Json variations = Json::object();
   for (std::size_t v = 0; v < result.plan.variants.size(); ++v)
-    for (std::size_t k = 0; k < study_quantity_count; ++k)
-      variations[result.plan.variants[v].name][study_fields()[k].name] =
-          comparison_json(compare(result, v, static_cast<StudyQuantity>(k)));
+    for (std::size_t k = 0; k < ensemble::study_quantity_count; ++k)
+      variations[result.plan.variants[v].name][ensemble::study_fields()[k].name] =
+          comparison_json(ensemble::compare(result, v, static_cast<ensemble::StudyQuantity>(k)));
   return json_text({{"scenario", result.plan.scenario_file},
                     {"reference_deg", result.reference},
                     {"variations", variations},
@@ -63,23 +64,23 @@ std::string study_json(const StudyResult& result) {
 }
 
 void study(const StudyArguments& arguments) {
-  const StudyPlan plan =
-      plan_study(arguments.scenario, arguments.settings, arguments.axes, arguments.seeds, arguments.folder);
+  const ensemble::StudyPlan plan = ensemble::plan_study(arguments.scenario, arguments.settings,
+                                                        arguments.axes, arguments.seeds, arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   for (const char* table : {"study.csv", "study.md"})
     output_target((folder / table).string(), {true, {arguments.scenario}});
   const EnsembleView view =
       compute_ensemble({.seeds = plan.seeds, .variants = plan.variants},
                        {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
-  if (done_members(plan).empty()) {
+  if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be compared");
     print_text(ensemble_text(view));  // others are to compute it
     return;
   }
-  const StudyResult result = read_study(plan, arguments.reference);
-  write_text(folder / "study.csv", study_csv(result));
-  write_text(folder / "study.md", study_markdown(result));
-  print("%s\n", (arguments.json ? study_json(result) : study_markdown(result)).c_str());
+  const ensemble::StudyResult result = ensemble::read_study(plan, arguments.reference);
+  io::write_text(folder / "study.csv", ensemble::study_csv(result));
+  io::write_text(folder / "study.md", ensemble::study_markdown(result));
+  print("%s\n", (arguments.json ? study_json(result) : ensemble::study_markdown(result)).c_str());
   refuse_failures(plan, "left out of the tables");
 }
 
@@ -113,4 +114,4 @@ void add_study_command(CLI::App& app) {
   command->callback([arguments] { study(*arguments); });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -6,7 +6,7 @@
 
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 void write(std::FILE* stream, std::string_view text) {
@@ -49,4 +49,4 @@ void print_status(std::string_view line, bool rewrite) {
   if (!rewrite) std::fputc('\n', stderr);
 }
 
-}  // namespace talus
+}  // namespace talus::app

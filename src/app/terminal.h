@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace talus {
+namespace talus::app {
 
 /// Print as std::printf does, to stdout or stderr, without anything that a terminal obeys: names, keys and
 /// texts of files hold what they like (visible_text.h). A format must hold no such character itself.
@@ -16,4 +16,4 @@ void print_text(std::string_view text);
 /// On stderr, in place of the line that was shown last if `rewrite`: progress.
 void print_status(std::string_view line, bool rewrite);
 
-}  // namespace talus
+}  // namespace talus::app

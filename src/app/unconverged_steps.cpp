@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fmt/core.h>
 
-namespace talus {
+namespace talus::app {
 
-StepRemark remark_on(const SolverRecord& record, std::int64_t steps) {
+StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps) {
   const std::int64_t missed =
       record.unconverged_deposition + record.unconverged_tilt + record.unconverged_flow;
   if (missed == 0) return {};
@@ -22,4 +22,4 @@ StepRemark remark_on(const SolverRecord& record, std::int64_t steps) {
                       text, record.unconverged_deposition, record.unconverged_tilt, record.unconverged_flow)};
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -6,7 +6,7 @@
 
 #include "session/session.h"
 
-namespace talus {
+namespace talus::app {
 
 /// Up to this share of all steps is usual (docs/solver.md).
 inline constexpr double usual_unconverged_share = 0.002;
@@ -16,6 +16,6 @@ struct StepRemark {
   std::string text;   ///< empty where all steps converged
 };
 /// `steps` are those of the whole run.
-StepRemark remark_on(const SolverRecord& record, std::int64_t steps);
+StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps);
 
-}  // namespace talus
+}  // namespace talus::app

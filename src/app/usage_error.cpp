@@ -14,7 +14,7 @@
 #include "scenario/keys.h"
 #include "scenario/setting_forms.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 /// What other programs call what these commands do.
@@ -131,9 +131,9 @@ std::string setting_meant(const CLI::App& command, const std::string& word) {
   if (settings_of(command) == nullptr ||
       settings_of(command)->get_description().find("scenario") == std::string::npos)
     return {};
-  const KeyHeads keys = heads(scenario_keys());
-  const std::string name = without_value(word), key = meant_key(keys, name);
-  const std::vector<std::string> meant = key.empty() ? keys_called(keys, name) : std::vector{key};
+  const scenario::KeyHeads keys = scenario::heads(scenario::scenario_keys());
+  const std::string name = without_value(word), key = scenario::meant_key(keys, name);
+  const std::vector<std::string> meant = key.empty() ? scenario::keys_called(keys, name) : std::vector{key};
   const std::string value = name.size() == word.size() ? "VALUE" : word.substr(name.size() + 1);
   return joined(meant, "' or '",
                 [&value](const std::string& one) { return fmt::format("--set {}={}", one, value); });
@@ -219,4 +219,4 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}{} {} --help tells more", said, said.ends_with('?') ? "" : ";", commands.back().name);
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::app {
 
 /// Looks at the words before the parser does. Throws Error(usage) for a first word that is no command of
 /// `app`, for one that is near to a command of a command (`talus ensemble statsu`), and for an option with
@@ -16,4 +16,4 @@ void refuse_words(CLI::App& app, const std::vector<std::string>& words);
 /// the word that is one too many, or what the parser says, each with where to read on.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
 
-}  // namespace talus
+}  // namespace talus::app

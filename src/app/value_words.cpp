@@ -4,7 +4,7 @@
 #include <iterator>
 #include <string_view>
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct ValueWord {
@@ -122,4 +122,4 @@ void name_values(CLI::App& app) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// Gives the options of all commands below `app` their words, which help, man pages, completions and messages
 /// show: "DEG" for an angle in degrees, "FOLDER", "LOW,HIGH".
 void name_values(CLI::App& app);
 
-}  // namespace talus
+}  // namespace talus::app

@@ -33,7 +33,7 @@
 #include "render/png.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 struct ViewArguments {
@@ -72,20 +72,23 @@ std::pair<int, int> parse_size(const std::string& text) {
 }
 
 /// The names of clocks that link two runs.
-const std::vector<std::pair<std::string, PlotAxis>> clocks = {
-    {"tilt", PlotAxis::tilt}, {"angle-left", PlotAxis::angle_left}, {"time", PlotAxis::time}};
+const std::vector<std::pair<std::string, view::PlotAxis>> clocks = {
+    {"tilt", view::PlotAxis::tilt},
+    {"angle-left", view::PlotAxis::angle_left},
+    {"time", view::PlotAxis::time}};
 
 /// The second view, where it is asked for.
-void show_beside(ViewModel& model, const ViewArguments& arguments) {
-  BesideState& beside = model.state.beside;
-  if (!arguments.beside_map.empty()) beside.layers = map_layers(arguments.beside_map);
+void show_beside(view::ViewModel& model, const ViewArguments& arguments) {
+  view::BesideState& beside = model.state.beside;
+  if (!arguments.beside_map.empty()) beside.layers = pictures::map_layers(arguments.beside_map);
   if (!arguments.beside_minus.empty())
     beside.minus = model.frame_tilts().at(model.frame_at_angle(arguments.beside_minus));
   beside.shown = beside.minus || !beside.layers.empty();
   if (arguments.beside.empty()) return;
   model.open_beside(arguments.beside);
   if (arguments.link.empty()) return;
-  beside.clock = std::ranges::find(clocks, arguments.link, &std::pair<std::string, PlotAxis>::first)->second;
+  beside.clock =
+      std::ranges::find(clocks, arguments.link, &std::pair<std::string, view::PlotAxis>::first)->second;
   if (!model.has_clock(beside.clock))
     throw Error(ExitCode::usage,
                 fmt::format("--link {}: both runs need an angle of repose, and the slope of {} "
@@ -95,19 +98,19 @@ void show_beside(ViewModel& model, const ViewArguments& arguments) {
 
 std::vector<std::string> names_of_themes() {
   std::vector<std::string> names;
-  for (const Theme theme : themes()) names.emplace_back(theme_name(theme));
+  for (const view::Theme theme : view::themes()) names.emplace_back(view::theme_name(theme));
   return names;
 }
 
 /// What is shown first.
-void show_first(ViewModel& model, const ViewArguments& arguments) {
-  if (!arguments.map.empty()) model.state.map.layers = map_layers(arguments.map);
+void show_first(view::ViewModel& model, const ViewArguments& arguments) {
+  if (!arguments.map.empty()) model.state.map.layers = pictures::map_layers(arguments.map);
   if (!arguments.at.empty()) model.go_to(model.frame_at_angle(arguments.at));
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
     throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
-  model.state.theme = theme_of(arguments.theme);
+  model.state.theme = view::theme_of(arguments.theme);
   model.state.scale = arguments.scale;
   if (!arguments.behind.empty()) {
     model.hold();
@@ -128,11 +131,11 @@ OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
   std::vector<std::string> more = arguments.behind;
   if (!arguments.beside.empty()) more.push_back(arguments.beside);
-  if (!is_run(arguments.file)) {
-    const std::string bed = read_scenario(arguments.file, arguments.settings).deposition.file;
+  if (!io::is_run(arguments.file)) {
+    const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
     if (!bed.empty()) more.push_back(bed);
   }
-  for (const std::string& run : more) rule.inputs.insert(rule.inputs.end(), {run, run_folder(run)});
+  for (const std::string& run : more) rule.inputs.insert(rule.inputs.end(), {run, io::run_folder(run)});
   return rule;
 }
 
@@ -140,22 +143,23 @@ OutputRule output_of_view(const ViewArguments& arguments) {
 void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
   const auto [width, height] = parse_size(arguments.size);
-  const std::optional<ContextKind> kind = context_kind(arguments.context);
+  const std::optional<render::ContextKind> kind = render::context_kind(arguments.context);
   output_target(arguments.screenshot, output_of_view(arguments));
-  ViewModel model = ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
+  view::ViewModel model =
+      view::ViewModel::open(arguments.file, arguments.settings, "", false, command_line());
   show_first(model, arguments);
-  OffscreenGui gui(model, width, height, 1.0f, kind);
+  gui::OffscreenGui gui(model, width, height, 1.0f, kind);
   for (int quiet = 0; quiet < 25; std::this_thread::sleep_for(20ms))
     quiet = model.update(0.0) ? 0 : quiet + 1;
   gui.settle();
   prepare_folder_of(arguments.screenshot);
-  write_png(arguments.screenshot, gui.frame());
+  render::write_png(arguments.screenshot, gui.frame());
 }
 
 /// How to go on with a run that was recorded; empty for one that was not.
-std::string way_on(const Recording& run) {
+std::string way_on(const view::Recording& run) {
   if (run.output.empty()) return {};
-  if (run_presence(run.output) == RunPresence::packed)
+  if (io::run_presence(run.output) == io::RunPresence::packed)
     return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
                        run.output);
   if (run.scenario.empty())
@@ -169,39 +173,40 @@ std::string way_on(const Recording& run) {
 
 /// "NAME<tab>X0 Y0 X1 Y1" of each widget, px of the window, for scripts that click. Only where it differs
 /// from what was written before.
-void write_places(const std::string& path, const std::vector<WidgetPlace>& places, std::string& written) {
+void write_places(const std::string& path, const std::vector<gui::WidgetPlace>& places,
+                  std::string& written) {
   std::string text;
-  for (const WidgetPlace& place : places)
+  for (const gui::WidgetPlace& place : places)
     text +=
         fmt::format("{}\t{:.0f} {:.0f} {:.0f} {:.0f}\n", place.name, place.x0, place.y0, place.x1, place.y1);
   if (text == written) return;
-  write_text(path, text);
+  io::write_text(path, text);
   written = text;
 }
 
 /// Ends what was shown. Returns what there is to say about what was recorded.
-std::string close(ViewModel model) {
-  const LiveStatus status = model.is_live() ? model.live()->status() : LiveStatus{};
-  const Recording recording = model.recording();
-  { const ViewModel ended = std::move(model); }  // commits what there is
+std::string close(view::ViewModel model) {
+  const view::LiveStatus status = model.is_live() ? model.live()->status() : view::LiveStatus{};
+  const view::Recording recording = model.recording();
+  { const view::ViewModel ended = std::move(model); }  // commits what there is
   if (!status.error.empty()) throw Error(status.error_code, status.error);
   return way_on(recording);
 }
 
-void save_picture(const std::string& path, GuiWindow& window, ViewModel& model) {
+void save_picture(const std::string& path, gui::GuiWindow& window, view::ViewModel& model) {
   output_target(path, {.overwrite = false});
-  Image picture = window.draw_image(model.first().furnished_map(), picture_width);
+  render::Image picture = window.draw_image(model.first().furnished_map(), picture_width);
   if (model.state.beside.shown)
-    picture = beside({picture, window.draw_image(model.second().furnished_map(), picture_width)});
-  write_png(path, picture);
+    picture = render::beside({picture, window.draw_image(model.second().furnished_map(), picture_width)});
+  render::write_png(path, picture);
   model.state.message = "written: " + path;
 }
 
 /// Shows another run. What cannot be opened leaves what is shown.
-void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& model) {
+void open(const std::string& path, std::optional<std::size_t> frame, view::ViewModel& model) {
   if (!model.may_discard()) return;
   model.hold();
-  ViewModel next = ViewModel::open(path, {}, "", false, command_line());
+  view::ViewModel next = view::ViewModel::open(path, {}, "", false, command_line());
   if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
   if (!kept.empty()) print("%s\n", kept.c_str());
@@ -209,33 +214,35 @@ void open(const std::string& path, std::optional<std::size_t> frame, ViewModel& 
 }
 
 /// All plots as they are shown, or the one that is enlarged, as figures with their data.
-void save_plots(const std::string& folder, ViewModel& model) {
-  const Ghost* ghost = model.ghost();
-  std::vector<Figure> figures;
-  for (const Plot& plot : model.plots()) {
+void save_plots(const std::string& folder, view::ViewModel& model) {
+  const view::Ghost* ghost = model.ghost();
+  std::vector<figures::Figure> figures;
+  for (const view::Plot& plot : model.plots()) {
     const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
-    const bool empty = std::ranges::all_of(plot.series, [](const PlotSeries& of) { return of.x.empty(); });
+    const bool empty =
+        std::ranges::all_of(plot.series, [](const view::PlotSeries& of) { return of.x.empty(); });
     if (shown && !empty)
       figures.push_back(plot_figure(plot, model.state.plot_looks[plot.name], model.plot_marks(),
                                     model.is_live() ? model.recording().output : model.path(),
-                                    ghost ? text_of(*ghost) : std::string()));
+                                    ghost ? view::text_of(*ghost) : std::string()));
   }
-  for (const Figure& figure : figures)
+  for (const figures::Figure& figure : figures)
     for (const std::string& name : figure_files(figure))
       output_target((std::filesystem::path(folder) / name).string(), {.overwrite = false});
   require_gnuplot();
-  for (const Figure& figure : figures) write_figure(figure, {}, folder, {.command_line = command_line()});
+  for (const figures::Figure& figure : figures)
+    write_figure(figure, {}, folder, {.command_line = command_line()});
   model.state.message =
       fmt::format("written: {} plot{} in {}", figures.size(), figures.size() == 1 ? "" : "s", folder);
 }
 
-void put_behind(const std::string& path, ViewModel& model) {
+void put_behind(const std::string& path, view::ViewModel& model) {
   model.hold();
   model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
 }
 
 /// What widgets ask for beyond the model. What cannot be done is said in the window.
-void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
+void serve(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
@@ -247,12 +254,12 @@ void serve(const GuiRequests& requests, GuiWindow& window, ViewModel& model) {
 }
 
 /// Until the window is closed, or a signal asks to stop.
-void show(ViewModel& model, const std::string& places, GuiWindow& window,
+void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& window,
           const volatile std::sig_atomic_t* stop) {
   std::string written;
   while (!(window.closed() && model.may_discard()) && *stop == 0) {
     window.stay_open();
-    const GuiRequests requests = window.next_picture(model);
+    const gui::GuiRequests requests = window.next_picture(model);
     if (requests.quit) return;
     serve(requests, window, model);
     if (!places.empty()) write_places(places, window.places(), written);
@@ -262,24 +269,24 @@ void show(ViewModel& model, const std::string& places, GuiWindow& window,
 /// The rule for a run that the window records. What is wrong with the input is said where there is no
 /// display, too.
 OutputRule checked_input(const ViewArguments& arguments) {
-  const bool is_missing_run = is_run(arguments.file) && !is_there(arguments.file) &&
-                              run_presence(arguments.file) == RunPresence::none;
+  const bool is_missing_run = io::is_run(arguments.file) && !is_there(arguments.file) &&
+                              io::run_presence(arguments.file) == io::RunPresence::none;
   if (is_missing_run) throw Error(ExitCode::missing_input, arguments.file + ": no such run");
-  if (is_run(arguments.file)) return output_of_run(arguments.file, true);
-  return output_of_scenario(arguments.file, read_scenario(arguments.file, arguments.settings));
+  if (io::is_run(arguments.file)) return output_of_run(arguments.file, true);
+  return output_of_scenario(arguments.file, scenario::read_scenario(arguments.file, arguments.settings));
 }
 
 void view(const ViewArguments& arguments) {
   if (!arguments.screenshot.empty()) return take_screenshot(arguments);
   const auto [width, height] = parse_size(arguments.size);
   const OutputRule rule = checked_input(arguments);
-  GuiWindow window(width, height);  // not shown yet: without a display no run is begun
+  gui::GuiWindow window(width, height);  // not shown yet: without a display no run is begun
   if (!arguments.output.empty()) {
     output_target(arguments.output, rule);
     prepare_folder_of(arguments.output);
   }
-  ViewModel model = ViewModel::open(arguments.file, arguments.settings, arguments.output, arguments.overwrite,
-                                    command_line());
+  view::ViewModel model = view::ViewModel::open(arguments.file, arguments.settings, arguments.output,
+                                                arguments.overwrite, command_line());
   const CommitOnSignals commit;
   show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
@@ -363,4 +370,4 @@ void add_view_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

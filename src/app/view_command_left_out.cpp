@@ -3,7 +3,7 @@
 #include "app/commands.h"
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 
 const bool has_window = false;
 
@@ -18,4 +18,4 @@ void add_view_command(CLI::App& app) {
   });
 }
 
-}  // namespace talus
+}  // namespace talus::app

@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 
 double parse_wall_time(const std::string& option, const std::string& text) {
   unsigned hours = 0, minutes = 0, seconds = 0;
@@ -20,4 +20,4 @@ double parse_wall_time(const std::string& option, const std::string& text) {
   return time;
 }
 
-}  // namespace talus
+}  // namespace talus::app

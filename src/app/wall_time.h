@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace talus {
+namespace talus::app {
 
 /// Seconds of "HH:MM" or "HH:MM:SS", more than none. Throws Error(usage), naming `option`.
 double parse_wall_time(const std::string& option, const std::string& text);
 
-}  // namespace talus
+}  // namespace talus::app

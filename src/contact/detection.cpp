@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 /// Local frames (T3) of some candidates: the normal, from a to b, and the gap; the tangent is the normal
@@ -134,4 +134,4 @@ void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& 
   contacts.resize(count);
 }
 
-}  // namespace talus
+}  // namespace talus::contact

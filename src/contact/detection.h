@@ -5,7 +5,7 @@
 #include "contact/neighbour_list.h"
 #include "core/contacts.h"
 
-namespace talus {
+namespace talus::contact {
 
 /// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
 /// gaps; recall_forces sets their forces. The conventions are those of Contacts. Two coincident centres get
@@ -13,4 +13,4 @@ namespace talus {
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts, ThreadTeam* team = nullptr);
 
-}  // namespace talus
+}  // namespace talus::contact

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 /// A position that is not a number has a cell too: the step goes on to find it and to report it.
@@ -110,4 +110,4 @@ void search_planes(const Grains& grains, const Boundary& boundary, NeighbourSear
   }
 }
 
-}  // namespace talus
+}  // namespace talus::contact

@@ -7,7 +7,7 @@
 #include "core/boundary.h"
 #include "core/grains.h"
 
-namespace talus {
+namespace talus::contact {
 
 struct GrainCells {
   double x0 = 0.0, y0 = 0.0;  ///< the lower corner of the grid, m
@@ -45,4 +45,4 @@ struct NeighbourSearch {
 void search_grains(const GrainCells& cells, const Grains& grains, NeighbourSearch& search);
 void search_planes(const Grains& grains, const Boundary& boundary, NeighbourSearch& search);
 
-}  // namespace talus
+}  // namespace talus::contact

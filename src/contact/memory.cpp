@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 /// Whether the pair of contact c of one list comes before that of contact d of the other.
@@ -79,4 +79,4 @@ void recall_forces(const Contacts& previous, Contacts& contacts, ThreadTeam* tea
   });
 }
 
-}  // namespace talus
+}  // namespace talus::contact

@@ -4,7 +4,7 @@
 #include "base/thread_team.h"
 #include "core/contacts.h"
 
-namespace talus {
+namespace talus::contact {
 
 /// Gives each contact the force that the contact of the same two bodies carried in `previous`; a new contact
 /// has none. The same with moments, where `contacts` has room for them, which must be zero before. Both lists
@@ -13,4 +13,4 @@ namespace talus {
 /// length, they are matched in order. Shared out to the team, if there is one.
 void recall_forces(const Contacts& previous, Contacts& contacts, ThreadTeam* team = nullptr);
 
-}  // namespace talus
+}  // namespace talus::contact

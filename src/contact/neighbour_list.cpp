@@ -6,7 +6,7 @@
 #include <limits>
 #include <new>
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 // Parts of the skin. A grain that has moved `farthest` since its pairs were listed has them listed anew; then
@@ -276,4 +276,4 @@ void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boun
   ++list.renewals;
 }
 
-}  // namespace talus
+}  // namespace talus::contact

@@ -8,7 +8,7 @@
 #include "base/thread_team.h"
 #include "contact/grain_cells.h"
 
-namespace talus {
+namespace talus::contact {
 
 /// Pairs of a free grain a and another body b > a, which may be a plane (Boundary), by key (a, b, shift).
 struct CandidatePairs {
@@ -51,4 +51,4 @@ struct NeighbourList {
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
                            ThreadTeam* team = nullptr);
 
-}  // namespace talus
+}  // namespace talus::contact

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 double smallest_over_mean(double size_ratio) { return 2.0 / (1.0 + size_ratio); }
@@ -45,4 +45,4 @@ void add_floor(const BedPlan& plan, World& world) {
              plan.density, true);
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "core/world.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// What a bed is made of. Lengths in m.
 struct BedPlan {
@@ -37,4 +37,4 @@ World empty_bed(const BedPlan& plan);
 /// Adds the floor, which closes the list of free grains: glued grains side by side, or a plane.
 void add_floor(const BedPlan& plan, World& world);
 
-}  // namespace talus
+}  // namespace talus::dynamics

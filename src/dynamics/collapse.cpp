@@ -5,7 +5,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 void add_loose_grains(const BedPlan& plan, double initial_solid_fraction, Grains& grains) {
@@ -42,4 +42,4 @@ World make_loose_bed(const BedPlan& plan, double initial_solid_fraction) {
   return world;
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -4,7 +4,7 @@
 
 #include "dynamics/bed.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// Largest solid fraction that the loose arrangement can have for a size ratio: one grain in each square cell
 /// as wide as the largest grain.
@@ -15,4 +15,4 @@ double largest_initial_solid_fraction(double size_ratio);
 /// room. The same for the same plan, everywhere.
 World make_loose_bed(const BedPlan& plan, double initial_solid_fraction = 0.5);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -1,7 +1,7 @@
 #pragma once
 /// The parameters of the contact law.
 
-namespace talus {
+namespace talus::dynamics {
 
 struct ContactLawParameters {
   double friction = 0.5;                ///< mu between grains, and with the floor
@@ -14,4 +14,4 @@ struct ContactLawParameters {
                                         ///< step, or less (T11)
 };
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::dynamics {
 
 DiscGrid::DiscGrid(const Boundary& boundary, double largest) : boundary_(boundary), height_(largest) {
   columns_ = std::max<Index>(1, static_cast<Index>(std::min(std::floor(boundary.length / largest), 1e8)));
@@ -41,4 +41,4 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) cons
   return touch;
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

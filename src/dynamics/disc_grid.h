@@ -9,7 +9,7 @@
 #include "core/boundary.h"
 #include "core/types.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// A disc; lengths in m.
 struct PlacedDisc {
@@ -80,4 +80,4 @@ class DiscGrid {
   std::vector<std::vector<Index>> cells_;
 };
 
-}  // namespace talus
+}  // namespace talus::dynamics

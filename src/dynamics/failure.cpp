@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::dynamics {
 
 double surface_velocity(const Grains& grains, double lower_edge) {
   double sum = 0.0;
@@ -33,4 +33,4 @@ void follow_surface(SurfaceFlow& flow, double velocity, double tilt, double h, c
   flow.failed = flow.displacement >= rule.distance;
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

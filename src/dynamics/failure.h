@@ -3,7 +3,7 @@
 
 #include "core/world.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// A bed is at rest when for this many steps in a row its rms velocity stayed below a stated fraction of g h
 /// (the velocity that gravity gives a free grain within one step). A deposition ends there, with a step
@@ -38,4 +38,4 @@ struct SurfaceFlow {
 /// failure, and the angle at which it began is theta_c.
 void follow_surface(SurfaceFlow& flow, double velocity, double tilt, double h, const FlowRule& rule);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 /// Contacts first ... last - 1: what one of those who form a problem together sees to.
@@ -21,7 +21,7 @@ void fill(std::vector<double>& values, Part part, double value) {
 }
 
 /// With room for the planes, which never move.
-void size_bodies(const World& world, ContactProblem& problem) {
+void size_bodies(const World& world, solver::ContactProblem& problem) {
   const auto grains = static_cast<std::size_t>(world.grains.count());
   for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.inverse_mass,
                       &problem.inverse_inertia, &problem.lever}) {
@@ -31,7 +31,7 @@ void size_bodies(const World& world, ContactProblem& problem) {
 }
 
 /// Free velocities, and what the diagonal of the Delassus operator is made of (T8).
-void take_grains(const World& world, double h, ContactProblem& problem) {
+void take_grains(const World& world, double h, solver::ContactProblem& problem) {
   const Grains& grains = world.grains;
   const Part all{0, static_cast<std::size_t>(grains.count())};
   const Vec2 gravity = gravity_vector(world);
@@ -60,12 +60,12 @@ Index columns_of(const World& world, Index contacts) {
   return columns >= 1.0 ? static_cast<Index>(std::min(columns, static_cast<double>(radius.size()))) : 0;
 }
 
-void size_columns(const World& world, Index contacts, ContactProblem& problem) {
+void size_columns(const World& world, Index contacts, solver::ContactProblem& problem) {
   problem.columns = columns_of(world, contacts);
   problem.column.resize(problem.columns > 0 ? problem.vx.size() : 0);
 }
 
-void take_columns(const World& world, ContactProblem& problem) {
+void take_columns(const World& world, solver::ContactProblem& problem) {
   if (problem.columns == 0) return;
   const std::vector<double>& x = world.grains.x;
   const double last = problem.columns - 1.0, columns_per_metre = problem.columns / world.boundary.length;
@@ -79,14 +79,15 @@ void take_columns(const World& world, ContactProblem& problem) {
 }
 
 /// Not by assignments, which would allocate for each contact more than ever before.
-void size_contacts(const Contacts& contacts, const ContactLawParameters& law, ContactProblem& problem) {
+void size_contacts(const Contacts& contacts, const ContactLawParameters& law,
+                   solver::ContactProblem& problem) {
   const std::size_t count = contacts.a.size();
   for (auto* field : {&problem.a, &problem.b}) field->resize(count);
   for (auto* field : {&problem.nx, &problem.ny, &problem.cn, &problem.ct, &problem.mu}) field->resize(count);
   problem.rolling_friction.resize(law.rolling_friction != 0.0 ? count : 0);
 }
 
-void take_local_frames(const Contacts& contacts, Part part, ContactProblem& problem) {
+void take_local_frames(const Contacts& contacts, Part part, solver::ContactProblem& problem) {
   copy(contacts.a, part, problem.a);
   copy(contacts.b, part, problem.b);
   copy(contacts.nx, part, problem.nx);
@@ -94,7 +95,7 @@ void take_local_frames(const Contacts& contacts, Part part, ContactProblem& prob
 }
 
 /// Relative velocity at contact c before the step.
-RelativeVelocity velocity_before(const Grains& grains, const Contacts& contacts, Index c) {
+solver::RelativeVelocity velocity_before(const Grains& grains, const Contacts& contacts, Index c) {
   const Index a = contacts.a[c];
   const Index b = contacts.b[c];
   const bool plane = b >= grains.count();
@@ -104,7 +105,7 @@ RelativeVelocity velocity_before(const Grains& grains, const Contacts& contacts,
   return {dvx * contacts.nx[c] + dvy * contacts.ny[c], dvy * contacts.nx[c] - dvx * contacts.ny[c] - spin};
 }
 
-double free_normal_velocity(const ContactProblem& problem, Index c) {
+double free_normal_velocity(const solver::ContactProblem& problem, Index c) {
   const Index a = problem.a[c];
   const Index b = problem.b[c];
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
@@ -127,7 +128,7 @@ double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
 /// would drift along self-stresses, and the solve would not end. So they are taken back no faster than they
 /// arise.
 void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double noise,
-                        Part part, ContactProblem& problem) {
+                        Part part, solver::ContactProblem& problem) {
   const double allowed = law.allowed_overlap, share = law.overlap_correction;
   // What exceeds these is more than noise. Gaps are seldom noise: they also open where grains move past each
   // other.
@@ -139,7 +140,7 @@ void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& la
       cn = std::max(0.0, gap) / h;
       continue;
     }
-    const double slowly = noise * delassus_diagonal(problem, static_cast<Index>(c)).normal;
+    const double slowly = noise * solver::delassus_diagonal(problem, static_cast<Index>(c)).normal;
     if (gap > 0.0)
       cn = std::max(std::min(gap / h, slowly), (gap - gap_of_noise) / h);
     else
@@ -150,11 +151,11 @@ void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& la
 
 /// (T12)
 void set_restitution(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                     ContactProblem& problem) {
+                     solver::ContactProblem& problem) {
   for (Index c = 0; c < contacts.count(); ++c) {
     const bool closes = contacts.gap[c] + h * free_normal_velocity(problem, c) <= 0.0;
     if (!closes) continue;
-    const RelativeVelocity before = velocity_before(world.grains, contacts, c);
+    const solver::RelativeVelocity before = velocity_before(world.grains, contacts, c);
     if (before.normal < 0.0) problem.cn[c] = std::min(problem.cn[c], law.restitution * before.normal);
     problem.ct[c] = law.tangential_restitution * before.tangential;
   }
@@ -166,7 +167,7 @@ bool touches_wall(const World& world, const Contacts& contacts, std::size_t c) {
 }
 
 void set_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law, Part part,
-                  ContactProblem& problem) {
+                  solver::ContactProblem& problem) {
   fill(problem.mu, part, law.friction);
   if (world.boundary.planes.empty()) return;
   for (std::size_t c = part.first; c < part.last; ++c)
@@ -175,7 +176,7 @@ void set_friction(const World& world, const Contacts& contacts, const ContactLaw
 
 /// Side walls do not resist rolling.
 void set_rolling_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
-                          Part part, ContactProblem& problem) {
+                          Part part, solver::ContactProblem& problem) {
   if (law.rolling_friction == 0.0) return;
   fill(problem.rolling_friction, part, law.rolling_friction);
   for (std::size_t c = part.first; c < part.last; ++c)
@@ -185,7 +186,7 @@ void set_rolling_friction(const World& world, const Contacts& contacts, const Co
 }  // namespace
 
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                  double tolerance, ContactProblem& problem, ThreadTeam* team) {
+                  double tolerance, solver::ContactProblem& problem, ThreadTeam* team) {
   size_bodies(world, problem);
   size_contacts(contacts, law, problem);
   size_columns(world, contacts.count(), problem);
@@ -209,4 +210,4 @@ void form_problem(const World& world, const Contacts& contacts, const ContactLaw
     set_restitution(world, contacts, law, h, problem);
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

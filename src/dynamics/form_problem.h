@@ -6,7 +6,7 @@
 #include "dynamics/contact_law_parameters.h"
 #include "solver/problem.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// The bodies, and the free velocity v + h g of each (T4); those that do not move, planes among them, have
 /// none. Then the local frames of the contacts, their friction, and the constant c of the relative velocity
@@ -21,6 +21,6 @@ namespace talus {
 /// Tangential part: c_t = e_t U_t- for a contact that is or gets closed. Shared out to the team, if there is
 /// one; the result is the same.
 void form_problem(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
-                  double tolerance, ContactProblem& problem, ThreadTeam* team = nullptr);
+                  double tolerance, solver::ContactProblem& problem, ThreadTeam* team = nullptr);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -3,7 +3,7 @@
 #include "core/trigonometry.h"
 #include "dynamics/rolling.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 /// Floor and walls, of which the floor's grains are in the grid.
@@ -45,4 +45,4 @@ World make_geometric_bed(const BedPlan& plan, const GeometricRule& rule) {
   return world;
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -4,7 +4,7 @@
 
 #include "dynamics/bed.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// How a grain finds its place.
 struct GeometricRule {
@@ -20,4 +20,4 @@ struct GeometricRule {
 /// and rule, everywhere. The bed is longer than four of its largest grains.
 World make_geometric_bed(const BedPlan& plan, const GeometricRule& rule);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 /// Of the disks of `grains`, the height at which one that falls along x touches first, m; -infinity: none.
@@ -87,4 +87,4 @@ void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double 
     if (body >= first) body += arrived.count();
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

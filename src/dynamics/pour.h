@@ -11,7 +11,7 @@
 
 #include "dynamics/bed.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// A grain that has not arrived yet.
 struct Arrival {
@@ -43,4 +43,4 @@ Grains with_all_arrivals(Grains grains, std::span<const Arrival> arrivals, doubl
 /// its way, so that the step finds it touching at its midpoint.
 void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double h, World& world);
 
-}  // namespace talus
+}  // namespace talus::dynamics

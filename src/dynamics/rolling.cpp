@@ -4,7 +4,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr int most_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains takes some hundreds
@@ -168,4 +168,4 @@ class Path {
 
 Vec2 resting_place(const DiscGrid& bed, const FallingGrain& grain) { return Path(bed, grain).end(); }
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -4,7 +4,7 @@
 
 #include "dynamics/disc_grid.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 /// A grain that is set down.
 struct FallingGrain {
@@ -21,4 +21,4 @@ struct FallingGrain {
 /// round-off. The bed has a floor without holes. Throws Error(internal) where the way has no end.
 Vec2 resting_place(const DiscGrid& bed, const FallingGrain& grain);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -13,7 +13,7 @@
 #include "contact/memory.h"
 #include "dynamics/form_problem.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 /// Adds the wall time between its calls to the stages.
@@ -108,7 +108,7 @@ void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
 
 /// From the midpoint to the end of the step (T17), along the velocities of the solution. `image` is memory to
 /// work in.
-void end_motion(const ContactSolution& solution, World& world, double h, ThreadTeam* team,
+void end_motion(const solver::ContactSolution& solution, World& world, double h, ThreadTeam* team,
                 std::vector<Index>& image) {
   Grains& grains = world.grains;
   std::atomic<bool> within = true;
@@ -159,8 +159,8 @@ double largest_overlap(const Contacts& contacts) {
 }
 
 /// The first guess of the solve: the forces that persist from the last step, times h (T18).
-void guess_impulses(const Contacts& contacts, double h, const ContactProblem& problem, ThreadTeam* team,
-                    ContactSolution& solution) {
+void guess_impulses(const Contacts& contacts, double h, const solver::ContactProblem& problem,
+                    ThreadTeam* team, solver::ContactSolution& solution) {
   const auto count = static_cast<std::size_t>(contacts.count());
   solution.pn.resize(count);
   solution.pt.resize(count);
@@ -172,11 +172,11 @@ void guess_impulses(const Contacts& contacts, double h, const ContactProblem& pr
   });
   solution.pr.resize(contacts.moment.size());
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
-    solution.pr[c] = contacts.moment[c] * h / rolling_length(problem, static_cast<Index>(c));
+    solution.pr[c] = contacts.moment[c] * h / solver::rolling_length(problem, static_cast<Index>(c));
 }
 
 /// As mean forces over the step, so that a change of h keeps the memory (T18).
-void store_impulses(const ContactProblem& problem, const ContactSolution& solution, double h,
+void store_impulses(const solver::ContactProblem& problem, const solver::ContactSolution& solution, double h,
                     ThreadTeam* team, Contacts& contacts) {
   share_out(team, solution.pn.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
@@ -185,7 +185,8 @@ void store_impulses(const ContactProblem& problem, const ContactSolution& soluti
     }
   });
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
-    contacts.moment[c] = rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
+    contacts.moment[c] =
+        solver::rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
 }
 
 bool finite(const std::vector<double>& values, std::size_t first, std::size_t last) {
@@ -195,7 +196,7 @@ bool finite(const std::vector<double>& values, std::size_t first, std::size_t la
   return count == static_cast<std::int64_t>(last - first);
 }
 
-bool finite(const ContactSolution& solution, ThreadTeam* team) {
+bool finite(const solver::ContactSolution& solution, ThreadTeam* team) {
   std::atomic<bool> all = true;
   share_out(team, solution.vx.size(), [&](std::size_t first, std::size_t last) {
     for (const auto* field : {&solution.vx, &solution.vy, &solution.omega})
@@ -231,15 +232,16 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   const double h = settings.h;
   Grains& grains = world.grains;
   Contacts& contacts = workspace.contacts;
-  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  ThreadTeam* const team = solver::team_at_hand(workspace.problem, settings.solver, workspace.solver);
   const double margin = detection_margin(world, settings, team);
   workspace.image.reserve(grains.image.size());
   begin_motion(world, h, team, workspace.before);
   clock.end_of(Stage::move);
-  detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts, team);  // local frames (T3)
+  contact::detect_contacts(workspace.neighbours, grains, world.boundary, margin, contacts,
+                           team);  // local frames (T3)
   clock.end_of(Stage::detect);
   contacts.moment.assign(settings.law.rolling_friction != 0.0 ? contacts.a.size() : 0, 0.0);
-  recall_forces(world.contacts, contacts, team);  // (T18)
+  contact::recall_forces(world.contacts, contacts, team);  // (T18)
   clock.end_of(Stage::recall);
   // (T4), (T5), (T8), (T11), (T12)
   form_problem(world, contacts, settings.law, h, settings.solver.tolerance, workspace.problem, team);
@@ -253,9 +255,10 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   report.seconds = begin_step(world, settings, workspace);
   StageClock clock(report.seconds);
   const double h = settings.h;
-  report.solver = solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);  // (T7)
+  report.solver =
+      solver::solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);  // (T7)
   clock.end_of(Stage::solve);
-  ThreadTeam* const team = team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  ThreadTeam* const team = solver::team_at_hand(workspace.problem, settings.solver, workspace.solver);
   if (!finite(workspace.solution, team)) {
     copy_positions(workspace.before, 0, free_grains(world), world.grains);
     throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));
@@ -274,4 +277,4 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   return report;
 }
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -9,7 +9,7 @@
 #include "dynamics/contact_law_parameters.h"
 #include "solver/solve.h"
 
-namespace talus {
+namespace talus::dynamics {
 
 struct StepSettings {
   double h = 1e-3;  ///< time step, s
@@ -17,7 +17,7 @@ struct StepSettings {
   /// itself by what the velocities of the bed can close in a step.
   double margin = 0.0;
   ContactLawParameters law;
-  SolverSettings solver;
+  solver::SolverSettings solver;
 };
 
 /// The stages of a step, in their order.
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, stage_count> stage_names = {"move"
 using StageSeconds = std::array<double, stage_count>;
 
 struct StepReport {
-  SolverReport solver;
+  solver::SolverReport solver;
   Index contacts = 0;            ///< in the problem
   double largest_overlap = 0.0;  ///< m, at the midpoint
   Motion motion;                 ///< after the step
@@ -41,11 +41,11 @@ struct StepReport {
 struct StepWorkspace {
   Grains before;             ///< where the grains were, to go back to when a step fails
   std::vector<Index> image;  ///< of the grains at the midpoint
-  NeighbourList neighbours;
+  contact::NeighbourList neighbours;
   Contacts contacts;
-  ContactProblem problem;
-  ContactSolution solution;
-  SolverWorkspace solver;
+  solver::ContactProblem problem;
+  solver::ContactSolution solution;
+  solver::SolverWorkspace solver;
 };
 
 /// The step up to its solve: moves the grains to the midpoint, and leaves in the workspace their contacts,
@@ -59,4 +59,4 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
 /// Error(internal) where a velocity is not finite; the world is then as before the step.
 StepReport step(World& world, const StepSettings& settings, StepWorkspace& workspace);
 
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -6,7 +6,7 @@
 
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double rounding = 1e-9;  // of a difference that is as large as the tolerance
@@ -32,7 +32,8 @@ Judgement judge(const PaperValue& paper, const Spread& ours, double depth) {
   if (ours.runs == 0) {
     judgement.reason = "no such run is complete";
   } else if (paper.unit == "D" && depth != paper_depth) {
-    judgement.reason = fmt::format("H = {} D, not {} D", short_text(depth), short_text(paper_depth));
+    judgement.reason =
+        fmt::format("H = {} D, not {} D", scenario::short_text(depth), scenario::short_text(paper_depth));
   } else if (ours.values.count == 0) {
     judgement.agreement = Agreement::absent;
   } else if (paper.relation == Relation::above) {
@@ -62,4 +63,4 @@ std::string judgement_text(const Judgement& judgement) {
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 #include "ensemble/measured_values.h"
 #include "ensemble/paper_values.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Values of several seeds.
 struct Spread {
@@ -44,4 +44,4 @@ Judgement judge(const PaperValue& paper, const Spread& ours, double depth);
 /// "agrees"; "differs by +0.62 (tolerance 0.03)"; "does not occur"; "not comparable: ...".
 std::string judgement_text(const Judgement& judgement);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double same_angle = 1e-6;  // deg, far below the spacing of frames
@@ -156,4 +156,4 @@ Averages averages_of(const std::vector<MemberResult>& members, double frame_ever
   return averages;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

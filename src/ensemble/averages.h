@@ -10,7 +10,7 @@
 #include "core/statistics.h"
 #include "ensemble/member_values.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// A quantity at the points of a grid.
 struct AveragedQuantity {
@@ -54,4 +54,4 @@ std::vector<double> grid_up_to(double largest, double spacing);
 /// The value of a series at `theta` (deg), between the two frames around it; NaN outside of the frames.
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta);
 
-}  // namespace talus
+}  // namespace talus::ensemble

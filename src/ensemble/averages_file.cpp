@@ -10,7 +10,7 @@
 #include "io/hdf5_writer.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// The columns of a summary, in the file and in CSV.
@@ -33,16 +33,16 @@ std::array<double, 9> row_of(const Summary& summary) {
 /// An array of one or two dimensions with the attributes `unit` and `definition`; of two it is compressed in
 /// chunks of rows, as the letter S of a shape asks for.
 template <typename T>
-void add(hdf5::Writer& file, const std::string& path, const std::vector<std::size_t>& shape,
+void add(io::hdf5::Writer& file, const std::string& path, const std::vector<std::size_t>& shape,
          const std::string& unit, const std::string& definition, const std::vector<T>& values) {
-  const ElementType type = std::is_same_v<T, double> ? ElementType::float64 : ElementType::uint64;
+  const io::ElementType type = std::is_same_v<T, double> ? io::ElementType::float64 : io::ElementType::uint64;
   const char* chunks = shape.size() > 1 ? "S+" : "";
-  file.write(DataSetField{path, type, chunks + joined(shape, " "), unit, definition}, values);
+  file.write(io::DataSetField{path, type, chunks + joined(shape, " "), unit, definition}, values);
   file.set_attribute(path, "definition", definition);
 }
 
 /// Takes the values of the members out of the quantity.
-void add_quantity(hdf5::Writer& file, const std::string& group, AveragedQuantity& quantity) {
+void add_quantity(io::hdf5::Writer& file, const std::string& group, AveragedQuantity& quantity) {
   const std::string path = group + "/" + quantity.name;
   const std::size_t points = quantity.summaries.size();
   const std::vector<double> values = std::move(quantity.values);
@@ -59,14 +59,14 @@ void add_quantity(hdf5::Writer& file, const std::string& group, AveragedQuantity
                      std::vector<std::string>(summary_columns.begin(), summary_columns.end()));
 }
 
-void add_curves(hdf5::Writer& file, const std::string& group, AveragedCurves& curves,
+void add_curves(io::hdf5::Writer& file, const std::string& group, AveragedCurves& curves,
                 const std::string& angle, const std::string& definition) {
   add(file, group + "/" + angle, {curves.angles.size()}, "deg", definition, curves.angles);
   for (AveragedQuantity& quantity : curves.quantities) add_quantity(file, group, quantity);
 }
 
 /// Lists at the points of a grid of `points` angles, those that no member reached without values.
-void add_lists(hdf5::Writer& file, const std::string& group, const std::vector<AveragedList>& lists,
+void add_lists(io::hdf5::Writer& file, const std::string& group, const std::vector<AveragedList>& lists,
                std::size_t points) {
   for (const AveragedList& list : lists) {
     const auto add_one = [&](const char* name, const std::string& unit, const std::string& definition,
@@ -82,7 +82,8 @@ void add_lists(hdf5::Writer& file, const std::string& group, const std::vector<A
   }
 }
 
-void add_correlations(hdf5::Writer& file, const std::string& group, const AngleCorrelations& correlations) {
+void add_correlations(io::hdf5::Writer& file, const std::string& group,
+                      const AngleCorrelations& correlations) {
   const std::size_t size = correlations.names.size();
   std::vector<double> coefficients, counts;
   for (const Correlation& pair : correlations.pairs) {
@@ -95,7 +96,7 @@ void add_correlations(hdf5::Writer& file, const std::string& group, const AngleC
   add(file, group + "/n", {size, size}, "1", "members that have both", counts);
 }
 
-void add_variant(hdf5::Writer& file, const std::string& group, NamedAverages& variant) {
+void add_variant(io::hdf5::Writer& file, const std::string& group, NamedAverages& variant) {
   Averages& averages = variant.averages;
   file.set_attribute(group, "name", variant.name);
   file.set_attribute(group, "scenario", variant.scenario);
@@ -140,13 +141,13 @@ std::string csv_rows(const std::string& variant, const char* grid, const std::ve
 
 void write_averages(const std::string& path, std::vector<NamedAverages> variants,
                     const std::string& version) {
-  hdf5::Writer file({{'S', 0}}, seal_size);
+  io::hdf5::Writer file({{'S', 0}}, io::seal_size);
   file.set_attribute("/", "version", version);
   for (std::size_t v = 0; v < variants.size(); ++v)
     add_variant(file, fmt::format("/variants/{}", v), variants[v]);
   std::vector<std::byte> bytes = file.image();
-  seal(bytes, averages_seal);
-  write_durably(path, bytes);
+  io::seal(bytes, io::averages_seal);
+  io::write_durably(path, bytes);
 }
 
 std::string averages_csv(const std::vector<NamedAverages>& variants) {
@@ -163,4 +164,4 @@ std::string averages_csv(const std::vector<NamedAverages>& variants) {
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

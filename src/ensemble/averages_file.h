@@ -8,7 +8,7 @@
 #include "ensemble/averages.h"
 #include "ensemble/list_averages.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// The averages of a variant, and what it is.
 struct NamedAverages {
@@ -25,4 +25,4 @@ void write_averages(const std::string& path, std::vector<NamedAverages> variants
 /// standard deviation, standard error, interval of 95 % for the mean, quartiles.
 std::string averages_csv(const std::vector<NamedAverages>& variants);
 
-}  // namespace talus
+}  // namespace talus::ensemble

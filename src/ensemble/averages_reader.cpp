@@ -12,36 +12,36 @@
 #include "io/seal.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double same_theta = 1e-6;  // deg
 
 /// Doubles of a data set; those that are not known are NaN.
-std::vector<double> numbers_at(hdf5::Reader& file, const std::string& path, const std::string& shape) {
-  std::vector<double> values =
-      file.read<double>(DataSetField{path, ElementType::float64, shape, {}, {}}, hdf5::any_number);
+std::vector<double> numbers_at(io::hdf5::Reader& file, const std::string& path, const std::string& shape) {
+  std::vector<double> values = file.read<double>(
+      io::DataSetField{path, io::ElementType::float64, shape, {}, {}}, io::hdf5::any_number);
   if (std::ranges::any_of(values, [](double value) { return std::isinf(value); }))
     file.refuse(path, "holds an infinite value");
   return values;
 }
 
-std::vector<std::uint64_t> integers_at(hdf5::Reader& file, const std::string& path) {
-  return file.read<std::uint64_t>(DataSetField{path, ElementType::uint64, "S", {}, {}});
+std::vector<std::uint64_t> integers_at(io::hdf5::Reader& file, const std::string& path) {
+  return file.read<std::uint64_t>(io::DataSetField{path, io::ElementType::uint64, "S", {}, {}});
 }
 
 /// Empty where there is no grid.
-std::vector<double> grid_at(hdf5::Reader& file, const std::string& path) {
+std::vector<double> grid_at(io::hdf5::Reader& file, const std::string& path) {
   if (!file.has(path)) return {};
-  std::vector<double> grid = file.read<double>(DataSetField{path, ElementType::float64, "P", {}, {}});
+  std::vector<double> grid = file.read<double>(io::DataSetField{path, io::ElementType::float64, "P", {}, {}});
   if (std::ranges::adjacent_find(grid, std::greater_equal<>()) != grid.end())
     file.refuse(path, "does not ascend");
   return grid;
 }
 
 /// All quantities of a group, each with so many members and points.
-std::vector<StoredQuantity> quantities_at(hdf5::Reader& file, const std::string& group, std::size_t members,
-                                          std::size_t points) {
+std::vector<StoredQuantity> quantities_at(io::hdf5::Reader& file, const std::string& group,
+                                          std::size_t members, std::size_t points) {
   constexpr std::string_view ending = "/values";
   std::vector<StoredQuantity> found;
   if (!file.has(group)) return found;
@@ -54,7 +54,7 @@ std::vector<StoredQuantity> quantities_at(hdf5::Reader& file, const std::string&
   return found;
 }
 
-StoredVariant variant_at(hdf5::Reader file, const std::string& group) {
+StoredVariant variant_at(io::hdf5::Reader file, const std::string& group) {
   StoredVariant variant;
   variant.name = file.attribute(group, "name");
   variant.scenario = file.attribute(group, "scenario");
@@ -66,7 +66,7 @@ StoredVariant variant_at(hdf5::Reader file, const std::string& group) {
   variant.numbers = quantities_at(file, group + "/numbers", members, 1);
   variant.tilts = grid_at(file, group + "/over_tilt/theta");
   variant.over_tilt = quantities_at(file, group + "/over_tilt", members, variant.tilts.size());
-  hdf5::Reader again = file.again();  // the other grid has as many points as it will
+  io::hdf5::Reader again = file.again();  // the other grid has as many points as it will
   variant.angles_left = grid_at(again, group + "/before_failure/angle_left");
   variant.before_failure =
       quantities_at(again, group + "/before_failure", members, variant.angles_left.size());
@@ -114,39 +114,40 @@ const StoredQuantity* find_quantity(const std::vector<StoredQuantity>& quantitie
 }
 
 std::size_t count_thresholds(const MemberNumbers& numbers) {
-  const std::string& factor = quantity_of(&RunThreshold::factor).name;
+  const std::string& factor = analysis::quantity_of(&analysis::RunThreshold::factor).name;
   std::size_t count = 0;
   while (!std::isnan(number_called(numbers, element_name(factor, count)))) ++count;
   return count;
 }
 
-void set_number_of_run(const Quantity& quantity, const MemberNumbers& numbers, double mean_diameter,
-                       Analysis& analysis) {
-  auto values = std::get<std::vector<double>>(values_of(quantity, analysis));
+void set_number_of_run(const analysis::Quantity& quantity, const MemberNumbers& numbers, double mean_diameter,
+                       analysis::Analysis& analysis) {
+  auto values = std::get<std::vector<double>>(analysis::values_of(quantity, analysis));
   for (std::size_t k = 0; k < values.size(); ++k)
-    values[k] =
-        unscaled(quantity.unit, number_called(numbers, element_name(quantity.name, k)), mean_diameter);
-  if (!values.empty()) set_values(quantity, values, analysis);
+    values[k] = analysis::unscaled(quantity.unit, number_called(numbers, element_name(quantity.name, k)),
+                                   mean_diameter);
+  if (!values.empty()) analysis::set_values(quantity, values, analysis);
 }
 
-void set_number_of_frames(const Quantity& quantity, const MemberSeries& series, double mean_diameter,
-                          Analysis& analysis) {
-  const std::size_t count = needs_threshold(quantity) ? analysis.thresholds.size() : 1;
+void set_number_of_frames(const analysis::Quantity& quantity, const MemberSeries& series,
+                          double mean_diameter, analysis::Analysis& analysis) {
+  const std::size_t count = analysis::needs_threshold(quantity) ? analysis.thresholds.size() : 1;
   for (std::size_t f = 0; f < count; ++f) {
     const auto found = std::ranges::find(series.series, element_name(quantity.name, f), &NamedSeries::name);
     if (found == series.series.end()) continue;
     for (std::size_t k = 0; k < analysis.frames.size(); ++k)
-      set_number(quantity, unscaled(quantity.unit, found->values[k], mean_diameter), analysis.frames[k], f);
+      analysis::set_number(quantity, analysis::unscaled(quantity.unit, found->values[k], mean_diameter),
+                           analysis.frames[k], f);
   }
 }
 
 }  // namespace
 
-bool holds_averages(const std::string& path) { return begins_with(path, averages_seal); }
+bool holds_averages(const std::string& path) { return io::begins_with(path, io::averages_seal); }
 
 std::vector<StoredVariant> read_averages(const std::string& path) {
-  verify_seal(path, averages_seal);
-  const hdf5::Reader file = hdf5::Reader::from_file(path);
+  io::verify_seal(path, io::averages_seal);
+  const io::hdf5::Reader file = io::hdf5::Reader::from_file(path);
   std::vector<StoredVariant> variants;
   for (std::string group = "/variants/0"; variants.empty() || file.has(group);
        group = fmt::format("/variants/{}", variants.size()))
@@ -175,28 +176,30 @@ MemberResult member_of(const StoredVariant& variant, std::size_t m) {
   return member;
 }
 
-Analysis analysis_of(const MemberResult& member, double mean_diameter) {
-  Analysis analysis;
-  analysis.parameters = as_facts(AnalysisParameters{});
+analysis::Analysis analysis_of(const MemberResult& member, double mean_diameter) {
+  analysis::Analysis analysis;
+  analysis.parameters = runs::as_facts(analysis::AnalysisParameters{});
   analysis.thresholds.resize(count_thresholds(member.numbers));
   for (const double theta : member.series.theta) {
-    FrameRecord& frame = analysis.frames.emplace_back();
+    analysis::FrameRecord& frame = analysis.frames.emplace_back();
     frame.tilt = radians(theta);
     frame.thresholds.resize(analysis.thresholds.size());
   }
-  for (const Quantity& quantity : quantities()) {
-    if (is_number_of_run(quantity)) set_number_of_run(quantity, member.numbers, mean_diameter, analysis);
-    if (is_number_of_frame(quantity)) set_number_of_frames(quantity, member.series, mean_diameter, analysis);
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (analysis::is_number_of_run(quantity))
+      set_number_of_run(quantity, member.numbers, mean_diameter, analysis);
+    if (analysis::is_number_of_frame(quantity))
+      set_number_of_frames(quantity, member.series, mean_diameter, analysis);
   }
   return analysis;
 }
 
-RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m) {
+runs::RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m) {
   const MemberResult member = member_of(variant, m);
-  RunView run;
+  runs::RunView run;
   run.path =
       fmt::format("{}#{}{}seed-{}", path, variant.name, variant.name.empty() ? "" : "/", variant.seeds[m]);
-  run.scenario = parse_scenario(variant.scenario, run.path);
+  run.scenario = scenario::parse_scenario(variant.scenario, run.path);
   run.scenario.seed = member.seed;
   run.scenario_text = variant.scenario;
   run.state_hash = member.numbers.state_hash;
@@ -206,4 +209,4 @@ RunView view_of_values(const std::string& path, const StoredVariant& variant, st
   return run;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 #include "ensemble/averages.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// A quantity of all members, as it stands in the file.
 struct StoredQuantity {
@@ -46,10 +46,10 @@ MemberResult member_of(const StoredVariant& variant, std::size_t m);
 /// series. What is no single number (distributions, fabric, grains) is empty, and what the file does not have
 /// is not known. It is that of the default parameters, with which members are analysed. `mean_diameter`: D,
 /// m.
-Analysis analysis_of(const MemberResult& member, double mean_diameter);
+analysis::Analysis analysis_of(const MemberResult& member, double mean_diameter);
 
 /// Member m as a run whose file is not there; `path` is that of ensemble.h5. Throws Error(bad_data) where its
 /// scenario cannot be read.
-RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m);
+runs::RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m);
 
-}  // namespace talus
+}  // namespace talus::ensemble

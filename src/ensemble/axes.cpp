@@ -14,7 +14,7 @@
 #include "scenario/setting_forms.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 [[noreturn]] void refuse_axis(const std::string& text) {
@@ -94,13 +94,14 @@ std::size_t end_of_value(const std::string& text, std::size_t begin, std::string
 }
 
 /// "tilt.rate=2,tilt.step=0.002", with what `shorten` leaves of each value.
-std::string named_values(const std::vector<std::string>& variation, const Scenario& scenario,
+std::string named_values(const std::vector<std::string>& variation, const scenario::Scenario& scenario,
                          const std::function<std::string(const std::string&)>& shorten) {
   std::string name;
   for (const std::string& setting : variation) {
-    const ScenarioKey* key = find_key(key_of_setting(setting));
+    const scenario::ScenarioKey* key = scenario::find_key(key_of_setting(setting));
     if (!name.empty()) name += ",";
-    name += fmt::format("{}={}", full_name(*key), shorten(plain_text(key->get(scenario))));
+    name +=
+        fmt::format("{}={}", scenario::full_name(*key), shorten(scenario::plain_text(key->get(scenario))));
   }
   return name;
 }
@@ -111,7 +112,7 @@ bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\' && 
 }  // namespace
 
 std::string key_of_setting(const std::string& setting) {
-  return std::string(trimmed(std::string_view(setting).substr(0, setting.find('='))));
+  return std::string(scenario::trimmed(std::string_view(setting).substr(0, setting.find('='))));
 }
 
 std::vector<std::string> settings_without(std::vector<std::string> settings,
@@ -123,11 +124,11 @@ std::vector<std::string> settings_without(std::vector<std::string> settings,
   return settings;
 }
 
-std::string variation_name(const std::vector<std::string>& variation, const Scenario& scenario) {
+std::string variation_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario) {
   return named_values(variation, scenario, [](const std::string& value) { return value; });
 }
 
-std::string folder_name(const std::vector<std::string>& variation, const Scenario& scenario) {
+std::string folder_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario) {
   constexpr std::size_t longest = 100, longest_cut = 60;  // bytes
   std::string whole = variation_name(variation, scenario);
   if (whole.size() <= longest && std::ranges::all_of(whole, is_plain)) return whole;
@@ -148,10 +149,10 @@ std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
   std::vector<std::vector<std::string>> variations = {{}};
   for (std::size_t begin = equals + 1;;) {
     const std::size_t end = end_of_value(text, begin, separators);
-    const std::string_view value = trimmed(std::string_view(text).substr(begin, end - begin));
+    const std::string_view value = scenario::trimmed(std::string_view(text).substr(begin, end - begin));
     const std::size_t k = variations.back().size();
-    if (k == keys.size() || trimmed(keys[k]).empty() || value.empty()) refuse_axis(text);
-    variations.back().push_back(fmt::format("{}={}", trimmed(keys[k]), value));
+    if (k == keys.size() || scenario::trimmed(keys[k]).empty() || value.empty()) refuse_axis(text);
+    variations.back().push_back(fmt::format("{}={}", scenario::trimmed(keys[k]), value));
     const bool is_last = end == text.size();
     if ((is_last || text[end] == ',') && variations.back().size() != keys.size()) refuse_axis(text);
     if (is_last) return variations;
@@ -160,4 +161,4 @@ std::vector<std::vector<std::string>> parse_axis(const std::string& text) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,7 +6,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// The settings of each value of an axis. "tilt.step=0.002,0.0005" gives {tilt.step=0.002} and
 /// {tilt.step=0.0005}. Keys joined by colons change together: "tilt.rate:tilt.step=2:0.002,0.5:0.0005" gives
@@ -24,10 +24,10 @@ std::vector<std::string> settings_without(std::vector<std::string> settings,
 
 /// "tilt.rate=2,tilt.step=0.002": the values that a scenario has for the keys of a variation. They are not as
 /// they were spelled: 1e-6 and 0.000001 are one variation.
-std::string variation_name(const std::vector<std::string>& variation, const Scenario& scenario);
+std::string variation_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario);
 
 /// The name of a variation as that of a folder: the same where it is short and plain. Otherwise it is cut,
 /// has of a path the last part, and ends with a hash of the whole name: "deposition.file=dense.csv~0f3c...".
-std::string folder_name(const std::vector<std::string>& variation, const Scenario& scenario);
+std::string folder_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario);
 
-}  // namespace talus
+}  // namespace talus::ensemble

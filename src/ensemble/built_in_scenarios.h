@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace talus {
+namespace talus::ensemble {
 
 /// The text of assets/scenarios/NAME.toml. Throws Error(internal) where there is none.
 std::string_view built_in_scenario(std::string_view name);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -19,7 +19,7 @@
 #include "base/paths.h"
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -153,4 +153,4 @@ bool Claim::beat() {
   return true;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -15,7 +15,7 @@
 
 #include "base/descriptor.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 struct ClaimTimes {
   double stale = 120.0;  ///< s without a heartbeat after which a claim of another machine is dead
@@ -93,4 +93,4 @@ class Claim {
   std::chrono::steady_clock::time_point last_;
 };
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -28,7 +28,7 @@
 #include "io/writer_lock.h"
 #include "session/deposition.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,7 +67,7 @@ std::string text_of(const EnsembleManifest& manifest) {
     text += fmt::format("task {}\n", task);
   if (!manifest.keep.empty()) text += fmt::format("keep {}\n", manifest.keep);
   for (const Variant& variant : manifest.variants) {
-    text += fmt::format("variant {} {}\n", hash_of(read_text(variant.scenario_file)), variant.name);
+    text += fmt::format("variant {} {}\n", hash_of(io::read_text(variant.scenario_file)), variant.name);
     if (!variant.full_name.empty()) text += fmt::format("full {}\n", variant.full_name);
     if (!variant.origin.bed.empty()) text += fmt::format("bed {}\n", variant.origin.bed);
   }
@@ -90,13 +90,13 @@ std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> seeds) {
 /// Reads the scenario of a variant, which must be the text of its hash.
 void read_scenario_of(Variant& variant, const std::string& folder) {
   variant.scenario_file = scenario_path(folder, variant.name);
-  const std::string text = read_text(variant.scenario_file);
+  const std::string text = io::read_text(variant.scenario_file);
   if (hash_of(text) != variant.origin.scenario)
     throw Error(ExitCode::bad_data,
                 variant.scenario_file +
                     " was changed since the ensemble began; expected the scenario that it was made with: "
                     "undo the change, or begin another ensemble with it");
-  variant.scenario = parse_scenario(text, variant.scenario_file);
+  variant.scenario = scenario::parse_scenario(text, variant.scenario_file);
 }
 
 /// Whether runs under this name are in the folder of the ensemble. Names of earlier versions have parts, as
@@ -172,7 +172,7 @@ void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted,
     if (there->scenario != variant.scenario)
       throw Error(ExitCode::bad_data,
                   fmt::format("{} holds an ensemble of another scenario: {}; give another folder", folder,
-                              differences(there->scenario, variant.scenario)));
+                              scenario::differences(there->scenario, variant.scenario)));
   }
   if (!common)
     throw Error(ExitCode::bad_data,
@@ -198,9 +198,10 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
   for (std::size_t m = 0; m < states.size(); ++m) {
     const MemberStage stage = states[m].stage;
     if (stage == MemberStage::done || stage == MemberStage::claimed) return false;
-    if (!writer_of(run_folder(plan.members[m].path)).empty()) return false;  // it could not be set aside
+    if (!io::writer_of(io::run_folder(plan.members[m].path)).empty())
+      return false;  // it could not be set aside
     if (stage != MemberStage::failed) {
-      if (run_presence(plan.members[m].path) != RunPresence::none) return false;
+      if (io::run_presence(plan.members[m].path) != io::RunPresence::none) return false;
       continue;
     }
     if (!has_failed_itself(plan.members[m])) return false;
@@ -208,7 +209,7 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
   }
   if (has_failed) return true;
   try {
-    bed_hash(variant.scenario);
+    session::bed_hash(variant.scenario);
   } catch (const Error&) {
     return true;
   }
@@ -235,15 +236,15 @@ std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManife
 void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdrawn,
               const std::string& folder) {
   if (rest.variants.empty())
-    remove_file(manifest_path(folder));
+    io::remove_file(manifest_path(folder));
   else
-    write_text(manifest_path(folder), text_of(rest));
+    io::write_text(manifest_path(folder), text_of(rest));
   for (const Variant& variant : withdrawn) {
     for (const Member& member : plan_ensemble(rest.seeds, {variant}, folder).members) {
-      set_withdrawn_aside(member.path);
-      remove_file(failure_path(member.path));
+      io::set_withdrawn_aside(member.path);
+      io::remove_file(failure_path(member.path));
     }
-    remove_file(variant.scenario_file);
+    io::remove_file(variant.scenario_file);
   }
 }
 
@@ -251,9 +252,9 @@ void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdraw
 std::string in_one_line(const std::string& text) { return joined(split(visible(text), '\n'), "\\x0a"); }
 
 /// Throws Error(usage) for a path that TOML cannot hold: from the command line it may have any bytes.
-void require_path_of_toml(const Scenario& scenario) {
+void require_path_of_toml(const scenario::Scenario& scenario) {
   try {
-    if (parse_scenario(resolved_toml(scenario), "scenario") == scenario) return;
+    if (scenario::parse_scenario(scenario::resolved_toml(scenario), "scenario") == scenario) return;
   } catch (const Error&) {
     // below
   }
@@ -279,7 +280,7 @@ std::vector<std::vector<std::string>> combined(const std::vector<std::vector<std
 }  // namespace
 
 std::string manifest_path(const std::string& folder) {
-  return (fs::path(folder) / ensemble_manifest_name).string();
+  return (fs::path(folder) / io::ensemble_manifest_name).string();
 }
 
 bool is_ensemble(const std::string& folder) {
@@ -298,7 +299,7 @@ EnsembleManifest read_ensemble(const std::string& folder) {
         ExitCode::missing_input,
         fmt::format("{}: no ensemble here; begin one with: talus ensemble SCENARIO --seeds 1-50 -o {}",
                     folder, shell_quoted(folder)));
-  const std::string text = read_text(path);
+  const std::string text = io::read_text(path);
   const std::size_t seal = text.rfind("hash ");
   if (!text.starts_with(first_line) || seal == std::string::npos ||
       text.substr(seal) != fmt::format("hash {}\n", hash_of(text.substr(0, seal))))
@@ -324,7 +325,7 @@ EnsembleManifest read_ensemble(const std::string& folder) {
 
 std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
                                    const std::vector<std::string>& axes) {
-  refuse_no_scenario(scenario_file);
+  io::refuse_no_scenario(scenario_file);
   std::vector<std::vector<std::string>> combinations = {{}};
   for (const std::string& axis : axes) {
     const auto values = parse_axis(axis);
@@ -337,7 +338,7 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
   for (const std::vector<std::string>& combination : combinations) {
     std::vector<std::string> all = settings_without(settings, combination);
     all.push_back("seed=1");
-    Scenario scenario = read_scenario(scenario_file, all, nullptr, combination);
+    scenario::Scenario scenario = scenario::read_scenario(scenario_file, all, nullptr, combination);
     if (!scenario.deposition.file.empty()) {
       scenario.deposition.file = absolute_path(scenario.deposition.file);
       require_path_of_toml(scenario);
@@ -367,7 +368,7 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
     const Variant* there = variant_called(found, variant.name);
     const bool is_known = there != nullptr && there->scenario == variant.scenario;
     try {
-      variant.origin.bed = bed_hash(variant.scenario);
+      variant.origin.bed = session::bed_hash(variant.scenario);
     } catch (const Error&) {
       if (!is_known) throw;
       continue;
@@ -396,7 +397,7 @@ EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest
     if (goes_on) require_same(found, wanted, folder);
     if (!hopeless.empty()) withdraw(found, hopeless, folder);
     if (goes_on) {
-      before = read_text(manifest_path(folder));
+      before = io::read_text(manifest_path(folder));
       all.version = found.version;
       all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());
       if (wanted.until.empty()) all.until = found.until;
@@ -410,11 +411,11 @@ EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest
     all.variants.push_back(variant);
     all.variants.back().scenario_file = scenario_path(folder, variant.name);
     prepare_folder_of(all.variants.back().scenario_file);
-    write_text(all.variants.back().scenario_file, resolved_toml(variant.scenario));
+    io::write_text(all.variants.back().scenario_file, scenario::resolved_toml(variant.scenario));
   }
   for (const Member& member : plan_ensemble({all.seeds.front()}, all.variants, folder).members)
     prepare_folder_of(member.path);
-  if (const std::string text = text_of(all); text != before) write_text(manifest_path(folder), text);
+  if (const std::string text = text_of(all); text != before) io::write_text(manifest_path(folder), text);
   return all;
 }
 
@@ -428,4 +429,4 @@ EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManife
   return all;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

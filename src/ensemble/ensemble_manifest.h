@@ -9,7 +9,7 @@
 #include "ensemble/member_task.h"
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 struct EnsembleManifest {
   std::string version = {};               ///< of the Talus that wrote it
@@ -60,4 +60,4 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder);
 /// as write_text does.
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted);
 
-}  // namespace talus
+}  // namespace talus::ensemble

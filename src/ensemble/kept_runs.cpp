@@ -15,7 +15,7 @@
 #include "io/analysis_file.h"
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// How many runs stay; nothing: all.
@@ -33,7 +33,7 @@ std::optional<std::size_t> number_kept(const std::string& keep) {
 
 /// Removes the folder of a run that is packed, unless somebody is at it; what stays does no harm.
 void discard_packed(const std::string& run) try {
-  if (run_presence(run) == RunPresence::packed) discard_folder(run);
+  if (io::run_presence(run) == io::RunPresence::packed) io::discard_folder(run);
 } catch (const Error& error) {
   if (error.code() != ExitCode::cannot_create) throw;
 }
@@ -63,9 +63,9 @@ std::size_t drop_frames(const EnsembleManifest& manifest, const EnsemblePlan& pl
     try {
       const MemberResult& result = analysed_member(member, known);
       if (!result.has_frames) continue;
-      const std::optional<Analysis> analysis = read_analysis(member.path);
+      const std::optional<analysis::Analysis> analysis = io::read_analysis(member.path);
       if (!analysis) continue;
-      store_analysis(member.path, *analysis, result.numbers.state_hash, quantities(), false);
+      io::store_analysis(member.path, *analysis, result.numbers.state_hash, analysis::quantities(), false);
       ++dropped;
     } catch (const Error&) {
       continue;  // it is reported with the averages
@@ -86,4 +86,4 @@ void drop_leftovers(const EnsemblePlan& plan) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -11,7 +11,7 @@
 #include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Throws Error(usage), naming --keep, unless the text is "all", "analysis" or a number.
 void check_keep(const std::string& keep);
@@ -35,4 +35,4 @@ std::size_t drop_frames(const EnsembleManifest& manifest, const EnsemblePlan& pl
 /// Throws as discard_folder does.
 void drop_leftovers(const EnsemblePlan& plan);
 
-}  // namespace talus
+}  // namespace talus::ensemble

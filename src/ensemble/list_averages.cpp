@@ -5,7 +5,7 @@
 
 #include "ensemble/averages.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// The averages of a list, with room for so many points.
@@ -71,4 +71,4 @@ void add_member(ListAverages& averages, const MemberLists& lists, double theta_c
   add_at(averages.before_failure, lists, tilts);
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 
 #include "ensemble/member_values.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// A list of numbers at each point of a grid: of the members that have it there.
 struct AveragedList {
@@ -33,4 +33,4 @@ struct ListAverages {
 /// Means depend on the order of the members by rounding: add them in the order of their seeds.
 void add_member(ListAverages& averages, const MemberLists& lists, double theta_c, double spacing);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "ensemble/wall_fit.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using enum PaperQuantity;
@@ -18,22 +18,22 @@ constexpr double same_tilt = 1e-9;  // rad: tilts are multiples of a step up to 
 
 /// A run with its angles looked up: frames by index, where there are any.
 struct RunAtThreshold {
-  const RunView& run;
+  const runs::RunView& run;
   std::size_t factor;
   double theta_c;                   // rad
   std::size_t at_theta_c;           // the last frame up to it
   std::optional<std::size_t> jump;  // the frame after the jump of l_c max
 
-  const FrameRecord& frame(std::size_t k) const { return run.analysis.frames.at(k); }
-  const FrameThreshold& overload(std::size_t k) const { return frame(k).thresholds.at(factor); }
-  const RunThreshold& threshold() const { return run.analysis.thresholds.at(factor); }
-  double length(std::size_t k, double FrameThreshold::*member) const {
+  const analysis::FrameRecord& frame(std::size_t k) const { return run.analysis.frames.at(k); }
+  const analysis::FrameThreshold& overload(std::size_t k) const { return frame(k).thresholds.at(factor); }
+  const analysis::RunThreshold& threshold() const { return run.analysis.thresholds.at(factor); }
+  double length(std::size_t k, double analysis::FrameThreshold::*member) const {
     return overload(k).*member / run.statics.mean_diameter;
   }
   /// The last frame not after a tilt.
   std::size_t frame_at(double tilt) const {
-    const std::vector<FrameRecord>& frames = run.analysis.frames;
-    const auto after = std::ranges::upper_bound(frames, tilt + same_tilt, {}, &FrameRecord::tilt);
+    const std::vector<analysis::FrameRecord>& frames = run.analysis.frames;
+    const auto after = std::ranges::upper_bound(frames, tilt + same_tilt, {}, &analysis::FrameRecord::tilt);
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - frames.begin() - 1, 0));
   }
 };
@@ -44,7 +44,7 @@ double mean_before_failure(const RunAtThreshold& of, const Value& value) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k <= of.at_theta_c; ++k) {
-    if (k < of.at_theta_c && of.frame(k).tilt < of.theta_c - radians(failure_window)) continue;
+    if (k < of.at_theta_c && of.frame(k).tilt < of.theta_c - radians(analysis::failure_window)) continue;
     sum += value(k);
     ++count;
   }
@@ -142,8 +142,8 @@ Measured measure_packing(const RunAtThreshold& of, PaperQuantity quantity) {
 }
 
 Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Population population) {
-  const auto fraction = population == Population::all ? &FrameThreshold::overloaded_fraction_of_all
-                                                      : &FrameThreshold::overloaded_fraction;
+  const auto fraction = population == Population::all ? &analysis::FrameThreshold::overloaded_fraction_of_all
+                                                      : &analysis::FrameThreshold::overloaded_fraction;
   const auto overloaded = [&](std::size_t k) { return of.overload(k).*fraction; };
   const auto at_jump = [&](const auto& value) { return Measured{of.jump ? value(*of.jump) : not_known}; };
   switch (quantity) {
@@ -156,19 +156,20 @@ Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Populat
     case overloaded_at_percolation:
       return at_percolation(of, overloaded);
     case lc_mean_at_0:
-      return {of.length(0, &FrameThreshold::lc_mean)};
+      return {of.length(0, &analysis::FrameThreshold::lc_mean)};
     case lc_mean_at_theta_d:
-      return at_jump([&](std::size_t k) { return of.length(k, &FrameThreshold::lc_mean); });
+      return at_jump([&](std::size_t k) { return of.length(k, &analysis::FrameThreshold::lc_mean); });
     case lc_mean_at_theta_c:
-      return {of.length(of.at_theta_c, &FrameThreshold::lc_mean)};
+      return {of.length(of.at_theta_c, &analysis::FrameThreshold::lc_mean)};
     case lc_max_at_0:
-      return {of.length(0, &FrameThreshold::lc_max)};
+      return {of.length(0, &analysis::FrameThreshold::lc_max)};
     case lc_max_before_jump:
-      return at_jump([&](std::size_t k) { return of.length(k - 1, &FrameThreshold::lc_max); });
+      return at_jump([&](std::size_t k) { return of.length(k - 1, &analysis::FrameThreshold::lc_max); });
     case lc_max_after_jump:
       // What lies beyond the cut of the paper's data processing is not known to the paper.
-      return at_jump(
-          [&](std::size_t k) { return std::min(of.length(k, &FrameThreshold::lc_max), paper_lc_cut); });
+      return at_jump([&](std::size_t k) {
+        return std::min(of.length(k, &analysis::FrameThreshold::lc_max), paper_lc_cut);
+      });
     case theta_d_by_jump:
       return {degrees(of.threshold().lc_jump)};
     case theta_d_by_percolation:
@@ -178,7 +179,7 @@ Measured measure_chain(const RunAtThreshold& of, PaperQuantity quantity, Populat
   }
 }
 
-RunAtThreshold at_threshold(const RunView& run, std::size_t factor) {
+RunAtThreshold at_threshold(const runs::RunView& run, std::size_t factor) {
   RunAtThreshold of{run, factor, run.analysis.theta_c, 0, {}};
   if (std::isnan(of.theta_c)) return of;
   of.at_theta_c = of.frame_at(of.theta_c);
@@ -193,7 +194,8 @@ bool needs_threshold(PaperQuantity quantity) {
 
 }  // namespace
 
-Measured measure(const RunView& run, PaperQuantity quantity, std::size_t factor, Population population) {
+Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor,
+                 Population population) {
   const RunAtThreshold of = at_threshold(run, factor);
   if (std::isnan(of.theta_c)) return {not_known};
   if (!needs_threshold(quantity)) return measure_packing(of, quantity);
@@ -201,14 +203,14 @@ Measured measure(const RunView& run, PaperQuantity quantity, std::size_t factor,
   return measure_chain(of, quantity, population);
 }
 
-MeasuredValues measure_all(const RunView& run, std::size_t factor, Population population) {
+MeasuredValues measure_all(const runs::RunView& run, std::size_t factor, Population population) {
   MeasuredValues all{};
   for (std::size_t q = 0; q < quantity_count; ++q)
     all[q] = measure(run, static_cast<PaperQuantity>(q), factor, population);
   return all;
 }
 
-WallPoint wall_point(const RunView& run) {
+WallPoint wall_point(const runs::RunView& run) {
   const double ratio = measure(run, shear_over_tangent_of_walls, 0, Population::carrying).value;
   if (std::isnan(ratio)) return {not_known, not_known};
   const RunAtThreshold of = at_threshold(run, 0);
@@ -216,4 +218,4 @@ WallPoint wall_point(const RunView& run) {
   return {of.frame(of.at_theta_c).volume / (length * length), ratio};
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

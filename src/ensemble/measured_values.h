@@ -9,7 +9,7 @@
 #include "ensemble/wall_fit.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Grains that p_o is a share of.
 enum class Population {
@@ -25,16 +25,16 @@ struct Measured {
 
 /// The quantity in a run that has failed, with threshold `factor` (an index) of its analysis. NaN where the
 /// slope has not failed, and for the coefficient of the walls, which no single run has.
-Measured measure(const RunView& run, PaperQuantity quantity, std::size_t factor, Population population);
+Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor, Population population);
 
 /// Of all quantities.
 using MeasuredValues = std::array<Measured, quantity_count>;
-MeasuredValues measure_all(const RunView& run, std::size_t factor, Population population);
+MeasuredValues measure_all(const runs::RunView& run, std::size_t factor, Population population);
 inline const Measured& at(const MeasuredValues& values, PaperQuantity quantity) {
   return values[static_cast<std::size_t>(quantity)];
 }
 
 /// H / L and the ratio of a bed at failure; the ratio is NaN where it has not failed.
-WallPoint wall_point(const RunView& run);
+WallPoint wall_point(const runs::RunView& run);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -18,7 +18,7 @@
 #include "scenario/text.h"
 #include "session/run_header.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 KnownMembers::FileMark mark_of(const std::string& path) {
@@ -27,42 +27,42 @@ KnownMembers::FileMark mark_of(const std::string& path) {
   return {file.st_dev, file.st_ino, file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
 }
 
-std::vector<Quantity> rows_where(const std::function<bool(const Quantity&)>& is_wanted) {
-  std::vector<Quantity> found;
-  std::ranges::copy_if(quantities(), std::back_inserter(found), is_wanted);
+std::vector<analysis::Quantity> rows_where(const std::function<bool(const analysis::Quantity&)>& is_wanted) {
+  std::vector<analysis::Quantity> found;
+  std::ranges::copy_if(analysis::quantities(), std::back_inserter(found), is_wanted);
   return found;
 }
 
-const std::vector<Quantity>& numbers_of_members() {
-  static const std::vector<Quantity> table =
-      rows_where([](const Quantity& quantity) { return is_number_of_run(quantity); });
+const std::vector<analysis::Quantity>& numbers_of_members() {
+  static const std::vector<analysis::Quantity> table =
+      rows_where([](const analysis::Quantity& quantity) { return analysis::is_number_of_run(quantity); });
   return table;
 }
 
 /// What averages are made of: no values of single grains, which are most of an analysis.
-const std::vector<Quantity>& averaged_quantities() {
-  static const std::vector<Quantity> table = rows_where([](const Quantity& quantity) {
-    return is_number_of_run(quantity) || is_number_of_frame(quantity) || is_list_of_run(quantity) ||
-           is_list_of_frame(quantity);
+const std::vector<analysis::Quantity>& averaged_quantities() {
+  static const std::vector<analysis::Quantity> table = rows_where([](const analysis::Quantity& quantity) {
+    return analysis::is_number_of_run(quantity) || analysis::is_number_of_frame(quantity) ||
+           analysis::is_list_of_run(quantity) || analysis::is_list_of_frame(quantity);
   });
   return table;
 }
 
-MemberResult result_of(const Member& member, const RunFile& run, const Analysis& analysis) {
+MemberResult result_of(const Member& member, const io::RunFile& run, const analysis::Analysis& analysis) {
   const double mean_diameter = run.header().statics.mean_diameter;
   return {member.seed, member_numbers(run, analysis), member_series(analysis, mean_diameter),
           member_lists(analysis, mean_diameter), run.has_frames()};
 }
 
 MemberResult read_result(const Member& member, bool whole) {
-  const RunFile run = RunFile::open(member.path);
+  const io::RunFile run = io::RunFile::open(member.path);
   require_own_run(member, run.header());
-  const std::optional<Analysis> analysis =
-      read_analysis(run, whole ? averaged_quantities() : numbers_of_members());
-  const bool is_valid = analysis && analysis->key == analysis_key(run, AnalysisParameters());
+  const std::optional<analysis::Analysis> analysis =
+      io::read_analysis(run, whole ? averaged_quantities() : numbers_of_members());
+  const bool is_valid = analysis && analysis->key == runs::analysis_key(run, analysis::AnalysisParameters());
   if (is_valid && whole) return result_of(member, run, *analysis);
   MemberResult found{member.seed, {}, {}, {}, run.has_frames()};
-  found.numbers = member_numbers(run, is_valid ? *analysis : Analysis());
+  found.numbers = member_numbers(run, is_valid ? *analysis : analysis::Analysis());
   if (!is_valid) found.numbers.numbers.clear();
   return found;
 }
@@ -81,17 +81,17 @@ const MemberResult& read_parts(const Member& member, KnownMembers& known, bool w
 
 }  // namespace
 
-void require_own_run(const Member& member, const RunHeader& header) {
+void require_own_run(const Member& member, const io::RunHeader& header) {
   // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
-  const Scenario scenario = stored_scenario(header, member.path);
+  const scenario::Scenario scenario = runs::stored_scenario(header, member.path);
   if (scenario != member.scenario)
     throw Error(
         ExitCode::bad_data,
         fmt::format("{} is a run of another scenario than this member of the ensemble: {}; expected the "
                     "scenario, the settings and the version that the ensemble began with; give another "
                     "folder, or remove the run",
-                    member.path, differences(scenario, member.scenario)));
-  const std::string bed = bed_of(header.provenance);
+                    member.path, scenario::differences(scenario, member.scenario)));
+  const std::string bed = session::bed_of(header.provenance);
   if (!bed.empty() && !member.origin.bed.empty() && bed != member.origin.bed)
     throw Error(ExitCode::bad_data,
                 fmt::format("{} began with another bed than this ensemble: {} (deposition.file) was changed; "
@@ -100,10 +100,10 @@ void require_own_run(const Member& member, const RunHeader& header) {
 }
 
 bool is_complete(const Member& member) {
-  const RunPresence presence = run_presence(member.path);
-  if (presence == RunPresence::none) return false;
-  require_own_run(member, RunFile::open(member.path).header());
-  return presence == RunPresence::packed;
+  const io::RunPresence presence = io::run_presence(member.path);
+  if (presence == io::RunPresence::none) return false;
+  require_own_run(member, io::RunFile::open(member.path).header());
+  return presence == io::RunPresence::packed;
 }
 
 const MemberResult& read_member(const Member& member, KnownMembers& known) {
@@ -118,7 +118,7 @@ void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states,
       read_member(member, known);
     } catch (const Error& error) {
       if (error.code() != ExitCode::bad_data) continue;
-      states[m].damage = damage_of_packed(member.path);
+      states[m].damage = io::damage_of_packed(member.path);
       if (!states[m].damage.empty()) states[m].stage = MemberStage::waiting;
     }
   }
@@ -127,10 +127,10 @@ void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states,
 const MemberResult& analysed_member(const Member& member, KnownMembers& known) {
   const MemberResult& read = read_parts(member, known, true);
   if (!read.numbers.numbers.empty()) return read;
-  const RunView run = analysed_run(member.path, AnalysisParameters(), {});
+  const runs::RunView run = runs::analysed_run(member.path, analysis::AnalysisParameters(), {});
   if (!run.file->complete())
     throw Error(ExitCode::bad_data, member.path + " is just being computed again; wait for its end");
   return keep(member, known, {mark_of(member.path), true, result_of(member, *run.file, run.analysis)});
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

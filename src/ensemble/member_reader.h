@@ -11,10 +11,10 @@
 #include "ensemble/plan.h"
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Throws Error(bad_data) where a run is not that of the member: of another scenario, seed or bed.
-void require_own_run(const Member& member, const RunHeader& header);
+void require_own_run(const Member& member, const io::RunHeader& header);
 
 /// Whether the run of a member is complete. Throws as require_own_run and RunFile::open do.
 bool is_complete(const Member& member);
@@ -49,4 +49,4 @@ void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states,
 /// Error(bad_data) where the run is just being computed again.
 const MemberResult& analysed_member(const Member& member, KnownMembers& known);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -12,7 +12,7 @@
 #include "ensemble/claim.h"
 #include "io/durable_file.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -92,11 +92,11 @@ std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) 
 std::string failure_path(const std::string& run) { return file_beside(run, failure_ending); }
 
 void record_failure(const std::string& run, const MemberFailure& failure) {
-  write_text(failure_path(run), fmt::format("exit code {}\n{}\n", failure.exit_code, failure.message));
+  io::write_text(failure_path(run), fmt::format("exit code {}\n{}\n", failure.exit_code, failure.message));
 }
 
 MemberFailure read_failure(const std::string& run) {
-  std::istringstream lines = text_stream(read_text(failure_path(run)));
+  std::istringstream lines = text_stream(io::read_text(failure_path(run)));
   MemberFailure failure;
   std::string word;
   lines >> word >> word >> failure.exit_code;
@@ -112,11 +112,11 @@ MemberFailure read_failure(const std::string& run) {
 }
 
 std::string last_line_of(const std::string& log) {
-  std::istringstream lines = text_stream(read_text(log));
+  std::istringstream lines = text_stream(io::read_text(log));
   std::string last;
   for (std::string line; std::getline(lines, line);)
     if (line.find_first_not_of(" \r\t") != std::string::npos) last = visible(line);
   return last;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

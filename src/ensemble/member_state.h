@@ -8,7 +8,7 @@
 
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 enum class MemberStage {
   waiting,
@@ -49,4 +49,4 @@ MemberFailure read_failure(const std::string& run);
 /// The last line of a log that says something; empty where there is none.
 std::string last_line_of(const std::string& log);
 
-}  // namespace talus
+}  // namespace talus::ensemble

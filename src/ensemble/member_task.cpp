@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr const char* readings_word = "readings";
@@ -14,7 +14,9 @@ constexpr const char* trials_word = "trials ";
 struct TaskText {
   std::string operator()(const PlainTask&) const { return ""; }
   std::string operator()(const ReadingsTask&) const { return readings_word; }
-  std::string operator()(const PerturbationPlan& plan) const { return trials_word + plan_text(plan); }
+  std::string operator()(const session::PerturbationPlan& plan) const {
+    return trials_word + session::plan_text(plan);
+  }
 };
 
 }  // namespace
@@ -25,10 +27,11 @@ MemberTask parse_task(const std::string& text, const std::string& path) {
   if (text.empty()) return PlainTask{};
   if (text == readings_word) return ReadingsTask{};
   if (text.starts_with(trials_word))
-    if (const auto plan = parse_plan(text.substr(std::char_traits<char>::length(trials_word)))) return *plan;
+    if (const auto plan = session::parse_plan(text.substr(std::char_traits<char>::length(trials_word))))
+      return *plan;
   throw Error(ExitCode::bad_data,
               fmt::format("{}: members with the task '{}' are not known to this version of Talus", path,
                           visible_word(text)));
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,7 +6,7 @@
 
 #include "session/perturbation_table.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// A member is a run and its analysis, no more.
 struct PlainTask {
@@ -19,7 +19,7 @@ struct ReadingsTask {
 };
 
 /// A PerturbationPlan: copies of the bed are pushed while the run goes on.
-using MemberTask = std::variant<PlainTask, ReadingsTask, PerturbationPlan>;
+using MemberTask = std::variant<PlainTask, ReadingsTask, session::PerturbationPlan>;
 
 /// "readings", "trials --from 12 ...": what the manifest says of the task. Plain: empty.
 std::string task_text(const MemberTask& task);
@@ -27,4 +27,4 @@ std::string task_text(const MemberTask& task);
 /// Throws Error(bad_data), naming `path`, where it is no such text.
 MemberTask parse_task(const std::string& text, const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -13,42 +13,43 @@
 #include "core/trigonometry.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// What a run finds by itself, without an analysis.
 constexpr const char* angle_at_rest = "theta_r";
 constexpr std::array<const char*, 2> counted_steps = {"unconverged_steps_deposition", "unconverged_steps"};
 
-void add_numbers(std::vector<NamedNumber>& numbers, const Quantity& quantity, const Analysis& analysis,
-                 double mean_diameter) {
-  const Values values = values_of(quantity, analysis);
+void add_numbers(std::vector<NamedNumber>& numbers, const analysis::Quantity& quantity,
+                 const analysis::Analysis& analysis, double mean_diameter) {
+  const analysis::Values values = analysis::values_of(quantity, analysis);
   const auto* doubles = std::get_if<std::vector<double>>(&values);
   if (doubles == nullptr) return;
   for (std::size_t k = 0; k < doubles->size(); ++k)
-    numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity.unit),
-                       scaled(quantity.unit, (*doubles)[k], mean_diameter)});
+    numbers.push_back({element_name(quantity.name, k), analysis::scaled_unit(quantity.unit),
+                       analysis::scaled(quantity.unit, (*doubles)[k], mean_diameter)});
 }
 
 double result(const Figures& figures, const std::string& name) {
   return find_value(figures, name).value_or(not_known);
 }
 
-std::vector<double> tilts_of(const std::vector<const FrameRecord*>& frames) {
+std::vector<double> tilts_of(const std::vector<const analysis::FrameRecord*>& frames) {
   std::vector<double> tilts;
-  for (const FrameRecord* frame : frames) tilts.push_back(degrees(std::abs(frame->tilt)));
+  for (const analysis::FrameRecord* frame : frames) tilts.push_back(degrees(std::abs(frame->tilt)));
   return tilts;
 }
 
 /// An empty list of the quantity.
-NamedList list_called(const Quantity& quantity, std::size_t f) {
-  return {element_name(quantity.name, f), scaled_unit(quantity.unit), quantity.definition, 0, {}};
+NamedList list_called(const analysis::Quantity& quantity, std::size_t f) {
+  return {element_name(quantity.name, f), analysis::scaled_unit(quantity.unit), quantity.definition, 0, {}};
 }
 
-void append(NamedList& list, const Quantity& quantity, const std::vector<double>& values,
+void append(NamedList& list, const analysis::Quantity& quantity, const std::vector<double>& values,
             double mean_diameter) {
   list.width = values.size();
-  for (const double value : values) list.values.push_back(scaled(quantity.unit, value, mean_diameter));
+  for (const double value : values)
+    list.values.push_back(analysis::scaled(quantity.unit, value, mean_diameter));
 }
 
 }  // namespace
@@ -57,14 +58,14 @@ std::string element_name(const std::string& name, std::size_t k) {
   return k == 0 ? name : fmt::format("{}[{}]", name, k);
 }
 
-MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
-  const Checkpoint& end = run.checkpoint();
+MemberNumbers member_numbers(const io::RunFile& run, const analysis::Analysis& analysis) {
+  const io::Checkpoint& end = run.checkpoint();
   MemberNumbers found{hash_text(state_hash(end.world)),
-                      version_of(run.header().provenance),
+                      runs::version_of(run.header().provenance),
                       result(end.timing, "deposition") + result(end.timing, "tilt"),
                       {}};
-  for (const Quantity& quantity : quantities())
-    if (is_number_of_run(quantity))
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (analysis::is_number_of_run(quantity))
       add_numbers(found.numbers, quantity, analysis, run.header().statics.mean_diameter);
   found.numbers.push_back({angle_at_rest, "deg", degrees(result(end.results, angle_at_rest))});
   for (const char* name : counted_steps) found.numbers.push_back({name, "1", result(end.results, name)});
@@ -73,8 +74,8 @@ MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis) {
 
 std::vector<std::string> numbers_of_run() {
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
-    if (is_number_of_run(quantity)) names.push_back(quantity.name);
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (analysis::is_number_of_run(quantity)) names.push_back(quantity.name);
   names.emplace_back(angle_at_rest);
   names.insert(names.end(), counted_steps.begin(), counted_steps.end());
   return names;
@@ -95,52 +96,53 @@ double number_called(const MemberNumbers& numbers, const std::string& name) {
   return found == numbers.numbers.end() ? not_known : found->value;
 }
 
-std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis) {
-  std::vector<const FrameRecord*> frames;
-  for (const FrameRecord* frame : last_rise(analysis.frames).frames)
+std::vector<const analysis::FrameRecord*> frames_to_failure(const analysis::Analysis& analysis) {
+  std::vector<const analysis::FrameRecord*> frames;
+  for (const analysis::FrameRecord* frame : analysis::last_rise(analysis.frames).frames)
     if (!(std::abs(frame->tilt) > analysis.theta_c) &&
         (frames.empty() || std::abs(frame->tilt) > std::abs(frames.back()->tilt)))
       frames.push_back(frame);
   return frames;
 }
 
-MemberSeries member_series(const Analysis& analysis, double mean_diameter) {
-  const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);
-  const bool other_side = last_rise(analysis.frames).other_side;
+MemberSeries member_series(const analysis::Analysis& analysis, double mean_diameter) {
+  const std::vector<const analysis::FrameRecord*> frames = frames_to_failure(analysis);
+  const bool other_side = analysis::last_rise(analysis.frames).other_side;
   MemberSeries found{tilts_of(frames), {}};
-  for (const Quantity& quantity : quantities()) {
-    if (!is_number_of_frame(quantity)) continue;
-    const std::size_t count = needs_threshold(quantity) ? analysis.thresholds.size() : 1;
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_number_of_frame(quantity)) continue;
+    const std::size_t count = analysis::needs_threshold(quantity) ? analysis.thresholds.size() : 1;
     for (std::size_t f = 0; f < count; ++f) {
-      NamedSeries series{element_name(quantity.name, f), scaled_unit(quantity.unit), {}};
-      for (const FrameRecord* frame : frames)
-        series.values.push_back(
-            scaled(quantity.unit, number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
+      NamedSeries series{element_name(quantity.name, f), analysis::scaled_unit(quantity.unit), {}};
+      for (const analysis::FrameRecord* frame : frames)
+        series.values.push_back(analysis::scaled(
+            quantity.unit, analysis::number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
       found.series.push_back(std::move(series));
     }
   }
   return found;
 }
 
-MemberLists member_lists(const Analysis& analysis, double mean_diameter) {
-  const std::vector<const FrameRecord*> frames = frames_to_failure(analysis);
+MemberLists member_lists(const analysis::Analysis& analysis, double mean_diameter) {
+  const std::vector<const analysis::FrameRecord*> frames = frames_to_failure(analysis);
   MemberLists found{tilts_of(frames), {}, {}};
-  for (const Quantity& quantity : quantities()) {
-    if (is_list_of_run(quantity)) {
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (analysis::is_list_of_run(quantity)) {
       NamedList bins = list_called(quantity, 0);
-      append(bins, quantity, std::get<std::vector<double>>(values_of(quantity, analysis)), mean_diameter);
+      append(bins, quantity, std::get<std::vector<double>>(analysis::values_of(quantity, analysis)),
+             mean_diameter);
       if (bins.width > 0) found.bins.push_back(std::move(bins));
     }
-    if (!is_list_of_frame(quantity) || quantity.unit == "rad") continue;
-    const std::size_t count = needs_threshold(quantity) ? analysis.thresholds.size() : 1;
+    if (!analysis::is_list_of_frame(quantity) || quantity.unit == "rad") continue;
+    const std::size_t count = analysis::needs_threshold(quantity) ? analysis.thresholds.size() : 1;
     for (std::size_t f = 0; f < count; ++f) {
       NamedList list = list_called(quantity, f);
-      for (const FrameRecord* frame : frames)
-        append(list, quantity, list_of(quantity, *frame, f), mean_diameter);
+      for (const analysis::FrameRecord* frame : frames)
+        append(list, quantity, analysis::list_of(quantity, *frame, f), mean_diameter);
       if (list.width > 0) found.lists.push_back(std::move(list));
     }
   }
   return found;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -10,7 +10,7 @@
 #include "analysis/record.h"
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 struct NamedNumber {
   std::string name;  ///< "theta_c", "theta_d/lc_jump[1]": element 1, of those with several
@@ -62,18 +62,18 @@ struct MemberResult {
 
 /// All numbers of a complete run and its analysis, in the order of the table of quantities, then what the run
 /// found by itself (theta_r).
-MemberNumbers member_numbers(const RunFile& run, const Analysis& analysis);
+MemberNumbers member_numbers(const io::RunFile& run, const analysis::Analysis& analysis);
 
 /// The frames up to theta_c, or all of a slope that has not failed. Where the tilt goes up and down, those of
 /// its last_rise; of a hold the first one.
-std::vector<const FrameRecord*> frames_to_failure(const Analysis& analysis);
+std::vector<const analysis::FrameRecord*> frames_to_failure(const analysis::Analysis& analysis);
 
 /// Of these frames, in the order of the table of quantities. `mean_diameter` (m) is the D of its lengths.
-MemberSeries member_series(const Analysis& analysis, double mean_diameter);
+MemberSeries member_series(const analysis::Analysis& analysis, double mean_diameter);
 
 /// Of these frames, in this order. Directions of axes are left out: known up to half a turn, they have no
 /// mean.
-MemberLists member_lists(const Analysis& analysis, double mean_diameter);
+MemberLists member_lists(const analysis::Analysis& analysis, double mean_diameter);
 
 /// The names that members have numbers of, the first of each: "theta_d/dilation", not "theta_d/dilation[1]".
 std::vector<std::string> numbers_of_run();
@@ -87,4 +87,4 @@ double number_called(const MemberNumbers& numbers, const std::string& name);
 /// "theta_d/lc_jump[1]": element k of what has several; element 0 has the plain name.
 std::string element_name(const std::string& name, std::size_t k);
 
-}  // namespace talus
+}  // namespace talus::ensemble

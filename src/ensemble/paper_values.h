@@ -8,7 +8,7 @@
 
 #include "analysis/quantities.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// What the paper gives a value for. Angles of the tilt are those of the same run: theta_d is the tilt of the
 /// jump of l_c max.
@@ -64,8 +64,8 @@ struct PaperValue {
   double accuracy;
   std::string_view unit;  ///< "deg", "D", or "1"
   Relation relation;
-  std::string_view definition;  ///< how ours is measured
-  QuantityMember source;        ///< the quantity that it is read from
+  std::string_view definition;      ///< how ours is measured
+  analysis::QuantityMember source;  ///< the quantity that it is read from
 };
 
 /// One row for each quantity, in their order.
@@ -91,4 +91,4 @@ double paper_wall_ratio(double depth_over_length);
 /// The value of a bed between walls that has H / L of the paper's; that of other quantities is the table's.
 PaperValue paper_value_of_walls(PaperQuantity quantity, double depth_over_length);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -10,7 +10,7 @@
 #include "base/visible_text.h"
 #include "session/estimate.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr std::size_t most_seeds = 10000;
@@ -73,7 +73,7 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan) {
   for (const Variant& variant : plan.variants) {
     seconds.push_back(0.0);
     try {
-      seconds.back() = estimate(variant.scenario).seconds;
+      seconds.back() = session::estimate(variant.scenario).seconds;
     } catch (const Error&) {
       continue;  // a bed of a file that is not there, say, is no reason to stop the other members
     }
@@ -85,4 +85,4 @@ std::string file_beside(const std::string& path, const char* ending) {
   return std::filesystem::path(path).replace_extension(ending).string();
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

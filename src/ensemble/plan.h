@@ -8,7 +8,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// What the members of a variant are computed from, as hashes; empty: not known.
 struct MemberOrigin {
@@ -20,10 +20,10 @@ struct MemberOrigin {
 
 /// A scenario with all that is changed in it.
 struct Variant {
-  std::string name;            ///< "baseline", "wbc-100": the folder of its runs; empty: none
-  std::string scenario_file;   ///< as `talus run` reads it
-  Scenario scenario;           ///< what it says; its seed is not used
-  std::string full_name = {};  ///< where `name` was shortened: all of it, fit to be shown
+  std::string name;             ///< "baseline", "wbc-100": the folder of its runs; empty: none
+  std::string scenario_file;    ///< as `talus run` reads it
+  scenario::Scenario scenario;  ///< what it says; its seed is not used
+  std::string full_name = {};   ///< where `name` was shortened: all of it, fit to be shown
   MemberOrigin origin = {};
 };
 
@@ -31,9 +31,9 @@ struct Variant {
 struct Member {
   std::size_t variant = 0;  ///< index into EnsemblePlan::variants
   std::uint64_t seed = 0;
-  std::string name;   ///< "baseline/seed-1", "seed-1"
-  std::string path;   ///< its run file: the name below the folder of the ensemble, with ".h5"
-  Scenario scenario;  ///< with the seed
+  std::string name;             ///< "baseline/seed-1", "seed-1"
+  std::string path;             ///< its run file: the name below the folder of the ensemble, with ".h5"
+  scenario::Scenario scenario;  ///< with the seed
   MemberOrigin origin = {};
 };
 
@@ -60,4 +60,4 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// The file beside that of a member with another ending: ".log".
 std::string file_beside(const std::string& path, const char* ending);
 
-}  // namespace talus
+}  // namespace talus::ensemble

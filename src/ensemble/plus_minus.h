@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 #include <string>
 
-namespace talus {
+namespace talus::ensemble {
 
 /// "16.43 ± 0.21": the width, above 0, with two digits, and the mean with as many decimals. `sign`: a plus
 /// before a mean that is not negative.
@@ -16,4 +16,4 @@ inline std::string plus_minus(double mean, double width, bool sign = false) {
                      decimals);
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -18,7 +18,7 @@
 #include "base/visible_text.h"
 #include "ensemble/member_state.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// The signals that run_jobs waits for, kept from being delivered while it lives.
@@ -129,4 +129,4 @@ void refuse(const std::vector<FailedJob>& failed, const std::string& consequence
 
 std::string path_word(const std::string& path) { return path.starts_with('-') ? "./" + path : path; }
 
-}  // namespace talus
+}  // namespace talus::ensemble

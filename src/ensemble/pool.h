@@ -7,7 +7,7 @@
 
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// What one process does.
 struct Job {
@@ -37,4 +37,4 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
 /// A path as a word of a command: one that begins with "-" would be read as an option.
 std::string path_word(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 // Indices into the list of analyses: of grains with their first neighbours, and of single grains.
@@ -120,7 +120,7 @@ std::optional<ChainConclusion::Missed> missed(std::span<const ReadingResult> res
 }  // namespace
 
 std::vector<ChainAnalysis> chain_analyses(double depth) {
-  const std::string paper_cut = "lc_cut=" + short_text(paper_lc_cut / paper_depth * depth);
+  const std::string paper_cut = "lc_cut=" + scenario::short_text(paper_lc_cut / paper_depth * depth);
   const std::vector<std::vector<std::string>> all = {
       {},
       {"l_min=0"},
@@ -199,4 +199,4 @@ ChainConclusion conclude(std::span<const ReadingResult> results) {
   return conclusion;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

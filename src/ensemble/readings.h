@@ -11,7 +11,7 @@
 #include "ensemble/agreement.h"
 #include "ensemble/measured_values.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// An analysis of each run.
 struct ChainAnalysis {
@@ -71,4 +71,4 @@ struct ChainConclusion {
 };
 ChainConclusion conclude(std::span<const ReadingResult> results);
 
-}  // namespace talus
+}  // namespace talus::ensemble

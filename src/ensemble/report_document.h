@@ -8,7 +8,7 @@
 
 #include "base/text_table.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 struct ReportHeading {
   int level = 2;
@@ -45,4 +45,4 @@ struct ReportDocument {
 /// read_file does where one cannot be read.
 std::string report_html(const ReportDocument& document, const std::string& folder);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,7 +6,7 @@
 #include "ensemble/report_document.h"
 #include "io/durable_file.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr const char* style = R"(
@@ -144,7 +144,8 @@ struct HtmlWriter {
     return text + "</tbody></table></div>\n";
   }
   std::string operator()(const ReportPicture& picture) const {
-    const std::vector<std::byte> bytes = read_file((std::filesystem::path(folder) / picture.file).string());
+    const std::vector<std::byte> bytes =
+        io::read_file((std::filesystem::path(folder) / picture.file).string());
     const std::string title = escaped(picture.title);
     return fmt::format(
         "<figure{}><img alt=\"{}\" src=\"data:image/png;base64,{}\">\n"
@@ -165,4 +166,4 @@ std::string report_html(const ReportDocument& document, const std::string& folde
   return text + "</body>\n</html>\n";
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,25 +6,27 @@
 #include "ensemble/built_in_scenarios.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr std::string_view preparations[] = {"pour", "geometric", "collapse"};  // deposition.method
 constexpr int wall_lengths[] = {100, 150, 200, 250, 300};
 constexpr double quick_scale = 0.5;  // of lengths and depths
 
-std::string setting(const char* key, double value) { return fmt::format("{}={}", key, short_text(value)); }
+std::string setting(const char* key, double value) {
+  return fmt::format("{}={}", key, scenario::short_text(value));
+}
 
 /// A bed of the paper.
 Variant make_bed(bool quick, std::string name, const std::string& scenario_name,
                  std::vector<std::string> settings) {
   const std::string text(built_in_scenario(scenario_name)), file = scenario_name + ".toml";
   if (quick) {
-    const Scenario full = parse_scenario(text, file);
+    const scenario::Scenario full = scenario::parse_scenario(text, file);
     settings.push_back(setting("bed.length", quick_scale * full.bed.length));
     settings.push_back(setting("bed.depth", quick_scale * full.bed.depth));
   }
-  return {std::move(name), file, parse_scenario(text, file, settings)};
+  return {std::move(name), file, scenario::parse_scenario(text, file, settings)};
 }
 
 std::vector<Variant> make_beds(bool quick) {
@@ -39,7 +41,7 @@ std::vector<Variant> make_beds(bool quick) {
     beds.push_back(make_bed(quick, std::move(name), "paper-pbc", std::move(settings)));
   }
   for (const int length : wall_lengths)
-    beds.push_back(make_bed(quick, "wbc-" + short_text((quick ? quick_scale : 1.0) * length),
+    beds.push_back(make_bed(quick, "wbc-" + scenario::short_text((quick ? quick_scale : 1.0) * length),
                             fmt::format("paper-wbc-{}", length), {}));
   return beds;
 }
@@ -56,8 +58,9 @@ void add_rows(std::string& text, const Member& run, const std::string& analysis,
   for (const PaperValue& paper : paper_values) {
     const Measured& measured = at(values, paper.quantity);
     if (std::isnan(measured.value)) continue;
-    text += fmt::format("{},{},{},{},{},{},{},{:d}\n", run.name, run.seed, column(analysis), factor + 1,
-                        column(paper.name), paper.unit, short_text(measured.value), measured.at_most);
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{:d}\n", run.name, run.seed, column(analysis), factor + 1,
+                    column(paper.name), paper.unit, scenario::short_text(measured.value), measured.at_most);
   }
 }
 
@@ -67,7 +70,7 @@ ReproductionPlan plan_reproduction(bool quick, const std::string& seeds, const s
   return {plan_ensemble(parse_seeds(seeds), make_beds(quick), folder), quick};
 }
 
-bool is_periodic(const Variant& bed) { return bed.scenario.bed.boundary == BedBoundary::periodic; }
+bool is_periodic(const Variant& bed) { return bed.scenario.bed.boundary == scenario::BedBoundary::periodic; }
 
 double depth_over_length(const Variant& bed) { return bed.scenario.bed.depth / bed.scenario.bed.length; }
 
@@ -123,4 +126,4 @@ std::string values_csv(const ReproductionResult& result) {
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

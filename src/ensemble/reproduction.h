@@ -10,7 +10,7 @@
 #include "ensemble/readings.h"
 #include "ensemble/wall_fit.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// The variants are beds of the paper, or such a bed prepared in another way: periodic ones first, the
 /// paper's before other preparations.
@@ -59,4 +59,4 @@ std::vector<WallPoint> wall_points(const ReproductionResult& result);
 /// One row for each run, analysis, threshold and quantity, in full digits.
 std::string values_csv(const ReproductionResult& result);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -10,7 +10,7 @@
 #include "scenario/text.h"
 #include "session/estimate.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// "0.300", "15.0", "119", "7.4e-05".
@@ -38,7 +38,7 @@ std::vector<std::size_t> periodic_beds(const ReproductionPlan& plan) {
 
 std::string bed_text(const Variant& bed) {
   return fmt::format("{}, L = {} D", is_periodic(bed) ? "periodic" : "walls",
-                     short_text(bed.scenario.bed.length));
+                     scenario::short_text(bed.scenario.bed.length));
 }
 
 TextTable beds_table(const ReproductionResult& result) {
@@ -56,12 +56,12 @@ TextTable beds_table(const ReproductionResult& result) {
     double seconds = 0.0;
     for (const ReproducedOutcome* outcome : outcomes) seconds += outcome->seconds;
     table.rows.push_back({{bed_text(bed)},
-                          {short_text(bed.scenario.bed.depth) + " D"},
-                          {std::to_string(estimate(bed.scenario).grains)},
+                          {scenario::short_text(bed.scenario.bed.depth) + " D"},
+                          {std::to_string(session::estimate(bed.scenario).grains)},
                           {preparation_text(bed)},
                           {fmt::format("{} of {}", outcomes.size(), result.plan.seeds.size())},
                           {spread_text(spread_of(result, b, PaperQuantity::theta_c))},
-                          {duration_text(seconds)}});
+                          {session::duration_text(seconds)}});
   }
   return table;
 }
@@ -74,7 +74,7 @@ std::string versions_text(const ReproductionResult& result) {
     if (std::ranges::find(versions, outcome.version) == versions.end()) versions.push_back(outcome.version);
   }
   return fmt::format("Runs by Talus {}; their steps took {} on one thread each. Analysed and drawn by {}.",
-                     joined(versions, ", "), duration_text(seconds), version_text());
+                     joined(versions, ", "), session::duration_text(seconds), version_text());
 }
 
 std::vector<std::string> run_commands(const ReproductionPlan& plan) {
@@ -198,7 +198,7 @@ TextTable definition_table() {
   for (const PaperValue& paper : paper_values)
     table.rows.push_back({{std::string(paper.name)},
                           {std::string(paper.definition)},
-                          {fmt::format("`/analysis/{}`", quantity_of(paper.source).name)}});
+                          {fmt::format("`/analysis/{}`", analysis::quantity_of(paper.source).name)}});
   return table;
 }
 
@@ -233,13 +233,13 @@ std::string name_text(const PaperValue& paper) {
 
 std::string preparation_text(const Variant& bed) {
   switch (bed.scenario.deposition.method) {
-    case DepositionMethod::pour:
+    case scenario::DepositionMethod::pour:
       return "poured grains";
-    case DepositionMethod::geometric:
+    case scenario::DepositionMethod::geometric:
       return "grains set down geometrically";
-    case DepositionMethod::collapse:
+    case scenario::DepositionMethod::collapse:
       return "grains that collapse";
-    case DepositionMethod::file:
+    case scenario::DepositionMethod::file:
       break;
   }
   return "grains placed by a file";
@@ -314,4 +314,4 @@ ReportDocument reproduction_report(const ReproductionResult& result, const Repro
   return document;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -7,7 +7,7 @@
 #include "ensemble/report_document.h"
 #include "ensemble/reproduction.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// The figures of a report by the part that each stands in.
 struct ReproductionPictures {
@@ -48,4 +48,4 @@ std::string spread_text(const Spread& spread);
 /// A value of ours with its verdict below it.
 TextCell judged_cell(const PaperValue& paper, const Spread& ours, double depth);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,12 +6,12 @@
 #include "io/run_file.h"
 #include "runs/analysis_run.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Analyses the run of a periodic bed for each reading, and returns what they give; those that are stored
 /// with it and valid are taken as they are. A bed between walls has none. Throws as analyse_run does.
-std::vector<StoredReading> make_readings(const Member& member, const RunFile& run,
-                                         const AnalysisProgress& progress);
+std::vector<io::StoredReading> make_readings(const Member& member, const io::RunFile& run,
+                                             const runs::AnalysisProgress& progress);
 
 /// Stores with the complete run of a member what it lacks of them. Throws as store_readings does.
 void complete_readings(const Member& member);
@@ -23,4 +23,4 @@ bool is_measured(const Member& member);
 /// or not of this version.
 ReproductionResult measure_members(const ReproductionPlan& plan);
 
-}  // namespace talus
+}  // namespace talus::ensemble

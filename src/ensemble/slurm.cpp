@@ -10,7 +10,7 @@
 #include "base/visible_text.h"
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// States of tasks that are over; every other one is still to come to an end, those that Slurm may add too.
@@ -169,4 +169,4 @@ std::map<std::string, std::vector<SlurmJob>> by_cluster(const std::vector<SlurmJ
   return clusters;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

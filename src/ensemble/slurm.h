@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::ensemble {
 
 /// What one array is to do.
 struct SlurmArray {
@@ -78,4 +78,4 @@ std::map<std::string, QueuedTasks> parse_queue(const std::string& printed);
 /// Jobs of one cluster beside each other: Slurm's commands ask one cluster at a time.
 std::map<std::string, std::vector<SlurmJob>> by_cluster(const std::vector<SlurmJob>& jobs);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -15,7 +15,7 @@
 #include "io/manifest.h"
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ std::string id_in(const std::string& name) {
 
 SlurmJob read_job(const std::string& folder, const std::string& id) {
   const std::string path = job_path(folder, id);
-  std::istringstream lines = text_stream(read_text(path));
+  std::istringstream lines = text_stream(io::read_text(path));
   std::string header, row;
   std::getline(lines, header);
   std::getline(lines, row);
@@ -59,7 +59,8 @@ SlurmJob read_job(const std::string& folder, const std::string& id) {
 std::uint64_t committed_steps(const std::string& run) {
   std::uint64_t steps = 0;
   try {
-    for (const StoredSegment& segment : read_manifest(run_folder(run)).segments) steps += segment.steps;
+    for (const io::StoredSegment& segment : io::read_manifest(io::run_folder(run)).segments)
+      steps += segment.steps;
   } catch (const Error&) {
     return 0;  // the worker that takes it says what is wrong with it
   }
@@ -71,14 +72,14 @@ std::uint64_t committed_steps(const std::string& run) {
 std::string slurm_folder(const std::string& folder) { return (fs::path(folder) / "slurm").string(); }
 
 void record_job(const std::string& folder, const SlurmJob& job) {
-  write_text(job_path(folder, job.id),
-             fmt::format("{}{},{},{}\n", job_header, job.id, job.cluster, job.tasks));
+  io::write_text(job_path(folder, job.id),
+                 fmt::format("{}{},{},{}\n", job_header, job.id, job.cluster, job.tasks));
 }
 
 void forget_job(const std::string& folder, const SlurmJob& job) {
-  remove_file(job_path(folder, job.id));
+  io::remove_file(job_path(folder, job.id));
   for (std::size_t task = 1; task <= std::min(job.tasks, most_tasks); ++task)
-    remove_file(memory_path(folder, job.id, std::to_string(task)));
+    io::remove_file(memory_path(folder, job.id, std::to_string(task)));
 }
 
 std::vector<SlurmJob> recorded_jobs(const std::string& folder) {
@@ -99,7 +100,7 @@ EnsembleMark mark_of(const EnsemblePlan& plan) {
       ++mark.done;
       continue;
     }
-    if (run_presence(path) == RunPresence::folder) mark.steps += committed_steps(path);
+    if (io::run_presence(path) == io::RunPresence::folder) mark.steps += committed_steps(path);
   }
   return mark;
 }
@@ -118,7 +119,7 @@ TaskMemory read_memory(const std::string& folder, const std::string& job, const 
   const std::string path = memory_path(folder, job, task);
   std::error_code unknown;
   if (!fs::exists(path, unknown)) return memory;
-  std::istringstream text = text_stream(read_text(path));
+  std::istringstream text = text_stream(io::read_text(path));
   std::string header;
   std::getline(text, header);
   char comma = ',';
@@ -128,9 +129,9 @@ TaskMemory read_memory(const std::string& folder, const std::string& job, const 
 
 void write_memory(const std::string& folder, const std::string& job, const std::string& task,
                   const TaskMemory& memory) {
-  write_text(memory_path(folder, job, task),
-             fmt::format("done,steps,idle_starts\n{},{},{}\n", memory.mark.done, memory.mark.steps,
-                         memory.idle_starts));
+  io::write_text(memory_path(folder, job, task),
+                 fmt::format("done,steps,idle_starts\n{},{},{}\n", memory.mark.done, memory.mark.steps,
+                             memory.idle_starts));
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

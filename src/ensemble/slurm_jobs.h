@@ -9,7 +9,7 @@
 #include "ensemble/plan.h"
 #include "ensemble/slurm.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// DIR/slurm, with the script job.sh and a file for each job, job-12.csv.
 std::string slurm_folder(const std::string& folder);
@@ -53,4 +53,4 @@ TaskMemory read_memory(const std::string& folder, const std::string& job, const 
 void write_memory(const std::string& folder, const std::string& job, const std::string& task,
                   const TaskMemory& memory);
 
-}  // namespace talus
+}  // namespace talus::ensemble

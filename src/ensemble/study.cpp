@@ -11,7 +11,7 @@
 #include "ensemble/until.h"
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 StudyPlan plan_study(const std::string& scenario_file, const std::vector<std::string>& settings,
                      const std::vector<std::string>& axes, const std::string& seeds,
@@ -52,14 +52,14 @@ StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
   const std::vector<MemberNumbers> numbers = numbers_of(plan, states, known);
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     if (states[m].stage != MemberStage::done) continue;
-    reaches.push_back(reach(RunFile::open(plan.members[m].path)));
+    reaches.push_back(reach(io::RunFile::open(plan.members[m].path)));
     result.outcomes.push_back({m, {}, numbers[m].state_hash, numbers[m].version});
   }
   if (reaches.empty())
     throw Error(ExitCode::bad_data, "no run of the study is complete; nothing can be compared");
   result.reference = reference.value_or(common_angle(reaches));
   for (StudyOutcome& outcome : result.outcomes)
-    outcome.figures = study_figures(RunFile::open(plan.members[outcome.member].path), result.reference);
+    outcome.figures = study_figures(io::RunFile::open(plan.members[outcome.member].path), result.reference);
   return result;
 }
 
@@ -80,4 +80,4 @@ Comparison compare(const StudyResult& result, std::size_t variant, StudyQuantity
   return {statistics_of(values), paired_difference(values, values_of(result, 0, quantity))};
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -11,7 +11,7 @@
 #include "ensemble/plan.h"
 #include "ensemble/study_figures.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// One factor at a time: the scenario as it is (variant 0, the "baseline"), and beside it each value of each
 /// axis alone, called "tilt.step=0.002" or "tilt.rate=2,tilt.step=0.002".
@@ -59,4 +59,4 @@ struct Comparison {
 };
 Comparison compare(const StudyResult& result, std::size_t variant, StudyQuantity quantity);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -9,7 +9,7 @@
 #include "runs/analysis_input.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// Tilts are sums in radians: two that are meant to be equal differ by less than this, deg.
@@ -30,22 +30,22 @@ double mean_displacement(const Frame& from, const Frame& to, const RunStatics& s
 /// A quantity of the bed at an angle.
 struct BedField {
   std::string name;
-  std::optional<QuantityMember> member;  ///< its row in the table of quantities; creep has none
-  std::string note;                      ///< that a study adds to the definition
+  std::optional<analysis::QuantityMember> member;  ///< its row in the table of quantities; creep has none
+  std::string note;                                ///< that a study adds to the definition
 };
 
 /// In the order of StudyQuantity.
 const std::vector<BedField>& bed_fields() {
   static const std::vector<BedField> fields = {
-      {"volume_strain", &FrameRecord::volume_strain, ""},
-      {"centre_of_mass_strain", &FrameRecord::centre_of_mass_strain, ""},
+      {"volume_strain", &analysis::FrameRecord::volume_strain, ""},
+      {"centre_of_mass_strain", &analysis::FrameRecord::centre_of_mass_strain, ""},
       {"creep", std::nullopt,
        "mean displacement downslope of the free grains since the tilt began, over the depth of the bed"},
-      {"overloaded_fraction", &FrameThreshold::overloaded_fraction,
+      {"overloaded_fraction", &analysis::FrameThreshold::overloaded_fraction,
        "; overloaded are those that have, with their first neighbours, gamma >= sin(theta_c), theta_c that "
        "of the same run"},
-      {"stress_ratio", &FrameRecord::stress_ratio, ""},
-      {"coordination_number", &FrameRecord::coordination_number, ""},
+      {"stress_ratio", &analysis::FrameRecord::stress_ratio, ""},
+      {"coordination_number", &analysis::FrameRecord::coordination_number, ""},
   };
   return fields;
 }
@@ -54,42 +54,44 @@ StudyField field_of(const BedField& bed, StudyGroup group) {
   const bool first = group == StudyGroup::at_reference;
   const std::string name = bed.name + (first ? "_at_reference" : "_at_theta_c");
   if (!bed.member) return {name, "Creep in % of H", group, 100.0, first ? bed.note : "the same at theta_c"};
-  const Quantity& quantity = quantity_of(*bed.member);
-  return {name, shown_title(quantity), group, shown(quantity, 1.0, 1.0),
+  const analysis::Quantity& quantity = analysis::quantity_of(*bed.member);
+  return {name, analysis::shown_title(quantity), group, analysis::shown(quantity, 1.0, 1.0),
           first ? quantity.definition + bed.note : "the same at theta_c"};
 }
 
 /// Sets the quantities of the bed at an angle, in deg, from `first` on in the order of StudyQuantity.
-void measure_bed(const RunFile& run, const std::vector<ObservableRow>& rows, double angle, double theta_c,
+void measure_bed(const io::RunFile& run, const std::vector<ObservableRow>& rows, double angle, double theta_c,
                  StudyQuantity first, StudyFigures& figures) {
   const double highest = radians(angle + same_angle);
   const auto row = std::find_if(rows.rbegin(), rows.rend(), [&](const ObservableRow& candidate) {
     return at(candidate, Observable::tilt) <= highest;
   });
-  const SeriesPart rise = last_rise(run.frame_tilts());
-  const std::vector<double> tilts = magnitudes(run.frame_tilts(), rise);
+  const analysis::SeriesPart rise = analysis::last_rise(run.frame_tilts());
+  const std::vector<double> tilts = analysis::magnitudes(run.frame_tilts(), rise);
   const auto above = std::upper_bound(tilts.begin(), tilts.end(), highest);
   if (row == rows.rend() || above == tilts.begin()) return;
-  const Frame frame = analysed_frame(run, AnalysisParameters(),
-                                     rise.first + static_cast<std::size_t>(above - tilts.begin()) - 1);
+  const Frame frame = runs::analysed_frame(run, analysis::AnalysisParameters(),
+                                           rise.first + static_cast<std::size_t>(above - tilts.begin()) - 1);
   const RunStatics& statics = run.header().statics;
   const auto value = [&](const BedField& field) {
     if (!field.member) return mean_displacement(run.frame(0), frame, statics) / statics.depth;
-    if (const auto& observable = quantity_of(*field.member).display.observable) return at(*row, *observable);
-    return std::isnan(theta_c) ? not_known
-                               : count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
+    if (const auto& observable = analysis::quantity_of(*field.member).display.observable)
+      return at(*row, *observable);
+    return std::isnan(theta_c)
+               ? not_known
+               : stress::count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
   };
   std::ranges::transform(bed_fields(), figures.begin() + static_cast<std::ptrdiff_t>(first), value);
 }
 
-void measure_solver(const RunFile& run, StudyFigures& figures) {
+void measure_solver(const io::RunFile& run, StudyFigures& figures) {
   double steps = 0.0, iterations = 0.0;
   for (const StepRow& row : run.steps()) {
     if (at(row, StepField::phase) != 1.0) continue;
     ++steps;
     iterations += at(row, StepField::iterations);
   }
-  const Checkpoint& end = run.checkpoint();
+  const io::Checkpoint& end = run.checkpoint();
   at(figures, StudyQuantity::residual_max_rest) = figure(end.results, "residual_max_rest");
   at(figures, StudyQuantity::residual_max_moving) = figure(end.results, "residual_max_moving");
   at(figures, StudyQuantity::unconverged_share) = figure(end.results, "unconverged_steps") / steps;
@@ -102,8 +104,9 @@ void measure_solver(const RunFile& run, StudyFigures& figures) {
 const std::vector<StudyField>& study_fields() {
   static const std::vector<StudyField> fields = [] {
     using enum StudyGroup;
-    const Quantity& repose = quantity_of(&Analysis::theta_c);
-    std::vector<StudyField> all = {{"theta_c_deg", shown_title(repose), slope, 1.0, repose.definition}};
+    const analysis::Quantity& repose = analysis::quantity_of(&analysis::Analysis::theta_c);
+    std::vector<StudyField> all = {
+        {"theta_c_deg", analysis::shown_title(repose), slope, 1.0, repose.definition}};
     for (const StudyGroup group : {at_reference, at_theta_c})
       for (const BedField& bed : bed_fields()) all.push_back(field_of(bed, group));
     const StudyField of_solver[] = {
@@ -123,19 +126,20 @@ const std::vector<StudyField>& study_fields() {
   return fields;
 }
 
-RunReach reach(const RunFile& run) {
+RunReach reach(const io::RunFile& run) {
   const double theta_c = degrees(figure(run.checkpoint().results, "theta_c"));
   if (!run.has_program()) return {theta_c, degrees(run.checkpoint().world.tilt)};
-  const std::vector<double> tilts = magnitudes(run.frame_tilts(), last_rise(run.frame_tilts()));
+  const std::vector<double> tilts =
+      analysis::magnitudes(run.frame_tilts(), analysis::last_rise(run.frame_tilts()));
   return {theta_c, tilts.empty() ? 0.0 : degrees(tilts.back())};
 }
 
-StudyFigures study_figures(const RunFile& run, double reference) {
+StudyFigures study_figures(const io::RunFile& run, double reference) {
   StudyFigures figures;
   figures.fill(not_known);
   const auto [theta_c, end] = reach(run);
   at(figures, StudyQuantity::theta_c) = theta_c;
-  const std::vector<ObservableRow> rows = rows_of_last_rise(run.observables());
+  const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(run.observables());
   const double last = std::isnan(theta_c) ? end : theta_c;
   if (reference <= last + same_angle)
     measure_bed(run, rows, reference, theta_c, StudyQuantity::volume_strain_at_reference, figures);
@@ -145,4 +149,4 @@ StudyFigures study_figures(const RunFile& run, double reference) {
   return figures;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// What the figures of one run are: of the slope, of the bed at the reference angle and at theta_c, and of
 /// how the steps of the tilt were solved.
@@ -57,12 +57,12 @@ struct RunReach {
   double theta_c = 0.0;  ///< deg; NaN while the slope has not failed
   double end = 0.0;      ///< deg, the last tilt
 };
-RunReach reach(const RunFile& run);
+RunReach reach(const io::RunFile& run);
 
 /// The figures with the bed at `reference` deg, and at theta_c. Scalars are those of the last row of
 /// observables with a tilt not above the angle; creep and overloaded grains those of the last such frame.
 /// Creep is the mean displacement downslope of the free grains since the tilt began, over the nominal depth
 /// of the bed. A run that failed before `reference`, or did not reach it, has no values there.
-StudyFigures study_figures(const RunFile& run, double reference);
+StudyFigures study_figures(const io::RunFile& run, double reference);
 
-}  // namespace talus
+}  // namespace talus::ensemble

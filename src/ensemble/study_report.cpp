@@ -10,7 +10,7 @@
 #include "ensemble/plus_minus.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 std::vector<StudyQuantity> quantities_of(std::initializer_list<StudyGroup> groups) {
@@ -109,7 +109,7 @@ std::string differences(const StudyResult& result) {
     if (verdict(found) == Verdict::differs) ++differing;
     return difference_text(found, field_of(quantity).factor, result.plan.seeds.size());
   };
-  const std::string angle = short_text(result.reference) + " deg";
+  const std::string angle = scenario::short_text(result.reference) + " deg";
   std::string text = fmt::format(
       "## Difference to the baseline: theta_c, and the bed at {}\n\n{}", angle,
       table_of(result, quantities_of({StudyGroup::slope, StudyGroup::at_reference}), 1, difference));
@@ -133,8 +133,10 @@ std::string study_csv(const StudyResult& result) {
     const Member& run = result.plan.members[outcome.member];
     auto& row = table.rows.emplace_back();
     row = {{csv_quoted(result.plan.variants[run.variant].name)}, {std::to_string(run.seed)}};
-    for (const double value : outcome.figures) row.push_back({std::isnan(value) ? "" : short_text(value)});
-    for (const std::string& text : {short_text(result.reference), outcome.state_hash, outcome.version})
+    for (const double value : outcome.figures)
+      row.push_back({std::isnan(value) ? "" : scenario::short_text(value)});
+    for (const std::string& text :
+         {scenario::short_text(result.reference), outcome.state_hash, outcome.version})
       row.push_back({text});
   }
   return csv_text(table);
@@ -148,11 +150,11 @@ std::string study_markdown(const StudyResult& result) {
   std::string text = introduction(result);
   text += tables("Angle of repose, and how well it was solved",
                  quantities_of({StudyGroup::slope, StudyGroup::solver}));
-  text += tables(fmt::format("The bed at {} deg", short_text(result.reference)),
+  text += tables(fmt::format("The bed at {} deg", scenario::short_text(result.reference)),
                  quantities_of({StudyGroup::at_reference}));
   if (is_known(result, StudyQuantity::theta_c))
     text += tables("The bed at theta_c", quantities_of({StudyGroup::at_theta_c}));
   return result.plan.variants.size() > 1 ? text + differences(result) : text;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -5,7 +5,7 @@
 
 #include "ensemble/study.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// One row for each complete run: variation, seed, every quantity of study_fields in full digits (empty where
 /// there is none), state hash, version.
@@ -14,4 +14,4 @@ std::string study_csv(const StudyResult& result);
 /// Tables of all variations in Markdown: means, their standard errors, differences to the baseline.
 std::string study_markdown(const StudyResult& result);
 
-}  // namespace talus
+}  // namespace talus::ensemble

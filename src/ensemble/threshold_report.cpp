@@ -7,7 +7,7 @@
 #include "ensemble/reproduction_report.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 std::string reading_text(const Reading& reading) {
@@ -213,4 +213,4 @@ std::vector<ReportBlock> threshold_blocks(const ReproductionResult& result) {
   return blocks;
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -11,7 +11,7 @@
 #include "base/visible_text.h"
 #include "core/statistics.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 Precision parse_precision(const std::string& text) {
   const std::size_t colon = text.rfind(':');
@@ -42,7 +42,7 @@ std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vecto
     const Member& member = plan.members[m];
     numbers[m] = read_member(member, known).numbers;
     // Nothing is random in the bed of a file, so there it may be the same for all seeds.
-    if (member.scenario.deposition.method == DepositionMethod::file) continue;
+    if (member.scenario.deposition.method == scenario::DepositionMethod::file) continue;
     const auto [first, is_new] = ends.emplace(std::pair(member.variant, numbers[m].state_hash), &member);
     if (!is_new)
       throw Error(
@@ -67,4 +67,4 @@ bool is_reached(const Precision& precision, const EnsemblePlan& plan,
   });
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

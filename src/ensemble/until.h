@@ -8,7 +8,7 @@
 #include "ensemble/member_state.h"
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// "theta_c:0.2": the standard error of the mean of theta_c, in the unit of tables (deg).
 struct Precision {
@@ -33,4 +33,4 @@ std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vecto
 bool is_reached(const Precision& precision, const EnsemblePlan& plan,
                 const std::vector<MemberNumbers>& numbers);
 
-}  // namespace talus
+}  // namespace talus::ensemble

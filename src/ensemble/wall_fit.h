@@ -5,7 +5,7 @@
 
 #include "core/observables.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// A bed between walls at failure.
 struct WallPoint {
@@ -25,4 +25,4 @@ WallFit fit_wall_law(std::span<const WallPoint> points);
 /// The law itself.
 double wall_law(double k, double depth_over_length);
 
-}  // namespace talus
+}  // namespace talus::ensemble

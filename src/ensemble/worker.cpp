@@ -17,7 +17,7 @@
 #include "io/run_store.h"
 #include "io/writer_lock.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -57,7 +57,7 @@ bool still_ours(const EnsemblePlan& plan, std::size_t member, const Claim& claim
 /// Whether somebody writes the run of a member, such as `talus run --resume`, or a process whose worker was
 /// taken for dead. Each time that is another one, it is told who.
 bool is_written(const Member& member, Worker& worker) {
-  const std::string writer = writer_of(run_folder(member.path));
+  const std::string writer = io::writer_of(io::run_folder(member.path));
   if (writer.empty()) {
     worker.waits_for.erase(member.name);
     return false;
@@ -181,4 +181,4 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -11,7 +11,7 @@
 #include "ensemble/member_state.h"
 #include "ensemble/plan.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 struct WorkerOptions {
   std::string folder;
@@ -43,4 +43,4 @@ bool has_work(const EnsemblePlan& plan, const std::vector<MemberState>& states, 
 /// has committed a checkpoint; and as read_ensemble does.
 WorkerEnd work_on_ensemble(const WorkerOptions& options);
 
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -6,7 +6,7 @@
 #include "ensemble/reproduction.h"
 #include "figures/figure.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// The figure "agreement". Left: the values of the packing, one symbol for each preparation of the periodic
 /// bed, and those of beds between walls; right: the chain of the paper's own preparation, one symbol for each
@@ -14,6 +14,6 @@ namespace talus {
 /// comparison (judge), so that values within -1 ... 1 agree. Values of which the paper gives no number, and
 /// those that cannot be compared, are left out; what does not occur in any run stands beside the axis. No
 /// figure where nothing is left.
-std::optional<Figure> agreement_figure(const ReproductionResult& result);
+std::optional<Figure> agreement_figure(const ensemble::ReproductionResult& result);
 
-}  // namespace talus
+}  // namespace talus::figures

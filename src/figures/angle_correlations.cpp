@@ -6,12 +6,13 @@
 #include "core/statistics.h"
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// Whether it is at a threshold beyond the first.
 bool is_of_further_threshold(const RunAngle& angle) {
-  return angle.name.ends_with(']') && !angle.name.starts_with(quantity_of(&Analysis::dilation).name);
+  return angle.name.ends_with(']') &&
+         !angle.name.starts_with(analysis::quantity_of(&analysis::Analysis::dilation).name);
 }
 
 /// cm, of so many rows of panels with so many lines above each, in a figure 17.8 cm wide: its script has the
@@ -106,4 +107,4 @@ std::optional<Figure> angle_correlations(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -6,7 +6,7 @@
 #include "ensemble/plus_minus.h"
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr std::size_t most_bins = 60;
@@ -17,8 +17,9 @@ std::string summary_text(const std::vector<double>& values) {
   const Summary summary = summary_of(values, {});
   const Statistics& found = summary.statistics;
   if (found.count == 0) return "none";
-  const std::string mean = found.count > 1 && found.error > 0.0 ? plus_minus(found.mean, found.error)
-                                                                : fmt::format("{:.2f}", found.mean);
+  const std::string mean = found.count > 1 && found.error > 0.0
+                               ? ensemble::plus_minus(found.mean, found.error)
+                               : fmt::format("{:.2f}", found.mean);
   return fmt::format("mean {}, median {:.2f}, n = {}", mean, summary.median, found.count);
 }
 
@@ -107,4 +108,4 @@ std::optional<Figure> angle_distributions(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -4,7 +4,7 @@
 
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 
 std::span<const FigureRecipe> figure_catalogue() {
   using enum Material;
@@ -76,4 +76,4 @@ std::span<const FigureRecipe> figure_catalogue() {
   return recipes;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

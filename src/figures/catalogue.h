@@ -8,7 +8,7 @@
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// What a figure is made from.
 enum class Material {
@@ -32,4 +32,4 @@ struct FigureRecipe {
 
 std::span<const FigureRecipe> figure_catalogue();
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -9,7 +9,7 @@
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The two states that are compared: the first frame of each run, and its last before theta_c.
@@ -21,7 +21,7 @@ struct State {
 std::vector<State> states_of(const RunChoice& runs) {
   State start{"_start", " at the start of the tilt", {}};
   State repose{"_repose", " at the last frame before theta_c", {}};
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     start.frames.push_back(0);
     repose.frames.push_back(repose_frame(*run));
   }
@@ -29,7 +29,7 @@ std::vector<State> states_of(const RunChoice& runs) {
 }
 
 /// Adds the means of a quantity, at both states, to a table.
-void add_means(Table& table, const RunChoice& runs, std::vector<double> FrameRecord::*member,
+void add_means(Table& table, const RunChoice& runs, std::vector<double> analysis::FrameRecord::*member,
                const Column& column) {
   for (const State& state : states_of(runs))
     for (Column& mean : row_means(runs, state.frames, member,
@@ -47,7 +47,7 @@ double mean_tilt(const RunChoice& runs, const State& state) {
 /// A figure of these runs, with the angles of the two states for its script.
 Figure figure_of(const FailedGroup& failed) {
   Figure figure;
-  for (const RunView* run : failed.runs) figure.runs.push_back(run->path);
+  for (const runs::RunView* run : failed.runs) figure.runs.push_back(run->path);
   for (const State& state : states_of(failed.runs))
     set_variable(figure, "theta" + state.name, gnuplot_quoted(angle_text(mean_tilt(failed.runs, state))));
   return figure;
@@ -78,7 +78,7 @@ std::vector<Column> edge_columns(std::span<const double> edges, double unit, con
 }  // namespace
 
 std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
-                              std::vector<double> FrameRecord::*member, Column mean) {
+                              std::vector<double> analysis::FrameRecord::*member, Column mean) {
   Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
   const std::size_t width = (runs.front()->analysis.frames.at(frames[0]).*member).size();
   for (std::size_t k = 0; k < width; ++k) {
@@ -107,9 +107,9 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
   figure.height_over_width = 0.48;
   const std::vector<double>& edges = failed->first().analysis.direction_edge;
   Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
-  add_means(table, failed->runs, &FrameRecord::direction_density,
+  add_means(table, failed->runs, &analysis::FrameRecord::direction_density,
             {"density", "1/rad", "probability density of the direction", {}});
-  add_means(table, failed->runs, &FrameRecord::direction_density_by_force,
+  add_means(table, failed->runs, &analysis::FrameRecord::direction_density_by_force,
             {"by_force", "1/rad", "the same, contacts weighted with f_n,", {}});
   figure.tables = {std::move(table)};
   return figure;
@@ -129,7 +129,7 @@ std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
   figure.height_over_width = 0.4;
   const std::vector<double>& edges = failed->first().analysis.force_edge;
   Table table{"", edge_columns(edges, 1.0, {"force", "1", "the normal force over its mean", {}})};
-  add_means(table, failed->runs, &FrameRecord::force_density,
+  add_means(table, failed->runs, &analysis::FrameRecord::force_density,
             {"density", "1", "probability density of f over <f>", {}});
   figure.tables = {std::move(table)};
   return figure;
@@ -151,10 +151,11 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups) {
   for (const double r : failed->first().analysis.correlation_distance)
     distance.values.push_back(r / failed->first().statics.mean_diameter);
   Table table{"", {std::move(distance)}};
-  add_means(table, failed->runs, &FrameRecord::normal_force_correlation,
+  add_means(table, failed->runs, &analysis::FrameRecord::normal_force_correlation,
             {"force", "1", "correlation of normal forces", {}});
-  add_means(table, failed->runs, &FrameRecord::gamma_correlation, {"gamma", "1", "correlation of gamma", {}});
-  add_means(table, failed->runs, &FrameRecord::mean_stress_correlation,
+  add_means(table, failed->runs, &analysis::FrameRecord::gamma_correlation,
+            {"gamma", "1", "correlation of gamma", {}});
+  add_means(table, failed->runs, &analysis::FrameRecord::mean_stress_correlation,
             {"stress", "1", "correlation of the mean stress of grains", {}});
   figure.tables = {std::move(table)};
   return figure;
@@ -176,11 +177,11 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups) {
   figure.height_over_width = 0.7;
   const std::vector<double>& edges = failed->first().analysis.mobilisation_edge;
   Table table{"", edge_columns(edges, 1.0, {"mobilised", "1", "the mobilised friction", {}})};
-  add_means(table, failed->runs, &FrameRecord::weak_fabric_by_friction,
+  add_means(table, failed->runs, &analysis::FrameRecord::weak_fabric_by_friction,
             {"fabric", "1", "fabric of weak contacts along the strong ones", {}});
   figure.tables = {std::move(table)};
-  set_variable(figure, "coherent", coherent_mobilisation);
+  set_variable(figure, "coherent", analysis::coherent_mobilisation);
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -4,7 +4,7 @@
 
 #include "stress/free_surface.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double samples_per_diameter = 4.0;
@@ -50,13 +50,13 @@ SurfaceLine surface_line(const BedFrame& bed) {
   boundary.periodic = statics.periodic;
   boundary.length = statics.length;
   SurfaceLine line;
-  const std::vector<SurfaceArc> surface = free_surface(grains, boundary);
+  const std::vector<stress::SurfaceArc> surface = stress::free_surface(grains, boundary);
   const double samples = std::ceil(statics.length / statics.mean_diameter * samples_per_diameter);
   for (double k = 0.5; k < samples; ++k) {
     line.x.push_back(k * statics.length / samples);
-    line.y.push_back(height_of(surface, line.x.back()));
+    line.y.push_back(stress::height_of(surface, line.x.back()));
   }
   return line;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

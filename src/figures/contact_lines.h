@@ -5,7 +5,7 @@
 
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// A contact, or the part of it on one side of the periodic edge; m.
 struct ContactLine {
@@ -23,4 +23,4 @@ struct SurfaceLine {
 };
 SurfaceLine surface_line(const BedFrame& bed);
 
-}  // namespace talus
+}  // namespace talus::figures

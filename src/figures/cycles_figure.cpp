@@ -12,39 +12,42 @@
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The frames of a run that are shown: all of the tilt, or those before it failed.
-std::size_t frames_shown(const RunView& run) {
+std::size_t frames_shown(const runs::RunView& run) {
   return std::isnan(theta_c_of(run)) ? run.analysis.frames.size() : repose_frame(run) + 1;
 }
 
-std::vector<TiltCycle> cycles_of_run(const RunView& run) {
+std::vector<TiltCycle> cycles_of_run(const runs::RunView& run) {
   std::vector<double> tilts;
   for (std::size_t k = 0; k < frames_shown(run); ++k) tilts.push_back(run.analysis.frames[k].tilt);
   return cycles_of(tilts);
 }
 
-bool has_overload(const RunView& run) { return !run.analysis.thresholds.empty(); }
+bool has_overload(const runs::RunView& run) { return !run.analysis.thresholds.empty(); }
 
 /// What is drawn over the tilt, and at the ends of cycles.
-std::vector<FrameColumn> columns_over_tilt(const RunView& run) {
+std::vector<FrameColumn> columns_over_tilt(const runs::RunView& run) {
   std::vector<FrameColumn> columns = {
-      column_of("volume_strain", quantity_of(&FrameRecord::volume_strain)),
-      column_of("coordination", quantity_of(&FrameRecord::coordination_number)),
-      column_of("critical", quantity_of(&FrameRecord::critical_share)),
-      {"anisotropy", "1", quantity_of(&FrameRecord::fabric_amplitude).definition,
-       [](const RunView& of, std::size_t frame) { return of.analysis.frames.at(frame).fabric_amplitude[0]; }},
+      column_of("volume_strain", analysis::quantity_of(&analysis::FrameRecord::volume_strain)),
+      column_of("coordination", analysis::quantity_of(&analysis::FrameRecord::coordination_number)),
+      column_of("critical", analysis::quantity_of(&analysis::FrameRecord::critical_share)),
+      {"anisotropy", "1", analysis::quantity_of(&analysis::FrameRecord::fabric_amplitude).definition,
+       [](const runs::RunView& of, std::size_t frame) {
+         return of.analysis.frames.at(frame).fabric_amplitude[0];
+       }},
   };
-  columns.push_back(has_overload(run)
-                        ? column_of("overloaded", quantity_of(&FrameThreshold::overloaded_fraction))
-                        : column_of("stress_ratio", quantity_of(&FrameRecord::stress_ratio)));
+  columns.push_back(
+      has_overload(run)
+          ? column_of("overloaded", analysis::quantity_of(&analysis::FrameThreshold::overloaded_fraction))
+          : column_of("stress_ratio", analysis::quantity_of(&analysis::FrameRecord::stress_ratio)));
   return columns;
 }
 
 /// A row for each frame, with the number of its cycle; the last frame of a cycle is the first of the next.
-Table loops(const RunView& run) {
+Table loops(const runs::RunView& run) {
   const std::vector<FrameColumn> shown_columns_of_run = columns_over_tilt(run);
   Table table{"",
               {{"cycle", "1", "number of the cycle, from 1", {}},
@@ -71,7 +74,7 @@ Table loops(const RunView& run) {
 Table ends_of_cycles(const RunChoice& runs) {
   std::vector<std::vector<TiltCycle>> cycles;
   std::size_t count = 0;
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     cycles.push_back(cycles_of_run(*run));
     std::erase_if(cycles.back(), [](const TiltCycle& cycle) { return !cycle.is_closed; });
     count = cycles.size() == 1 ? cycles.back().size() : std::min(count, cycles.back().size());
@@ -109,13 +112,14 @@ Table ends_of_cycles(const RunChoice& runs) {
 
 RunChoice runs_with_program(const RunGroup& group) {
   RunChoice runs = with_files(all_runs(group));
-  std::erase_if(
-      runs, [](const RunView* run) { return !run->file->has_program() || run->analysis.frames.size() < 2; });
+  std::erase_if(runs, [](const runs::RunView* run) {
+    return !run->file->has_program() || run->analysis.frames.size() < 2;
+  });
   return runs;
 }
 
 std::string caption_of(const RunGroup& group, const RunChoice& runs) {
-  const RunView& first = *runs.front();
+  const runs::RunView& first = *runs.front();
   std::string text = fmt::format(
       "A bed whose tilt follows a programme: {}, seed {}. (a) Tilt over time. Over the tilt, each cycle in a "
       "colour of its own: (b) volume strain since the start of the tilt, (c) coordination number z, (d) "
@@ -164,7 +168,7 @@ std::optional<Figure> cycles_figure(std::span<const RunGroup> groups) {
     figure.name = "cycles";
     figure.title = "Cycles of the tilt, and what accumulates over them";
     figure.caption = caption_of(group, runs);
-    for (const RunView* run : runs) figure.runs.push_back(run->path);
+    for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
     figure.wide = true;
     figure.height_over_width = 0.83;
     figure.tables = {loops(*runs.front()), ends_of_cycles(runs)};
@@ -177,4 +181,4 @@ std::optional<Figure> cycles_figure(std::span<const RunGroup> groups) {
   return std::nullopt;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -10,14 +10,14 @@
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double seconds_before_failure = 2.0;
 
 RunChoice runs_at_rest(const RunGroup& group) {
   RunChoice runs = all_runs(group);
-  std::erase_if(runs, [](const RunView* run) { return std::isnan(run->theta_r); });
+  std::erase_if(runs, [](const runs::RunView* run) { return std::isnan(run->theta_r); });
   return runs;
 }
 
@@ -28,14 +28,14 @@ void add_estimate(std::vector<Column>& columns, const std::string& name, const s
   columns.push_back({name + "_high", "deg", "upper end of its range", {}});
 }
 
-std::vector<Column> empty_columns(std::span<const RunThreshold> thresholds) {
+std::vector<Column> empty_columns(std::span<const analysis::RunThreshold> thresholds) {
   std::vector<Column> columns = {
       {"seed", "1", "seed of the run", {}},
       {"theta_r", "deg", "angle at rest", {}},
       {"theta_c", "deg", "angle of repose", {}},
   };
-  for (const RunThreshold& threshold : thresholds) {
-    const std::string text = short_text(threshold.factor);
+  for (const analysis::RunThreshold& threshold : thresholds) {
+    const std::string text = scenario::short_text(threshold.factor);
     add_estimate(columns, "lc_jump_" + text, fmt::format("the jump of l_c max, threshold {} Gamma_c", text));
     add_estimate(columns, "percolation_" + text,
                  fmt::format("percolation of the overloaded grains, threshold {} Gamma_c", text));
@@ -47,11 +47,11 @@ std::vector<Column> empty_columns(std::span<const RunThreshold> thresholds) {
 
 /// The values of a run, in the order of empty_columns. An angle that is told from the frame before it lies
 /// between the two; where there is no frame before it, it has no range.
-std::vector<double> row_of(const RunView& run) {
-  const Analysis& analysis = run.analysis;
+std::vector<double> row_of(const runs::RunView& run) {
+  const analysis::Analysis& analysis = run.analysis;
   std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(run.theta_r),
                              degrees(analysis.theta_c)};
-  for (const RunThreshold& threshold : analysis.thresholds)
+  for (const analysis::RunThreshold& threshold : analysis.thresholds)
     for (const auto& [tilt, error] : {std::pair(threshold.lc_jump, threshold.lc_jump_error),
                                       std::pair(threshold.percolation, threshold.percolation_error)}) {
       const double angle = degrees(tilt), spacing = degrees(error);
@@ -65,16 +65,17 @@ std::vector<double> row_of(const RunView& run) {
 
 std::vector<Column> columns_of(const RunChoice& runs) {
   std::vector<Column> columns = empty_columns(runs.front()->analysis.thresholds);
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     const std::vector<double> row = row_of(*run);
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   return columns;
 }
 
-std::string factors_text(const RunView& run) {
-  return joined(run.analysis.thresholds, " ",
-                [](const RunThreshold& threshold) { return short_text(threshold.factor); });
+std::string factors_text(const runs::RunView& run) {
+  return joined(run.analysis.thresholds, " ", [](const analysis::RunThreshold& threshold) {
+    return scenario::short_text(threshold.factor);
+  });
 }
 
 std::string caption_of(std::size_t runs) {
@@ -88,7 +89,7 @@ std::string caption_of(std::size_t runs) {
 }
 
 /// The flow of one run, which only its file has.
-void add_trace(Figure& figure, const RunView& run, const std::string& label) {
+void add_trace(Figure& figure, const runs::RunView& run, const std::string& label) {
   figure.height_over_width = 0.55;
   set_variable(figure, "flow", 1.0);
   figure.caption +=
@@ -114,7 +115,7 @@ void set_range(Figure& figure) {
 
 }  // namespace
 
-Table flow_trace(const RunView& run) {
+Table flow_trace(const runs::RunView& run) {
   const RunStatics& statics = run.file->header().statics;
   const double unit = std::sqrt(statics.gravity * statics.mean_diameter);
   Table table{"trace",
@@ -143,7 +144,7 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
   figure.wide = true;
   figure.height_over_width = 0.3;
   set_variable(figure, "flow", 0.0);
-  const RunView* shown = nullptr;
+  const runs::RunView* shown = nullptr;
   std::string shown_label;
   for (const RunGroup& group : groups) {
     const RunChoice runs = runs_at_rest(group);
@@ -163,4 +164,4 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -10,24 +10,24 @@
 #include "figures/recipes.h"
 #include "runs/event_catalogue.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// A rearrangement in the units of the figure.
 struct FigureEvent {
-  const RunView* run;
-  const EventRecord* event;
+  const runs::RunView* run;
+  const analysis::EventRecord* event;
   double energy;  ///< m g D
 };
 
 /// Those of all runs, run by run.
 std::vector<FigureEvent> rearrangements_of(const RunChoice& runs) {
   std::vector<FigureEvent> events;
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     const RunStatics& statics = run->file->header().statics;
-    const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
-    for (const EventRecord& event : run->analysis.events)
-      if (event.kind == static_cast<Index>(EventKind::rearrangement))
+    const double unit = runs::mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
+    for (const analysis::EventRecord& event : run->analysis.events)
+      if (event.kind == static_cast<Index>(analysis::EventKind::rearrangement))
         events.push_back({run, &event, event.energy / unit});
   }
   return events;
@@ -46,7 +46,7 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
       {"centre_of_mass_strain", "1e-6", "change of the strain of the centre of mass", {}},
   };
   for (const FigureEvent& of : events) {
-    const EventRecord& event = *of.event;
+    const analysis::EventRecord& event = *of.event;
     const double diameter = of.run->statics.mean_diameter;
     const double time = std::sqrt(diameter / of.run->file->header().statics.gravity);
     const double row[] = {degrees(std::abs(event.begin)),
@@ -94,12 +94,12 @@ Table share_table(std::string name, Column values, const std::vector<SampleLaw>&
   return table;
 }
 
-SampleLaw sample_law(const PowerLaw& law) {
+SampleLaw sample_law(const analysis::PowerLaw& law) {
   return {"power_law", "the same by the power law of maximum likelihood; NaN below its beginning",
           std::isnan(law.exponent) ? not_known : law.minimum, [law](double x) { return law.share_from(x); }};
 }
 
-SampleLaw sample_law(const ExponentialLaw& law, double shortest) {
+SampleLaw sample_law(const analysis::ExponentialLaw& law, double shortest) {
   return {"exponential_law", "the same by the exponential law of maximum likelihood",
           std::isnan(law.mean) ? not_known : shortest,
           [law, shortest](double x) { return std::exp((shortest - x) / law.mean); }};
@@ -111,26 +111,27 @@ void add_table(Figure& figure, const std::string& variable, Table table) {
 }
 
 /// "α = 1.57 ± 0.13 (19 of 43)"
-std::string size_text(const PowerLaw& law, std::size_t all) {
+std::string size_text(const analysis::PowerLaw& law, std::size_t all) {
   if (std::isnan(law.exponent)) return fmt::format("too few for a law: {}", all);
-  return fmt::format("α = {} ({} of {})", plus_minus(law.exponent, law.error), law.count, all);
+  return fmt::format("α = {} ({} of {})", ensemble::plus_minus(law.exponent, law.error), law.count, all);
 }
 
 /// "α = 1.93 ± 0.16, mean 0.24 ± 0.04°"
-std::string wait_text(const PowerLaw& law, const ExponentialLaw& exponential) {
+std::string wait_text(const analysis::PowerLaw& law, const analysis::ExponentialLaw& exponential) {
   if (std::isnan(law.exponent) || std::isnan(exponential.mean))
     return fmt::format("too few for a law: {}", exponential.count);
-  return fmt::format("α = {}, mean {}°", plus_minus(law.exponent, law.error),
-                     plus_minus(exponential.mean, exponential.error));
+  return fmt::format("α = {}, mean {}°", ensemble::plus_minus(law.exponent, law.error),
+                     ensemble::plus_minus(exponential.mean, exponential.error));
 }
 
 void add_laws(Figure& figure, const RunGroup& group, const std::vector<Column>& columns) {
   const std::string g = std::to_string(figure.groups), name = table_name(group);
   const Column &energy = columns[2], &waiting = columns[3];
-  const PowerLaw size = power_law(energy.values), wait = power_law(waiting.values);
+  const analysis::PowerLaw size = analysis::power_law(energy.values),
+                           wait = analysis::power_law(waiting.values);
   double shortest = not_known;
   for (const double angle : waiting.values) shortest = std::fmin(shortest, angle);
-  const ExponentialLaw exponential = exponential_law(waiting.values, shortest);
+  const analysis::ExponentialLaw exponential = analysis::exponential_law(waiting.values, shortest);
   add_table(figure, "sizes_" + g, share_table("sizes-" + name, energy, {sample_law(size)}));
   add_table(figure, "waits_" + g,
             share_table("waits-" + name, waiting, {sample_law(wait), sample_law(exponential, shortest)}));
@@ -205,4 +206,4 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -8,7 +8,7 @@
 #include "pictures/frame_choice.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The first group with failed runs that are among those which `choose` leaves.
@@ -33,16 +33,16 @@ std::string first_run_text(const FailedGroup& failed) {
   return fmt::format("{}, seed {}", failed.group->label, failed.first().scenario.seed);
 }
 
-std::size_t repose_frame(const RunView& run) {
-  const FramesOfRise rise = last_rise_of(run);
-  return rise.first + frame_at_repose(rise.tilts, theta_c_of(run));
+std::size_t repose_frame(const runs::RunView& run) {
+  const analysis::FramesOfRise rise = runs::last_rise_of(run);
+  return rise.first + pictures::frame_at_repose(rise.tilts, theta_c_of(run));
 }
 
 std::string rounded_text(double value, int decimals) {
   const double ten_to = std::pow(10.0, decimals);
-  return short_text(std::round(value * ten_to) / ten_to + 0.0);  // no "-0"
+  return scenario::short_text(std::round(value * ten_to) / ten_to + 0.0);  // no "-0"
 }
 
 std::string angle_text(double tilt) { return rounded_text(degrees(tilt), 2); }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -8,7 +8,7 @@
 
 #include "figures/group_table.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// The failed runs of a group from which a figure is made, one at least.
 struct FailedGroup {
@@ -16,7 +16,7 @@ struct FailedGroup {
   RunChoice runs;
 
   /// The run of pictures that show one bed.
-  const RunView& first() const { return *runs.front(); }
+  const runs::RunView& first() const { return *runs.front(); }
 };
 
 /// The first group that has such runs with their files, or with their distributions; periodic beds come first
@@ -28,11 +28,11 @@ std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGro
 std::string first_run_text(const FailedGroup& failed);
 
 /// The last frame before theta_c.
-std::size_t repose_frame(const RunView& run);
+std::size_t repose_frame(const runs::RunView& run);
 
 /// A value with at most so many decimals: "13.25", "0".
 std::string rounded_text(double value, int decimals);
 /// A tilt (rad) in degrees, with two decimals at most.
 std::string angle_text(double tilt);
 
-}  // namespace talus
+}  // namespace talus::figures

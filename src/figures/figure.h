@@ -9,7 +9,7 @@
 
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// A column of numbers; NaN where there is none.
 struct Column {
@@ -30,7 +30,7 @@ struct Table {
 /// A map that the renderer draws to FIGURE-NAME.png, for the script to place.
 struct FigureMap {
   std::string name;
-  FrameView view;
+  render::FrameView view;
   double width = 1.0;  ///< of the map over that of the figure, at map_resolution
 };
 
@@ -61,4 +61,4 @@ inline std::string file_of(const Figure& figure, const FigureMap& map) {
   return fmt::format("{}-{}.png", figure.name, map.name);
 }
 
-}  // namespace talus
+}  // namespace talus::figures

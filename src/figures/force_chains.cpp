@@ -8,7 +8,7 @@
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 // cm, in a figure 17.8 cm wide: below the map.
@@ -63,9 +63,10 @@ std::string frame_text(const FailedGroup& failed, const Frame& frame) {
 }
 
 std::vector<FrameColumn> critical_columns() {
-  return {column_of("share", quantity_of(&FrameRecord::critical_share)),
-          column_of("largest", quantity_of(&FrameRecord::critical_largest)),
-          column_of("correlation_length", quantity_of(&FrameRecord::critical_correlation_length))};
+  return {column_of("share", analysis::quantity_of(&analysis::FrameRecord::critical_share)),
+          column_of("largest", analysis::quantity_of(&analysis::FrameRecord::critical_largest)),
+          column_of("correlation_length",
+                    analysis::quantity_of(&analysis::FrameRecord::critical_correlation_length))};
 }
 
 }  // namespace
@@ -99,7 +100,7 @@ Table force_table(const BedFrame& bed) {
 std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const RunView& run = failed->first();
+  const runs::RunView& run = failed->first();
   const Frame frame = run.file->frame(repose_frame(run));
   Figure figure;
   figure.name = "force-chains";
@@ -130,7 +131,7 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   set_variable(figure, "letters", gnuplot_string(letters));
   figure.caption = "Critical contacts, whose friction is fully mobilised.";
   if (mapped) {
-    const RunView& run = mapped->first();
+    const runs::RunView& run = mapped->first();
     const Frame frame = run.file->frame(repose_frame(run));
     figure.caption +=
         fmt::format(" (a) Black: critical contacts, gray: the others; {}.", frame_text(*mapped, frame));
@@ -147,4 +148,4 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

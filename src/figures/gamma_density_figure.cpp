@@ -10,7 +10,7 @@
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double angles[] = {0.0, 10.0, 15.0};  // deg, as in the paper
@@ -23,11 +23,12 @@ std::vector<Column> density_columns(const RunChoice& runs) {
   std::vector<Column> columns = {std::move(gamma)};
   for (const double angle : angles) {
     const auto [at_angle, frames] = frames_at_angle(runs, radians(angle));
-    const std::string text = short_text(angle);
+    const std::string text = scenario::short_text(angle);
     const std::string meaning = fmt::format("probability density of gamma at {} deg, ", text);
     Column mean{"density_" + text, "1", meaning + runs_text(at_angle.size()), {}};
     if (2 * at_angle.size() >= runs.size()) {
-      for (Column& column : row_means(at_angle, frames, &FrameRecord::gamma_density, std::move(mean)))
+      for (Column& column :
+           row_means(at_angle, frames, &analysis::FrameRecord::gamma_density, std::move(mean)))
         columns.push_back(std::move(column));
     } else {
       mean.values.assign(edges.size() - 1, std::nan(""));
@@ -41,7 +42,7 @@ std::vector<Column> density_columns(const RunChoice& runs) {
 
 double mean_gamma_c(const RunChoice& runs) {
   std::vector<double> all;
-  for (const RunView* run : runs) all.push_back(run->analysis.gamma_c);
+  for (const runs::RunView* run : runs) all.push_back(run->analysis.gamma_c);
   return statistics_of(all).mean;
 }
 
@@ -79,10 +80,10 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
   if (figure.tables.empty()) return std::nullopt;
   std::vector<std::string> shown;
   for (const double angle : angles)
-    if (is_shown(figure, short_text(angle))) shown.push_back(short_text(angle));
+    if (is_shown(figure, scenario::short_text(angle))) shown.push_back(scenario::short_text(angle));
   set_variable(figure, "angles", gnuplot_string(joined(shown, " ")));
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

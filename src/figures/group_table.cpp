@@ -9,7 +9,7 @@
 #include "runs/analysis_parameters.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr std::size_t symbols_of_a_curve = 16;
@@ -17,7 +17,7 @@ constexpr std::size_t symbols_of_a_curve = 16;
 template <typename Condition>
 RunChoice choose(const RunGroup& group, const Condition& condition) {
   RunChoice choice;
-  for (const RunView& run : group.runs)
+  for (const runs::RunView& run : group.runs)
     if (condition(run)) choice.push_back(&run);
   return choice;
 }
@@ -35,35 +35,35 @@ double largest_tilt(const Figure& figure) {
 }  // namespace
 
 RunChoice all_runs(const RunGroup& group) {
-  return choose(group, [](const RunView&) { return true; });
+  return choose(group, [](const runs::RunView&) { return true; });
 }
 
 RunChoice runs_with_threshold(const RunGroup& group) {
-  return choose(group, [](const RunView& run) { return !run.analysis.thresholds.empty(); });
+  return choose(group, [](const runs::RunView& run) { return !run.analysis.thresholds.empty(); });
 }
 
 RunChoice failed_runs(const RunGroup& group) {
-  return choose(group, [](const RunView& run) { return !std::isnan(theta_c_of(run)); });
+  return choose(group, [](const runs::RunView& run) { return !std::isnan(theta_c_of(run)); });
 }
 
 RunChoice with_files(RunChoice runs) {
-  std::erase_if(runs, [](const RunView* run) { return !run->file; });
+  std::erase_if(runs, [](const runs::RunView* run) { return !run->file; });
   return runs;
 }
 
 RunChoice with_frames(RunChoice runs) {
-  std::erase_if(runs, [](const RunView* run) { return !run->file || !run->file->has_frames(); });
+  std::erase_if(runs, [](const runs::RunView* run) { return !run->file || !run->file->has_frames(); });
   return runs;
 }
 
 RunChoice with_distributions(RunChoice runs) {
-  std::erase_if(runs, [](const RunView* run) { return run->analysis.gamma_edge.empty(); });
+  std::erase_if(runs, [](const runs::RunView* run) { return run->analysis.gamma_edge.empty(); });
   return runs;
 }
 
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   FramesAtAngle result;
-  for (const RunView* run : runs)
+  for (const runs::RunView* run : runs)
     if (stands_at(*run, tilt)) {
       result.runs.push_back(run);
       result.frames.push_back(frame_nearest(*run, tilt));
@@ -71,13 +71,13 @@ FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   return result;
 }
 
-std::string reading_caption(const RunView& run) {
-  const double l_min = from_facts(run.analysis.parameters).l_min;
+std::string reading_caption(const runs::RunView& run) {
+  const double l_min = runs::from_facts(run.analysis.parameters).l_min;
   if (l_min == 0.0) return "gamma is that of single grains.";
-  const std::string who = l_min == default_l_min ? "its first neighbours" : "its neighbours";
+  const std::string who = l_min == analysis::default_l_min ? "its first neighbours" : "its neighbours";
   return fmt::format(
       "gamma of a grain is that of the grain together with {}, a neighbourhood of diameter {} D.", who,
-      short_text(l_min));
+      scenario::short_text(l_min));
 }
 
 void set_variable(Figure& figure, const std::string& name, const std::string& value) {
@@ -89,7 +89,7 @@ void set_variable(Figure& figure, const std::string& name, const std::string& va
 }
 
 void set_variable(Figure& figure, const std::string& name, double value) {
-  set_variable(figure, name, std::isnan(value) ? "NaN" : short_text(value));
+  set_variable(figure, name, std::isnan(value) ? "NaN" : scenario::short_text(value));
 }
 
 std::string gnuplot_quoted(std::string_view text) {
@@ -121,7 +121,7 @@ void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& run
                      std::vector<Column> columns) {
   const std::size_t rows = columns.front().values.size();
   figure.tables.push_back({table_name(group), std::move(columns)});
-  for (const RunView* run : runs) figure.runs.push_back(run->path);
+  for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   const std::string g = std::to_string(++figure.groups);
   set_variable(figure, "groups", static_cast<double>(figure.groups));
   set_variable(figure, "data_" + g, gnuplot_string(file_of(figure, figure.tables.back())));
@@ -146,4 +146,4 @@ void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& ru
   }
 }
 
-}  // namespace talus
+}  // namespace talus::figures

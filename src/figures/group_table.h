@@ -11,10 +11,10 @@
 #include "figures/run_group.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// Runs of a group that a figure is made from.
-using RunChoice = std::vector<const RunView*>;
+using RunChoice = std::vector<const runs::RunView*>;
 
 /// All runs of a group; those that have overloaded grains, which need a threshold; those that have failed.
 RunChoice all_runs(const RunGroup& group);
@@ -37,7 +37,7 @@ struct FramesAtAngle {
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
 
 /// How the analysis of a run reads gamma, as a sentence for captions: of which neighbourhood of a grain.
-std::string reading_caption(const RunView& run);
+std::string reading_caption(const runs::RunView& run);
 
 /// The name of the table of a group: its label as a part of a file name.
 std::string table_name(const RunGroup& group);
@@ -69,4 +69,4 @@ std::string gnuplot_string(std::string_view text);
 /// "4 runs", "1 run".
 std::string runs_text(std::size_t count);
 
-}  // namespace talus
+}  // namespace talus::figures

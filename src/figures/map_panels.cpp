@@ -13,7 +13,7 @@
 #include "runs/analysis_parameters.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double paper_tilts[] = {0.0, 5.0, 10.0, 15.0};  // deg
@@ -27,14 +27,14 @@ constexpr double largest_height_over_width = 1.25;  // a page, with its caption
 
 /// The frames of the panels, and their pictures.
 struct Panels {
-  FrameChoice choice;
+  pictures::FrameChoice choice;
   std::vector<Frame> frames;
-  PictureSeries pictures;
+  pictures::PictureSeries pictures;
 };
 
 /// A map whose Gamma_c is that of the analysis, which need not be sin(theta_c), times `factor`.
-MapSettings map_of(const RunView& run, MapKind kind, double factor) {
-  MapSettings settings;
+pictures::MapSettings map_of(const runs::RunView& run, pictures::MapKind kind, double factor) {
+  pictures::MapSettings settings;
   settings.layers = {kind};
   settings.theta_c = theta_c_of(run);
   settings.threshold_factor = factor * (run.analysis.gamma_c / sine(settings.theta_c));
@@ -43,23 +43,25 @@ MapSettings map_of(const RunView& run, MapKind kind, double factor) {
   return settings;
 }
 
-Panels read_panels(const RunView& run, std::vector<MapSettings> maps) {
+Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> maps) {
   Panels panels;
-  const FramesOfRise rise = last_rise_of(run);
+  const analysis::FramesOfRise rise = runs::last_rise_of(run);
   panels.choice = panel_frames(rise.tilts, theta_c_of(run));
   for (std::size_t& frame : panels.choice) frame += rise.first;
   panels.pictures.run = run.file->header();
   panels.pictures.plan.maps = std::move(maps);
-  panels.pictures.extent = bed_extent(panels.pictures.run.statics);
+  panels.pictures.extent = pictures::bed_extent(panels.pictures.run.statics);
   for (const std::size_t k : panels.choice) {
-    panels.frames.push_back(analysed_frame(*run.file, from_facts(run.analysis.parameters), k));
-    extend(panels.pictures.extent, {panels.frames.back(), panels.pictures.run.statics});
+    panels.frames.push_back(runs::analysed_frame(*run.file, runs::from_facts(run.analysis.parameters), k));
+    pictures::extend(panels.pictures.extent, {panels.frames.back(), panels.pictures.run.statics});
   }
   return panels;
 }
 
 /// Share with gamma from this value on of the grains that carry something.
-double share_from(const BedFrame& bed, double gamma) { return count_overloaded(bed, gamma).fraction(); }
+double share_from(const BedFrame& bed, double gamma) {
+  return stress::count_overloaded(bed, gamma).fraction();
+}
 
 /// The angles of the panels, deg.
 std::string listed(const Panels& panels, const char* separator) {
@@ -92,7 +94,7 @@ double panel_width_of(std::size_t columns) {
 /// Map `map` of panel k, to be printed at that resolution (dpi).
 FigureMap panel_map(const std::string& number, const Panels& panels, std::size_t k, std::size_t map,
                     double resolution) {
-  return {"panel" + number, picture(panels.pictures, k, panels.frames[k], nullptr, map),
+  return {"panel" + number, pictures::picture(panels.pictures, k, panels.frames[k], nullptr, map),
           panel_width_of(panels.pictures.plan.maps.size()) / figure_width * resolution / map_resolution};
 }
 
@@ -126,31 +128,34 @@ Column tilt_column(const Panels& panels) {
 }
 
 /// Of each panel, what there is to say of one threshold.
-std::vector<Column> threshold_columns(const Analysis& analysis, const Panels& panels, std::size_t f) {
+std::vector<Column> threshold_columns(const analysis::Analysis& analysis, const Panels& panels,
+                                      std::size_t f) {
   const std::string factor = rounded_text(analysis.thresholds[f].factor, 3);
   std::vector<Column> columns;
-  for (const auto& [name, member] :
-       {std::pair<std::string, QuantityMember>("p_o_", &FrameThreshold::overloaded_fraction),
-        std::pair<std::string, QuantityMember>("largest_share_", &FrameThreshold::largest_share),
-        std::pair<std::string, QuantityMember>("spans_depth_", &FrameThreshold::spans_depth)}) {
-    const Quantity& quantity = quantity_of(member);
+  for (const auto& [name, member] : {std::pair<std::string, analysis::QuantityMember>(
+                                         "p_o_", &analysis::FrameThreshold::overloaded_fraction),
+                                     std::pair<std::string, analysis::QuantityMember>(
+                                         "largest_share_", &analysis::FrameThreshold::largest_share),
+                                     std::pair<std::string, analysis::QuantityMember>(
+                                         "spans_depth_", &analysis::FrameThreshold::spans_depth)}) {
+    const analysis::Quantity& quantity = analysis::quantity_of(member);
     columns.push_back({name + factor,
                        quantity.unit,
                        fmt::format("{}, threshold {} Gamma_c", quantity.definition, factor),
                        {}});
     for (const std::size_t k : panels.choice)
-      columns.back().values.push_back(number_of(quantity, analysis.frames.at(k), f));
+      columns.back().values.push_back(analysis::number_of(quantity, analysis.frames.at(k), f));
   }
   return columns;
 }
 
 }  // namespace
 
-FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
-  const std::size_t last = frame_at_repose(tilts, theta_c);
-  FrameChoice choice;
+pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c) {
+  const std::size_t last = pictures::frame_at_repose(tilts, theta_c);
+  pictures::FrameChoice choice;
   for (const double tilt : paper_tilts)
-    if (const auto frame = frame_near(tilts, radians(tilt)); frame && radians(tilt) < theta_c)
+    if (const auto frame = pictures::frame_near(tilts, radians(tilt)); frame && radians(tilt) < theta_c)
       choice.push_back(std::min(*frame, last));  // the nearest may lie beyond
   choice.push_back(last);
   choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
@@ -161,23 +166,24 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const double gamma_c = failed->first().analysis.gamma_c;
-  const Panels panels = read_panels(failed->first(), {map_of(failed->first(), MapKind::gamma, 1.0)});
+  const Panels panels =
+      read_panels(failed->first(), {map_of(failed->first(), pictures::MapKind::gamma, 1.0)});
   Figure figure = panel_figure(*failed, panels, 0.2);
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
   figure.caption = fmt::format(
       "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} on, linear gray between{}",
-      rounded_text(white_below, 2), rounded_text(2.0 * gamma_c, 3), bed_text(*failed, panels));
+      rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3), bed_text(*failed, panels));
   set_variable(figure, "gamma_c", gamma_c);
-  set_variable(figure, "white_below", white_below);
-  Column mean{"gamma_mean", "1", quantity_of(&FrameRecord::gamma_mean).definition, {}};
+  set_variable(figure, "white_below", pictures::white_below);
+  Column mean{"gamma_mean", "1", analysis::quantity_of(&analysis::FrameRecord::gamma_mean).definition, {}};
   Column share_white{"white", "1", "share of these grains that are white", {}};
   Column share_black{"black", "1", "share of them that are black", {}};
   for (std::size_t k = 0; k < panels.frames.size(); ++k) {
     const BedFrame bed{panels.frames[k], panels.pictures.run.statics};
     figure.maps.push_back(panel_map(std::to_string(k + 1), panels, k, 0, 300.0));
     mean.values.push_back(failed->first().analysis.frames.at(panels.choice[k]).gamma_mean);
-    share_white.values.push_back(1.0 - share_from(bed, white_below));
+    share_white.values.push_back(1.0 - share_from(bed, pictures::white_below));
     share_black.values.push_back(share_from(bed, 2.0 * gamma_c));
   }
   figure.tables = {{"", {tilt_column(panels), mean, share_white, share_black}}};
@@ -187,11 +193,11 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
 std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const Analysis& analysis = failed->first().analysis;
-  const std::vector<RunThreshold>& thresholds = analysis.thresholds;
-  std::vector<MapSettings> maps;
-  for (const RunThreshold& threshold : thresholds)
-    maps.push_back(map_of(failed->first(), MapKind::overloaded, threshold.factor));
+  const analysis::Analysis& analysis = failed->first().analysis;
+  const std::vector<analysis::RunThreshold>& thresholds = analysis.thresholds;
+  std::vector<pictures::MapSettings> maps;
+  for (const analysis::RunThreshold& threshold : thresholds)
+    maps.push_back(map_of(failed->first(), pictures::MapKind::overloaded, threshold.factor));
   const Panels panels = read_panels(failed->first(), std::move(maps));
   Figure figure = panel_figure(*failed, panels, 0.5);
   figure.name = "fig13-overloaded-maps";
@@ -216,4 +222,4 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

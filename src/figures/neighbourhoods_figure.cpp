@@ -16,7 +16,7 @@
 #include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double shown_tilt = 10.0;  // deg
@@ -30,7 +30,7 @@ struct Shown {
 
 /// The typical grain of the frame nearest to 10 deg that has one, up to the last before theta_c: of a small
 /// bed some frames have none.
-std::optional<Shown> shown_grain(const RunView& run) {
+std::optional<Shown> shown_grain(const runs::RunView& run) {
   const RunStatics& statics = run.file->header().statics;
   std::vector<std::size_t> nearest(repose_frame(run) + 1);
   std::iota(nearest.begin(), nearest.end(), std::size_t{0});
@@ -38,7 +38,7 @@ std::optional<Shown> shown_grain(const RunView& run) {
     return std::abs(run.analysis.frames.at(k).tilt - radians(shown_tilt));
   });
   for (const std::size_t k : nearest) {
-    Frame frame = analysed_frame(*run.file, from_facts(run.analysis.parameters), k);
+    Frame frame = runs::analysed_frame(*run.file, runs::from_facts(run.analysis.parameters), k);
     const auto grain = typical_grain({frame, statics}, run.analysis.frames.at(k).thresholds);
     if (grain) return Shown{k, std::move(frame), *grain};
   }
@@ -52,7 +52,7 @@ double largest_shown(double largest_l_c, double cut) {
   return std::min(std::max(8.0, 2.0 * std::ceil(largest_l_c)), cut);
 }
 
-Table curve_table(const NeighbourhoodCurve& curve, double diameter) {
+Table curve_table(const analysis::NeighbourhoodCurve& curve, double diameter) {
   Table table{"",
               {{"l", "D", "diameter of the neighbourhood", {}},
                {"gamma_l", "1", "stress ratio of the summed internal moments of its grains", curve.gamma}}};
@@ -60,16 +60,16 @@ Table curve_table(const NeighbourhoodCurve& curve, double diameter) {
   return table;
 }
 
-std::vector<double> all_of(double RunThreshold::*member, const Analysis& analysis) {
+std::vector<double> all_of(double analysis::RunThreshold::*member, const analysis::Analysis& analysis) {
   std::vector<double> values;
-  for (const RunThreshold& threshold : analysis.thresholds) values.push_back(threshold.*member);
+  for (const analysis::RunThreshold& threshold : analysis.thresholds) values.push_back(threshold.*member);
   return values;
 }
 
-Table length_table(const Analysis& analysis, std::span<const double> lengths) {
+Table length_table(const analysis::Analysis& analysis, std::span<const double> lengths) {
   return {"l_c",
-          {{"factor", "1", "threshold over Gamma_c", all_of(&RunThreshold::factor, analysis)},
-           {"threshold", "1", "threshold", all_of(&RunThreshold::gamma, analysis)},
+          {{"factor", "1", "threshold over Gamma_c", all_of(&analysis::RunThreshold::factor, analysis)},
+           {"threshold", "1", "threshold", all_of(&analysis::RunThreshold::gamma, analysis)},
            {"l_c", "D", "smallest l with gamma_l <= threshold", {lengths.begin(), lengths.end()}}}};
 }
 
@@ -87,14 +87,15 @@ std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grai
       "D, thick ones at l_c. (b) Stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
       "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
       "the bed that are overloaded at each threshold, it is the one whose l_c are nearest to their means. {}",
-      grain, first_run_text(failed), angle_text(frame.tilt), rounded_text(white_below, 2),
+      grain, first_run_text(failed), angle_text(frame.tilt), rounded_text(pictures::white_below, 2),
       reading_caption(failed.first()));
 }
 
 }  // namespace
 
-std::optional<Index> typical_grain(const BedFrame& bed, std::span<const FrameThreshold> thresholds) {
-  const std::vector<double> y = of_free_grains(bed.frame.y, bed.statics);
+std::optional<Index> typical_grain(const BedFrame& bed,
+                                   std::span<const analysis::FrameThreshold> thresholds) {
+  const std::vector<double> y = analysis::of_free_grains(bed.frame.y, bed.statics);
   if (y.empty()) return std::nullopt;
   const double top = *std::ranges::max_element(y);
   std::optional<Index> typical;
@@ -103,7 +104,7 @@ std::optional<Index> typical_grain(const BedFrame& bed, std::span<const FrameThr
     if (!in_middle_half(y[i], top)) continue;
     if (!bed.statics.periodic && !in_middle_half(bed.frame.x[i], bed.statics.length)) continue;
     double distance = 0.0;
-    for (const FrameThreshold& at : thresholds)
+    for (const analysis::FrameThreshold& at : thresholds)
       distance += std::abs(static_cast<double>(at.lc[i]) / at.lc_mean - 1.0);
     if (std::isnan(distance) || (typical && distance >= least)) continue;
     typical = i;
@@ -121,7 +122,7 @@ Table grains_around(const BedFrame& bed, Index centre, double distance) {
   const double diameter = bed.statics.mean_diameter;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     double dx = bed.frame.x[i] - bed.frame.x[centre];
-    dx += nearest_image(dx, period_of(bed.statics)) * period_of(bed.statics);
+    dx += analysis::nearest_image(dx, analysis::period_of(bed.statics)) * analysis::period_of(bed.statics);
     const double dy = bed.frame.y[i] - bed.frame.y[centre];
     if (std::hypot(dx, dy) > distance) continue;
     const double row[] = {dx / diameter, dy / diameter, bed.statics.radius[i] / diameter, bed.frame.gamma[i]};
@@ -133,7 +134,7 @@ Table grains_around(const BedFrame& bed, Index centre, double distance) {
 std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const RunView& run = failed->first();
+  const runs::RunView& run = failed->first();
   const RunStatics& statics = run.file->header().statics;
   const double diameter = statics.mean_diameter;
   const auto found = shown_grain(run);
@@ -142,7 +143,7 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   const BedFrame bed{frame, statics};
 
   std::vector<double> lengths;  // D
-  for (const FrameThreshold& at : run.analysis.frames.at(k).thresholds)
+  for (const analysis::FrameThreshold& at : run.analysis.frames.at(k).thresholds)
     lengths.push_back(at.lc[grain] / diameter);
   const double shown = largest_shown(*std::ranges::max_element(lengths), run.analysis.lc_cut / diameter);
   Figure figure;
@@ -152,17 +153,17 @@ std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
   figure.runs = {run.path};
   figure.wide = true;
   figure.height_over_width = 0.5;
-  figure.tables = {curve_table(neighbourhood_curve(bed, grain, shown * diameter), diameter),
+  figure.tables = {curve_table(analysis::neighbourhood_curve(bed, grain, shown * diameter), diameter),
                    grains_around(bed, grain, (0.5 * shown + 0.5) * diameter),
                    length_table(run.analysis, lengths)};
   set_variable(figure, "gamma_c", run.analysis.gamma_c);
-  set_variable(figure, "white_below", white_below);
+  set_variable(figure, "white_below", pictures::white_below);
   set_variable(figure, "shown", shown);
   set_variable(figure, "grain_radius", statics.radius[grain] / diameter);
-  set_variable(figure, "factors", word_list(all_of(&RunThreshold::factor, run.analysis)));
-  set_variable(figure, "thresholds", word_list(all_of(&RunThreshold::gamma, run.analysis)));
+  set_variable(figure, "factors", word_list(all_of(&analysis::RunThreshold::factor, run.analysis)));
+  set_variable(figure, "thresholds", word_list(all_of(&analysis::RunThreshold::gamma, run.analysis)));
   set_variable(figure, "lengths", word_list(lengths));
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

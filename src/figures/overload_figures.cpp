@@ -8,16 +8,16 @@
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
-using enum PaperQuantity;
+using enum ensemble::PaperQuantity;
 
 /// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
-std::vector<std::string> factors_of(const RunView& run) {
+std::vector<std::string> factors_of(const runs::RunView& run) {
   std::vector<std::string> factors;
-  for (const RunThreshold& threshold : run.analysis.thresholds)
-    factors.push_back(short_text(threshold.factor));
+  for (const analysis::RunThreshold& threshold : run.analysis.thresholds)
+    factors.push_back(scenario::short_text(threshold.factor));
   return factors;
 }
 
@@ -27,15 +27,15 @@ std::string threshold_label(const std::string& factor) {
 }
 
 /// A quantity at threshold f, which is `factor` Gamma_c.
-FrameColumn threshold_column(const std::string& name, const QuantityMember& member, const std::string& factor,
-                             std::size_t f) {
-  FrameColumn column = column_of(fmt::format("{}_{}", name, factor), quantity_of(member), f);
+FrameColumn threshold_column(const std::string& name, const analysis::QuantityMember& member,
+                             const std::string& factor, std::size_t f) {
+  FrameColumn column = column_of(fmt::format("{}_{}", name, factor), analysis::quantity_of(member), f);
   column.meaning += fmt::format(", for gamma >= {} Gamma_c", factor);
   return column;
 }
 
 /// Columns by their names.
-using NamedMembers = std::vector<std::pair<std::string, QuantityMember>>;
+using NamedMembers = std::vector<std::pair<std::string, analysis::QuantityMember>>;
 
 /// Adds the tables of periodic beds, with these columns for each threshold.
 void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const NamedMembers& members) {
@@ -57,14 +57,18 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
 
 /// The paper's values of a quantity, at 0, theta_d and theta_c.
 Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const std::array<PaperQuantity, 3>& quantities) {
+                    const std::array<ensemble::PaperQuantity, 3>& quantities) {
   Column column{name, unit, meaning, {}};
-  for (const PaperQuantity quantity : quantities) column.values.push_back(paper_value(quantity).value);
+  for (const ensemble::PaperQuantity quantity : quantities)
+    column.values.push_back(ensemble::paper_value(quantity).value);
   return column;
 }
 
 Column tilts_of_the_paper() {
-  return {"theta", "deg", "tilt", {0.0, paper_value(theta_d_by_jump).value, paper_value(theta_c).value}};
+  return {"theta",
+          "deg",
+          "tilt",
+          {0.0, ensemble::paper_value(theta_d_by_jump).value, ensemble::paper_value(theta_c).value}};
 }
 
 constexpr std::string_view paper_text =
@@ -82,7 +86,7 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
       "Fraction p_o of overloaded grains among those that carry something over the tilt theta, for each "
       "threshold: gamma >= Gamma_c = sin(theta_c) as printed in the paper, and multiples of it.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
-  add_periodic_groups(figure, groups, {{"p_o", &FrameThreshold::overloaded_fraction}});
+  add_periodic_groups(figure, groups, {{"p_o", &analysis::FrameThreshold::overloaded_fraction}});
   if (figure.tables.empty()) return std::nullopt;
   figure.tables.push_back({"paper",
                            {tilts_of_the_paper(),
@@ -104,17 +108,21 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
       "for "
       "l_c ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
-  add_periodic_groups(figure, groups, {{"mean", &FrameThreshold::lc_mean}, {"max", &FrameThreshold::lc_max}});
+  add_periodic_groups(
+      figure, groups,
+      {{"mean", &analysis::FrameThreshold::lc_mean}, {"max", &analysis::FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
-  const std::array<PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
+  const std::array<ensemble::PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
   double top = 0.0;  // of all that is shown of the largest lengths
-  for (const PaperQuantity quantity : largest) top = std::max(top, paper_value(quantity).value);
+  for (const ensemble::PaperQuantity quantity : largest)
+    top = std::max(top, ensemble::paper_value(quantity).value);
   int shown = 0;
   for (const RunGroup& group : groups) {
     const RunChoice runs = group.periodic() ? runs_with_threshold(group) : RunChoice{};
     if (runs.empty()) continue;
     double cut = 0.0;
-    for (const RunView* run : runs) cut = std::max(cut, run->analysis.lc_cut / run->statics.mean_diameter);
+    for (const runs::RunView* run : runs)
+      cut = std::max(cut, run->analysis.lc_cut / run->statics.mean_diameter);
     set_variable(figure, fmt::format("cut_{}", ++shown), cut);
     top = std::max(top, cut);
   }
@@ -127,4 +135,4 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -12,7 +12,7 @@
 #include "runs/analysis_parameters.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double tilts_compared[] = {0.0, 15.0};  // deg
@@ -27,13 +27,13 @@ std::vector<double> scales_up_to(double largest) {
 }
 
 /// p_o of a frame at each diameter (D), with the printed threshold.
-std::vector<double> shares_of(const RunView& run, std::size_t k, std::vector<double> scales) {
+std::vector<double> shares_of(const runs::RunView& run, std::size_t k, std::vector<double> scales) {
   const RunStatics& statics = run.file->header().statics;
-  AnalysisParameters parameters = from_facts(run.analysis.parameters);
+  analysis::AnalysisParameters parameters = runs::from_facts(run.analysis.parameters);
   parameters.l_min = 0.0;
   for (double& l : scales) l *= statics.mean_diameter;
-  return overloaded_over_scale({analysed_frame(*run.file, parameters, k), statics}, run.analysis.gamma_c,
-                               scales);
+  return analysis::overloaded_over_scale({runs::analysed_frame(*run.file, parameters, k), statics},
+                                         run.analysis.gamma_c, scales);
 }
 
 /// The mean over some runs, at one frame of each, and its error; none where fewer than half of `all` are
@@ -57,7 +57,7 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
 
 std::vector<Column> scale_columns(const RunChoice& runs) {
   const RunStatics& statics = runs.front()->file->header().statics;
-  const std::vector<double> scales = scales_up_to(length_cut(statics, 0.0) / statics.mean_diameter);
+  const std::vector<double> scales = scales_up_to(analysis::length_cut(statics, 0.0) / statics.mean_diameter);
   std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
   const auto add = [&](const FramesAtAngle& at, const std::string& name, const std::string& where) {
     const std::string meaning = "share of the grains that carry something with gamma_l >= Gamma_c " + where;
@@ -67,10 +67,10 @@ std::vector<Column> scale_columns(const RunChoice& runs) {
       columns.push_back(std::move(column));
   };
   for (const double angle : tilts_compared)
-    add(frames_at_angle(runs, radians(angle)), short_text(angle),
-        fmt::format("at {} deg", short_text(angle)));
+    add(frames_at_angle(runs, radians(angle)), scenario::short_text(angle),
+        fmt::format("at {} deg", scenario::short_text(angle)));
   FramesAtAngle failure{runs, {}};
-  for (const RunView* run : runs) failure.frames.push_back(repose_frame(*run));
+  for (const runs::RunView* run : runs) failure.frames.push_back(repose_frame(*run));
   add(failure, "failure", "in the last frame before failure");
   return columns;
 }
@@ -98,4 +98,4 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

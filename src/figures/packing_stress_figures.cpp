@@ -2,11 +2,12 @@
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// A quantity of frames, of all groups.
-std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups, const Quantity& quantity) {
+std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups,
+                                const analysis::Quantity& quantity) {
   if (groups.empty()) return std::nullopt;
   for (const RunGroup& group : groups) {
     const RunChoice runs = all_runs(group);
@@ -26,7 +27,7 @@ std::optional<Figure> shear_stress_figure(std::span<const RunGroup> groups) {
   figure.caption =
       "Shear over normal stress of the packing, sigma_T / sigma_N, over the tangent of the tilt theta, up to "
       "theta_c. Dotted: sigma_T / sigma_N = tan(theta), equilibrium of a periodic bed (paper, Eq. 10).";
-  return over_tilt(std::move(figure), groups, quantity_of(&FrameRecord::sigma_t_over_n));
+  return over_tilt(std::move(figure), groups, analysis::quantity_of(&analysis::FrameRecord::sigma_t_over_n));
 }
 
 std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
@@ -37,7 +38,7 @@ std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
       "Stress ratio Gamma = Q/P of the packing over the sine of the tilt theta, up to theta_c. Dotted: Gamma "
       "= "
       "sin(theta), equilibrium of a periodic bed (paper, Eq. 11).";
-  return over_tilt(std::move(figure), groups, quantity_of(&FrameRecord::stress_ratio));
+  return over_tilt(std::move(figure), groups, analysis::quantity_of(&analysis::FrameRecord::stress_ratio));
 }
 
-}  // namespace talus
+}  // namespace talus::figures

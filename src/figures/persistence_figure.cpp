@@ -7,33 +7,33 @@
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The components of a frame; loops all die at 0.
-Table diagram_table(const RunView& run, const std::string& state, std::size_t frame) {
-  const PersistenceDiagram diagram = force_persistence({run.file->frame(frame), run.file->header().statics},
-                                                       run.analysis.frames.at(frame).mean_normal_force);
+Table diagram_table(const runs::RunView& run, const std::string& state, std::size_t frame) {
+  const analysis::PersistenceDiagram diagram = analysis::force_persistence(
+      {run.file->frame(frame), run.file->header().statics}, run.analysis.frames.at(frame).mean_normal_force);
   Table table{state,
               {{"birth", "1", "largest normal force in a component, over the mean", {}},
                {"death", "1", "that at which it meets an older one, or 0", {}}}};
-  for (const Lifetime& lifetime : diagram.components) {
+  for (const analysis::Lifetime& lifetime : diagram.components) {
     table.columns[0].values.push_back(lifetime.birth);
     table.columns[1].values.push_back(lifetime.death);
   }
   return table;
 }
 
-Table curve_table(const RunView& run) {
+Table curve_table(const runs::RunView& run) {
   Table table{"",
               {{"theta", "deg", "magnitude of the tilt", {}},
                {"components", "1", "total persistence of components, per grain", {}},
                {"loops", "1", "total persistence of loops, per grain", {}},
                {"components_change", "1", "distance of the diagrams of components from the frame before", {}},
                {"loops_change", "1", "distance of the diagrams of loops from the frame before", {}}}};
-  const FramesOfRise rise = last_rise_of(run);
+  const analysis::FramesOfRise rise = runs::last_rise_of(run);
   for (std::size_t k = 0; k < rise.frames.size(); ++k) {
-    const FrameRecord& frame = *rise.frames[k];
+    const analysis::FrameRecord& frame = *rise.frames[k];
     const double row[] = {degrees(rise.tilts[k]), frame.component_persistence, frame.loop_persistence,
                           frame.network_change[0], frame.network_change[1]};
     for (std::size_t c = 0; c < std::size(row); ++c) table.columns[c].values.push_back(row[c]);
@@ -46,7 +46,7 @@ Table curve_table(const RunView& run) {
 std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
-  const RunView& run = failed->first();
+  const runs::RunView& run = failed->first();
   const std::size_t repose = repose_frame(run);
   Figure figure;
   figure.name = "persistence";
@@ -70,4 +70,4 @@ std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -13,24 +13,24 @@
 #include "scenario/text.h"
 #include "session/perturbation_threshold.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-double failure_angle(const RunView& run) { return degrees(run.analysis.theta_c); }
+double failure_angle(const runs::RunView& run) { return degrees(run.analysis.theta_c); }
 
 /// The trial of a strength; no value where there is none.
-const Trial* trial_of(const PerturbedState& state, double strength) {
-  const auto found = std::ranges::find(state.trials, strength, &Trial::strength);
+const session::Trial* trial_of(const session::PerturbedState& state, double strength) {
+  const auto found = std::ranges::find(state.trials, strength, &session::Trial::strength);
   return found == state.trials.end() ? nullptr : &*found;
 }
 
-void append_state(Table& table, const RunView& run, const PerturbedState& state) {
-  const Threshold threshold = threshold_of(state.trials);
+void append_state(Table& table, const runs::RunView& run, const session::PerturbedState& state) {
+  const session::Threshold threshold = session::threshold_of(state.trials);
   const bool searched = threshold.held && state.trials.size() > 1;
-  const Trial* without = searched ? trial_of(state, threshold.without) : nullptr;
-  const Trial* with = searched ? trial_of(state, threshold.with) : nullptr;
+  const session::Trial* without = searched ? trial_of(state, threshold.without) : nullptr;
+  const session::Trial* with = searched ? trial_of(state, threshold.with) : nullptr;
   const double row[] = {static_cast<double>(run.scenario.seed),
                         state.tilt,
                         failure_angle(run),
@@ -50,16 +50,17 @@ void append_state(Table& table, const RunView& run, const PerturbedState& state)
 }
 
 /// theta_c - theta_d, deg, as the mean over the runs that have it; NaN where none has.
-double mean_distance(const RunGroup& group, const QuantityMember& estimator) {
+double mean_distance(const RunGroup& group, const analysis::QuantityMember& estimator) {
   std::vector<double> distances;
-  for (const RunView& run : group.runs)
-    distances.push_back(failure_angle(run) - degrees(number_of(quantity_of(estimator), run.analysis, 0)));
+  for (const runs::RunView& run : group.runs)
+    distances.push_back(failure_angle(run) -
+                        degrees(analysis::number_of(analysis::quantity_of(estimator), run.analysis, 0)));
   return statistics_of(distances).mean;
 }
 
-std::string number_text(double value) { return std::isnan(value) ? "NaN" : short_text(value); }
+std::string number_text(double value) { return std::isnan(value) ? "NaN" : scenario::short_text(value); }
 
-std::string caption_of(const RunGroup& group, const SurfacePatch& patch) {
+std::string caption_of(const RunGroup& group, const session::SurfacePatch& patch) {
   return fmt::format(
       "Velocity, and kinetic energy, of the weakest push that starts an avalanche, over the distance to the "
       "angle of repose; {}, {}. The grains of a patch of {} D at the free surface are pushed downslope, "
@@ -68,12 +69,12 @@ std::string caption_of(const RunGroup& group, const SurfacePatch& patch) {
       "beds that the weakest push set off. Lines: theta_d as the mean distance over the runs, by the jump of "
       "l_c max and by the end of the range in which the volume strain is not above its minimum by more than "
       "its noise.",
-      group.label, runs_text(group.runs.size()), patch_text(patch));
+      group.label, runs_text(group.runs.size()), session::patch_text(patch));
 }
 
 }  // namespace
 
-Table perturbation_states(const RunGroup& group, std::span<const PerturbationTable> tables) {
+Table perturbation_states(const RunGroup& group, std::span<const session::PerturbationTable> tables) {
   Table table;
   const auto column = [&table](const char* name, const char* unit, const char* meaning) {
     table.columns.push_back({name, unit, meaning, {}});
@@ -93,24 +94,26 @@ Table perturbation_states(const RunGroup& group, std::span<const PerturbationTab
   column("monotone", "1", "0 where a weaker push started an avalanche, or a stronger one did not");
   column("trials", "1", "number of trials, the one without a push included");
   for (std::size_t r = 0; r < group.runs.size(); ++r)
-    for (const PerturbedState& state : tables[r].states) append_state(table, group.runs[r], state);
+    for (const session::PerturbedState& state : tables[r].states) append_state(table, group.runs[r], state);
   return table;
 }
 
-Figure perturbation_figure(const RunGroup& group, std::span<const PerturbationTable> tables) {
+Figure perturbation_figure(const RunGroup& group, std::span<const session::PerturbationTable> tables) {
   Figure figure;
   figure.name = "perturb";
   figure.title = "Weakest push that starts an avalanche";
   figure.caption = caption_of(group, tables.front().plan.patch);
-  for (const RunView& run : group.runs) figure.runs.push_back(run.path);
+  for (const runs::RunView& run : group.runs) figure.runs.push_back(run.path);
   figure.wide = true;
   figure.height_over_width = 0.4;
   figure.tables = {perturbation_states(group, tables)};
-  const std::string seeds = joined(group.runs, " ", [](const RunView& run) { return run.scenario.seed; });
-  figure.variables = {{"seeds", gnuplot_string(seeds)},
-                      {"theta_d_lc", number_text(mean_distance(group, &RunThreshold::lc_jump))},
-                      {"theta_d_dilation", number_text(mean_distance(group, &Analysis::dilation_high))}};
+  const std::string seeds =
+      joined(group.runs, " ", [](const runs::RunView& run) { return run.scenario.seed; });
+  figure.variables = {
+      {"seeds", gnuplot_string(seeds)},
+      {"theta_d_lc", number_text(mean_distance(group, &analysis::RunThreshold::lc_jump))},
+      {"theta_d_dilation", number_text(mean_distance(group, &analysis::Analysis::dilation_high))}};
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -12,7 +12,7 @@
 #include "figures/perturbation_figure.h"
 #include "session/perturbation_threshold.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// Upper edges of the ranges of theta_c - theta of the first table, deg.
@@ -22,17 +22,19 @@ struct MeasuredState {
   std::uint64_t seed = 0;
   double tilt = 0.0;     ///< deg
   double theta_c = 0.0;  ///< deg, NaN where the slope has not failed
-  Threshold threshold;
+  session::Threshold threshold;
   Index moved = 0;  ///< by the push at the upper end of the bracket; 0 where there is none
 };
 
-std::vector<MeasuredState> states_of(const RunGroup& group, std::span<const PerturbationTable> tables) {
+std::vector<MeasuredState> states_of(const RunGroup& group,
+                                     std::span<const session::PerturbationTable> tables) {
   std::vector<MeasuredState> found;
   for (std::size_t r = 0; r < group.runs.size(); ++r) {
     const double theta_c = degrees(group.runs[r].analysis.theta_c);
-    for (const PerturbedState& state : tables[r].states) {
-      MeasuredState measured{group.runs[r].scenario.seed, state.tilt, theta_c, threshold_of(state.trials), 0};
-      for (const Trial& trial : state.trials)
+    for (const session::PerturbedState& state : tables[r].states) {
+      MeasuredState measured{group.runs[r].scenario.seed, state.tilt, theta_c,
+                             session::threshold_of(state.trials), 0};
+      for (const session::Trial& trial : state.trials)
         if (trial.strength == measured.threshold.with) measured.moved = trial.moved;
       found.push_back(measured);
     }
@@ -42,13 +44,15 @@ std::vector<MeasuredState> states_of(const RunGroup& group, std::span<const Pert
 
 /// The middle of a bracket on a logarithmic scale; beds that need no push, or less than the weakest, count
 /// with the weakest, beds that no push set off as infinite.
-double middle(const Threshold& threshold) {
-  return std::sqrt(std::max(threshold.without, weakest_push) * std::max(threshold.with, weakest_push));
+double middle(const session::Threshold& threshold) {
+  return std::sqrt(std::max(threshold.without, session::weakest_push) *
+                   std::max(threshold.with, session::weakest_push));
 }
 
 std::string push_text(double strength) {
-  if (std::isinf(strength)) return fmt::format("> {:.3g}", strongest_push);
-  return strength <= weakest_push ? fmt::format("< {:.3g}", weakest_push) : fmt::format("{:.2f}", strength);
+  if (std::isinf(strength)) return fmt::format("> {:.3g}", session::strongest_push);
+  return strength <= session::weakest_push ? fmt::format("< {:.3g}", session::weakest_push)
+                                           : fmt::format("{:.2f}", strength);
 }
 
 /// Adds the row of the states whose distance to theta_c lies in (low, high], if there are any.
@@ -76,7 +80,7 @@ void add_range(TextTable& table, const std::vector<MeasuredState>& states, doubl
 }
 
 std::vector<TextCell> state_row(const MeasuredState& state) {
-  const Threshold& threshold = state.threshold;
+  const session::Threshold& threshold = state.threshold;
   std::string bracket = "does not hold";
   if (threshold.held)
     bracket = std::isinf(threshold.with)
@@ -91,7 +95,7 @@ std::vector<TextCell> state_row(const MeasuredState& state) {
 
 }  // namespace
 
-std::string perturbation_markdown(const RunGroup& group, std::span<const PerturbationTable> tables) {
+std::string perturbation_markdown(const RunGroup& group, std::span<const session::PerturbationTable> tables) {
   const std::vector<MeasuredState> states = states_of(group, tables);
   TextTable ranges{{{"theta_c - theta"}}, {}};
   for (const char* title : {"states", "do not hold", "no avalanche", "erratic", "least", "median", "most"})
@@ -107,8 +111,8 @@ std::string perturbation_markdown(const RunGroup& group, std::span<const Perturb
   return fmt::format(
       "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
       "angles in deg. Least, median and most are those of the middles of the brackets.\n\n{}\n{}",
-      group.label, patch_text(tables.front().plan.patch), states.size(), runs_text(group.runs.size()),
-      markdown_text(ranges), markdown_text(each));
+      group.label, session::patch_text(tables.front().plan.patch), states.size(),
+      runs_text(group.runs.size()), markdown_text(ranges), markdown_text(each));
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -7,7 +7,7 @@
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double same_angle = 1e-4;  // deg, far below the spacing of frames
@@ -17,26 +17,28 @@ constexpr std::size_t panels_in_row = 3;
 /// The quantities that are shown, as columns in the unit of curves.
 std::vector<FrameColumn> shown_columns() {
   std::vector<FrameColumn> columns;
-  for (const Quantity& quantity : quantities()) {
-    if (!is_number_of_frame(quantity) || quantity.display.title.empty()) continue;
-    columns.push_back({quantity.name, quantity.display.percent ? "%" : scaled_unit(quantity.unit),
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_number_of_frame(quantity) || quantity.display.title.empty()) continue;
+    columns.push_back({quantity.name, quantity.display.percent ? "%" : analysis::scaled_unit(quantity.unit),
                        quantity.definition,
-                       [quantity](const RunView& run, std::size_t frame) {
-                         return shown(quantity, number_of(quantity, run.analysis.frames.at(frame)),
-                                      run.statics.mean_diameter);
+                       [quantity](const runs::RunView& run, std::size_t frame) {
+                         return analysis::shown(quantity,
+                                                analysis::number_of(quantity, run.analysis.frames.at(frame)),
+                                                run.statics.mean_diameter);
                        },
-                       has_side(quantity)});
+                       analysis::has_side(quantity)});
   }
   return columns;
 }
 
 std::string title_of(const std::string& name) {
-  return shown_title(*std::ranges::find(quantities(), name, &Quantity::name));
+  return analysis::shown_title(*std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name));
 }
 
 /// Whether a quantity is a share: no axis goes beyond 1, or 100 %, though a band may.
 bool is_share(const std::string& name) {
-  const Quantity& quantity = *std::ranges::find(quantities(), name, &Quantity::name);
+  const analysis::Quantity& quantity =
+      *std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name);
   return quantity.unit == "1" && quantity.definition.find("share of") != std::string::npos;
 }
 
@@ -140,7 +142,7 @@ std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> 
     const RunChoice runs = runs_over(group, abscissa);
     if (runs.empty()) return std::nullopt;
     means.push_back(means_over_runs(runs, columns, abscissa));
-    for (const RunView* run : runs) figure.runs.push_back(run->path);
+    for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   }
   figure.tables.push_back({"", difference_columns(means[0], means[1])});
   if (figure.tables[0].columns[0].values.empty()) return std::nullopt;
@@ -180,13 +182,15 @@ std::optional<Figure> quantities_before_failure(std::span<const RunGroup> groups
 }
 
 std::optional<Figure> precursors_figure(std::span<const RunGroup> groups) {
-  const QuantityMember shown_here[] = {&FrameRecord::critical_share,  &FrameRecord::critical_share_of_bound,
-                                       &FrameRecord::critical_mean,   &FrameRecord::texture_contacts,
-                                       &FrameRecord::rigid_redundant, &FrameRecord::rigid_largest_share};
+  const analysis::QuantityMember shown_here[] = {
+      &analysis::FrameRecord::critical_share,  &analysis::FrameRecord::critical_share_of_bound,
+      &analysis::FrameRecord::critical_mean,   &analysis::FrameRecord::texture_contacts,
+      &analysis::FrameRecord::rigid_redundant, &analysis::FrameRecord::rigid_largest_share};
   std::vector<FrameColumn> columns = shown_columns();
   std::erase_if(columns, [&](const FrameColumn& column) {
-    return std::ranges::none_of(
-        shown_here, [&](const QuantityMember& member) { return quantity_of(member).name == column.name; });
+    return std::ranges::none_of(shown_here, [&](const analysis::QuantityMember& member) {
+      return analysis::quantity_of(member).name == column.name;
+    });
   });
   Figure figure = titled("precursors", "What precedes failure in the contacts");
   if (!add_panels(figure, groups, columns, Abscissa::angle_left)) return std::nullopt;
@@ -211,4 +215,4 @@ std::optional<Figure> differences_before_failure(std::span<const RunGroup> group
       groups, Abscissa::angle_left);
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -15,7 +15,7 @@
 #include "figures/run_group.h"
 #include "pictures/frame_choice.h"
 
-namespace talus {
+namespace talus::figures {
 
 // packing_stress_figures.cpp
 // The mean stress of the packing over its tilt (paper, section IV).
@@ -43,7 +43,7 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups);
 // Maps of a bed at growing tilt, one below the other (paper, Figs. 10 and 13).
 /// The frames nearest to 0, 5, 10 and 15 deg, those of them that are there and come before theta_c (rad),
 /// and the last one before theta_c. `tilts` as in frames_at.
-FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c);
+pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c);
 
 /// Paper, Fig. 10: gamma in gray, of the first run that has failed.
 std::optional<Figure> gamma_maps(std::span<const RunGroup> groups);
@@ -57,7 +57,7 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups);
 /// |l_c / mean - 1|, of the free grains that are overloaded at each of them and lie in the middle half of the
 /// bed's height, and of its length between walls; of equal ones that with the smallest id. No value where
 /// there is none. `thresholds`: those of the frame.
-std::optional<Index> typical_grain(const BedFrame& bed, std::span<const FrameThreshold> thresholds);
+std::optional<Index> typical_grain(const BedFrame& bed, std::span<const analysis::FrameThreshold> thresholds);
 
 /// The free grains with centres within `distance` (m) of that of a grain, in a periodic bed their nearest
 /// images: x and y from that grain, and radius, in D, and gamma.
@@ -106,7 +106,7 @@ std::optional<Figure> angle_correlations(std::span<const RunGroup> groups);
 /// Means over runs, element by element, of what frame frames[r] of run r has, with their standard errors:
 /// the columns NAME and NAME_error. All are of the same length.
 std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
-                              std::vector<double> FrameRecord::*member, Column mean);
+                              std::vector<double> analysis::FrameRecord::*member, Column mean);
 
 /// Polar histogram of the directions of contact normals, each contact counted once, and weighted by f_n.
 std::optional<Figure> contact_directions(std::span<const RunGroup> groups);
@@ -171,7 +171,7 @@ std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups);
 
 /// One run over time from shortly before failure on: tilt, and mean velocity of the surface layer between two
 /// rows of observables.
-Table flow_trace(const RunView& run);
+Table flow_trace(const runs::RunView& run);
 
 // event_figure.cpp
 // Rearrangements on the way to failure.
@@ -185,4 +185,4 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups);
 /// tilt the total persistence and the distance of the diagrams of each two frames in a row.
 std::optional<Figure> persistence_figure(std::span<const RunGroup> groups);
 
-}  // namespace talus
+}  // namespace talus::figures

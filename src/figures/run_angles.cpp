@@ -8,7 +8,7 @@
 #include "ensemble/member_values.h"
 #include "figures/theta_d_estimators.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr int least_runs = 2;
@@ -21,28 +21,34 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
     bool is_known = false;
     for (const RunChoice& runs : choices) {
       std::vector<double>& values = angle.values.emplace_back();
-      for (const RunView* run : runs) values.push_back(value_of(*run));
+      for (const runs::RunView* run : runs) values.push_back(value_of(*run));
       is_known = is_known || statistics_of(values).count >= least_runs;
     }
     if (is_known) angles.push_back(std::move(angle));
   };
-  add({quantity_of(&Analysis::theta_c).name, "{/:Italic θ_c}", "theta_c, angle of repose", {}},
-      [](const RunView& run) { return degrees(run.analysis.theta_c); });
-  add({quantity_of(&Analysis::first_slide).name, "first slide", "first slide of the surface layer", {}},
-      [](const RunView& run) { return degrees(run.analysis.first_slide); });
+  add({analysis::quantity_of(&analysis::Analysis::theta_c).name,
+       "{/:Italic θ_c}",
+       "theta_c, angle of repose",
+       {}},
+      [](const runs::RunView& run) { return degrees(run.analysis.theta_c); });
+  add({analysis::quantity_of(&analysis::Analysis::first_slide).name,
+       "first slide",
+       "first slide of the surface layer",
+       {}},
+      [](const runs::RunView& run) { return degrees(run.analysis.first_slide); });
   add({"theta_r", "{/:Italic θ_r}", "theta_r, angle at rest after failure", {}},
-      [](const RunView& run) { return degrees(run.theta_r); });
+      [](const runs::RunView& run) { return degrees(run.theta_r); });
   RunChoice all;
   for (const RunChoice& runs : choices) all.insert(all.end(), runs.begin(), runs.end());
   if (all.empty()) return angles;
   std::vector<Estimator> estimators = estimators_of(most_analysed(all));
   std::ranges::reverse(estimators);
   for (const Estimator& estimator : estimators)
-    add({element_name(quantity_of(estimator.member).name, estimator.element),
+    add({ensemble::element_name(analysis::quantity_of(estimator.member).name, estimator.element),
          "{/:Italic θ_d} (" + estimator.label + ")",
          "theta_d, " + estimator.meaning,
          {}},
-        [&](const RunView& run) { return theta_d_of(run, estimator); });
+        [&](const runs::RunView& run) { return theta_d_of(run, estimator); });
   return angles;
 }
 
@@ -60,7 +66,7 @@ AngleGroups angle_groups(std::span<const RunGroup> groups) {
 void add_angle_tables(Figure& figure, const AngleGroups& all) {
   for (std::size_t g = 0; g < all.groups.size(); ++g) {
     std::vector<Column> columns = {{"seed", "1", "seed of the run", {}}};
-    for (const RunView* run : all.choices[g])
+    for (const runs::RunView* run : all.choices[g])
       columns[0].values.push_back(static_cast<double>(run->scenario.seed));
     for (const RunAngle& angle : all.angles)
       columns.push_back({angle.name, "deg", angle.meaning, angle.values[g]});
@@ -76,4 +82,4 @@ double round_step(double most) {
   return step;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

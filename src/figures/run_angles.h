@@ -9,7 +9,7 @@
 #include "figures/group_table.h"
 #include "figures/run_group.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// An angle that there is one of in a run: theta_c, the first slide, theta_r, or theta_d by an estimator.
 struct RunAngle {
@@ -37,4 +37,4 @@ void add_angle_tables(Figure& figure, const AngleGroups& all);
 /// The largest of 1, 2, 2.5 and 5 times a power of ten that is not above `most`, which is positive.
 double round_step(double most);
 
-}  // namespace talus
+}  // namespace talus::figures

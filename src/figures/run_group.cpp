@@ -9,35 +9,35 @@
 #include "scenario/keys.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The scenario with all that does not shape a result at its default: runs of one group have the same.
 /// How far a run went, and what was kept of it, does not; a tolerance of the solver may.
-Scenario essence(Scenario scenario) {
-  const Scenario plain;
+scenario::Scenario essence(scenario::Scenario scenario) {
+  const scenario::Scenario plain;
   scenario.seed = plain.seed;
   scenario.output = plain.output;
   scenario.tilt.end_angle = plain.tilt.end_angle;
   scenario.tilt.after_failure = plain.tilt.after_failure;
   scenario.tilt.lowering_rate = plain.tilt.lowering_rate;
   scenario.deposition.max_time = plain.deposition.max_time;
-  if (scenario.bed.boundary == BedBoundary::periodic)
+  if (scenario.bed.boundary == scenario::BedBoundary::periodic)
     scenario.contact.wall_friction = plain.contact.wall_friction;
   return scenario;
 }
 
-std::string bed_label(const Scenario& scenario) {
-  return fmt::format("{}, L = {} D", scenario.bed.boundary == BedBoundary::periodic ? "PBC" : "WBC",
-                     short_text(scenario.bed.length));
+std::string bed_label(const scenario::Scenario& scenario) {
+  return fmt::format("{}, L = {} D", scenario.bed.boundary == scenario::BedBoundary::periodic ? "PBC" : "WBC",
+                     scenario::short_text(scenario.bed.length));
 }
 
-Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
+scenario::Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
 
 /// Not to a group that has another run with its seed: bits change from one version of Talus to another.
-bool belongs_to(const RunGroup& group, const RunView& run) {
+bool belongs_to(const RunGroup& group, const runs::RunView& run) {
   return essence_of(group) == essence(run.scenario) &&
-         std::ranges::none_of(group.runs, [&](const RunView& other) {
+         std::ranges::none_of(group.runs, [&](const runs::RunView& other) {
            return other.scenario.seed == run.scenario.seed && other.state_hash != run.state_hash;
          });
 }
@@ -62,20 +62,20 @@ void tell_folders_apart(std::vector<RunGroup>& groups) {
 /// Adds to the labels of groups that share one the keys in which they differ.
 void tell_apart(std::vector<RunGroup>& groups) {
   std::vector<std::string> additions(groups.size());
-  for (const ScenarioKey& key : scenario_keys())
+  for (const scenario::ScenarioKey& key : scenario::scenario_keys())
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const KeyValue value = key.get(essence_of(groups[g]));
+      const scenario::KeyValue value = key.get(essence_of(groups[g]));
       const auto differs = [&](const RunGroup& other) {
         return other.label == groups[g].label && key.get(essence_of(other)) != value;
       };
       if (std::ranges::any_of(groups, differs))
-        additions[g] += fmt::format(", {} = {}", full_name(key), plain_text(value));
+        additions[g] += fmt::format(", {} = {}", scenario::full_name(key), scenario::plain_text(value));
     }
   for (std::size_t g = 0; g < groups.size(); ++g) groups[g].label += additions[g];
 }
 
 void sort_by_seed(RunGroup& group) {
-  const auto seed = [](const RunView& run) { return run.scenario.seed; };
+  const auto seed = [](const runs::RunView& run) { return run.scenario.seed; };
   std::ranges::sort(group.runs, {}, seed);
   const auto twice = std::ranges::adjacent_find(group.runs, {}, seed);
   if (twice != group.runs.end())
@@ -86,9 +86,9 @@ void sort_by_seed(RunGroup& group) {
 
 }  // namespace
 
-std::vector<RunGroup> group_runs(std::vector<RunView> runs) {
+std::vector<RunGroup> group_runs(std::vector<runs::RunView> runs) {
   std::vector<RunGroup> groups;
-  for (RunView& run : runs) {
+  for (runs::RunView& run : runs) {
     auto group = std::ranges::find_if(groups, [&](const RunGroup& each) { return belongs_to(each, run); });
     if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
     group->runs.push_back(std::move(run));
@@ -102,4 +102,4 @@ std::vector<RunGroup> group_runs(std::vector<RunView> runs) {
   return groups;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -7,14 +7,14 @@
 #include "core/trigonometry.h"
 #include "ensemble/averages.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double same_tilt = 1e-6;  // rad; frames of a run are at least 1e-8 deg apart, in practice 0.01 deg
 
 /// The last rise of a run that failed ends at its theta_c.
-FramesOfRise rise_to_failure(const RunView& run) {
-  FramesOfRise rise = last_rise_of(run);
+analysis::FramesOfRise rise_to_failure(const runs::RunView& run) {
+  analysis::FramesOfRise rise = runs::last_rise_of(run);
   const double theta_c = theta_c_of(run);
   std::erase_if(rise.tilts, [&](double tilt) { return tilt > theta_c; });
   return rise;
@@ -26,8 +26,8 @@ struct RunCurve {
   std::vector<std::vector<double>> values;  ///< of each column, at each angle
 };
 
-RunCurve curve_over_tilt(const RunView& run, std::span<const FrameColumn> columns) {
-  FramesOfRise rise = rise_to_failure(run);
+RunCurve curve_over_tilt(const runs::RunView& run, std::span<const FrameColumn> columns) {
+  analysis::FramesOfRise rise = rise_to_failure(run);
   RunCurve curve{std::move(rise.tilts), {}};
   for (const FrameColumn& column : columns) {
     std::vector<double>& values = curve.values.emplace_back();
@@ -39,7 +39,7 @@ RunCurve curve_over_tilt(const RunView& run, std::span<const FrameColumn> column
 }
 
 /// At multiples of the spacing of frames below theta_c, between two frames.
-RunCurve curve_before_failure(const RunView& run, std::span<const FrameColumn> columns) {
+RunCurve curve_before_failure(const runs::RunView& run, std::span<const FrameColumn> columns) {
   const RunCurve over_tilt = curve_over_tilt(run, columns);
   const double theta_c = run.analysis.theta_c, spacing = radians(run.scenario.output.frame_every);
   RunCurve curve{{}, std::vector<std::vector<double>>(columns.size())};
@@ -47,7 +47,7 @@ RunCurve curve_before_failure(const RunView& run, std::span<const FrameColumn> c
   for (int k = 0; theta_c - k * spacing > over_tilt.angles.front() - same_tilt; ++k) {
     std::vector<double> row;
     for (const std::vector<double>& values : over_tilt.values)
-      row.push_back(interpolated(over_tilt.angles, values, theta_c - k * spacing));
+      row.push_back(ensemble::interpolated(over_tilt.angles, values, theta_c - k * spacing));
     if (std::ranges::all_of(row, [](double value) { return std::isnan(value); })) continue;
     curve.angles.push_back(k * spacing);
     for (std::size_t c = 0; c < row.size(); ++c) curve.values[c].push_back(row[c]);
@@ -55,7 +55,7 @@ RunCurve curve_before_failure(const RunView& run, std::span<const FrameColumn> c
   return curve;
 }
 
-RunCurve curve_of(const RunView& run, std::span<const FrameColumn> columns, Abscissa abscissa) {
+RunCurve curve_of(const runs::RunView& run, std::span<const FrameColumn> columns, Abscissa abscissa) {
   return abscissa == Abscissa::tilt ? curve_over_tilt(run, columns) : curve_before_failure(run, columns);
 }
 
@@ -113,34 +113,35 @@ std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std:
   return {std::move(mean), std::move(error), std::move(deviation)};
 }
 
-double theta_c_of(const RunView& run) { return run.analysis.theta_c; }
+double theta_c_of(const runs::RunView& run) { return run.analysis.theta_c; }
 
-std::size_t frame_nearest(const RunView& run, double tilt) {
-  const FramesOfRise rise = last_rise_of(run);
+std::size_t frame_nearest(const runs::RunView& run, double tilt) {
+  const analysis::FramesOfRise rise = runs::last_rise_of(run);
   const auto distance = [tilt](double other) { return std::abs(other - tilt); };
   return rise.first +
          static_cast<std::size_t>(std::ranges::min_element(rise.tilts, {}, distance) - rise.tilts.begin());
 }
 
-bool stands_at(const RunView& run, double tilt) {
+bool stands_at(const runs::RunView& run, double tilt) {
   const double theta_c = theta_c_of(run);
-  return std::isnan(theta_c) ? last_rise_of(run).tilts.back() > tilt - same_tilt : theta_c > tilt;
+  return std::isnan(theta_c) ? runs::last_rise_of(run).tilts.back() > tilt - same_tilt : theta_c > tilt;
 }
 
-FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f) {
-  return {name, scaled_unit(quantity.unit), quantity.definition,
-          [quantity, f](const RunView& run, std::size_t frame) {
-            return scaled(quantity.unit, number_of(quantity, run.analysis.frames.at(frame), f),
-                          run.statics.mean_diameter);
+FrameColumn column_of(const std::string& name, const analysis::Quantity& quantity, std::size_t f) {
+  return {name, analysis::scaled_unit(quantity.unit), quantity.definition,
+          [quantity, f](const runs::RunView& run, std::size_t frame) {
+            return analysis::scaled(quantity.unit,
+                                    analysis::number_of(quantity, run.analysis.frames.at(frame), f),
+                                    run.statics.mean_diameter);
           },
-          has_side(quantity)};
+          analysis::has_side(quantity)};
 }
 
-std::vector<Column> means_over_runs(std::span<const RunView* const> runs,
+std::vector<Column> means_over_runs(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames, Abscissa abscissa) {
   std::vector<RunCurve> curves;
   std::vector<std::vector<double>> angles;
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     curves.push_back(curve_of(*run, columns_of_frames, abscissa));
     angles.push_back(curves.back().angles);
   }
@@ -157,13 +158,13 @@ std::vector<Column> means_over_runs(std::span<const RunView* const> runs,
   return columns;
 }
 
-std::vector<Column> runs_one_by_one(std::span<const RunView* const> runs,
+std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames, Abscissa abscissa) {
   std::vector<Column> columns = {{"seed", "1", "seed of the run", {}}, {"theta", "deg", "tilt", {}}};
   name_angle(columns[1], abscissa);
   for (const FrameColumn& column : columns_of_frames)
     columns.push_back({column.name, column.unit, column.meaning, {}});
-  for (const RunView* run : runs.first(std::min(runs.size(), most_runs_drawn))) {
+  for (const runs::RunView* run : runs.first(std::min(runs.size(), most_runs_drawn))) {
     const RunCurve curve = curve_of(*run, columns_of_frames, abscissa);
     for (std::size_t k = 0; k < curve.angles.size(); ++k) {
       columns[0].values.push_back(static_cast<double>(run->scenario.seed));
@@ -175,4 +176,4 @@ std::vector<Column> runs_one_by_one(std::span<const RunView* const> runs,
   return columns;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

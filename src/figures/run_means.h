@@ -11,7 +11,7 @@
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
-namespace talus {
+namespace talus::figures {
 
 /// Frame `frame` of run `run`.
 struct Sample {
@@ -45,22 +45,22 @@ inline constexpr const char* means_caption =
     "lines are the runs themselves, the first 100 of them. A single run has none of these.";
 
 /// theta_c of a run, rad; NaN where the slope has not failed.
-double theta_c_of(const RunView& run);
+double theta_c_of(const runs::RunView& run);
 
 /// The frame of the last rise whose tilt is nearest to `tilt`, rad.
-std::size_t frame_nearest(const RunView& run, double tilt);
+std::size_t frame_nearest(const runs::RunView& run, double tilt);
 
 /// Whether the slope was tilted up to `tilt`, rad, before it failed.
-bool stands_at(const RunView& run, double tilt);
+bool stands_at(const runs::RunView& run, double tilt);
 
 /// A number of each frame of a run; what is not there is NaN.
 struct FrameColumn {
   std::string name, unit, meaning;  ///< as Column has them
-  std::function<double(const RunView& run, std::size_t frame)> value;
+  std::function<double(const runs::RunView& run, std::size_t frame)> value;
   bool has_side = false;  ///< has the other sign where the bed slopes to the other side (last_rise.h)
 };
 /// A quantity of frames, in the unit of tables; at threshold f where it depends on one.
-FrameColumn column_of(const std::string& name, const Quantity& quantity, std::size_t f = 0);
+FrameColumn column_of(const std::string& name, const analysis::Quantity& quantity, std::size_t f = 0);
 
 /// What curves are drawn over: the tilt, or the angle that is left to the theta_c of each run, at multiples
 /// of output.frame_every, between two frames.
@@ -68,7 +68,7 @@ enum class Abscissa { tilt, angle_left };
 
 /// Over the last rise of each run: the angle (theta or angle_left), n, and the mean, error and deviation of
 /// each column, over the frames of the runs up to the theta_c of each.
-std::vector<Column> means_over_runs(std::span<const RunView* const> runs,
+std::vector<Column> means_over_runs(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames,
                                     Abscissa abscissa = Abscissa::tilt);
 
@@ -76,8 +76,8 @@ std::vector<Column> means_over_runs(std::span<const RunView* const> runs,
 inline constexpr std::size_t most_runs_drawn = 100;
 
 /// seed, the angle and each column, run by run, of the first most_runs_drawn.
-std::vector<Column> runs_one_by_one(std::span<const RunView* const> runs,
+std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames,
                                     Abscissa abscissa = Abscissa::tilt);
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::figures {
 
 /// assets/figures/NAME.gp. Throws Error(internal) where there is none.
 std::string_view figure_script(std::string_view name);
@@ -12,4 +12,4 @@ std::string_view figure_script(std::string_view name);
 /// The names of all of them, sorted.
 std::vector<std::string_view> figure_scripts();
 
-}  // namespace talus
+}  // namespace talus::figures

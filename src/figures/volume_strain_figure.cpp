@@ -11,7 +11,7 @@
 #include "figures/theta_d_estimators.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// A row for each estimator: theta_d as a mean over the runs that have one.
@@ -26,7 +26,7 @@ Table theta_d_table(const std::string& name, const RunChoice& runs,
   Column error{"theta_d_error", "deg", "its standard error over these runs", {}};
   for (std::size_t e = 0; e < estimators.size(); ++e) {
     std::vector<double> angles;
-    for (const RunView* run : runs) angles.push_back(theta_d_of(*run, estimators[e]));
+    for (const runs::RunView* run : runs) angles.push_back(theta_d_of(*run, estimators[e]));
     const Statistics result = statistics_of(angles);
     estimator.values.push_back(static_cast<double>(e + 1));
     n.values.push_back(result.count);
@@ -45,8 +45,9 @@ struct PeriodicRuns {
 /// Adds the strains of all periodic groups.
 std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> groups) {
   const std::vector<FrameColumn> strains = {
-      column_of("volume_strain", quantity_of(&FrameRecord::volume_strain)),
-      column_of("centre_of_mass_strain", quantity_of(&FrameRecord::centre_of_mass_strain))};
+      column_of("volume_strain", analysis::quantity_of(&analysis::FrameRecord::volume_strain)),
+      column_of("centre_of_mass_strain",
+                analysis::quantity_of(&analysis::FrameRecord::centre_of_mass_strain))};
   std::vector<PeriodicRuns> chosen;
   for (const RunGroup& group : groups) {
     if (!group.periodic()) continue;
@@ -64,7 +65,7 @@ double tick_step(const Figure& figure, const std::string& strain) {
       if (column.name == strain)
         for (const double value : column.values)
           if (!std::isnan(value)) low = std::min(low, value), high = std::max(high, value);
-  return high > low ? round_step(1000.0 * (high - low), 5) : 1.0;
+  return high > low ? pictures::round_step(1000.0 * (high - low), 5) : 1.0;
 }
 
 }  // namespace
@@ -99,4 +100,4 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

@@ -11,7 +11,7 @@
 #include "figures/run_means.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr double paper_k = 2.5;  // k_L - k_0 (paper, Fig. 7)
@@ -32,17 +32,18 @@ struct Angle {
 std::vector<Angle> angles_of(const RunChoice& runs) {
   std::vector<Angle> angles;
   for (const double tilt : {0.0, 10.0})
-    if (std::ranges::all_of(runs, [&](const RunView* run) { return stands_at(*run, radians(tilt)); })) {
-      angles.push_back({fmt::format("{{/:Italic θ}} = {}°", short_text(tilt)), {}});
-      for (const RunView* run : runs) angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
+    if (std::ranges::all_of(runs, [&](const runs::RunView* run) { return stands_at(*run, radians(tilt)); })) {
+      angles.push_back({fmt::format("{{/:Italic θ}} = {}°", scenario::short_text(tilt)), {}});
+      for (const runs::RunView* run : runs)
+        angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
     }
   angles.push_back({"{/:Italic θ_c}", {}});
-  for (const RunView* run : runs) angles.back().frames.push_back(repose_frame(*run));
+  for (const runs::RunView* run : runs) angles.back().frames.push_back(repose_frame(*run));
   return angles;
 }
 
 /// The middle of each section, in D.
-Column section_column(const RunView& run) {
+Column section_column(const runs::RunView& run) {
   Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
   const std::vector<double>& edges = run.analysis.section_edge;
   for (std::size_t s = 0; s + 1 < edges.size(); ++s)
@@ -74,15 +75,15 @@ struct WallGroup {
   double depth = 0.0;   ///< mean height V / L before failure, D
 };
 
-double mean_depth(const RunView& run) {
+double mean_depth(const runs::RunView& run) {
   const double length = run.scenario.bed.length * run.statics.mean_diameter;
   return run.analysis.frames.at(repose_frame(run)).volume / length / run.statics.mean_diameter;
 }
 
-WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
+WallGroup wall_group(const RunChoice& runs, std::vector<ensemble::WallPoint>& points) {
   WallGroup result;
   std::vector<double> ratios, squares;
-  for (const RunView* run : runs) {
+  for (const runs::RunView* run : runs) {
     ratios.push_back(run->analysis.failure_ratio);
     squares.push_back(run->analysis.failure_ratio_spread * run->analysis.failure_ratio_spread);
     result.depth += mean_depth(*run) / static_cast<double>(runs.size());
@@ -111,7 +112,7 @@ void add_row(Table& table, const std::vector<double>& row) {
   for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
 }
 
-std::string plus_minus(const WallFit& fit) {
+std::string plus_minus(const ensemble::WallFit& fit) {
   return rounded_text(fit.k, 2) + (std::isnan(fit.error) ? "" : " ± " + rounded_text(fit.error, 2));
 }
 
@@ -140,7 +141,7 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
       table.columns.push_back(std::move(column));
     set_variable(figure, "angle_" + k, gnuplot_string(angles[a].text));
   }
-  for (const RunView* run : runs) figure.runs.push_back(run->path);
+  for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   set_variable(figure, "angles", static_cast<double>(angles.size()));
   set_variable(figure, "bed",
                gnuplot_quoted(fmt::format("{} ({})", shortest->label, runs_text(runs.size()))));
@@ -154,22 +155,22 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   figure.name = "fig07-wall-ratio";
   figure.title = "Shear stress at failure over the length between walls (paper, Fig. 7)";
   Table table = empty_wall_table();
-  std::vector<WallPoint> points;
+  std::vector<ensemble::WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
     RunChoice runs = failed_runs(group);
     // Where rows are sparse, there may be none in the last 0.5 deg.
-    std::erase_if(runs, [](const RunView* run) { return std::isnan(run->analysis.failure_ratio); });
+    std::erase_if(runs, [](const runs::RunView* run) { return std::isnan(run->analysis.failure_ratio); });
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
     depths.push_back(wall.depth);
     add_row(table,
             {runs.front()->scenario.bed.length, static_cast<double>(runs.size()), wall.ratio.mean,
              wall.ratio.error, wall.spread, runs.size() > 1 ? wall.ratio.error : wall.spread, wall.depth});
-    for (const RunView* run : runs) figure.runs.push_back(run->path);
+    for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   }
   if (points.empty()) return std::nullopt;
-  const WallFit fit = fit_wall_law(points);
+  const ensemble::WallFit fit = ensemble::fit_wall_law(points);
   const double depth = statistics_of(depths).mean;
   figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "
@@ -187,4 +188,4 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   return figure;
 }
 
-}  // namespace talus
+}  // namespace talus::figures

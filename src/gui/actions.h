@@ -4,7 +4,7 @@
 
 #include "gui/widgets.h"
 
-namespace talus {
+namespace talus::gui {
 
 /// Writes the line at the bottom.
 void say(Gui& gui, std::string text);
@@ -14,7 +14,7 @@ void refuse_in_replay(Gui& gui, const char* what);
 // What is shown.
 
 /// Goes to a place of the run.
-void go_to_landmark(Gui& gui, Landmark landmark);
+void go_to_landmark(Gui& gui, view::Landmark landmark);
 /// Zooms by a factor about a place (m), which keeps its position in the picture.
 void zoom_about(Gui& gui, double factor, double x, double y);
 /// Moves the picture, m, which then follows no grain.
@@ -37,7 +37,7 @@ void deposit(Gui& gui);
 /// Computes until the tilt that is offered.
 void run_to_tilt(Gui& gui);
 /// Offers a tilt to run to that is still to come, once the run has passed the one that was offered.
-void offer_tilt_ahead(ViewModel& model);
+void offer_tilt_ahead(view::ViewModel& model);
 /// Sends a command to the run; the reason of a refusal becomes the message.
 void send(Gui& gui, const Command& command);
 /// Begins the run of a scenario anew, with the seed given.
@@ -52,4 +52,4 @@ void branch_here(Gui& gui);
 /// The run goes back before its last command.
 void go_back(Gui& gui);
 
-}  // namespace talus
+}  // namespace talus::gui

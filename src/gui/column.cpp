@@ -7,7 +7,7 @@
 
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// A group, and the key that unfolds it and brings it into sight.
@@ -86,4 +86,4 @@ void draw_column(Gui& gui, bool with_inspector) {
   ImGui::EndChild();
 }
 
-}  // namespace talus
+}  // namespace talus::gui

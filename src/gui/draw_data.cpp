@@ -6,17 +6,17 @@
 
 #include "gui/embedded_shaders.h"
 
-namespace talus {
+namespace talus::gui {
 
 static_assert(sizeof(ImDrawVert) == 4 * sizeof(float) + sizeof(ImU32));
 
-DrawDataPainter::DrawDataPainter(const Gl& gl) : gl_(gl) {
-  using enum Attribute;
-  batch_ = make_batch(gl_, make_program(gl_, "gui", embedded::gui_vert, embedded::gui_frag),
-                      {floats2, floats2, colour}, 0);
+DrawDataPainter::DrawDataPainter(const render::Gl& gl) : gl_(gl) {
+  using enum render::Attribute;
+  batch_ = render::make_batch(gl_, render::make_program(gl_, "gui", embedded::gui_vert, embedded::gui_frag),
+                              {floats2, floats2, colour}, 0);
 }
 
-DrawDataPainter::~DrawDataPainter() { delete_batch(gl_, batch_); }
+DrawDataPainter::~DrawDataPainter() { render::delete_batch(gl_, batch_); }
 
 /// Indices are resolved here: widgets have tens of thousands of corners, and the renderer needs no index
 /// buffers.
@@ -33,7 +33,7 @@ void DrawDataPainter::upload(const ImDrawData& data) {
         corners_[begin + i] = vertices[list.IdxBuffer.Data[i]];
     }
   }
-  fill_batch(gl_, batch_, std::span<const ImDrawVert>(corners_));
+  render::fill_batch(gl_, batch_, std::span<const ImDrawVert>(corners_));
 }
 
 void DrawDataPainter::draw_command(const ImDrawCmd& command, int first, const ImDrawData& data,
@@ -75,7 +75,7 @@ void DrawDataPainter::draw(const ImDrawData& data, const Surface& surface) {
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-void widen(const Gl& gl, GLuint texture, OneChannel meaning) {
+void widen(const render::Gl& gl, GLuint texture, OneChannel meaning) {
   const bool gray = meaning == OneChannel::gray;
   gl.BindTexture(GL_TEXTURE_2D, texture);
   for (const GLenum channel : {GL_TEXTURE_SWIZZLE_R, GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B})
@@ -83,4 +83,4 @@ void widen(const Gl& gl, GLuint texture, OneChannel meaning) {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_A, gray ? GL_ONE : GL_RED);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

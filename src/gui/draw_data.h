@@ -9,7 +9,7 @@
 #include "render/gl_loader.h"
 #include "render/gl_objects.h"
 
-namespace talus {
+namespace talus::gui {
 
 /// The surface that is drawn on.
 struct Surface {
@@ -23,7 +23,7 @@ struct Surface {
 /// is its number, its row 0 is the top, its alpha is straight.
 class DrawDataPainter {
  public:
-  explicit DrawDataPainter(const Gl& gl);
+  explicit DrawDataPainter(const render::Gl& gl);
   ~DrawDataPainter();
   DrawDataPainter(const DrawDataPainter&) = delete;
   DrawDataPainter& operator=(const DrawDataPainter&) = delete;
@@ -36,13 +36,13 @@ class DrawDataPainter {
   void upload(const ImDrawData& data);
   void draw_command(const ImDrawCmd& command, int first, const ImDrawData& data, const Surface& surface);
 
-  const Gl& gl_;
-  Batch batch_;
+  const render::Gl& gl_;
+  render::Batch batch_;
   std::vector<ImDrawVert> corners_;  ///< of all triangles; kept to save allocations
 };
 
 /// A texture with one channel, shown as gray (pictures) or as white with that alpha (fonts).
 enum class OneChannel { gray, alpha };
-void widen(const Gl& gl, GLuint texture, OneChannel meaning);
+void widen(const render::Gl& gl, GLuint texture, OneChannel meaning);
 
-}  // namespace talus
+}  // namespace talus::gui

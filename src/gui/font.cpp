@@ -6,7 +6,7 @@
 #include "gui/theme.h"
 #include "render/embedded.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// First and last code points of blocks, ended by 0. ImGui reads them until the atlas is gone.
@@ -38,4 +38,4 @@ void add_embedded_font(ImFontAtlas& atlas, float scale) {
   atlas.Build();
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-namespace talus {
+namespace talus::gui {
 
 /// The sizes of the type scale (theme.h), in the order of the fonts of the atlas.
 enum class TextSize { body, small, heading };
@@ -22,4 +22,4 @@ class TextOfSize {
   TextOfSize& operator=(const TextOfSize&) = delete;
 };
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -6,7 +6,7 @@
 #include "gui/actions.h"
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -21,7 +21,7 @@ struct Places {
 
 /// The plots get what the map does not need, unless somebody has moved the border between them; none if there
 /// is no room for both.
-float height_of_plots(ViewModel& model, float width, float height, float em) {
+float height_of_plots(view::ViewModel& model, float width, float height, float em) {
   const float least = 12.0f * em;
   const auto map_height = [&](float picture) {
     return map_area_height(model.first().annotated_map(), width, picture, em);
@@ -35,8 +35,8 @@ float height_of_plots(ViewModel& model, float width, float height, float em) {
   return height - std::clamp(wanted, least_map, height - least);
 }
 
-Places lay_out_window(ViewModel& model, const ImVec2& size, float em) {
-  const ViewState& state = model.state;
+Places lay_out_window(view::ViewModel& model, const ImVec2& size, float em) {
+  const view::ViewState& state = model.state;
   Places places;
   const bool wide = size.x >= 75.0f * em;
   if (state.show_controls) places.left = std::min(19.0f * em, 0.5f * size.x);
@@ -77,13 +77,13 @@ void part(const char* name, const ImVec2& place, const ImVec2& size, ImGuiWindow
 
 /// An announcement stays until it is clicked, which shows the last frame before failure.
 void draw_message(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   if (!state.announcement.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Button, packed(gui.colours.alarm));
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, packed(gui.colours.alarm));
     ImGui::PushStyleColor(ImGuiCol_Text, packed(gui.colours.alarm_text));
     if (named_button(gui, "announcement", state.announcement.c_str(), "click: the last frame before it")) {
-      gui.model.go_to(Landmark::theta_c);
+      gui.model.go_to(view::Landmark::theta_c);
       state.announcement.clear();
     }
     ImGui::PopStyleColor(3);
@@ -97,7 +97,7 @@ void draw_message(Gui& gui) {
 
 }  // namespace
 
-GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places) {
+GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places) {
   GuiRequests requests;
   Gui gui{model,
           draw_map,
@@ -136,4 +136,4 @@ GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<Widg
   return requests;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

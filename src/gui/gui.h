@@ -9,7 +9,7 @@
 
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::gui {
 
 /// The place of a widget in the last picture, px of the window, so that tests and scripts can
 /// click on it.
@@ -20,7 +20,7 @@ struct WidgetPlace {
 
 /// How the map widget gets its picture: draws the view into a texture of that width and returns its id for
 /// ImGui. Each of the pictures that are shown at once has its own texture: 0, and 1 for the second view.
-using DrawMap = std::function<void*(const FrameView& view, int width, std::size_t texture)>;
+using DrawMap = std::function<void*(const render::FrameView& view, int width, std::size_t texture)>;
 
 /// Requests of the widgets to the program around them.
 struct GuiRequests {
@@ -34,6 +34,6 @@ struct GuiRequests {
 
 /// One picture of the whole window, between ImGui::NewFrame and ImGui::Render. Fills `places` with the places
 /// of the widgets.
-GuiRequests draw_gui(ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places);
+GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places);
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -3,7 +3,7 @@
 
 #include "gui/widgets.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// A triangle that points to the right (1) or to the left (-1) of its middle.
@@ -50,4 +50,4 @@ bool icon_button(Gui& gui, const char* name, Icon icon, const char* tip) {
   return pressed;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

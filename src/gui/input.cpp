@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 struct NamedKey {
@@ -84,4 +84,4 @@ void InputQueue::hand_over(ImGuiIO& io) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-namespace talus {
+namespace talus::gui {
 
 /// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. They are the
 /// indices of io.KeysDown.
@@ -60,4 +60,4 @@ class InputQueue {
 /// Tells a new ImGui context the meaning of our key numbers.
 void name_keys(ImGuiIO& io);
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -8,7 +8,7 @@
 #include "pictures/map_kind.h"
 #include "render/colour_map.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// A line of the list of keys, and what its keys do.
@@ -39,22 +39,22 @@ void change_number(Gui& gui, double& value, double step, double low, double high
 }
 
 void say_map(Gui& gui) {
-  const MapLayers& layers = gui.model.state.map.layers;
-  say(gui, fmt::format("Map: {}{}.", layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
+  const pictures::MapLayers& layers = gui.model.state.map.layers;
+  say(gui, fmt::format("Map: {}{}.", pictures::layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
 }
 
 void choose_map(Gui& gui, ImWchar digit) {
-  MapLayers& layers = gui.model.state.map.layers;
-  if (const auto k = static_cast<std::size_t>(digit - '1'); k < map_kinds().size()) {
-    layers[0] = map_kinds()[k];
+  pictures::MapLayers& layers = gui.model.state.map.layers;
+  if (const auto k = static_cast<std::size_t>(digit - '1'); k < pictures::map_kinds().size()) {
+    layers[0] = pictures::map_kinds()[k];
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
   say_map(gui);
 }
 
 void next_overlay(Gui& gui, ImWchar) {
-  MapLayers& layers = gui.model.state.map.layers;
-  const auto kinds = map_kinds();
+  pictures::MapLayers& layers = gui.model.state.map.layers;
+  const auto kinds = pictures::map_kinds();
   const std::size_t count = kinds.size();
   std::size_t next = layers.size() > 1
                          ? static_cast<std::size_t>(std::ranges::find(kinds, layers[1]) - kinds.begin()) + 1
@@ -67,13 +67,13 @@ void next_overlay(Gui& gui, ImWchar) {
 
 /// Its own, then each colour map.
 void next_colours(Gui& gui, ImWchar) {
-  std::optional<ColourMap>& colours = gui.model.state.map.colours;
-  const auto all = colour_maps();
+  std::optional<render::ColourMap>& colours = gui.model.state.map.colours;
+  const auto all = render::colour_maps();
   const std::size_t next =
       colours ? static_cast<std::size_t>(std::ranges::find(all, *colours) - all.begin()) + 1 : 0;
   colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
   say(gui, fmt::format("Colours of the bar: {}.",
-                       colours ? colour_map_name(*colours) : std::string_view("those of the map")));
+                       colours ? render::colour_map_name(*colours) : std::string_view("those of the map")));
 }
 
 void change_reference(Gui& gui, ImWchar) {
@@ -96,7 +96,7 @@ void move_by_key(Gui& gui, ImWchar key) {
 }
 
 void zoom_by_key(Gui& gui, ImWchar key) {
-  const ViewCamera& camera = gui.model.state.camera;
+  const view::ViewCamera& camera = gui.model.state.camera;
   zoom_about(gui, key == '-' ? 0.8 : 1.25, camera.centre_x, camera.centre_y);
 }
 
@@ -107,15 +107,15 @@ void advance_by_key(Gui& gui, ImWchar key) {
 }
 
 void go_by_key(Gui& gui, ImWchar key) {
-  go_to_landmark(gui, key == 'd'   ? Landmark::theta_d
-                      : key == 'j' ? Landmark::length_jump
-                      : key == 'p' ? Landmark::percolation
-                                   : Landmark::theta_c);
+  go_to_landmark(gui, key == 'd'   ? view::Landmark::theta_d
+                      : key == 'j' ? view::Landmark::length_jump
+                      : key == 'p' ? view::Landmark::percolation
+                                   : view::Landmark::theta_c);
 }
 
 /// Selects the next grain. Escape ends what is least missed: the list of keys, else what is selected.
 void select_by_key(Gui& gui, ImWchar key) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   const bool selected =
       state.selected || !state.selecting.selection.grains.empty() || state.selecting.selection.contact;
   if (key == 'n')
@@ -133,7 +133,7 @@ void select_by_key(Gui& gui, ImWchar key) {
 /// The speed of a replay times a factor.
 void change_speed(Gui& gui, double factor) {
   constexpr double fastest_replay = 20.0;  // deg/s
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (model.is_live())
     return say(gui, "A run that is computed goes as fast as it can; < and > are for a replay.");
   model.set_speed(std::min(factor * model.speed(), fastest_replay));
@@ -142,7 +142,7 @@ void change_speed(Gui& gui, double factor) {
 }
 
 void toggle_trails(Gui& gui) {
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   selecting.trails = !selecting.trails;
   const std::size_t count = gui.model.selected_grains().size();
   if (!selecting.trails)
@@ -156,19 +156,20 @@ void toggle_trails(Gui& gui) {
 
 /// Shows or hides the second view; another map where it would be the first view again.
 void toggle_second_view(Gui& gui) {
-  ViewState& state = gui.model.state;
-  BesideState& beside = state.beside;
+  view::ViewState& state = gui.model.state;
+  view::BesideState& beside = state.beside;
   beside.shown = !beside.shown;
   const bool alike = !beside.minus && gui.model.run_beside() == nullptr &&
                      (beside.layers.empty() || beside.layers == state.map.layers);
   if (beside.shown && alike)
-    beside.layers = {state.map.layers.at(0) == MapKind::displacement ? MapKind::gamma
-                                                                     : MapKind::displacement};
+    beside.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
+                         ? pictures::MapKind::gamma
+                         : pictures::MapKind::displacement};
 }
 
 /// The second view shows what has changed from the frame shown on.
 void show_change_since_here(Gui& gui) {
-  BesideState& beside = gui.model.state.beside;
+  view::BesideState& beside = gui.model.state.beside;
   beside.shown = true;
   beside.minus = gui.model.frame().tilt;
   gui.model.state.message =
@@ -185,7 +186,9 @@ constexpr Key all_keys[] = {
     {"home, end",
      "first, last frame; of a run that goes on, as it is now",
      {key_home, key_end},
-     [](Gui& gui, ImWchar key) { go_to_landmark(gui, key == key_home ? Landmark::first : Landmark::last); }},
+     [](Gui& gui, ImWchar key) {
+       go_to_landmark(gui, key == key_home ? view::Landmark::first : view::Landmark::last);
+     }},
     {"d, j, p, c",
      "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c",
      {'d', 'j', 'p', 'c'},
@@ -248,7 +251,7 @@ constexpr Key all_keys[] = {
      "outline its cluster; draw its neighbourhoods",
      {'i', 'y'},
      [](Gui& gui, ImWchar key) {
-       ViewState& state = gui.model.state;
+       view::ViewState& state = gui.model.state;
        if (key == 'i')
          toggle(gui, state.highlight_cluster,
                 of_selected(gui, "The cluster of an overloaded grain is outlined"),
@@ -294,7 +297,7 @@ constexpr Key all_keys[] = {
      "show or hide the columns",
      {'h'},
      [](Gui& gui, ImWchar) {
-       ViewState& state = gui.model.state;
+       view::ViewState& state = gui.model.state;
        toggle(gui, state.show_controls, "The columns are shown, where there is room.",
               "The columns are hidden: h shows them.");
        state.show_inspector = state.show_controls;
@@ -309,7 +312,7 @@ constexpr Key all_keys[] = {
     {"C",
      "next theme: light, dark, print",
      {'C'},
-     [](Gui& gui, ImWchar) { gui.model.state.theme = next_theme(gui.model.state.theme); }},
+     [](Gui& gui, ImWchar) { gui.model.state.theme = view::next_theme(gui.model.state.theme); }},
     {"?",
      "this list",
      {'?'},
@@ -357,4 +360,4 @@ void draw_help(Gui& gui) {
   ImGui::End();
 }
 
-}  // namespace talus
+}  // namespace talus::gui

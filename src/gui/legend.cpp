@@ -7,7 +7,7 @@
 
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 float text_width(const std::string& text) {
@@ -22,23 +22,23 @@ constexpr float swatch_text = 1.9f, after_text = 1.0f;
 
 /// A bar or a swatch and where it lies, px from the corner of the legend.
 struct LegendItem {
-  const Bar* bar = nullptr;
-  const Swatch* swatch = nullptr;
+  const render::Bar* bar = nullptr;
+  const render::Swatch* swatch = nullptr;
   std::vector<std::string> lines;  ///< of its title, or its label
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
   float bar_left = 0.0f, bar_top = 0.0f, bar_length = 0.0f;
 };
 
 /// Half of the first label of a bar may lie left of it, and half of the last one right of it.
-float half_label(const Bar& bar, bool first, float em) {
+float half_label(const render::Bar& bar, bool first, float em) {
   if (bar.ticks.empty()) return 0.0f;
-  const BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();
+  const render::BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();
   const float out = static_cast<float>(first ? tick.share : 1.0 - tick.share) * bar_length * em;
   return std::max(0.0f, 0.5f * text_width(tick.label) - out);
 }
 
 /// A bar beside its title, or below it if there is no room for both.
-LegendItem bar_item(const Bar& bar, float room, float em) {
+LegendItem bar_item(const render::Bar& bar, float room, float em) {
   LegendItem item;
   item.bar = &bar;
   const float low = half_label(bar, true, em), high = half_label(bar, false, em);
@@ -58,7 +58,7 @@ LegendItem bar_item(const Bar& bar, float room, float em) {
   return item;
 }
 
-LegendItem swatch_item(const Swatch& swatch, float room, float em) {
+LegendItem swatch_item(const render::Swatch& swatch, float room, float em) {
   LegendItem item;
   item.swatch = &swatch;
   item.lines = wrapped_text(swatch.label, room - swatch_text * em);
@@ -69,10 +69,10 @@ LegendItem swatch_item(const Swatch& swatch, float room, float em) {
 }
 
 /// The items of a legend in rows. Returns its height, px.
-float lay_out_legend(const FrameView& view, float room, float em, std::vector<LegendItem>& items) {
-  for (const Legend& legend : view.legends) {
-    for (const Bar& bar : legend.bars) items.push_back(bar_item(bar, room, em));
-    for (const Swatch& swatch : legend.swatches) items.push_back(swatch_item(swatch, room, em));
+float lay_out_legend(const render::FrameView& view, float room, float em, std::vector<LegendItem>& items) {
+  for (const render::Legend& legend : view.legends) {
+    for (const render::Bar& bar : legend.bars) items.push_back(bar_item(bar, room, em));
+    for (const render::Swatch& swatch : legend.swatches) items.push_back(swatch_item(swatch, room, em));
   }
   float x = 0.0f, y = 0.0f, bottom = 0.0f;
   for (LegendItem& item : items) {
@@ -89,17 +89,17 @@ float lay_out_legend(const FrameView& view, float room, float em, std::vector<Le
 }
 
 /// The mouse on a bar: pulling its ends sets the range of the map, a double click gives back the map's own.
-void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
+void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& high) {
   const float em = gui.em, length = high.x - low.x;
-  MapSettings& map = gui.model.state.map;
+  pictures::MapSettings& map = gui.model.state.map;
   ImGui::SetCursorScreenPos({low.x - 0.5f * em, low.y});
   ImGui::InvisibleButton("range of the bar", {length + em, high.y - low.y});
   note_place(gui, "legend bar", low, high);
   const float x = ImGui::GetIO().MousePos.x;
-  using Part = HeldBar::Part;
+  using Part = view::HeldBar::Part;
   const Part part = x < low.x + 0.6f * em ? Part::low : x > high.x - 0.6f * em ? Part::high : Part::middle;
-  const BarEnds ends{bar.low, bar.high, bar.logarithmic};
-  HeldBar& held = gui.model.state.held_bar;
+  const view::BarEnds ends{bar.low, bar.high, bar.logarithmic};
+  view::HeldBar& held = gui.model.state.held_bar;
   if (ImGui::IsItemActivated()) held = {part, ends, static_cast<double>(x)};
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
     map.range_low.reset();
@@ -108,7 +108,8 @@ void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
   }
   if (!ImGui::IsItemActive()) held.part = Part::none;
   if (held.part != Part::none && ImGui::GetIO().MouseDelta.x != 0.0f) {
-    const auto [from, to] = pulled(held, (static_cast<double>(x) - held.from) / static_cast<double>(length));
+    const auto [from, to] =
+        view::pulled(held, (static_cast<double>(x) - held.from) / static_cast<double>(length));
     map.range_low = from;
     map.range_high = to;
   }
@@ -121,13 +122,13 @@ void use_bar(Gui& gui, const Bar& bar, const ImVec2& low, const ImVec2& high) {
   if (ImGui::IsItemActive()) return;
   const double share = std::clamp(static_cast<double>((x - low.x) / length), 0.0, 1.0);
   ImGui::BeginTooltip();
-  rich_text(fmt::format("{} = {:.3g} {}", bar.symbol, value_at(ends, share), bar.unit));
+  rich_text(fmt::format("{} = {:.3g} {}", bar.symbol, view::value_at(ends, share), bar.unit));
   rich_text("drag an end, or the middle; double click: the range of the map");
   ImGui::EndTooltip();
 }
 
 void draw_bar(Gui& gui, const LegendItem& item, const ImVec2& corner, bool of_first) {
-  const Bar& bar = *item.bar;
+  const render::Bar& bar = *item.bar;
   const float em = gui.em, length = item.bar_length, height = 0.85f * em;
   const ImU32 ink = packed(gui.colours.ink);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -145,7 +146,7 @@ void draw_bar(Gui& gui, const LegendItem& item, const ImVec2& corner, bool of_fi
   {
     float free_from = 0.0f;
     const TextOfSize small(TextSize::small);
-    for (const BarTick& tick : bar.ticks) {
+    for (const render::BarTick& tick : bar.ticks) {
       const float x = left + static_cast<float>(tick.share) * length;
       list.AddLine({x, top + height}, {x, top + height + 0.2f * em}, ink);
       const float label = text_width(tick.label), at = x - 0.5f * label;
@@ -158,10 +159,10 @@ void draw_bar(Gui& gui, const LegendItem& item, const ImVec2& corner, bool of_fi
 }
 
 void draw_swatch(Gui& gui, const LegendItem& item, const ImVec2& corner) {
-  const Swatch& swatch = *item.swatch;
+  const render::Swatch& swatch = *item.swatch;
   const float em = gui.em, middle = corner.y + 0.55f * em;
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  if (swatch.kind == Swatch::Kind::line) {
+  if (swatch.kind == render::Swatch::Kind::line) {
     list.AddLine({corner.x, middle}, {corner.x + 1.6f * em, middle}, packed(swatch.fill),
                  std::max(1.0f, static_cast<float>(swatch.width) * em));
   } else {
@@ -176,12 +177,12 @@ void draw_swatch(Gui& gui, const LegendItem& item, const ImVec2& corner) {
 
 }  // namespace
 
-float legend_height(const FrameView& view, float width) {
+float legend_height(const render::FrameView& view, float width) {
   std::vector<LegendItem> items;
   return lay_out_legend(view, width, ImGui::GetFontSize(), items);
 }
 
-void draw_legends(Gui& gui, const FrameView& view, float width, bool of_first) {
+void draw_legends(Gui& gui, const render::FrameView& view, float width, bool of_first) {
   std::vector<LegendItem> items;
   const float height = lay_out_legend(view, width, gui.em, items);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -197,4 +198,4 @@ void draw_legends(Gui& gui, const FrameView& view, float width, bool of_first) {
   ImGui::Dummy({width, height});
 }
 
-}  // namespace talus
+}  // namespace talus::gui

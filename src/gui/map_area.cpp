@@ -8,7 +8,7 @@
 #include "gui/panels.h"
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr float least_picture = 4.0f;  ///< em
@@ -17,7 +17,7 @@ constexpr float caption_line = 1.2f;  ///< em
 
 /// The title, and the caption on the right of it, or below it if there is no room for both. Returns how high
 /// they are, px.
-float caption_height(const FrameView& view, float width, float em) {
+float caption_height(const render::FrameView& view, float width, float em) {
   const ImFont& font = *ImGui::GetFont();
   const bool both = rich_width(font, em, view.caption) + rich_width(font, em, view.title) + em < width;
   const std::size_t lines =
@@ -25,7 +25,7 @@ float caption_height(const FrameView& view, float width, float em) {
   return (caption_line * static_cast<float>(lines) - 0.2f) * em;
 }
 
-void draw_caption(const FrameView& view, float width) {
+void draw_caption(const render::FrameView& view, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float em = ImGui::GetFontSize(), height = caption_height(view, width, em);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -64,25 +64,25 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
 
 /// What is under the mouse. A second view of the same run tells what the first one does, and what it has of
 /// its own: another map, or what has changed.
-void tell_grain(Gui& gui, const View& view, const Point& place, Index grain) {
-  const View told = &view.run == &gui.model ? gui.model.first() : view;
+void tell_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
+  const view::View told = &view.run == &gui.model ? gui.model.first() : view;
   const double diameter = view.run.mean_diameter();
   ImGui::BeginTooltip();
   rich_text(
       fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter, grain_text(told, grain)));
-  const GrainValues none, &shown = view.second ? view.values() : none;
+  const view::GrainValues none, &shown = view.second ? view.values() : none;
   const auto k = static_cast<std::size_t>(grain);
   if (k < shown.values.size() && !std::isnan(shown.values[k]))
     rich_text(fmt::format("{}: {:.4g}", shown.title, shown.values[k]));
   ImGui::EndTooltip();
 }
 
-void use_mouse(Gui& gui, const View& view, const ShownMap& shown) {
+void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
-  const auto in_first = [&](const Point& of) {
-    return place_in(gui.model.statics(), view.run.statics(), of.x, of.y);
+  const auto in_first = [&](const render::Point& of) {
+    return view::place_in(gui.model.statics(), view.run.statics(), of.x, of.y);
   };
-  const Point place = shown.bed_place(io.MousePos);
+  const render::Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
   // The second view is looked at; what is selected, or pulled, is so in the first.
   if (!view.second && drag_grain(gui, place.x, place.y, shown)) return;
@@ -90,7 +90,7 @@ void use_mouse(Gui& gui, const View& view, const ShownMap& shown) {
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
-    const std::optional<Index> grain = find_grain(view.run.bed(), place.x, place.y);
+    const std::optional<Index> grain = view::find_grain(view.run.bed(), place.x, place.y);
     if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, view, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
@@ -116,20 +116,20 @@ bool shows_gravity(float width, float em) { return width > 26.0f * em; }
 float legend_width(float width, float em) { return width - (shows_gravity(width, em) ? 3.5f * em : 0.0f); }
 
 /// At least so much that the arrow of gravity has its place.
-float below_map(const FrameView& annotated, float width, float em) {
+float below_map(const render::FrameView& annotated, float width, float em) {
   return std::max(2.6f * em, legend_height(annotated, legend_width(width, em)));
 }
 
 }  // namespace
 
-std::string grain_text(const View& view, Index grain) {
-  const ViewModel& model = view.run;
+std::string grain_text(const view::View& view, Index grain) {
+  const view::ViewModel& model = view.run;
   std::string text = fmt::format("grain {}", grain);
   if (grain >= model.statics().free_count) return "floor " + text;
   const auto of_grain = static_cast<std::size_t>(grain);
   bool gamma_told = false;
-  for (const Legend& legend : view.annotated_map().legends)
-    for (const Bar& bar : legend.bars) {
+  for (const render::Legend& legend : view.annotated_map().legends)
+    for (const render::Bar& bar : legend.bars) {
       if (of_grain >= bar.values.size()) continue;
       const double value = bar.values[of_grain];
       gamma_told = gamma_told || bar.symbol == "γ";
@@ -138,26 +138,28 @@ std::string grain_text(const View& view, Index grain) {
       else
         text += fmt::format(", {} = {:.3g}{}{}", bar.symbol, value,
                             bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
-      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + reading_text(view.state.map);
+      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + pictures::reading_text(view.state.map);
     }
-  if (gamma_told || !any_layer(view.state.map.layers, [](MapKind kind) { return shows_gamma(kind); }))
+  if (gamma_told || !pictures::any_layer(view.state.map.layers,
+                                         [](pictures::MapKind kind) { return pictures::shows_gamma(kind); }))
     return text;
   const double gamma = model.frame().gamma[of_grain];
-  return std::isnan(gamma) ? text + ", carries nothing"
-                           : fmt::format("{}, γ = {:.3g}, {}", text, gamma, reading_text(view.state.map));
+  return std::isnan(gamma)
+             ? text + ", carries nothing"
+             : fmt::format("{}, γ = {:.3g}, {}", text, gamma, pictures::reading_text(view.state.map));
 }
 
-float map_area_height(const FrameView& annotated, float width, float picture, float em) {
+float map_area_height(const render::FrameView& annotated, float width, float picture, float em) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float inner = width - 2.0f * style.WindowPadding.x;
   return picture + caption_height(annotated, inner, em) + below_map(annotated, inner, em) +
          2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
-void draw_map_pane(Gui& gui, const View& of, const ImVec2& room, bool with_gravity) {
-  const int pixels = std::max(static_cast<int>(room.x), smallest_width);
-  const FrameView view = of.map(static_cast<double>(room.x) / static_cast<double>(room.y));
-  const Layout layout = lay_out(view, pixels, embedded_font());
+void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with_gravity) {
+  const int pixels = std::max(static_cast<int>(room.x), render::smallest_width);
+  const render::FrameView view = of.map(static_cast<double>(room.x) / static_cast<double>(room.y));
+  const render::Layout layout = render::lay_out(view, pixels, render::embedded_font());
   const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
   ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
   const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
@@ -180,7 +182,7 @@ void draw_map_pane(Gui& gui, const View& of, const ImVec2& room, bool with_gravi
 void draw_map_area(Gui& gui) {
   if (gui.model.state.beside.shown && draw_pair(gui)) return;
   const float width = ImGui::GetContentRegionAvail().x;
-  const FrameView& annotated = gui.model.first().annotated_map();
+  const render::FrameView& annotated = gui.model.first().annotated_map();
   draw_caption(annotated, width);
   const float below = below_map(annotated, width, gui.em) + ImGui::GetStyle().ItemSpacing.y;
   const ImVec2 room{std::max(width, 1.0f),
@@ -189,4 +191,4 @@ void draw_map_area(Gui& gui) {
   draw_legends(gui, annotated, legend_width(width, gui.em), true);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

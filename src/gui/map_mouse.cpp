@@ -9,7 +9,7 @@
 #include "core/drag_spring.h"
 #include "gui/actions.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr float least_drag = 4.0f;            ///< px; less is a click
@@ -17,8 +17,10 @@ constexpr double contact_reach = 1.0;         ///< D, with ctrl
 constexpr double small_contact_reach = 0.15;  ///< D, without: elsewhere it is the grain that is meant
 
 /// Whether a map shows single contacts.
-bool shows_contacts(const MapLayers& layers) {
-  return any_layer(layers, [](MapKind kind) { return kind == MapKind::forces || kind == MapKind::critical; });
+bool shows_contacts(const pictures::MapLayers& layers) {
+  return pictures::any_layer(layers, [](pictures::MapKind kind) {
+    return kind == pictures::MapKind::forces || kind == pictures::MapKind::critical;
+  });
 }
 
 bool is_far(const ImVec2& mouse, const Vec2& place) {
@@ -27,7 +29,7 @@ bool is_far(const ImVec2& mouse, const Vec2& place) {
 }
 
 /// A box by its corners, a lasso as it is; px.
-std::vector<Vec2> closed(const SelectingState& selecting) {
+std::vector<Vec2> closed(const view::SelectingState& selecting) {
   if (!selecting.outline_is_box) return selecting.outline;
   const Vec2 from = selecting.outline.front(), to = selecting.outline.back();
   return {from, {to.x, from.y}, to, {from.x, to.y}};
@@ -42,9 +44,9 @@ void draw_outline(const std::vector<Vec2>& corners, ImU32 colour) {
 }
 
 void toggle_grain(Gui& gui, double x, double y) {
-  const auto grain = find_grain(gui.model.bed(), x, y);
+  const auto grain = view::find_grain(gui.model.bed(), x, y);
   if (grain)
-    gui.model.select(toggled(gui.model.selected_grains(), *grain));
+    gui.model.select(view::toggled(gui.model.selected_grains(), *grain));
   else
     gui.model.state.message = "No grain is there.";
 }
@@ -59,19 +61,19 @@ void select_contact(Gui& gui, double x, double y) {
 
 /// What the outline was drawn for, once the mouse is let go.
 void finish(Gui& gui, const ShownMap& map) {
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   const Vec2 first = selecting.outline.front();
   if (selecting.outline.size() == 1) {
-    const Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
+    const render::Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
     selecting.outline_is_box ? toggle_grain(gui, at.x, at.y) : select_contact(gui, at.x, at.y);
     return;
   }
   std::vector<Vec2> corners;
   for (const Vec2& corner : closed(selecting)) {
-    const Point at = map.bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
+    const render::Point at = map.bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
     corners.push_back({at.x, at.y});
   }
-  const std::vector<Index> found = grains_within(gui.model.bed(), corners);
+  const std::vector<Index> found = view::grains_within(gui.model.bed(), corners);
   gui.model.select_found(found);
   gui.model.state.message =
       fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
@@ -79,7 +81,7 @@ void finish(Gui& gui, const ShownMap& map) {
 
 /// Where a spring can be held that is to be held at the mouse: not farther from the grain than commands
 /// allow.
-std::array<double, 2> within_reach(const ViewModel& model, Index grain, double x, double y) {
+std::array<double, 2> within_reach(const view::ViewModel& model, Index grain, double x, double y) {
   const Frame& frame = model.frame();
   const double dx = x - frame.x[grain], dy = y - frame.y[grain];
   const double share = 0.9 * farthest_drag * model.mean_diameter() / std::max(1e-300, std::hypot(dx, dy));
@@ -88,7 +90,7 @@ std::array<double, 2> within_reach(const ViewModel& model, Index grain, double x
 
 /// What the spring does is told while it does it; what stands in the way ends the drag.
 void hold_at(Gui& gui, Index grain, double x, double y) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   const auto [held_x, held_y] = within_reach(model, grain, x, y);
   try {
     model.live()->apply({0, CommandKind::drag, grain, held_x, held_y});
@@ -96,7 +98,7 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
     model.state.message = fmt::format(
         "Grain {} is pulled with {:.0f} m g.{}", grain, drag_stiffness * distance / model.mean_diameter(),
         model.live()->status().running ? "" : " The run is paused: space goes on.");
-    model.state.drag = GrainDrag{grain, x, y, model.live()->status().step};
+    model.state.drag = view::GrainDrag{grain, x, y, model.live()->status().step};
   } catch (const Error& error) {
     model.state.message = error.what();
     model.state.drag.reset();
@@ -104,21 +106,21 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
 }
 
 /// The free grain on which a lasso would begin, once the mouse moves: a click is for a contact.
-std::optional<Index> first_grain(const ViewModel& model, const ShownMap& map) {
-  const SelectingState& selecting = model.state.selecting;
+std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& map) {
+  const view::SelectingState& selecting = model.state.selecting;
   if (selecting.outline.size() != 1 || selecting.outline_is_box || ImGui::GetIO().KeyShift) return {};
   if (!ImGui::IsMouseDragging(0, least_drag)) return {};
   const Vec2 first = selecting.outline.front();
-  const Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
-  const std::optional<Index> grain = find_grain(model.bed(), at.x, at.y);
+  const render::Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
+  const std::optional<Index> grain = view::find_grain(model.bed(), at.x, at.y);
   return grain && *grain < model.statics().free_count ? grain : std::nullopt;
 }
 
 /// Whether a grain would be pulled, had the run not ended: then no lasso begins there, which would drop what
 /// is selected.
 bool refuse_after_end(Gui& gui, const ShownMap& map) {
-  ViewModel& model = gui.model;
-  SelectingState& selecting = model.state.selecting;
+  view::ViewModel& model = gui.model;
+  view::SelectingState& selecting = model.state.selecting;
   const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
                      !ImGui::GetIO().KeyShift && selecting.outline.empty();
   if (waits) return true;  // the mouse goes on after it was refused
@@ -131,7 +133,7 @@ bool refuse_after_end(Gui& gui, const ShownMap& map) {
 }
 
 /// Those that are selected stay where it is one of them.
-void look_at(ViewModel& model, Index grain) {
+void look_at(view::ViewModel& model, Index grain) {
   if (std::ranges::binary_search(model.selected_grains(), grain))
     model.state.selected = grain;
   else
@@ -139,14 +141,14 @@ void look_at(ViewModel& model, Index grain) {
 }
 
 void let_go(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   model.state.drag.reset();
   if (!model.live() || !model.live()->status().dragged) return;
   send(gui, {0, CommandKind::release, -1, 0.0, 0.0});
 }
 
 void draw_spring(Gui& gui, const ShownMap& map) {
-  const GrainDrag& drag = *gui.model.state.drag;
+  const view::GrainDrag& drag = *gui.model.state.drag;
   const Frame& frame = gui.model.frame();
   const ImVec2 from = map.pixel(frame.x[drag.grain], frame.y[drag.grain]), to = map.pixel(drag.x, drag.y);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -157,7 +159,7 @@ void draw_spring(Gui& gui, const ShownMap& map) {
 
 }  // namespace
 
-Point ShownMap::bed_place(const ImVec2& px) const {
+render::Point ShownMap::bed_place(const ImVec2& px) const {
   const double right = (static_cast<double>(px.x - corner.x) - camera.origin_x) / camera.scale;
   const double down = (static_cast<double>(px.y - corner.y) - camera.origin_y) / camera.scale;
   return {camera.cosine * right + camera.sine * down, camera.sine * right - camera.cosine * down};
@@ -171,7 +173,7 @@ ImVec2 ShownMap::pixel(double x, double y) const {
 
 bool select_by_outline(Gui& gui, const ShownMap& map) {
   const ImGuiIO& io = ImGui::GetIO();
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   const Vec2 mouse{static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
   if (ImGui::IsItemActivated() && (io.KeyShift || io.KeyCtrl)) {
     selecting.outline = {mouse};
@@ -191,18 +193,18 @@ bool select_by_outline(Gui& gui, const ShownMap& map) {
 }
 
 void select_clicked(Gui& gui, double x, double y) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   const bool contacts = shows_contacts(model.state.map.layers);
   const auto contact =
       contacts ? model.contact_at(x, y, small_contact_reach * model.mean_diameter()) : std::nullopt;
   if (contact) return model.select(*contact);
-  const std::optional<Index> grain = find_grain(model.bed(), x, y);
+  const std::optional<Index> grain = view::find_grain(model.bed(), x, y);
   if (!grain) model.state.message = "No grain is there.";
   model.select(grain);
 }
 
 bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   auto& drag = model.state.drag;
   if (!model.is_live()) {
     drag.reset();
@@ -229,4 +231,4 @@ bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
   return true;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -4,14 +4,14 @@
 #include "gui/widgets.h"
 #include "render/layout.h"
 
-namespace talus {
+namespace talus::gui {
 
 /// The map as it lies in the window: from places (m, frame of the bed) to pixels, and back.
 struct ShownMap {
   ImVec2 corner;
-  Camera camera;
+  render::Camera camera;
 
-  Point bed_place(const ImVec2& px) const;
+  render::Point bed_place(const ImVec2& px) const;
   ImVec2 pixel(double x, double y) const;
 };
 
@@ -29,4 +29,4 @@ void select_clicked(Gui& gui, double x, double y);
 /// last widget, before select_by_outline. True while the mouse belongs to a grain.
 bool drag_grain(Gui& gui, double x, double y, const ShownMap& map);
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -7,26 +7,26 @@
 #include "render/gl_target.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::gui {
 
 class MapTexture {
  public:
   /// Takes a current context; `gl` are its functions.
-  MapTexture(std::unique_ptr<Context> context, const Gl& gl);
+  MapTexture(std::unique_ptr<render::Context> context, const render::Gl& gl);
 
   /// The texture with a view, `width` px wide and as high as follows from it. A view without furniture is
   /// drawn again only where it has changed: without a GPU 8000 grains take some 6 ms.
-  GLuint draw(const FrameView& view, int width);
+  GLuint draw(const render::FrameView& view, int width);
 
   /// A picture in memory, as talus render draws it.
-  Image draw_image(const FrameView& view, int width);
+  render::Image draw_image(const render::FrameView& view, int width);
 
  private:
-  const Gl& gl_;
-  TextureTarget* target_;  ///< of the renderer
-  Renderer renderer_;
-  FrameView drawn_;  ///< what the texture shows; valid where width_ > 0
+  const render::Gl& gl_;
+  render::TextureTarget* target_;  ///< of the renderer
+  render::Renderer renderer_;
+  render::FrameView drawn_;  ///< what the texture shows; valid where width_ > 0
   int width_ = 0;
 };
 
-}  // namespace talus
+}  // namespace talus::gui

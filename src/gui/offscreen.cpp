@@ -4,7 +4,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// Between two pictures as ImGui sees it, s: so long that two clicks are no double click.
@@ -12,9 +12,9 @@ constexpr double picture_seconds = 0.1;
 
 }  // namespace
 
-OffscreenGui::OffscreenGui(ViewModel& model, int width, int height, float scale,
-                           std::optional<ContextKind> kind)
-    : model_(model), screen_(make_context(kind), scale) {
+OffscreenGui::OffscreenGui(view::ViewModel& model, int width, int height, float scale,
+                           std::optional<render::ContextKind> kind)
+    : model_(model), screen_(render::make_context(kind), scale) {
   screen_.gl().GenFramebuffers(1, &surface_.framebuffer);
   surface_.top_row_first = true;
   resize(width, height);
@@ -26,9 +26,9 @@ OffscreenGui::~OffscreenGui() {
 }
 
 void OffscreenGui::resize(int width, int height) {
-  const Gl& gl = screen_.gl();
+  const render::Gl& gl = screen_.gl();
   gl.DeleteTextures(1, &texture_);
-  texture_ = make_texture(gl, width, height, 4, nullptr, GL_NEAREST);
+  texture_ = render::make_texture(gl, width, height, 4, nullptr, GL_NEAREST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -51,11 +51,11 @@ void OffscreenGui::draw(double seconds) {
   if (!requests.plots_folder.empty()) requests_.plots_folder = requests.plots_folder;
 }
 
-Image OffscreenGui::frame(double seconds) {
+render::Image OffscreenGui::frame(double seconds) {
   draw(seconds);
-  Image image{surface_.width, surface_.height, 3, {}};
+  render::Image image{surface_.width, surface_.height, 3, {}};
   image.pixels.resize(image.row_bytes() * static_cast<std::size_t>(image.height));
-  const Gl& gl = screen_.gl();
+  const render::Gl& gl = screen_.gl();
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, image.width, image.height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
   if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
@@ -68,4 +68,4 @@ void OffscreenGui::settle() {
   for (int k = 0; k < 3; ++k) draw(0.0);  // ImGui knows sizes and what is under the mouse one picture later
 }
 
-}  // namespace talus
+}  // namespace talus::gui

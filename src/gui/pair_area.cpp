@@ -8,7 +8,7 @@
 
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr float gap = 0.8f;           ///< between the two, em
@@ -40,8 +40,8 @@ std::string shortened(const std::string& name, float width) {
 }
 
 /// Name and angle share a line if both have room.
-PaneHead head_of(const View& of, float width) {
-  const FrameView& annotated = of.annotated_map();
+PaneHead head_of(const view::View& of, float width) {
+  const render::FrameView& annotated = of.annotated_map();
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   const std::string name = shortened(std::filesystem::path(of.run.path()).filename().string(), width);
@@ -86,7 +86,8 @@ struct PairLayout {
   std::array<PaneHead, 2> heads;
 };
 
-PairLayout pair_layout(const Gui& gui, const std::array<View, 2>& views, const ImVec2& room, bool columns) {
+PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, const ImVec2& room,
+                       bool columns) {
   const float em = gui.em;
   PairLayout of;
   of.columns = columns;
@@ -113,7 +114,7 @@ bool draw_pair(Gui& gui) {
   static constexpr const char* no_room =
       "There is no room for two views: make the window larger, or hide panels (h, l).";
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const std::array<View, 2> views = {gui.model.first(), gui.model.second()};
+  const std::array<view::View, 2> views = {gui.model.first(), gui.model.second()};
   const double aspect = views[0].bed_aspect();
   const PairLayout columns = pair_layout(gui, views, room, true), rows = pair_layout(gui, views, room, false);
   const float by_columns = bed_width(columns, aspect, gui.em), by_rows = bed_width(rows, aspect, gui.em);
@@ -136,4 +137,4 @@ bool draw_pair(Gui& gui) {
   return true;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -1,10 +1,10 @@
 #include "gui/actions.h"
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 
 void draw_action_panel(Gui& gui) {
-  LiveRun* live = gui.model.live();
+  view::LiveRun* live = gui.model.live();
   if (!live) {
     ImGui::TextWrapped(
         "This is a replay. A branch goes on from the frame shown: push grains, drop or drag them, change "
@@ -12,7 +12,7 @@ void draw_action_panel(Gui& gui) {
     draw_branch_button(gui);
     return;
   }
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   named_number(gui, "push speed", "speed", state.push_speed, "%.3g √(gD)",
                "speed that the push adds to the grain");
   named_number(gui, "push angle", "direction", state.push_angle, "%.0f°",
@@ -24,7 +24,7 @@ void draw_action_panel(Gui& gui) {
   if (named_button(gui, "drop", "Drop them", "at the selected grain, or in the middle of the picture"))
     drop_here(gui);
   ImGui::Separator();
-  const LiveStatus status = live->status();
+  const view::LiveStatus status = live->status();
   if (const auto friction = named_slider_when_done(gui, "friction", "friction μ", status.friction, 0.0, 1.5,
                                                    "%.2f", "between grains, and with the floor"))
     send(gui, {0, CommandKind::friction, -1, *friction, 0.0});
@@ -38,8 +38,9 @@ void draw_action_panel(Gui& gui) {
     go_back(gui);
   ImGui::EndDisabled();
   ImGui::TextWrapped("Commands, each after the step that is named; talus replay repeats them:");
-  for (const Command& command : given_commands(live->commands()))
-    ImGui::TextWrapped("%lld: %s", static_cast<long long>(command.step), command_text(command).c_str());
+  for (const Command& command : session::given_commands(live->commands()))
+    ImGui::TextWrapped("%lld: %s", static_cast<long long>(command.step),
+                       session::command_text(command).c_str());
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -4,11 +4,11 @@
 
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// The force at the contact in its Coulomb cone: f_n upwards, f_t to the right, in one scale.
-void draw_cone(Gui& gui, const ContactInspection& contact) {
+void draw_cone(Gui& gui, const view::ContactInspection& contact) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
   const ImVec2 size{width, 0.6f * width};
@@ -34,7 +34,7 @@ void draw_cone(Gui& gui, const ContactInspection& contact) {
   list.AddCircleFilled(tip, 0.25f * em, force_colour);
 }
 
-void draw_forces(Gui& gui, const ContactInspection& contact) {
+void draw_forces(Gui& gui, const view::ContactInspection& contact) {
   const double diameter = gui.model.mean_diameter();
   if (!contact.carries) {
     fact("force", "none in this frame");
@@ -53,8 +53,8 @@ void draw_forces(Gui& gui, const ContactInspection& contact) {
 
 /// A click on a curve goes to the frame there.
 void draw_history(Gui& gui) {
-  const PlotMarks marks = gui.model.plot_marks();
-  for (const Plot& plot : gui.model.contact_history()) {
+  const view::PlotMarks marks = gui.model.plot_marks();
+  for (const view::Plot& plot : gui.model.contact_history()) {
     const auto clicked = draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 11.0f * gui.em}, marks);
     if (!clicked) continue;
     gui.model.play(false);
@@ -85,4 +85,4 @@ bool draw_contact_inspector(Gui& gui) {
   return true;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

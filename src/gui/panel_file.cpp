@@ -5,7 +5,7 @@
 #include "gui/actions.h"
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ std::vector<Entry> entries_of(const fs::path& folder) {
 }
 
 void draw_browser(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   ImGui::TextWrapped(
       "Open a run or a scenario: choose it, or drop it on the window. With shift a run is shown beside "
       "this one.");
@@ -60,7 +60,7 @@ void draw_browser(Gui& gui) {
 }  // namespace
 
 void draw_file_panel(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   draw_browser(gui);
   ImGui::Separator();
   ImGui::SetNextItemWidth(-1.0f);
@@ -99,4 +99,4 @@ void draw_file_panel(Gui& gui) {
   if (named_button(gui, "copy command", "Copy")) ImGui::SetClipboardText(command.c_str());
 }
 
-}  // namespace talus
+}  // namespace talus::gui

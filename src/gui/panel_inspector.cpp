@@ -5,7 +5,7 @@
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -23,7 +23,7 @@ const char* status_text(ContactStatus status) {
 }
 
 /// A click on a row selects the contact.
-void draw_contacts(Gui& gui, const Inspection& grain, double weight) {
+void draw_contacts(Gui& gui, const view::Inspection& grain, double weight) {
   const ImGuiTableFlags flags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
   // As high as most grains need, so that what is below stays in its place from frame to frame.
@@ -35,8 +35,8 @@ void draw_contacts(Gui& gui, const Inspection& grain, double weight) {
     ImGui::TableNextColumn();
     rich_text(title);
   }
-  std::optional<ContactKey> chosen;  // selected once all are drawn
-  for (const GrainContact& contact : grain.contacts) {
+  std::optional<view::ContactKey> chosen;  // selected once all are drawn
+  for (const view::GrainContact& contact : grain.contacts) {
     ImGui::TableNextColumn();
     const std::string row = fmt::format("{}##{} {} {}", contact.other_name, contact.key.a, contact.key.b,
                                         static_cast<int>(contact.key.shift));
@@ -55,7 +55,7 @@ void draw_contacts(Gui& gui, const Inspection& grain, double weight) {
 
 /// Mohr's circle of a mean stress p and a deviator q, over p: principal values (1 +- gamma) / 2, and the line
 /// of Coulomb's threshold sin(theta_c).
-void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
+void draw_mohr_circle(Gui& gui, const view::Inspection& grain, double theta_c) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
   const ImVec2 size{width, 0.74f * width + 1.6f * em};
@@ -78,22 +78,22 @@ void draw_mohr_circle(Gui& gui, const Inspection& grain, double theta_c) {
   add_rich_text(list, {origin.x + 0.3f * em, corner.y}, ink, "τ/p, σ/p; line: θ_c");
 }
 
-void draw_curve(Gui& gui, const Inspection& grain) {
+void draw_curve(Gui& gui, const view::Inspection& grain) {
   const double diameter = gui.model.mean_diameter();
   const double gamma_c = sine(gui.model.theta_c()) * gui.model.state.map.threshold_factor;
-  Plot plot;
+  view::Plot plot;
   plot.name = "neighbourhood";
   plot.title = "γ_ℓ";
   plot.x_title = "ℓ/D";
   plot.along_run = false;
-  PlotSeries curve{"γ_ℓ", {}, grain.curve.gamma, false}, threshold{"Γ_c", {}, {}, true};
+  view::PlotSeries curve{"γ_ℓ", {}, grain.curve.gamma, false}, threshold{"Γ_c", {}, {}, true};
   for (const double l : grain.curve.l) curve.x.push_back(l / diameter);
   if (!curve.x.empty()) {
     threshold.x = {curve.x.front(), curve.x.back()};
     threshold.y = {gamma_c, gamma_c};
   }
   plot.series = {std::move(curve), std::move(threshold)};
-  PlotMarks marks;
+  view::PlotMarks marks;
   marks.shown = gui.model.state.neighbourhood;
   draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 12.0f * gui.em}, marks);
 }
@@ -103,7 +103,7 @@ std::string ratio_text(double ratio, const char* remark) {
 }
 
 /// The same rows for all free grains, so that none moves from frame to frame.
-void draw_state(const Inspection& grain, double diameter, double l_min) {
+void draw_state(const view::Inspection& grain, double diameter, double l_min) {
   fact("radius", fmt::format("{:.3f} D", grain.radius / diameter));
   fact("place", fmt::format("{:.2f}, {:.2f} D", grain.x / diameter, grain.y / diameter));
   fact("velocity", fmt::format("{:.2g}, {:.2g} m/s", grain.vx, grain.vy));
@@ -130,8 +130,8 @@ void draw_frame_values(Gui& gui) {
   const double tilt = degrees(gui.model.frame().tilt);
   const double place = *gui.model.plot_marks().shown;
   fact("θ", fmt::format("{:.3f}°", tilt));
-  for (const Plot& plot : gui.model.plots())
-    for (const PlotSeries& series : plot.series) {
+  for (const view::Plot& plot : gui.model.plots())
+    for (const view::PlotSeries& series : plot.series) {
       if (!series.quantity || series.law) continue;
       const double value = value_near(series, place);
       if (std::isfinite(value))
@@ -144,7 +144,7 @@ void draw_frame_values(Gui& gui) {
 
 void draw_inspector(Gui& gui) {
   if (draw_contact_inspector(gui)) return;
-  const Inspection* grain = gui.model.inspection();
+  const view::Inspection* grain = gui.model.inspection();
   if (!grain) {
     draw_frame_values(gui);
     return;
@@ -165,4 +165,4 @@ void draw_inspector(Gui& gui) {
   draw_curve(gui, *grain);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -4,61 +4,62 @@
 #include "gui/actions.h"
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// The names of all maps, after what stands for none of them.
 std::vector<std::string> kind_names(const char* none = nullptr) {
   std::vector<std::string> names;
   if (none != nullptr) names.emplace_back(none);
-  for (const MapKind kind : map_kinds()) names.emplace_back(map_name(kind));
+  for (const pictures::MapKind kind : pictures::map_kinds()) names.emplace_back(pictures::map_name(kind));
   return names;
 }
 
-int place_of(MapKind kind) {
-  const auto kinds = map_kinds();
+int place_of(pictures::MapKind kind) {
+  const auto kinds = pictures::map_kinds();
   return static_cast<int>(std::ranges::find(kinds, kind) - kinds.begin());
 }
 
 void choose_layers(Gui& gui) {
-  MapLayers& layers = gui.model.state.map.layers;
+  pictures::MapLayers& layers = gui.model.state.map.layers;
   int base = place_of(layers.at(0));
   if (named_choice(gui, "map kind", "map", kind_names(), base)) {
-    layers[0] = map_kinds()[static_cast<std::size_t>(base)];
+    layers[0] = pictures::map_kinds()[static_cast<std::size_t>(base)];
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
-  ImGui::TextWrapped("%s", std::string(map_help(layers[0])).c_str());
+  ImGui::TextWrapped("%s", std::string(pictures::map_help(layers[0])).c_str());
   int over = layers.size() > 1 ? place_of(layers[1]) + 1 : 0;
   if (named_choice(gui, "overlay", "over it", kind_names("nothing"), over)) {
     layers.resize(1);
-    const bool other = over > 0 && map_kinds()[static_cast<std::size_t>(over - 1)] != layers[0];
-    if (other) layers.push_back(map_kinds()[static_cast<std::size_t>(over - 1)]);
+    const bool other = over > 0 && pictures::map_kinds()[static_cast<std::size_t>(over - 1)] != layers[0];
+    if (other) layers.push_back(pictures::map_kinds()[static_cast<std::size_t>(over - 1)]);
   }
 }
 
 void choose_colours(Gui& gui) {
-  MapSettings& map = gui.model.state.map;
+  pictures::MapSettings& map = gui.model.state.map;
   std::vector<std::string> names = {"its own"};
-  for (const ColourMap colours : colour_maps()) names.emplace_back(colour_map_name(colours));
+  for (const render::ColourMap colours : render::colour_maps())
+    names.emplace_back(render::colour_map_name(colours));
   int chosen = 0;
-  for (std::size_t k = 0; k < colour_maps().size(); ++k)
-    if (map.colours == colour_maps()[k]) chosen = static_cast<int>(k) + 1;
+  for (std::size_t k = 0; k < render::colour_maps().size(); ++k)
+    if (map.colours == render::colour_maps()[k]) chosen = static_cast<int>(k) + 1;
   if (!named_choice(gui, "colours", "colours", names, chosen)) return;
   map.colours.reset();
-  if (chosen > 0) map.colours = colour_maps()[static_cast<std::size_t>(chosen - 1)];
+  if (chosen > 0) map.colours = render::colour_maps()[static_cast<std::size_t>(chosen - 1)];
 }
 
 /// The ends of the bar, instead of those of the map.
 void choose_range(Gui& gui) {
-  MapSettings& map = gui.model.state.map;
-  if (!has_bar(map.layers)) return;
+  pictures::MapSettings& map = gui.model.state.map;
+  if (!pictures::has_bar(map.layers)) return;
   bool own = map.range_low || map.range_high;
   if (named_checkbox(gui, "range", "range", own, "the ends of the bar, instead of the map's own")) {
-    const FrameView shown = gui.model.first().annotated_map();
+    const render::FrameView shown = gui.model.first().annotated_map();
     map.range_low.reset();
     map.range_high.reset();
-    const auto with_bar =
-        std::ranges::find_if(shown.legends, [](const Legend& legend) { return !legend.bars.empty(); });
+    const auto with_bar = std::ranges::find_if(
+        shown.legends, [](const render::Legend& legend) { return !legend.bars.empty(); });
     if (own && with_bar != shown.legends.end()) {  // begins with what is shown
       map.range_low = with_bar->bars.front().low;
       map.range_high = with_bar->bars.front().high;
@@ -86,12 +87,12 @@ void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& nam
 }
 
 /// By what runs are linked.
-constexpr std::pair<PlotAxis, const char*> clocks[] = {
-    {PlotAxis::tilt, "θ"}, {PlotAxis::angle_left, "θc − θ"}, {PlotAxis::time, "t"}};
+constexpr std::pair<view::PlotAxis, const char*> clocks[] = {
+    {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θc − θ"}, {view::PlotAxis::time, "t"}};
 
 void choose_run_beside(Gui& gui) {
-  ViewModel& model = gui.model;
-  BesideState& beside = model.state.beside;
+  view::ViewModel& model = gui.model;
+  view::BesideState& beside = model.state.beside;
   if (model.is_live()) return;
   if (model.run_beside() == nullptr) {
     named_text(gui, "beside path", "run", beside.path, "run file to show beside this one");
@@ -101,7 +102,7 @@ void choose_run_beside(Gui& gui) {
   if (named_button(gui, "close beside", "This run again", "the second view is of the first run"))
     return model.close_beside();
   std::vector<std::string> names;
-  std::vector<PlotAxis> known;
+  std::vector<view::PlotAxis> known;
   int chosen = 0;
   for (const auto& [clock, name] : clocks) {
     if (!model.has_clock(clock)) continue;
@@ -115,14 +116,14 @@ void choose_run_beside(Gui& gui) {
 
 /// What is shown beside the map.
 void choose_beside(Gui& gui) {
-  BesideState& beside = gui.model.state.beside;
+  view::BesideState& beside = gui.model.state.beside;
   named_checkbox(gui, "beside", "a second view", beside.shown,
                  "another map, another run, or what has changed: P");
   if (!beside.shown) return;
   int chosen = beside.layers.empty() ? 0 : place_of(beside.layers[0]) + 1;
   if (named_choice(gui, "beside map", "its map", kind_names("as the first"), chosen)) {
     beside.layers.clear();
-    if (chosen > 0) beside.layers = {map_kinds()[static_cast<std::size_t>(chosen - 1)]};
+    if (chosen > 0) beside.layers = {pictures::map_kinds()[static_cast<std::size_t>(chosen - 1)]};
   }
   choose_angle(gui, beside.minus, "beside minus", "minus the frame at an angle",
                "what has changed since: its grains, and contacts gained and lost; D begins here");
@@ -132,7 +133,7 @@ void choose_beside(Gui& gui) {
 }  // namespace
 
 void draw_map_panel(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   choose_layers(gui);
   choose_colours(gui);
   choose_range(gui);
@@ -156,4 +157,4 @@ void draw_map_panel(Gui& gui) {
   ImGui::Text("zoom %.1f", state.camera.zoom);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -3,7 +3,7 @@
 
 #include "gui/panels.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// Plots as wide as they can be read, and as high as there is room, in rows.
@@ -25,10 +25,10 @@ PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
 }
 
 /// A click on a curve along the run goes to the frame nearest to it.
-void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks,
+void draw_and_answer(Gui& gui, const view::Plot& plot, const ImVec2& size, const view::PlotMarks& marks,
                      std::string& gone) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const auto clicked = draw_plot(gui, plot, size, plot.along_run ? marks : PlotMarks{});
+  const auto clicked = draw_plot(gui, plot, size, plot.along_run ? marks : view::PlotMarks{});
   if (plot.added) {
     const ImVec2 low{corner.x + size.x - 1.6f * gui.em, corner.y},
         high{corner.x + size.x, corner.y + 1.4f * gui.em};
@@ -46,11 +46,11 @@ void draw_and_answer(Gui& gui, const Plot& plot, const ImVec2& size, const PlotM
 }
 
 /// One plot in all of the room, with what can be chosen of it.
-void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks, std::string& gone) {
-  ViewState& state = gui.model.state;
+void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& marks, std::string& gone) {
+  view::ViewState& state = gui.model.state;
   if (named_button(gui, "all plots", "All plots", "a double click on the plot")) state.enlarged_plot.clear();
   ImGui::SameLine();
-  PlotLook& look = state.plot_looks[plot.name];
+  view::PlotLook& look = state.plot_looks[plot.name];
   bool logarithmic = look.log_y.value_or(plot.log_y);
   if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) look.log_y = logarithmic;
   draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks, gone);
@@ -58,8 +58,8 @@ void draw_enlarged(Gui& gui, const Plot& plot, const PlotMarks& marks, std::stri
 
 /// What all plots along the run are over.
 void draw_axis(Gui& gui) {
-  constexpr std::pair<PlotAxis, const char*> axes[] = {
-      {PlotAxis::tilt, "θ"}, {PlotAxis::angle_left, "θ_c − θ"}, {PlotAxis::time, "t"}};
+  constexpr std::pair<view::PlotAxis, const char*> axes[] = {
+      {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θ_c − θ"}, {view::PlotAxis::time, "t"}};
   constexpr const char* names[] = {"over tilt", "over angle left", "over time"};
   constexpr const char* tips[] = {"all curves over the tilt",
                                   "all curves over the angle that is left to failure",
@@ -84,14 +84,15 @@ void draw_more(Gui& gui) {
   if (!open) return;
   std::string& filter = gui.model.state.quantity_filter;
   named_text(gui, "quantity filter", "", filter, "part of a name, as stress");
-  for (const Quantity* quantity : gui.model.more_quantities()) {
+  for (const analysis::Quantity* quantity : gui.model.more_quantities()) {
     if ((quantity->name + " " + quantity->display.title).find(filter) == std::string::npos) continue;
     if (ImGui::Selectable(quantity->name.c_str())) gui.model.add_plot(*quantity);
     note_place(gui, "add plot: " + quantity->name);
     if (ImGui::IsItemHovered()) {
       ImGui::BeginTooltip();
       ImGui::PushTextWrapPos(25.0f * gui.em);
-      ImGui::TextUnformatted((quantity->definition + " [" + scaled_unit(quantity->unit) + "]").c_str());
+      ImGui::TextUnformatted(
+          (quantity->definition + " [" + analysis::scaled_unit(quantity->unit) + "]").c_str());
       ImGui::PopTextWrapPos();
       ImGui::EndTooltip();
     }
@@ -114,7 +115,7 @@ bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, c
 
 /// Another run, or an ensemble, behind the curves.
 void draw_behind_choice(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   if (named_button(gui, "behind", "behind ...",
                    "draw another run, or the band of an ensemble, behind the curves"))
     ImGui::OpenPopup("behind");
@@ -124,10 +125,10 @@ void draw_behind_choice(Gui& gui) {
       gui.requests.behind_path = state.behind_path;
     ImGui::EndPopup();
   }
-  const Ghost* ghost = gui.model.ghost();
+  const view::Ghost* ghost = gui.model.ghost();
   if (!ghost) return;
   ImGui::SameLine();
-  ImGui::TextUnformatted(text_of(*ghost).c_str());
+  ImGui::TextUnformatted(view::text_of(*ghost).c_str());
   ImGui::SameLine();
   if (named_button(gui, "nothing behind", "x", "nothing behind the curves"))
     gui.model.set_ghost(std::nullopt);
@@ -135,7 +136,7 @@ void draw_behind_choice(Gui& gui) {
 
 /// The plots shown as figures.
 void draw_export(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   if (named_button(gui, "export plots", "export ...",
                    "write what the plots show as PDF, SVG and PNG with its data"))
     ImGui::OpenPopup("export plots");
@@ -167,9 +168,9 @@ void draw_plots(Gui& gui) {
   const auto plots = gui.model.plots();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
-  const PlotMarks marks = gui.model.plot_marks();
+  const view::PlotMarks marks = gui.model.plot_marks();
   std::string gone;  // removed once all are drawn
-  const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &Plot::name);
+  const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &view::Plot::name);
   if (enlarged != plots.end()) {
     draw_enlarged(gui, *enlarged, marks, gone);
     if (!gone.empty()) gui.model.remove_plot(gone);
@@ -178,7 +179,7 @@ void draw_plots(Gui& gui) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
   std::size_t drawn = 0;
   for (const bool added : {true, false})  // what was asked for is seen without scrolling
-    for (const Plot& plot : plots) {
+    for (const view::Plot& plot : plots) {
       if (plot.added != added) continue;
       if (drawn++ % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
       draw_and_answer(gui, plot, grid.cell, marks, gone);
@@ -187,4 +188,4 @@ void draw_plots(Gui& gui) {
   if (!gone.empty()) gui.model.remove_plot(gone);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

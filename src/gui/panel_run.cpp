@@ -8,11 +8,11 @@
 #include "gui/panels.h"
 #include "gui/widgets.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// The state of a live run, in lines that stay where they are while it goes on.
-void draw_status(const Palette& colours, const LiveStatus& status, bool theta_c_known, double theta_c) {
+void draw_status(const Palette& colours, const view::LiveStatus& status, bool theta_c_known, double theta_c) {
   fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
   fact("θ", fmt::format("{:.3f}°", degrees(status.tilt)));
   fact("step", std::to_string(status.step));
@@ -40,9 +40,9 @@ void draw_branch_origin(Gui& gui) {
   ImGui::Separator();
 }
 
-void draw_live(Gui& gui, LiveRun& live) {
-  const LiveStatus status = live.status();
-  ViewState& state = gui.model.state;
+void draw_live(Gui& gui, view::LiveRun& live) {
+  const view::LiveStatus status = live.status();
+  view::ViewState& state = gui.model.state;
   draw_branch_origin(gui);
   if (icon_button(gui, "play", status.running ? Icon::pause : Icon::play, "play, pause: space"))
     toggle_playing(gui);
@@ -85,19 +85,20 @@ void draw_live(Gui& gui, LiveRun& live) {
 }
 
 void draw_landmarks(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   struct LandmarkButton {
     const char* name;
     const char* label;
-    Landmark landmark;
+    view::Landmark landmark;
     const char* tip;
   };
   const LandmarkButton places[] = {
-      {"theta_d", "θ_d", Landmark::theta_d, "where contraction turns into dilation: d"},
-      {"length jump", "ℓ_c jumps", Landmark::length_jump,
+      {"theta_d", "θ_d", view::Landmark::theta_d, "where contraction turns into dilation: d"},
+      {"length jump", "ℓ_c jumps", view::Landmark::length_jump,
        "where the largest coarse-graining length jumps: j"},
-      {"percolation", "spans", Landmark::percolation, "where a cluster first spans from floor to surface: p"},
-      {"theta_c", "θ_c", Landmark::theta_c, "the last frame before failure: c"}};
+      {"percolation", "spans", view::Landmark::percolation,
+       "where a cluster first spans from floor to surface: p"},
+      {"theta_c", "θ_c", view::Landmark::theta_c, "the last frame before failure: c"}};
   bool first = true;
   for (const LandmarkButton& place : places) {
     if (!first) same_line_if_fits(rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), place.label) + gui.em);
@@ -109,8 +110,9 @@ void draw_landmarks(Gui& gui) {
 }
 
 void draw_replay(Gui& gui) {
-  ViewModel& model = gui.model;
-  if (icon_button(gui, "first", Icon::first, "the first frame: home")) go_to_landmark(gui, Landmark::first);
+  view::ViewModel& model = gui.model;
+  if (icon_button(gui, "first", Icon::first, "the first frame: home"))
+    go_to_landmark(gui, view::Landmark::first);
   ImGui::SameLine();
   if (icon_button(gui, "back", Icon::back, "one frame back: left arrow; with shift 10")) advance(gui, -1);
   ImGui::SameLine();
@@ -120,7 +122,7 @@ void draw_replay(Gui& gui) {
   if (icon_button(gui, "forward", Icon::forward, "one frame forward: right arrow; with shift 10"))
     advance(gui, 1);
   ImGui::SameLine();
-  if (icon_button(gui, "last", Icon::last, "the last frame: end")) go_to_landmark(gui, Landmark::last);
+  if (icon_button(gui, "last", Icon::last, "the last frame: end")) go_to_landmark(gui, view::Landmark::last);
   int frame = static_cast<int>(model.frame_index());
   ImGui::SetNextItemWidth(-1.0f);
   if (ImGui::SliderInt("##frame", &frame, 0, static_cast<int>(model.frame_count()) - 1,
@@ -160,10 +162,10 @@ std::string frame_counter(std::size_t frame, std::size_t count) {
 void draw_run_panel(Gui& gui) {
   ImGui::TextWrapped("%s", gui.model.path().c_str());
   ImGui::Separator();
-  if (LiveRun* live = gui.model.live())
+  if (view::LiveRun* live = gui.model.live())
     draw_live(gui, *live);
   else
     draw_replay(gui);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

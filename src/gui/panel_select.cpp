@@ -11,19 +11,19 @@
 #include "gui/panels.h"
 #include "view/selection_table.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// Names that a condition may have, with what they mean; a chosen one is added to it.
 void offer_names(Gui& gui) {
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   ImGui::SetNextItemWidth(5.5f * gui.em);
   const bool open = ImGui::BeginCombo("##names", "names", ImGuiComboFlags_HeightLarge);
   note_place(gui, "names");
   if (!open) return;
-  for (const GrainNumber& number : grain_numbers()) {
+  for (const analysis::GrainNumber& number : analysis::grain_numbers()) {
     const std::string& name = number.name;
-    if (ImGui::Selectable(head_of(number).c_str())) {
+    if (ImGui::Selectable(view::head_of(number).c_str())) {
       const bool apart = !selecting.condition.empty() && !selecting.condition.ends_with(' ');
       selecting.condition += (apart ? " " : "") + name;
     }
@@ -35,14 +35,14 @@ void offer_names(Gui& gui) {
 }
 
 void choose_mode(Gui& gui) {
-  SelectionMode& mode = gui.model.state.selecting.mode;
+  view::SelectionMode& mode = gui.model.state.selecting.mode;
   int chosen = static_cast<int>(mode);
   if (named_choice(gui, "mode", "selecting", {"anew", "adds", "takes away", "keeps only these"}, chosen))
-    mode = static_cast<SelectionMode>(chosen);
+    mode = static_cast<view::SelectionMode>(chosen);
 }
 
 void write_condition(Gui& gui) {
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   ImGui::SetNextItemWidth(-1.0f);
   const bool entered = ImGui::InputTextWithHint("##condition", "gamma > 0.7 && y > 30", &selecting.condition,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
@@ -72,20 +72,20 @@ void choose_quantity(Gui& gui) {
   std::string& name = gui.model.state.selecting.quantity;
   std::vector<std::string> heads;
   int chosen = 0;
-  for (const GrainNumber& number : grain_numbers()) {
+  for (const analysis::GrainNumber& number : analysis::grain_numbers()) {
     if (number.name == name) chosen = static_cast<int>(heads.size());
-    heads.push_back(head_of(number));
+    heads.push_back(view::head_of(number));
   }
   ImGui::SetNextItemWidth(-1.0f);
   if (named_choice(gui, "quantity", "", heads, chosen))
-    name = grain_numbers()[static_cast<std::size_t>(chosen)].name;
+    name = analysis::grain_numbers()[static_cast<std::size_t>(chosen)].name;
 }
 
 void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   choose_quantity(gui);
-  const GrainNumber& number = grain_number(gui.model.state.selecting.quantity);
+  const analysis::GrainNumber& number = analysis::grain_number(gui.model.state.selecting.quantity);
   const std::vector<double>& values = gui.model.grain_values(number);
-  const std::vector<double> known = known_values(grains, values);
+  const std::vector<double> known = view::known_values(grains, values);
   if (!known.empty()) {
     const Statistics of = statistics_of(known);
     fact("mean", std::isnan(of.deviation) ? fmt::format("{:.4g}", of.mean)
@@ -96,36 +96,37 @@ void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   if (known.size() < grains.size()) fact("without a value", fmt::format("{}", grains.size() - known.size()));
   std::vector<Index> all(static_cast<std::size_t>(gui.model.statics().free_count));
   std::iota(all.begin(), all.end(), 0);
-  const Plot plot = histogram_of(number, grains, all, values);
+  const view::Plot plot = view::histogram_of(number, grains, all, values);
   if (!plot.series.empty()) draw_plot(gui, plot, {ImGui::GetContentRegionAvail().x, 10.0f * gui.em}, {});
 }
 
-std::string cell_text(const GrainNumber& number, double value) {
+std::string cell_text(const analysis::GrainNumber& number, double value) {
   if (std::isnan(value)) return "–";
-  return number.quantity->number == FieldNumber::integer ? fmt::format("{:.0f}", value)
-                                                         : fmt::format("{:.4g}", value);
+  return number.quantity->number == analysis::FieldNumber::integer ? fmt::format("{:.0f}", value)
+                                                                   : fmt::format("{:.4g}", value);
 }
 
 /// The columns that are shown: the quantity of the histogram, and what is mostly wanted.
-std::vector<const GrainNumber*> shown_columns(const std::string& chosen) {
-  std::vector<const GrainNumber*> columns = {&grain_number("id")};
+std::vector<const analysis::GrainNumber*> shown_columns(const std::string& chosen) {
+  std::vector<const analysis::GrainNumber*> columns = {&analysis::grain_number("id")};
   for (const std::string_view name : {std::string_view(chosen), std::string_view("x"), std::string_view("y"),
                                       std::string_view("gamma"), std::string_view("coordination")})
-    if (std::ranges::find(columns, name, &GrainNumber::name) == columns.end())
-      columns.push_back(&grain_number(name));
+    if (std::ranges::find(columns, name, &analysis::GrainNumber::name) == columns.end())
+      columns.push_back(&analysis::grain_number(name));
   return columns;
 }
 
 /// A click on a row shows its grain in the inspector; what is selected stays.
-void draw_rows(Gui& gui, const std::vector<Index>& grains, const std::vector<const GrainNumber*>& columns) {
-  ViewState& state = gui.model.state;
+void draw_rows(Gui& gui, const std::vector<Index>& grains,
+               const std::vector<const analysis::GrainNumber*>& columns) {
+  view::ViewState& state = gui.model.state;
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(grains.size()));
   while (clipper.Step())
     for (int row = clipper.DisplayStart; row < clipper.DisplayEnd; ++row) {
       const Index grain = grains[static_cast<std::size_t>(row)];
       ImGui::TableNextRow();
-      for (const GrainNumber* number : columns) {
+      for (const analysis::GrainNumber* number : columns) {
         ImGui::TableNextColumn();
         const std::string text =
             cell_text(*number, gui.model.grain_values(*number)[static_cast<std::size_t>(grain)]);
@@ -148,8 +149,9 @@ void draw_table(Gui& gui, const std::vector<Index>& grains) {
   const float height = 14.0f * gui.em;
   if (!ImGui::BeginTable("selected grains", static_cast<int>(columns.size()), flags, {0.0f, height})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
-  for (const GrainNumber* number : columns)  // its own id, so that a sorting stays with its quantity
-    ImGui::TableSetupColumn(head_of(*number).c_str());
+  for (const analysis::GrainNumber* number :
+       columns)  // its own id, so that a sorting stays with its quantity
+    ImGui::TableSetupColumn(view::head_of(*number).c_str());
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int k = 0; k < static_cast<int>(columns.size()); ++k) {
     ImGui::TableSetColumnIndex(k);
@@ -159,16 +161,16 @@ void draw_table(Gui& gui, const std::vector<Index>& grains) {
   std::vector<Index> rows = grains;
   const ImGuiTableSortSpecs* sorting = ImGui::TableGetSortSpecs();
   if (sorting != nullptr && sorting->SpecsCount > 0) {
-    const GrainNumber& by = *columns[static_cast<std::size_t>(sorting->Specs[0].ColumnIndex)];
-    rows = sorted_by(rows, gui.model.grain_values(by),
-                     sorting->Specs[0].SortDirection == ImGuiSortDirection_Descending);
+    const analysis::GrainNumber& by = *columns[static_cast<std::size_t>(sorting->Specs[0].ColumnIndex)];
+    rows = view::sorted_by(rows, gui.model.grain_values(by),
+                           sorting->Specs[0].SortDirection == ImGuiSortDirection_Descending);
   }
   draw_rows(gui, rows, columns);
   ImGui::EndTable();
 }
 
 void draw_selected(Gui& gui, const std::vector<Index>& grains) {
-  SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.model.state.selecting;
   const auto free = static_cast<std::size_t>(gui.model.statics().free_count);
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(fmt::format("{} of {} grains", grains.size(), free).c_str());
@@ -195,4 +197,4 @@ void draw_select_panel(Gui& gui) {
       "ctrl a lasso.");
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -8,7 +8,7 @@
 #include "gui/panels.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 ImU32 curve_colour(const Palette& colours, std::size_t k) {
@@ -49,14 +49,14 @@ struct Axes {
   }
 };
 
-void find_ranges(const Plot& plot, const PlotLook& look, Axes& axes) {
+void find_ranges(const view::Plot& plot, const view::PlotLook& look, Axes& axes) {
   const auto take = [&](double x, double y) {
     if (!std::isfinite(y) || (axes.log_y && !(y > 0.0))) return;
     if (look.zoomed && (x < (*look.zoomed)[0] || x > (*look.zoomed)[1])) return;
     axes.x.take(x);
     axes.y.take(axes.shown_y(y));
   };
-  for (const PlotSeries& series : plot.series) {
+  for (const view::PlotSeries& series : plot.series) {
     for (std::size_t k = 0; k < series.x.size(); ++k) take(series.x[k], series.y[k]);
     for (std::size_t k = 0; k < series.behind.x.size(); ++k) {
       const double spread = std::isnan(series.behind.deviation[k]) ? 0.0 : series.behind.deviation[k];
@@ -68,14 +68,14 @@ void find_ranges(const Plot& plot, const PlotLook& look, Axes& axes) {
 
 void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
   const int most_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
-  for (const RoundTick& tick : round_ticks(axes.x.low, axes.x.high, most_x)) {
+  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.x.low, axes.x.high, most_x)) {
     const float x = axes.px(tick.value);
     list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, ink);
     const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
     list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
   }
   const int most_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
-  for (const RoundTick& tick : round_ticks(axes.y.low, axes.y.high, most_y)) {
+  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.y.low, axes.y.high, most_y)) {
     const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
     list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
@@ -97,7 +97,8 @@ struct PixelColumn {
 
 /// A curve of any number of points, thinned to what can be seen. Line by line: a polyline has no width where
 /// it turns back.
-void draw_curve(ImDrawList& list, const Axes& axes, const PlotSeries& series, ImU32 colour, float width) {
+void draw_curve(ImDrawList& list, const Axes& axes, const view::PlotSeries& series, ImU32 colour,
+                float width) {
   std::optional<ImVec2> pen;
   std::optional<PixelColumn> column;
   const auto draw_to = [&](const ImVec2& place) {
@@ -137,7 +138,8 @@ ImU32 with_alpha(ImU32 colour, int alpha) {
 }
 
 /// What stands behind a curve: the mean as a pale line, and a band of one deviation to either side.
-void draw_behind(ImDrawList& list, const Axes& axes, const GhostCurve& behind, ImU32 colour, float width) {
+void draw_behind(ImDrawList& list, const Axes& axes, const view::GhostCurve& behind, ImU32 colour,
+                 float width) {
   const ImDrawListFlags flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // or the seams between the parts of a band would show
   const auto end_of = [&](std::size_t k, double side) {
@@ -159,20 +161,20 @@ double x_at(const Axes& axes, float px) {
 }
 
 /// "0.12 ± 0.02"
-std::string text_behind(const GhostCurve& behind, double x) {
+std::string text_behind(const view::GhostCurve& behind, double x) {
   const double mean = value_near({{}, behind.x, behind.mean}, x);
   const double deviation = value_near({{}, behind.x, behind.deviation}, x);
   return fmt::format("{:.4g}", mean) +
          (std::isnan(deviation) ? std::string() : fmt::format(" ± {:.2g}", deviation));
 }
 
-void show_values(const Plot& plot, const Axes& axes) {
+void show_values(const view::Plot& plot, const Axes& axes) {
   const float px = ImGui::GetIO().MousePos.x;
   if (px < axes.low.x || px > axes.high.x) return;
   const double x = x_at(axes, px);
   ImGui::BeginTooltip();
   rich_text(fmt::format("{}: {:.4g}", plot.x_title, x));
-  for (const PlotSeries& series : plot.series) {
+  for (const view::PlotSeries& series : plot.series) {
     std::string text = fmt::format("{}: {:.4g}", series.name, value_near(series, x));
     if (!series.behind.x.empty()) text += ", behind " + text_behind(series.behind, x);
     rich_text(text);
@@ -181,7 +183,7 @@ void show_values(const Plot& plot, const Axes& axes) {
 }
 
 /// The range chosen, and a line for each curve that was measured.
-void draw_chosen(const Palette& colours, ImDrawList& list, const Plot& plot, const PlotLook& look,
+void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plot, const view::PlotLook& look,
                  const Axes& axes, float em) {
   float y = axes.low.y + 0.1f * em;
   const float left = axes.low.x + 0.4f * em;
@@ -195,7 +197,7 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const Plot& plot, con
   list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, packed(colours.range));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
-    const RangeStatistics of = statistics_of(plot.series[k], low, high);
+    const view::RangeStatistics of = view::statistics_of(plot.series[k], low, high);
     const std::string text =
         fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", of.mean, of.deviation, of.slope, of.count);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
@@ -206,7 +208,7 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const Plot& plot, con
 }
 
 /// Along x, about the mouse; not beyond what there is.
-void zoom_plot(PlotLook& look, const Axes& axes, const Axes& all, float steps) {
+void zoom_plot(view::PlotLook& look, const Axes& axes, const Axes& all, float steps) {
   const double x = x_at(axes, ImGui::GetIO().MousePos.x), factor = std::pow(0.8, static_cast<double>(steps));
   const double low = std::max(all.x.low, x + factor * (axes.x.low - x));
   const double high = std::min(all.x.high, x + factor * (axes.x.high - x));
@@ -215,9 +217,10 @@ void zoom_plot(PlotLook& look, const Axes& axes, const Axes& all, float steps) {
 }
 
 /// What the mouse does to the plot that was drawn last; the x that was clicked.
-std::optional<double> use_plot(ViewState& state, const Plot& plot, const Axes& axes, const Axes& all) {
+std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, const Axes& axes,
+                               const Axes& all) {
   const ImGuiIO& io = ImGui::GetIO();
-  PlotLook& look = state.plot_looks[plot.name];
+  view::PlotLook& look = state.plot_looks[plot.name];
   const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
   if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) zoom_plot(look, axes, all, io.MouseWheel);
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
@@ -232,13 +235,13 @@ std::optional<double> use_plot(ViewState& state, const Plot& plot, const Axes& a
 }
 
 /// The title, and the names of several curves in their colours: beside it where there is room, else alone.
-void draw_names(const Palette& colours, ImDrawList& list, const Plot& plot, const ImVec2& place, float right,
-                float em) {
+void draw_names(const Palette& colours, ImDrawList& list, const view::Plot& plot, const ImVec2& place,
+                float right, float em) {
   const auto width_of = [](const std::string& text) {
     return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
   };
   float names = 0.0f;
-  for (const PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
+  for (const view::PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
   const bool several = plot.series.size() > 1;
   const float title = width_of(plot.title);
   if (!several || title + names < right - place.x)
@@ -251,7 +254,7 @@ void draw_names(const Palette& colours, ImDrawList& list, const Plot& plot, cons
   }
 }
 
-void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, const PlotMarks& marks,
+void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, const view::PlotMarks& marks,
                 float em) {
   if (marks.shown)
     list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y},
@@ -267,7 +270,7 @@ void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, cons
 
 }  // namespace
 
-double value_near(const PlotSeries& series, double x) {
+double value_near(const view::PlotSeries& series, double x) {
   if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (!std::ranges::is_sorted(series.x)) {  // loops: the first point that is nearest
     const auto distance = [x](double of) { return std::abs(of - x); };
@@ -280,13 +283,14 @@ double value_near(const PlotSeries& series, double x) {
   return series.y[k];
 }
 
-std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, const PlotMarks& marks) {
+std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& size,
+                                const view::PlotMarks& marks) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
   note_place(gui, std::string("plot ").append(plot.name));
   if (!ImGui::IsItemVisible()) return std::nullopt;
   if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // or the plots would be scrolled as well
-  const PlotLook look = gui.model.state.plot_looks[plot.name];
+  const view::PlotLook look = gui.model.state.plot_looks[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
   const Palette& colours = gui.colours;
@@ -331,4 +335,4 @@ std::optional<double> draw_plot(Gui& gui, const Plot& plot, const ImVec2& size, 
   return use_plot(gui.model.state, plot, axes, all);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -6,12 +6,12 @@
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 
-namespace talus {
+namespace talus::gui {
 
 namespace {
 
 /// Why a run that has ended does nothing more.
-std::string ended_text(const ViewModel& model, const LiveStatus& status) {
+std::string ended_text(const view::ViewModel& model, const view::LiveStatus& status) {
   return fmt::format("The run has ended, at {:.2f}°; r restarts {}{}.", degrees(status.tilt),
                      model.branch_line() ? "the branch" : "it",
                      status.commands_given > 0 ? ", U goes back before the last command" : "");
@@ -19,7 +19,7 @@ std::string ended_text(const ViewModel& model, const LiveStatus& status) {
 
 /// Goes that many frames on or back; says so if there are none.
 void advance_frames(Gui& gui, int count) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   const auto last = static_cast<long>(model.frame_count()) - 1;
   const auto from = static_cast<long>(model.frame_index());
   const long to = std::clamp(from + count, 0L, std::max(last, 0L));
@@ -33,9 +33,9 @@ double next_round_tilt(double tilt) { return 5.0 * (std::floor(tilt / 5.0 + 1e-6
 }  // namespace
 
 void toggle_playing(Gui& gui) {
-  ViewModel& model = gui.model;
-  if (LiveRun* live = model.live()) {
-    const LiveStatus status = live->status();
+  view::ViewModel& model = gui.model;
+  if (view::LiveRun* live = model.live()) {
+    const view::LiveStatus status = live->status();
     if (status.done)
       model.state.message = ended_text(model, status);
     else
@@ -47,8 +47,8 @@ void toggle_playing(Gui& gui) {
 }
 
 void advance(Gui& gui, int count) {
-  ViewModel& model = gui.model;
-  LiveRun* live = model.live();
+  view::ViewModel& model = gui.model;
+  view::LiveRun* live = model.live();
   if (!live) {
     model.play(false);
     return advance_frames(gui, count);
@@ -70,10 +70,10 @@ void advance(Gui& gui, int count) {
 }
 
 void deposit(Gui& gui) {
-  ViewModel& model = gui.model;
-  LiveRun* live = model.live();
+  view::ViewModel& model = gui.model;
+  view::LiveRun* live = model.live();
   if (!live) return refuse_in_replay(gui, "No bed is deposited");
-  const LiveStatus status = live->status();
+  const view::LiveStatus status = live->status();
   if (status.depositing) {
     live->finish_deposition();
     model.state.message = "Computing until the bed rests and the tilt begins.";
@@ -87,10 +87,10 @@ void deposit(Gui& gui) {
 }
 
 void run_to_tilt(Gui& gui) {
-  ViewModel& model = gui.model;
-  LiveRun* live = model.live();
+  view::ViewModel& model = gui.model;
+  view::LiveRun* live = model.live();
   if (!live) return refuse_in_replay(gui, "Nothing is computed");
-  const LiveStatus status = live->status();
+  const view::LiveStatus status = live->status();
   const double tilt = degrees(status.tilt), wanted = model.state.run_to_tilt;
   if (status.done) {
     model.state.message = ended_text(model, status);
@@ -105,29 +105,30 @@ void run_to_tilt(Gui& gui) {
   }
 }
 
-void offer_tilt_ahead(ViewModel& model) {
+void offer_tilt_ahead(view::ViewModel& model) {
   if (!model.is_live() || ImGui::IsAnyItemActive()) return;
-  const LiveStatus status = model.live()->status();
+  const view::LiveStatus status = model.live()->status();
   const double ahead = model.state.run_to_tilt - degrees(status.tilt);
   const bool passed = status.running ? ahead < 1e-6 : std::abs(ahead) < 1e-6;
   if (passed) model.state.run_to_tilt = next_round_tilt(degrees(status.tilt));
 }
 
 void send(Gui& gui, const Command& command) {
-  LiveRun* live = gui.model.live();
+  view::LiveRun* live = gui.model.live();
   if (!live) return refuse_in_replay(gui, "Commands are not possible");
   gui.model.follow();  // a command is to the run as it is now
   try {
     live->apply(command);
     const Command given = live->commands().back();
-    gui.model.state.message = fmt::format("Applied after step {}: {}.", given.step, command_text(given));
+    gui.model.state.message =
+        fmt::format("Applied after step {}: {}.", given.step, session::command_text(given));
   } catch (const Error& error) {
     gui.model.state.message = error.what();
   }
 }
 
 void reset(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (!model.is_live()) return refuse_in_replay(gui, "There is nothing to reset");
   if (!model.may_discard()) return;
   try {
@@ -140,7 +141,7 @@ void reset(Gui& gui) {
 }
 
 void save_state(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (!model.is_live()) {
     model.state.message = "A replay has nothing to save: its run file holds everything.";
     return;
@@ -158,7 +159,7 @@ void save_state(Gui& gui) {
 }
 
 void push_selected(Gui& gui) {
-  const ViewState& state = gui.model.state;
+  const view::ViewState& state = gui.model.state;
   if (!gui.model.is_live()) return refuse_in_replay(gui, "No grain is pushed");
   if (!state.selected) {
     gui.model.state.message = "Click the grain to push first.";
@@ -171,7 +172,7 @@ void push_selected(Gui& gui) {
 
 void drop_here(Gui& gui) {
   gui.model.follow();
-  const ViewState& state = gui.model.state;
+  const view::ViewState& state = gui.model.state;
   const Frame& frame = gui.model.frame();
   const double x = state.selected ? frame.x[*state.selected] : state.camera.centre_x;
   send(gui, {0, CommandKind::drop, static_cast<Index>(state.drop_count), x,
@@ -179,7 +180,7 @@ void drop_here(Gui& gui) {
 }
 
 void branch_here(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (model.is_live()) {
     model.state.message = "This run is being computed already; U goes back before its last command.";
     return;
@@ -197,7 +198,7 @@ void branch_here(Gui& gui) {
 }
 
 void go_back(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (!model.is_live()) return refuse_in_replay(gui, "There is no command to take back");
   try {
     model.state.drag.reset();
@@ -210,4 +211,4 @@ void go_back(Gui& gui) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -8,27 +8,27 @@
 #include "gui/map_texture.h"
 #include "gui/theme.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// As ImGui names textures.
 void* texture_id(GLuint texture) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture)); }
 
 /// A context that somebody else owns, and that is current.
-class SameContext final : public Context {
+class SameContext final : public render::Context {
  public:
-  explicit SameContext(const Context& context) : context_(context) {}
+  explicit SameContext(const render::Context& context) : context_(context) {}
   Function function(const char* name) const override { return context_.function(name); }
 
  private:
-  const Context& context_;
+  const render::Context& context_;
 };
 
-GLuint upload_font(const Gl& gl, ImFontAtlas& atlas) {
+GLuint upload_font(const render::Gl& gl, ImFontAtlas& atlas) {
   unsigned char* coverage = nullptr;
   int width = 0, height = 0;
   atlas.GetTexDataAsAlpha8(&coverage, &width, &height);
-  const GLuint texture = make_texture(gl, width, height, 1, coverage, GL_LINEAR);
+  const GLuint texture = render::make_texture(gl, width, height, 1, coverage, GL_LINEAR);
   widen(gl, texture, OneChannel::alpha);
   atlas.SetTexID(texture_id(texture));
   atlas.ClearTexData();
@@ -47,8 +47,8 @@ float fitting_scale(float asked, int width, int height) {
 
 void GuiScreen::ContextDeleter::operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 
-GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale)
-    : context_(context.get()), gl_(load_gl(*context)), display_scale_(scale) {
+GuiScreen::GuiScreen(std::unique_ptr<render::Context> context, float scale)
+    : context_(context.get()), gl_(render::load_gl(*context)), display_scale_(scale) {
   map_ = std::make_unique<MapTexture>(std::move(context), gl_);
   painter_ = std::make_unique<DrawDataPainter>(gl_);
   imgui_.reset(ImGui::CreateContext());
@@ -58,7 +58,7 @@ GuiScreen::GuiScreen(std::unique_ptr<Context> context, float scale)
   own.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   own.MousePos = {-1.0f, -1.0f};
   name_keys(own);
-  put_on({Theme::light, scale, 1.0f});
+  put_on({view::Theme::light, scale, 1.0f});
 }
 
 GuiScreen::~GuiScreen() { gl_.DeleteTextures(1, &font_texture_); }
@@ -83,7 +83,8 @@ ImGuiIO& GuiScreen::io() {
   return ImGui::GetIO();
 }
 
-GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width, int height, double seconds) {
+GuiRequests GuiScreen::draw(view::ViewModel& model, const Surface& surface, int width, int height,
+                            double seconds) {
   ImGuiIO& own = io();
   const float pixels = static_cast<float>(surface.width) / static_cast<float>(width);
   own.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
@@ -94,7 +95,7 @@ GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width,
   if (!(look == look_)) put_on(look);
   input_.hand_over(own);
   ImGui::NewFrame();
-  const DrawMap draw_map = [&](const FrameView& view, int map_width, std::size_t texture) {
+  const DrawMap draw_map = [&](const render::FrameView& view, int map_width, std::size_t texture) {
     if (texture > 0 && !map_beside_)
       map_beside_ = std::make_unique<MapTexture>(std::make_unique<SameContext>(*context_), gl_);
     MapTexture& map = texture > 0 ? *map_beside_ : *map_;
@@ -107,6 +108,8 @@ GuiRequests GuiScreen::draw(ViewModel& model, const Surface& surface, int width,
   return requests;
 }
 
-Image GuiScreen::draw_image(const FrameView& view, int width) { return map_->draw_image(view, width); }
+render::Image GuiScreen::draw_image(const render::FrameView& view, int width) {
+  return map_->draw_image(view, width);
+}
 
-}  // namespace talus
+}  // namespace talus::gui

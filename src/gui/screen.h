@@ -13,7 +13,7 @@
 
 struct ImGuiContext;
 
-namespace talus {
+namespace talus::gui {
 
 class MapTexture;
 
@@ -21,14 +21,14 @@ class GuiScreen {
  public:
   /// For a current context. `scale` is that of the display: 2 draws everything twice as large, where the
   /// model asks for no other.
-  GuiScreen(std::unique_ptr<Context> context, float scale);
+  GuiScreen(std::unique_ptr<render::Context> context, float scale);
   ~GuiScreen();
   GuiScreen(const GuiScreen&) = delete;
   GuiScreen& operator=(const GuiScreen&) = delete;
 
   /// One picture of the whole window, `seconds` after the one before. `width` and `height` are those in which
   /// mouse positions are given; the surface may have more pixels.
-  GuiRequests draw(ViewModel& model, const Surface& surface, int width, int height, double seconds);
+  GuiRequests draw(view::ViewModel& model, const Surface& surface, int width, int height, double seconds);
 
   /// The window is on another display.
   void set_display_scale(float scale) { display_scale_ = scale; }
@@ -38,8 +38,8 @@ class GuiScreen {
   /// The places of the widgets in the last picture.
   const std::vector<WidgetPlace>& places() const { return places_; }
   /// A view as talus render draws it.
-  Image draw_image(const FrameView& view, int width);
-  const Gl& gl() const { return gl_; }
+  render::Image draw_image(const render::FrameView& view, int width);
+  const render::Gl& gl() const { return gl_; }
 
  private:
   struct ContextDeleter {
@@ -48,15 +48,15 @@ class GuiScreen {
 
   /// What fonts and style were made for.
   struct Look {
-    Theme theme = Theme::light;
+    view::Theme theme = view::Theme::light;
     float scale = 0.0f;     ///< of text and widgets
     float fineness = 1.0f;  ///< px of the surface in one of the window
     bool operator==(const Look&) const = default;
   };
   void put_on(const Look& look);
 
-  const Context* context_;  ///< of map_
-  Gl gl_;
+  const render::Context* context_;  ///< of map_
+  render::Gl gl_;
   std::unique_ptr<MapTexture> map_;         ///< owns the OpenGL context: destroyed last
   std::unique_ptr<MapTexture> map_beside_;  ///< of the second view; null before it is first shown
   std::unique_ptr<DrawDataPainter> painter_;
@@ -68,4 +68,4 @@ class GuiScreen {
   std::vector<WidgetPlace> places_;
 };
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr Palette light_palette = {.ground = {255, 255, 255},
@@ -88,7 +88,7 @@ constexpr Palette print_palette = {.ground = {255, 255, 255},
                                    .curves = {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}}};
 
 /// Which colour of the palette is that of a part of Dear ImGui.
-constexpr std::pair<ImGuiCol, Colour Palette::*> roles[] = {
+constexpr std::pair<ImGuiCol, render::Colour Palette::*> roles[] = {
     {ImGuiCol_Text, &Palette::ink},
     {ImGuiCol_TextDisabled, &Palette::soft},
     {ImGuiCol_WindowBg, &Palette::ground},
@@ -126,23 +126,23 @@ constexpr std::pair<ImGuiCol, Colour Palette::*> roles[] = {
     {ImGuiCol_DragDropTarget, &Palette::accent},
 };
 
-constexpr Colour nothing{0, 0, 0, 0};
+constexpr render::Colour nothing{0, 0, 0, 0};
 
 }  // namespace
 
-const Palette& palette_of(Theme theme) {
+const Palette& palette_of(view::Theme theme) {
   switch (theme) {
-    case Theme::dark:
+    case view::Theme::dark:
       return dark_palette;
-    case Theme::print:
+    case view::Theme::print:
       return print_palette;
-    case Theme::light:
+    case view::Theme::light:
       break;
   }
   return light_palette;
 }
 
-ImGuiStyle style_of(Theme theme, float scale) {
+ImGuiStyle style_of(view::Theme theme, float scale) {
   ImGuiStyle style;
   // Distances on a display of scale 1, px.
   constexpr float rounding = 4.0f;
@@ -167,4 +167,4 @@ ImGuiStyle style_of(Theme theme, float scale) {
   return style;
 }
 
-}  // namespace talus
+}  // namespace talus::gui

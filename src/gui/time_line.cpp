@@ -10,20 +10,20 @@
 #include "gui/panels.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
-ImU32 event_colour(const Palette& colours, TimelineEvent::Kind kind) {
+ImU32 event_colour(const Palette& colours, view::TimelineEvent::Kind kind) {
   switch (kind) {
-    case TimelineEvent::Kind::failure:
+    case view::TimelineEvent::Kind::failure:
       return packed(colours.failure);
-    case TimelineEvent::Kind::command:
+    case view::TimelineEvent::Kind::command:
       return packed(colours.command);
-    case TimelineEvent::Kind::rearrangement:
+    case view::TimelineEvent::Kind::rearrangement:
       return packed(colours.rearrangement);
-    case TimelineEvent::Kind::bookmark:
+    case view::TimelineEvent::Kind::bookmark:
       return packed(colours.bookmark);
-    case TimelineEvent::Kind::transition:
+    case view::TimelineEvent::Kind::transition:
       break;
   }
   return packed(colours.transition);
@@ -51,8 +51,9 @@ void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>
   const std::span<const double> ascending(tilts.begin(), end);
   if (ascending.size() < 2 || !(ascending.front() < ascending.back())) return;
   const int most = std::max(2, static_cast<int>((track.high.x - track.low.x) / (5.0f * em)));
-  for (const RoundTick& tick : round_ticks(degrees(ascending.front()), degrees(ascending.back()), most)) {
-    const float x = track.px(place_among(ascending, radians(tick.value)));
+  for (const pictures::RoundTick& tick :
+       pictures::round_ticks(degrees(ascending.front()), degrees(ascending.back()), most)) {
+    const float x = track.px(view::place_among(ascending, radians(tick.value)));
     list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, ink);
     const std::string label = tick.label + "°";
     list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, track.high.y + 0.25f * em}, ink,
@@ -81,11 +82,11 @@ void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>&
 
 /// Labels above the track, theta_c before all others: each where it has room.
 void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
-                 std::span<const TimelineEvent> events, float em) {
+                 std::span<const view::TimelineEvent> events, float em) {
   std::vector<std::pair<float, float>> taken;
   for (const bool failure : {true, false})
-    for (const TimelineEvent& event : events) {
-      if (event.label.empty() || (event.kind == TimelineEvent::Kind::failure) != failure) continue;
+    for (const view::TimelineEvent& event : events) {
+      if (event.label.empty() || (event.kind == view::TimelineEvent::Kind::failure) != failure) continue;
       const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), event.label);
       const float low = std::min(track.px(event.place) - 0.5f * width, track.high.x - width);
       const float high = low + width + 0.4f * em;
@@ -100,29 +101,29 @@ void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
 /// has an arrow, and a bookmark a flag.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
-  for (const TimelineEvent& event : gui.model.events()) {
+  for (const view::TimelineEvent& event : gui.model.events()) {
     const float x = track.px(event.place);
     const ImU32 colour = event_colour(gui.colours, event.kind);
-    const bool rearranges = event.kind == TimelineEvent::Kind::rearrangement;
-    const float above = event.kind == TimelineEvent::Kind::bookmark ? 0.55f : 0.15f;
+    const bool rearranges = event.kind == view::TimelineEvent::Kind::rearrangement;
+    const float above = event.kind == view::TimelineEvent::Kind::bookmark ? 0.55f : 0.15f;
     const float high =
         rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - above * em;
     list.AddLine({x, high}, {x, track.high.y}, colour, 0.14f * em);
     note_place(gui, "event " + event.name, {x - 0.2f * em, top}, {x + 0.2f * em, track.high.y});
-    if (event.kind == TimelineEvent::Kind::command)
+    if (event.kind == view::TimelineEvent::Kind::command)
       list.AddTriangleFilled({x, top + 0.3f * em}, {x - 0.3f * em, top - 0.2f * em},
                              {x + 0.3f * em, top - 0.2f * em}, colour);
-    if (event.kind == TimelineEvent::Kind::bookmark)
+    if (event.kind == view::TimelineEvent::Kind::bookmark)
       list.AddRectFilled({x, top - 0.55f * em}, {x + 0.6f * em, top - 0.1f * em}, colour);
   }
   draw_labels(gui.colours, list, track, gui.model.events(), em);
 }
 
 /// The event under the mouse.
-const TimelineEvent* event_near(const Gui& gui, const Track& track, float x) {
-  const TimelineEvent* nearest = nullptr;
+const view::TimelineEvent* event_near(const Gui& gui, const Track& track, float x) {
+  const view::TimelineEvent* nearest = nullptr;
   float least = 0.4f * gui.em;
-  for (const TimelineEvent& event : gui.model.events()) {
+  for (const view::TimelineEvent& event : gui.model.events()) {
     const float distance = std::abs(track.px(event.place) - x);
     if (distance > least) continue;
     least = distance;
@@ -140,10 +141,10 @@ void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) 
     const std::size_t k = std::min(frame, tilts.size() - 1);
     rich_text(fmt::format("{}, {:.2f}°", frame_counter(k, tilts.size()), degrees(tilts[k])));
   }
-  for (const TimelineEvent& event : gui.model.events())
+  for (const view::TimelineEvent& event : gui.model.events())
     if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em) {
       const std::string text = fmt::format("{:.2f}°: {}", degrees(event.tilt), event.what);
-      if (event.kind == TimelineEvent::Kind::bookmark)
+      if (event.kind == view::TimelineEvent::Kind::bookmark)
         ImGui::TextUnformatted(text.c_str());
       else
         rich_text(text);
@@ -155,7 +156,7 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   const float x = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemHovered()) tell(gui, track, tilts);
   if (!ImGui::IsItemActive()) return;
-  const TimelineEvent* event = ImGui::IsItemActivated() ? event_near(gui, track, x) : nullptr;
+  const view::TimelineEvent* event = ImGui::IsItemActivated() ? event_near(gui, track, x) : nullptr;
   const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0f;
   if (!moved) return;
   gui.model.play(false);
@@ -164,9 +165,9 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
 
 /// The note of the bookmark of the frame shown: enter keeps it.
 void draw_bookmark_note(Gui& gui) {
-  ViewModel& model = gui.model;
+  view::ViewModel& model = gui.model;
   if (std::exchange(model.state.bookmark_asked, false)) {
-    const Bookmark* const marked = model.bookmark();
+    const view::Bookmark* const marked = model.bookmark();
     model.state.bookmark_note = marked ? marked->note : std::string();
     model.play(false);
     ImGui::OpenPopup("bookmark note");
@@ -193,7 +194,7 @@ void draw_bookmark_note(Gui& gui) {
 }
 
 /// The angles of a branch, and of the run that it has left beside it, where they ascend together.
-void draw_angles_of_branch(ImDrawList& list, Track track, const BranchLine& run,
+void draw_angles_of_branch(ImDrawList& list, Track track, const view::BranchLine& run,
                            const std::vector<double>& tilts, float em, ImU32 ink) {
   std::vector<double> all(run.tilts.begin(), run.tilts.begin() + static_cast<std::ptrdiff_t>(run.frame));
   all.insert(all.end(), tilts.begin(), tilts.end());
@@ -204,7 +205,7 @@ void draw_angles_of_branch(ImDrawList& list, Track track, const BranchLine& run,
 }
 
 /// The line of the run that a branch has left; the branch leaves it at its frame.
-void draw_left_run(ImDrawList& list, const Track& track, const BranchLine& run, const Gui& gui) {
+void draw_left_run(ImDrawList& list, const Track& track, const view::BranchLine& run, const Gui& gui) {
   const float em = gui.em;
   const ImU32 colour = packed(gui.colours.curves[2]);
   const auto frames = static_cast<double>(run.tilts.size()) - 1.0;
@@ -215,7 +216,7 @@ void draw_left_run(ImDrawList& list, const Track& track, const BranchLine& run, 
 }
 
 /// The frame of the run that a branch has left, where the mouse is on its line.
-std::optional<std::size_t> left_frame_near(const Track& track, const BranchLine& run) {
+std::optional<std::size_t> left_frame_near(const Track& track, const view::BranchLine& run) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double frame =
       (static_cast<double>(mouse.x) - track.low.x) / (track.high.x - track.low.x) * track.last;
@@ -225,7 +226,7 @@ std::optional<std::size_t> left_frame_near(const Track& track, const BranchLine&
 }
 
 /// A click on that line returns to the run.
-bool use_left_run(Gui& gui, const Track& track, const BranchLine& run) {
+bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
   const std::optional<std::size_t> frame = left_frame_near(track, run);
   if (!frame || !ImGui::IsItemHovered()) return false;
   ImGui::SetTooltip("%s, %.2f°: a click returns to it", run.run.c_str(), degrees(run.tilts[*frame]));
@@ -273,7 +274,7 @@ void draw_time_line(Gui& gui) {
                  "The time line begins with the tilt.");
     return;
   }
-  const std::optional<BranchLine> left = gui.model.branch_line();
+  const std::optional<view::BranchLine> left = gui.model.branch_line();
   Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
               {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
               std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
@@ -301,4 +302,4 @@ void draw_time_line(Gui& gui) {
   use_line(gui, track, tilts);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -6,33 +6,33 @@
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 /// "The first frame", as a sentence begins.
-const char* name_of(Landmark landmark) {
+const char* name_of(view::Landmark landmark) {
   switch (landmark) {
-    case Landmark::first:
+    case view::Landmark::first:
       return "The first frame";
-    case Landmark::last:
+    case view::Landmark::last:
       return "The last frame";
-    case Landmark::theta_d:
+    case view::Landmark::theta_d:
       return "The frame at which the volume begins to grow";
-    case Landmark::length_jump:
+    case view::Landmark::length_jump:
       return "The frame at which the largest coarse-graining length jumps";
-    case Landmark::percolation:
+    case view::Landmark::percolation:
       return "The frame in which a cluster first spans from floor to surface";
-    case Landmark::theta_c:
+    case view::Landmark::theta_c:
       return "The last frame before failure";
   }
   return "";
 }
 
 /// Why a run has no such place.
-std::string absence_of(const ViewModel& model, Landmark landmark, bool goes_on) {
+std::string absence_of(const view::ViewModel& model, view::Landmark landmark, bool goes_on) {
   if (model.frame_count() == 0) return "No frame is recorded yet: the time line begins with the tilt.";
   const std::string name = name_of(landmark);
-  if (landmark == Landmark::theta_c)
+  if (landmark == view::Landmark::theta_c)
     return goes_on ? name + " is not known yet: the slope stands." : "There is no failure: the slope stands.";
   return name + (goes_on ? " is not known yet." : " does not exist, or has not been found yet.");
 }
@@ -45,10 +45,10 @@ void refuse_in_replay(Gui& gui, const char* what) {
   say(gui, fmt::format("{}: this is a replay; N goes on from the frame shown, as a run of its own.", what));
 }
 
-void go_to_landmark(Gui& gui, Landmark landmark) {
-  ViewModel& model = gui.model;
+void go_to_landmark(Gui& gui, view::Landmark landmark) {
+  view::ViewModel& model = gui.model;
   const bool live = model.is_live(), goes_on = live && !model.live()->status().done;
-  if (live && landmark == Landmark::last) {
+  if (live && landmark == view::Landmark::last) {
     if (!model.looks_back()) say(gui, "The run is shown as it is now.");
     return model.follow();
   }
@@ -64,22 +64,22 @@ void zoom_about(Gui& gui, double factor, double x, double y) {
 }
 
 void move_picture(Gui& gui, double dx, double dy) {
-  ViewModel& model = gui.model;
-  const ViewCamera& camera = model.state.camera;
+  view::ViewModel& model = gui.model;
+  const view::ViewCamera& camera = model.state.camera;
   model.state.selecting.follow = false;
   if (model.look({camera.centre_x + dx, camera.centre_y + dy, camera.zoom})) return;
   say(gui, "The bed ends there; zoom in (+ or the wheel) to move the picture.");
 }
 
 void show_whole_bed(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   if (state.camera.zoom == 1.0) say(gui, "The whole bed is shown.");
   state.selecting.follow = false;
   state.camera.zoom = 1.0;
 }
 
 void toggle_following(Gui& gui) {
-  ViewState& state = gui.model.state;
+  view::ViewState& state = gui.model.state;
   state.selecting.follow = !state.selecting.follow;
   if (!state.selecting.follow) return say(gui, "The picture stays where it is.");
   if (!state.selected) {
@@ -100,4 +100,4 @@ void show_run_beside(Gui& gui) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::gui

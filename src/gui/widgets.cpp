@@ -8,7 +8,7 @@
 
 #include "render/font.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 void show_tip(const char* tip) {
@@ -163,7 +163,7 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
 float rich_width(const ImFont& font, float size, std::string_view text) {
   float width = 0.0f;
   for_pieces(text, [&](std::string_view piece, bool subscript) {
-    const float piece_size = subscript ? static_cast<float>(subscript_size) * size : size;
+    const float piece_size = subscript ? static_cast<float>(render::subscript_size) * size : size;
     width += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
   });
   return width;
@@ -172,8 +172,8 @@ float rich_width(const ImFont& font, float size, std::string_view text) {
 std::vector<std::string> wrapped_text(std::string_view text, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  std::vector<std::string> lines =
-      broken_lines(text, [&](const std::string& line) { return rich_width(font, size, line) <= width; });
+  std::vector<std::string> lines = render::broken_lines(
+      text, [&](const std::string& line) { return rich_width(font, size, line) <= width; });
   if (lines.empty()) lines.emplace_back();
   return lines;
 }
@@ -183,7 +183,7 @@ void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::str
   const float size = ImGui::GetFontSize();
   ImVec2 pen = place;
   for_pieces(text, [&](std::string_view piece, bool subscript) {
-    const float piece_size = subscript ? static_cast<float>(subscript_size) * size : size;
+    const float piece_size = subscript ? static_cast<float>(render::subscript_size) * size : size;
     const ImVec2 at{pen.x, subscript ? pen.y + 0.42f * size : pen.y};
     list.AddText(&font, piece_size, at, colour, piece.data(), piece.data() + piece.size());
     pen.x += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
@@ -207,4 +207,4 @@ void fact(std::string_view label, const std::string& value) {
   rich_text(value);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -12,11 +12,11 @@
 #include "gui/gui.h"
 #include "gui/theme.h"
 
-namespace talus {
+namespace talus::gui {
 
 /// What all panels work on during one picture.
 struct Gui {
-  ViewModel& model;
+  view::ViewModel& model;
   const DrawMap& draw_map;
   std::vector<WidgetPlace>& places;
   GuiRequests& requests;
@@ -67,4 +67,4 @@ void same_line_if_fits(float width);
 /// "label   value" in two columns.
 void fact(std::string_view label, const std::string& value);
 
-}  // namespace talus
+}  // namespace talus::gui

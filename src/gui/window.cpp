@@ -15,7 +15,7 @@
 #include "core/trigonometry.h"
 #include "gui/screen.h"
 
-namespace talus {
+namespace talus::gui {
 namespace {
 
 constexpr double picture_time = 1.0 / 60.0;  ///< s, at least
@@ -29,7 +29,7 @@ constexpr double shortest_wait = 0.003;    ///< s, between two such questions: t
 constexpr double blink_time = 0.25;        ///< s, of the cursor in a text field
 
 /// The OpenGL of a window that is current.
-class WindowContext final : public Context {
+class WindowContext final : public render::Context {
  public:
   Function function(const char* name) const override { return glfwGetProcAddress(name); }
 };
@@ -69,7 +69,7 @@ WindowHandle make_window(int width, int height) {
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);
-    const std::string variables = driver_variables();
+    const std::string variables = render::driver_variables();
     throw Error(ExitCode::unavailable,
                 fmt::format("no window with OpenGL 3.3: {}; {}", reason ? reason : "unknown",
                             variables.empty() ? "apt-get install libgl1 libgl1-mesa-dri"
@@ -192,7 +192,7 @@ void lend_clipboard(WindowState& state) {
 }
 
 /// Waits for events, or until the model may have something new, or until the next picture is due.
-void wait(WindowState& state, const ViewModel& model) {
+void wait(WindowState& state, const view::ViewModel& model) {
   const double now = glfwGetTime();
   const bool busy = state.pictures_due > 0 || state.screen.input().waiting() || model.playing() ||
                     now - state.last_change < fast_after_change;
@@ -206,7 +206,7 @@ void wait(WindowState& state, const ViewModel& model) {
 }
 
 /// Advances the model, and notes whether there is something to draw.
-void update(WindowState& state, ViewModel& model) {
+void update(WindowState& state, view::ViewModel& model) {
   const double now = glfwGetTime();
   const double seconds = state.last_update < 0.0 ? 0.0 : now - state.last_update;
   state.last_update = now;
@@ -220,7 +220,7 @@ void update(WindowState& state, ViewModel& model) {
 }
 
 /// "bed.h5, 12.25° – Talus".
-void set_title(WindowState& state, const ViewModel& model) {
+void set_title(WindowState& state, const view::ViewModel& model) {
   const std::string file = std::filesystem::path(model.path()).filename().string();
   const std::string title = fmt::format("{}, {:.2f}° – Talus", file, degrees(model.frame().tilt));
   if (title == state.title) return;
@@ -228,7 +228,7 @@ void set_title(WindowState& state, const ViewModel& model) {
   glfwSetWindowTitle(state.window.get(), title.c_str());
 }
 
-GuiRequests draw(WindowState& state, ViewModel& model, int width, int height) {
+GuiRequests draw(WindowState& state, view::ViewModel& model, int width, int height) {
   const double now = glfwGetTime();
   Surface surface;
   glfwGetFramebufferSize(state.window.get(), &surface.width, &surface.height);
@@ -255,7 +255,7 @@ GuiWindow::GuiWindow(int width, int height) : state_(std::make_unique<WindowStat
 
 GuiWindow::~GuiWindow() = default;
 
-GuiRequests GuiWindow::next_picture(ViewModel& model) {
+GuiRequests GuiWindow::next_picture(view::ViewModel& model) {
   WindowState& state = *state_;
   if (state.last_picture < 0.0) glfwShowWindow(state.window.get());
   wait(state, model);
@@ -279,8 +279,8 @@ void GuiWindow::stay_open() { glfwSetWindowShouldClose(state_->window.get(), GLF
 
 const std::vector<WidgetPlace>& GuiWindow::places() const { return state_->screen.places(); }
 
-Image GuiWindow::draw_image(const FrameView& view, int width) {
+render::Image GuiWindow::draw_image(const render::FrameView& view, int width) {
   return state_->screen.draw_image(view, width);
 }
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -8,7 +8,7 @@
 #include "gui/gui.h"
 #include "render/image.h"
 
-namespace talus {
+namespace talus::gui {
 
 struct WindowState;
 
@@ -24,16 +24,16 @@ class GuiWindow {
   /// Waits until there is something new to show, for at most a tenth of a second, and shows it: at most 60
   /// pictures a second, and none if nothing has changed. Dropping a file on the window requests to open
   /// it.
-  GuiRequests next_picture(ViewModel& model);
+  GuiRequests next_picture(view::ViewModel& model);
 
   bool closed() const;  ///< whether its user asked to close it
   void stay_open();     ///< cancels that request
   const std::vector<WidgetPlace>& places() const;
   /// A view as talus render draws it.
-  Image draw_image(const FrameView& view, int width);
+  render::Image draw_image(const render::FrameView& view, int width);
 
  private:
   std::unique_ptr<WindowState> state_;
 };
 
-}  // namespace talus
+}  // namespace talus::gui

@@ -12,7 +12,7 @@
 #include "io/run_records.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 const std::string analysis_group = "/analysis";
@@ -33,33 +33,36 @@ void describe(hdf5::Writer& writer, const std::string& path, const std::string& 
   writer.set_attribute(path, "parameters", parameters);
 }
 
-void write_analysis(hdf5::Writer& writer, const Analysis& analysis, std::span<const Quantity> table) {
+void write_analysis(hdf5::Writer& writer, const analysis::Analysis& analysis,
+                    std::span<const analysis::Quantity> table) {
   writer.write_scalar(analysis_group + "/version", analysis_version);
   writer.write_text(analysis_group + "/key", analysis.key);
   for (const auto& [name, value] : analysis.parameters)
     writer.write_text(fmt::format("{}/parameters/{}", analysis_group, name), value);
   for (const char* name : {"/version", "/key"})
     describe(writer, analysis_group + name, field_of(analysis_group + name).help, "none");
-  for (const Quantity& quantity : table) {
+  for (const analysis::Quantity& quantity : table) {
     if (!is_present(quantity, analysis)) continue;
     const DataSetField field = data_set_of(quantity);
-    std::visit([&](const auto& values) { writer.write(field, values); }, values_of(quantity, analysis));
+    std::visit([&](const auto& values) { writer.write(field, values); },
+               analysis::values_of(quantity, analysis));
     describe(writer, field.path, quantity.definition,
              parameters_text(quantity.parameters, analysis.parameters));
   }
 }
 
-Values read_values(hdf5::Reader& reader, const DataSetField& field) {
+analysis::Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   if (field.type == ElementType::int32) return reader.read<Index>(field);
   if (field.type == ElementType::float32) return reader.read<float>(field, hdf5::any_number);
   return reader.read<double>(field, hdf5::any_number);
 }
 
 /// The frames, thresholds and events of a stored analysis, with nothing in them yet.
-void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, Analysis& analysis) {
+void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, analysis::Analysis& analysis) {
   if (reader.has(analysis_group + "/threshold"))
     analysis.thresholds.resize(reader.row_count(analysis_group + "/threshold"));
-  if (const std::string first = data_set_of(quantity_of(&EventRecord::begin)).path; reader.has(first))
+  if (const std::string first = data_set_of(analysis::quantity_of(&analysis::EventRecord::begin)).path;
+      reader.has(first))
     analysis.events.resize(reader.row_count(first));
   for (const double tilt : tilts) {
     analysis.frames.push_back({.tilt = tilt});
@@ -92,13 +95,14 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
 
 }  // namespace
 
-std::optional<Analysis> read_analysis(const RunFile& run, std::span<const Quantity> table) {
+std::optional<analysis::Analysis> read_analysis(const RunFile& run,
+                                                std::span<const analysis::Quantity> table) {
   if (!run.complete()) return std::nullopt;
   hdf5::Reader reader = run.packed_reader();
   if (!reader.has(analysis_group) ||
       reader.read_scalar<std::int32_t>(analysis_group + "/version") != analysis_version)
     return std::nullopt;
-  Analysis analysis;
+  analysis::Analysis analysis;
   analysis.key = reader.read_text(analysis_group + "/key");
   for (const std::string& name : reader.names(analysis_group + "/parameters"))
     analysis.parameters.emplace_back(name,
@@ -107,9 +111,9 @@ std::optional<Analysis> read_analysis(const RunFile& run, std::span<const Quanti
   check_frame_count(reader, reader.row_count(analysis_group + "/packing/volume"), tilts.size());
   reader.row_count("/particles/grains/id");  // how many grains there are
   make_records(reader, tilts, analysis);
-  for (const Quantity& quantity : table)
+  for (const analysis::Quantity& quantity : table)
     if (is_present(quantity, analysis))
-      set_values(quantity, read_values(reader, data_set_of(quantity)), analysis);
+      analysis::set_values(quantity, read_values(reader, data_set_of(quantity)), analysis);
   return analysis;
 }
 
@@ -127,9 +131,9 @@ std::vector<StoredReading> read_readings(const RunFile& run) {
   return readings;
 }
 
-std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const Analysis& analysis,
+std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const analysis::Analysis& analysis,
                                      const std::vector<StoredReading>& readings,
-                                     std::span<const Quantity> table) {
+                                     std::span<const analysis::Quantity> table) {
   Sizes sizes = sizes_of(analysis);
   if (!readings.empty()) {
     sizes['F'] = readings.front().thresholds;
@@ -159,17 +163,18 @@ void replace_packed(const std::string& path, const std::vector<std::byte>& file)
 
 }  // namespace
 
-void store_analysis(const std::string& path, const Analysis& analysis, const std::string& state_hash,
-                    std::span<const Quantity> table, bool keep_frames) {
+void store_analysis(const std::string& path, const analysis::Analysis& analysis,
+                    const std::string& state_hash, std::span<const analysis::Quantity> table,
+                    bool keep_frames) {
   const std::vector<StoredReading> readings = read_readings(RunFile::open(path));
   replace_packed(path, with_analysis(bare_bytes(path, state_hash, keep_frames), analysis, readings, table));
 }
 
 void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
                     const std::string& state_hash) {
-  const std::optional<Analysis> analysis = read_analysis(path);
+  const std::optional<analysis::Analysis> analysis = read_analysis(path);
   if (!analysis) throw Error(ExitCode::bad_data, path + " has no analysis of this version of Talus");
   replace_packed(path, with_analysis(bare_bytes(path, state_hash, true), *analysis, readings));
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -10,25 +10,25 @@
 #include "analysis/quantities.h"
 #include "io/run_schema.h"
 
-namespace talus {
+namespace talus::io {
 
 /// Counts up with each change of the table or of what is computed: stored analyses of other versions are
 /// computed again.
 inline constexpr std::int32_t analysis_version = 7;
 
 /// The data set of a quantity.
-DataSetField data_set_of(const Quantity& quantity);
+DataSetField data_set_of(const analysis::Quantity& quantity);
 
 /// All data sets, in the order in which they are written.
-std::vector<DataSetField> analysis_schema(std::span<const Quantity> table = quantities());
+std::vector<DataSetField> analysis_schema(std::span<const analysis::Quantity> table = analysis::quantities());
 
 /// "/analysis/lc/mean" for "lc/mean".
 std::string analysis_path(std::string_view name);
 
 /// The letters of the shapes for an analysis of one frame at least.
-Sizes sizes_of(const Analysis& analysis);
+Sizes sizes_of(const analysis::Analysis& analysis);
 
 /// Whether an analysis has it: what needs a threshold, or events, is not there without any.
-bool is_present(const Quantity& quantity, const Analysis& analysis);
+bool is_present(const analysis::Quantity& quantity, const analysis::Analysis& analysis);
 
-}  // namespace talus
+}  // namespace talus::io

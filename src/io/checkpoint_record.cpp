@@ -6,7 +6,7 @@
 #include "io/record_fields.h"
 #include "io/run_records.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 const std::string checkpoint_group = "/checkpoint/", branch_group = "/branch/";
@@ -147,4 +147,4 @@ Checkpoint read_checkpoint(hdf5::Reader& reader) {
   return checkpoint;
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -17,7 +17,7 @@
 #include "base/errors.h"
 #include "base/sanitizers.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -194,4 +194,4 @@ Parcels in_child_process(const std::string& path, std::size_t input, const std::
   throw Error(code, values_of<std::string>(message));
 }
 
-}  // namespace talus
+}  // namespace talus::io

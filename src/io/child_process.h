@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 /// What a child process sends: bytes by their names.
 using Parcels = std::map<std::string, std::vector<std::byte>>;
@@ -42,4 +42,4 @@ Values values_of(const std::vector<std::byte>& bytes) {
   return values;
 }
 
-}  // namespace talus
+}  // namespace talus::io

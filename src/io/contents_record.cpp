@@ -5,7 +5,7 @@
 #include "io/analysis_schema.h"
 #include "io/run_records.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 /// The data sets of a stored analysis. Of one of another version nothing is known, and nothing is used.
@@ -55,4 +55,4 @@ std::vector<std::string> changed_data_sets(hdf5::Reader& reader) {
   return changed;
 }
 
-}  // namespace talus
+}  // namespace talus::io

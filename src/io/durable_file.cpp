@@ -10,7 +10,7 @@
 #include "base/errors.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::io {
 
 std::vector<std::byte> read_file(const std::string& path) {
   // Not waiting for whoever may write into a pipe.
@@ -55,4 +55,4 @@ void remove_file(const std::string& path) {
     throw system_error(ExitCode::io_error, "remove", path, errno);
 }
 
-}  // namespace talus
+}  // namespace talus::io

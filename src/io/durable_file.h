@@ -8,7 +8,7 @@
 
 #include "base/output_file.h"
 
-namespace talus {
+namespace talus::io {
 
 /// The whole file. Throws Error(missing_input) where it cannot be opened, Error(io_error) where reading
 /// fails.
@@ -28,4 +28,4 @@ void make_folder(const std::string& path);
 /// Removes a file if there is one. Throws Error(io_error).
 void remove_file(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace talus {
+namespace talus::io {
 
 /// The name of the file that HDF5 reads in this thread, as a handler of signals may read it; else null.
 inline constinit thread_local const char* file_in_use = nullptr;
@@ -22,4 +22,4 @@ class FileInUse {
   const char* before_;
 };
 
-}  // namespace talus
+}  // namespace talus::io

@@ -8,7 +8,7 @@
 #include "io/run_file.h"
 #include "io/run_records.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 using hdf5::Rows;
@@ -199,4 +199,4 @@ void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t pl
                                 c.b[k], bodies));
 }
 
-}  // namespace talus
+}  // namespace talus::io

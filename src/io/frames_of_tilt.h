@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 /// How many frames, from the first one, are of the tilt: up to the first highest tilt (rad), or, with a
 /// programme of the tilt, whose `last_tilt_step` is known, up to the last one not after that step.
@@ -19,4 +19,4 @@ inline std::size_t frames_of_tilt(const std::vector<double>& tilts, const std::v
   return static_cast<std::size_t>((highest == tilts.end() ? highest : highest + 1) - tilts.begin());
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -20,7 +20,7 @@
 #include "base/hash.h"
 #include "io/run_schema.h"
 
-namespace talus::hdf5 {
+namespace talus::io::hdf5 {
 
 /// Owns one HDF5 identifier. Where an allocation has failed it stays open: HDF5 can crash when it closes what
 /// it could not complete.
@@ -168,4 +168,4 @@ inline hid_t file_type(ElementType type) {
   return types[static_cast<std::size_t>(type)];
 }
 
-}  // namespace talus::hdf5
+}  // namespace talus::io::hdf5

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "io/file_in_use.h"
 
-namespace talus::hdf5 {
+namespace talus::io::hdf5 {
 namespace {
 
 hsize_t size_of(const Handle& file) {
@@ -242,4 +242,4 @@ std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind
   return names;
 }
 
-}  // namespace talus::hdf5
+}  // namespace talus::io::hdf5

@@ -12,7 +12,7 @@
 #include "io/hdf5_handle.h"
 #include "io/run_schema.h"
 
-namespace talus::hdf5 {
+namespace talus::io::hdf5 {
 
 /// What the numbers of a data set can be.
 struct Range {
@@ -112,4 +112,4 @@ class Reader {
   Sizes sizes_;
 };
 
-}  // namespace talus::hdf5
+}  // namespace talus::io::hdf5

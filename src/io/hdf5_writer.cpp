@@ -8,7 +8,7 @@
 #include "base/errors.h"
 #include "base/visible_text.h"
 
-namespace talus::hdf5 {
+namespace talus::io::hdf5 {
 namespace {
 
 constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image in memory grows
@@ -270,4 +270,4 @@ std::vector<std::byte> Writer::image() {
   return bytes;
 }
 
-}  // namespace talus::hdf5
+}  // namespace talus::io::hdf5

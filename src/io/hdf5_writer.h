@@ -12,7 +12,7 @@
 #include "io/hdf5_handle.h"
 #include "io/run_schema.h"
 
-namespace talus::hdf5 {
+namespace talus::io::hdf5 {
 
 /// How the large data sets are stored: in compressed chunks, frame by frame, or as they are.
 enum class Storage { compressed, as_it_is };
@@ -90,4 +90,4 @@ class Writer {
   std::map<std::string, DataSet> open_;  ///< kept open so that a chunk is compressed once, when it is full
 };
 
-}  // namespace talus::hdf5
+}  // namespace talus::io::hdf5

@@ -7,7 +7,7 @@
 #include "io/run_records.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 constexpr std::int8_t free_species = 0;
@@ -65,7 +65,7 @@ RunStatics read_statics(hdf5::Reader& reader) {
 double stored_wall_friction(const hdf5::Reader& reader, const std::string& scenario) {
   const std::string path = "/parameters/scenario_resolved";
   try {
-    return parse_scenario(scenario, path).contact.wall_friction;
+    return scenario::parse_scenario(scenario, path).contact.wall_friction;
   } catch (const Error& error) {
     reader.refuse(path, std::string("is no scenario: ") + error.what());
   }
@@ -148,4 +148,4 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
   return header;
 }
 
-}  // namespace talus
+}  // namespace talus::io

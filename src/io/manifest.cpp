@@ -11,7 +11,7 @@
 #include "io/durable_file.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 constexpr const char* hint = "; save what is undamaged with: talus repair RUN.h5 -o NEW.h5";
@@ -135,4 +135,4 @@ std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& 
   return bytes;
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 /// A file of the folder, with what proves that it is whole.
 struct StoredFile {
@@ -58,4 +58,4 @@ bool replaces_packed(const std::string& folder, const std::string& packed);
 /// The bytes of a file of the folder. Throws Error(bad_data) where they are not those the manifest describes.
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file);
 
-}  // namespace talus
+}  // namespace talus::io

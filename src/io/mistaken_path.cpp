@@ -11,7 +11,7 @@
 #include "io/run_file.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -115,4 +115,4 @@ void refuse_no_scenario(const std::string& path) {
                     path));
 }
 
-}  // namespace talus
+}  // namespace talus::io

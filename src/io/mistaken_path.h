@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace talus {
+namespace talus::io {
 
 /// The file in the folder of an ensemble by which it is known.
 inline constexpr const char* ensemble_manifest_name = "ensemble.manifest";
@@ -19,4 +19,4 @@ inline constexpr const char* ensemble_manifest_name = "ensemble.manifest";
 /// ensemble. Returns for everything else, of which reading it as a scenario tells.
 void refuse_no_scenario(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::io

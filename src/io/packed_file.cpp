@@ -6,7 +6,7 @@
 #include "io/run_records.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 /// Thrown to leave write_frames.
@@ -95,4 +95,4 @@ std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<b
   return {};
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -9,7 +9,7 @@
 
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::io {
 
 /// All that a packed file holds of a run; frames are asked for one after another.
 struct RunContent {
@@ -34,4 +34,4 @@ bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint);
 /// whether it `goes_on`, if asked to; returns nothing where it does not.
 std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on = {});
 
-}  // namespace talus
+}  // namespace talus::io

@@ -11,7 +11,7 @@
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
 
-namespace talus {
+namespace talus::io {
 
 using hdf5::Range;
 inline constexpr Range not_negative = {.low = 0.0};
@@ -142,4 +142,4 @@ struct Fields {
 template <typename Direction>
 Fields(Direction) -> Fields<Direction>;
 
-}  // namespace talus
+}  // namespace talus::io

@@ -13,7 +13,7 @@
 #include "io/run_records.h"
 #include "io/seal.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -315,7 +315,7 @@ bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
 }
 
 std::vector<std::string> RunFile::changed_data_sets() const {
-  return state_->rows<std::string>(talus::changed_data_sets,
+  return state_->rows<std::string>(talus::io::changed_data_sets,
                                    [](const std::string&, std::int64_t) { return true; });
 }
 
@@ -344,4 +344,4 @@ std::vector<TrialRow> RunFile::trials() const { return state_->rows(read_trials,
 
 std::vector<Command> RunFile::commands() const { return state_->rows(read_commands, is_known_command); }
 
-}  // namespace talus
+}  // namespace talus::io

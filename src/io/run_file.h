@@ -9,7 +9,7 @@
 
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::io {
 
 namespace hdf5 {
 class Reader;
@@ -90,4 +90,4 @@ bool is_run(const std::string& path);
 /// A frame as it will be read back: in single precision where the file stores floats.
 Frame as_stored(Frame frame);
 
-}  // namespace talus
+}  // namespace talus::io

@@ -9,7 +9,7 @@
 #include "io/hdf5_writer.h"
 #include "io/run_store.h"
 
-namespace talus {
+namespace talus::io {
 
 /// Adds the sizes of the state that a branch begins from, where the run is one.
 Sizes with_branch(Sizes sizes, const RunHeader& header);
@@ -77,4 +77,4 @@ std::vector<std::string> changed_data_sets(hdf5::Reader& reader);
 /// The provenance that says what was lost of a run before it was repaired.
 inline constexpr const char* lost_fact = "repaired_lost";
 
-}  // namespace talus
+}  // namespace talus::io

@@ -22,7 +22,7 @@
 #include "io/seal.h"
 #include "io/writer_lock.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -338,4 +338,4 @@ std::vector<std::string> damaged_pieces(const std::string& run) try {
   return {error.what()};  // HDF5 does not survive it
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 struct RepairRequest {
   std::string run;     ///< a packed file, or the folder of a run, by its name or that of its file
@@ -26,4 +26,4 @@ RepairReport repair_run(const RepairRequest& request);
 /// What of a damaged run is not as it was written, one line each. Throws Error(missing_input).
 std::vector<std::string> damaged_pieces(const std::string& run);
 
-}  // namespace talus
+}  // namespace talus::io

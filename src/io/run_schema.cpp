@@ -6,7 +6,7 @@
 #include "core/trial_row.h"
 #include "io/analysis_schema.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 using enum ElementType;
@@ -264,4 +264,4 @@ std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& si
   return dims;
 }
 
-}  // namespace talus
+}  // namespace talus::io

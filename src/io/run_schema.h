@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 /// Counts up with each change of the table, or of what a stored scenario means. A file of another version is
 /// refused.
@@ -50,4 +50,4 @@ using Sizes = std::map<char, std::uint64_t>;
 /// The shape of a data set in numbers; empty for a scalar.
 std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& sizes);
 
-}  // namespace talus
+}  // namespace talus::io

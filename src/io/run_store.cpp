@@ -27,7 +27,7 @@
 #include "io/seal.h"
 #include "io/writer_lock.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -463,4 +463,4 @@ RunPresence run_presence(const std::string& path) {
   return has_folder ? RunPresence::folder : RunPresence::none;
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -14,9 +14,11 @@
 #include "core/snapshot.h"
 #include "core/trial_row.h"
 
-namespace talus {
-
+namespace talus::analysis {
 struct Analysis;
+}
+
+namespace talus::io {
 
 /// All that is needed to continue with the same bits: the world in doubles, and the state of the schedule as
 /// named values that the session understands. `results` are the figures of the run so far (theta_c, ...),
@@ -72,9 +74,9 @@ struct StoredReading {
 
 /// What a packed file holds besides all that was committed, and what not.
 struct PackedParts {
-  const Analysis* analysis = nullptr;        ///< stored with the run, if there is one
-  std::vector<StoredReading> readings = {};  ///< the same, where there is an analysis
-  bool frames = true;                        ///< false: only with steps, times and tilts of its frames
+  const analysis::Analysis* analysis = nullptr;  ///< stored with the run, if there is one
+  std::vector<StoredReading> readings = {};      ///< the same, where there is an analysis
+  bool frames = true;                            ///< false: only with steps, times and tilts of its frames
 };
 
 /// The open folder of a running run, locked against other writers.
@@ -140,4 +142,4 @@ void set_withdrawn_aside(const std::string& path);
 /// The folder in which the run `path` is computed.
 std::string run_folder(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::io

@@ -15,7 +15,7 @@
 #include "base/hash.h"
 #include "io/mistaken_path.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 constexpr std::size_t read_size = std::size_t{1} << 20;
@@ -94,4 +94,4 @@ void verify_seal(const std::string& path, std::string_view kind) {
                                  : "make it again with: talus ensemble average FOLDER"));
 }
 
-}  // namespace talus
+}  // namespace talus::io

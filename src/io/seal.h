@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::io {
 
 inline constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
 
@@ -41,4 +41,4 @@ bool begins_with(const std::string& path, std::string_view bytes);
 /// Whether it begins as the packed file of a run, sound or damaged.
 bool begins_as_run(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::io

@@ -3,7 +3,7 @@
 #include "io/record_fields.h"
 #include "io/run_records.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 template <typename Columns, typename Rows, typename Direction>
@@ -72,4 +72,4 @@ std::vector<Command> read_commands(hdf5::Reader& reader) {
   return commands;
 }
 
-}  // namespace talus
+}  // namespace talus::io

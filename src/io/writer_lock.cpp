@@ -13,7 +13,7 @@
 #include "base/errors.h"
 #include "base/locked_file.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 std::string this_process() {
@@ -82,4 +82,4 @@ void require_no_writer(const std::string& folder) {
   if (const std::string writer = writer_of(folder); !writer.empty()) refuse_held(folder, writer);
 }
 
-}  // namespace talus
+}  // namespace talus::io

@@ -5,7 +5,7 @@
 
 #include "base/descriptor.h"
 
-namespace talus {
+namespace talus::io {
 
 /// Holds the lock of a run folder. It dies with its process, so a file `lock` left behind does no harm. Where
 /// locks do not reach from one writer to the other, the later one makes a `lock` of its own, and the earlier
@@ -46,4 +46,4 @@ std::string writer_of(const std::string& folder);
 /// Throws Error(cannot_create) where there is one.
 void require_no_writer(const std::string& folder);
 
-}  // namespace talus
+}  // namespace talus::io

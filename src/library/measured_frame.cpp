@@ -41,59 +41,60 @@ std::pair<std::string_view, std::size_t> split(std::string_view name) {
 
 std::vector<std::string> names_of_numbers() {
   std::vector<std::string> names;
-  for (const Quantity& quantity : quantities())
-    if (is_number_of_frame(quantity)) names.push_back(quantity.name);
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (analysis::is_number_of_frame(quantity)) names.push_back(quantity.name);
   for (const SeriesField& field : observable_fields) names.emplace_back(field.name);
   return names;
 }
 
-std::vector<double> values_of(std::span<const FrameQuantity> table, std::string_view name, const char* what,
-                              const GrainSource& source) {
-  const auto found = std::ranges::find(table, name, &FrameQuantity::name);
+std::vector<double> values_of(std::span<const analysis::FrameQuantity> table, std::string_view name,
+                              const char* what, const analysis::GrainSource& source) {
+  const auto found = std::ranges::find(table, name, &analysis::FrameQuantity::name);
   if (found != table.end() && !name.empty()) {
     std::vector<double> values = found->values(source, 0);
-    const bool is_known = found->need != FrameNeed::earlier_frame ||
+    const bool is_known = found->need != analysis::FrameNeed::earlier_frame ||
                           (source.earlier && source.earlier->grain_count() == source.frame.grain_count());
     if (!is_known) std::ranges::fill(values, not_known);
     return values;
   }
   std::vector<std::string> names;
-  for (const FrameQuantity& quantity : table) names.emplace_back(quantity.name);
+  for (const analysis::FrameQuantity& quantity : table) names.emplace_back(quantity.name);
   refuse(name, what, names);
 }
 
 }  // namespace
 
-double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(assumed_theta_c)); }
+double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(pictures::assumed_theta_c)); }
 
 const Frame& MeasuredFrame::judged() {
-  if (!judged_) judged_ = with_analysed_gamma(input_.frame, input_.statics, input_.parameters);
+  if (!judged_) judged_ = analysis::with_analysed_gamma(input_.frame, input_.statics, input_.parameters);
   return *judged_;
 }
 
-const FrameRecord& MeasuredFrame::record() {
+const analysis::FrameRecord& MeasuredFrame::record() {
   if (record_) return *record_;
-  const Analysis analysis = begin_analysis(input_.statics, input_.parameters, theta_c());
-  FrameRecord found = analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
-  take_topology(force_persistence({judged(), input_.statics}, found.mean_normal_force),
-                input_.statics.free_count, analysis.network_threshold, found);
+  const analysis::Analysis analysis = analysis::begin_analysis(input_.statics, input_.parameters, theta_c());
+  analysis::FrameRecord found =
+      analysis::analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
+  analysis::take_topology(analysis::force_persistence({judged(), input_.statics}, found.mean_normal_force),
+                          input_.statics.free_count, analysis.network_threshold, found);
   if (input_.row) {
     found.volume_strain = at(*input_.row, Observable::volume_strain);
     found.centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
     found.solid_fraction = at(*input_.row, Observable::solid_fraction);
   }
   factors_.clear();
-  for (const RunThreshold& threshold : analysis.thresholds) factors_.push_back(threshold.factor);
+  for (const analysis::RunThreshold& threshold : analysis.thresholds) factors_.push_back(threshold.factor);
   record_ = std::move(found);
   return *record_;
 }
 
 double MeasuredFrame::quantity(std::string_view name) {
   const auto [plain, threshold] = split(name);
-  for (const Quantity& quantity : quantities())
-    if (quantity.name == plain && is_number_of_frame(quantity)) {
-      const std::size_t count = needs_threshold(quantity) ? record().thresholds.size() : 1;
-      if (threshold < count) return number_of(quantity, record(), threshold);
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (quantity.name == plain && analysis::is_number_of_frame(quantity)) {
+      const std::size_t count = analysis::needs_threshold(quantity) ? record().thresholds.size() : 1;
+      if (threshold < count) return analysis::number_of(quantity, record(), threshold);
       throw Error(ExitCode::usage, fmt::format("'{}': there are {} of it", visible_word(name), count));
     }
   const auto* const field = std::ranges::find(observable_fields, name, &SeriesField::name);
@@ -102,46 +103,46 @@ double MeasuredFrame::quantity(std::string_view name) {
 }
 
 std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
-  const FrameRecord& known = record();
-  GrainSource source = {bed(),           0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors_,
-                        known.thresholds};
+  const analysis::FrameRecord& known = record();
+  analysis::GrainSource source = {
+      bed(), 0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors_, known.thresholds};
   source.earlier = source.first;
   source.length = std::min(default_length * input_.statics.mean_diameter, input_.statics.length);
-  return values_of(grain_quantities(), name, "quantity of grains", source);
+  return values_of(analysis::grain_quantities(), name, "quantity of grains", source);
 }
 
 std::vector<double> MeasuredFrame::contact_values(std::string_view name) const {
-  return values_of(contact_quantities(), name, "quantity of contacts", {bed()});
+  return values_of(analysis::contact_quantities(), name, "quantity of contacts", {bed()});
 }
 
-Image MeasuredFrame::draw(const std::string& map, MapOptions options) const {
+render::Image MeasuredFrame::draw(const std::string& map, pictures::MapOptions options) const {
   options.maps = {map};
-  const MapPlan plan = plan_maps(options);
-  MapSettings settings = plan.maps.at(0);
+  const pictures::MapPlan plan = pictures::plan_maps(options);
+  pictures::MapSettings settings = plan.maps.at(0);
   if (std::isnan(settings.theta_c)) {
     settings.theta_c = theta_c();
     settings.theta_c_assumed = !input_.theta_c;
   }
-  const Frame mapped = mapped_frame(input_.frame, input_.statics, settings.l_min);
-  MapFrame frame = {{mapped, input_.statics}};
+  const Frame mapped = pictures::mapped_frame(input_.frame, input_.statics, settings.l_min);
+  pictures::MapFrame frame = {{mapped, input_.statics}};
   if (input_.begin && input_.begin->grain_count() == mapped.grain_count()) frame.reference = &*input_.begin;
   frame.per_degree = false;
-  MapExtent extent = bed_extent(input_.statics);
-  extend(extent, frame);
-  Renderer renderer(make_context(plan.context));
-  return renderer.draw(make_map(frame, settings, extent), plan.width);
+  pictures::MapExtent extent = pictures::bed_extent(input_.statics);
+  pictures::extend(extent, frame);
+  render::Renderer renderer(render::make_context(plan.context));
+  return renderer.draw(pictures::make_map(frame, settings, extent), plan.width);
 }
 
 MeasuredFrame measured_frame(const std::string& path, std::size_t k,
                              const std::vector<std::string>& settings) {
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   const std::size_t count = run.all_frame_tilts().size();
   if (k >= count)
     throw Error(ExitCode::usage, fmt::format("{}: there is no frame {}; it has {}", path, k, count));
   FrameInput input;
   input.frame = run.frame(k);
   input.statics = run.header().statics;
-  input.parameters = parse_analysis_settings(settings);
+  input.parameters = runs::parse_analysis_settings(settings);
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   if (std::isfinite(theta_c)) input.theta_c = theta_c;
   input.begin = run.frame(0);

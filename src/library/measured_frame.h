@@ -21,7 +21,7 @@ namespace talus {
 struct FrameInput {
   Frame frame;
   RunStatics statics;  ///< of the grains of the frame
-  AnalysisParameters parameters{};
+  analysis::AnalysisParameters parameters{};
   std::optional<double> theta_c{};     ///< rad; nothing while the slope has not failed
   std::optional<Frame> begin{};        ///< as the tilt began, from which motions are measured
   std::optional<ObservableRow> row{};  ///< of the same moment, or the last one before it
@@ -46,16 +46,16 @@ class MeasuredFrame {
 
   /// A map by its name, as `talus render --map` draws it; theta_c is that of the run or the assumed one
   /// unless it is given. Throws Error(usage), Error(unavailable).
-  Image draw(const std::string& map, MapOptions options) const;
+  render::Image draw(const std::string& map, pictures::MapOptions options) const;
 
  private:
   const Frame& judged();  ///< with the gamma of neighbourhoods
-  const FrameRecord& record();
+  const analysis::FrameRecord& record();
   double theta_c() const;
 
   FrameInput input_;
   std::optional<Frame> judged_{};
-  std::optional<FrameRecord> record_{};
+  std::optional<analysis::FrameRecord> record_{};
   std::vector<double> factors_{};
 };
 

@@ -31,15 +31,15 @@ void require_finite(double value, const char* what) {
 }
 
 /// Whether a command holds the tilt.
-bool is_held(const Session& session) {
-  return session.phase() == Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0;
+bool is_held(const session::Session& session) {
+  return session.phase() == session::Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0;
 }
 
 }  // namespace
 
-Simulation::State::State(Session from)
+Simulation::State::State(session::Session from)
     : session(std::move(from)),
-      statics(run_statics(session.scenario(), session.world())),
+      statics(session::run_statics(session.scenario(), session.world())),
       process(::getpid()) {}
 
 bool Simulation::State::is_own() const { return process == ::getpid(); }
@@ -55,16 +55,16 @@ void Simulation::State::require_own() const {
 void Simulation::State::advance() {
   measured.reset();
   is_new = false;
-  const Phase before = session.phase();
+  const session::Phase before = session.phase();
   if (recorder)
     recorder->advance();
   else
     session.advance();
-  if (before == Phase::deposition && session.phase() == Phase::tilt)
-    begin = make_frame(session.world(), session.law());
+  if (before == session::Phase::deposition && session.phase() == session::Phase::tilt)
+    begin = session::make_frame(session.world(), session.law());
   if (!recorder)
     session.clear_segment();
-  else if (session.phase() == Phase::done)
+  else if (session.phase() == session::Phase::done)
     commit();
   else
     recorder->commit_if_due();
@@ -72,7 +72,7 @@ void Simulation::State::advance() {
 
 void Simulation::State::commit() {
   recorder->commit();
-  if (session.phase() != Phase::done) return;
+  if (session.phase() != session::Phase::done) return;
   store->pack();
   recorder.reset();
   store.reset();
@@ -80,7 +80,7 @@ void Simulation::State::commit() {
 
 MeasuredFrame& Simulation::State::measure() {
   if (!measured) {
-    Frame frame = make_frame(session.world(), session.law());
+    Frame frame = session::make_frame(session.world(), session.law());
     RunStatics arrived = arrived_statics(statics, frame.grain_count());
     measured.emplace(FrameInput{std::move(frame), std::move(arrived), parameters, session.angle_of_repose(),
                                 begin, session.row()});
@@ -90,24 +90,25 @@ MeasuredFrame& Simulation::State::measure() {
 
 Simulation::Simulation(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
-Simulation::Simulation(const Scenario& scenario, std::string text) {
-  require_memory(scenario);
-  state_ = std::make_unique<State>(Session(scenario));
-  state_->origin.scenario_text = text.empty() ? resolved_toml(scenario) : std::move(text);
+Simulation::Simulation(const scenario::Scenario& scenario, std::string text) {
+  session::require_memory(scenario);
+  state_ = std::make_unique<State>(session::Session(scenario));
+  state_->origin.scenario_text = text.empty() ? scenario::resolved_toml(scenario) : std::move(text);
 }
 
 Simulation Simulation::resume(const std::string& path) {
-  RunHeader header;
-  Checkpoint checkpoint;
-  RunStore store = RunStore::resume(path, header, checkpoint);
-  const Scenario scenario = stored_scenario(header, path + ":/parameters");
-  refuse_unfinished_replay(header, checkpoint.world, path);
-  auto state = std::make_unique<State>(Session(scenario, std::move(checkpoint), path));
+  io::RunHeader header;
+  io::Checkpoint checkpoint;
+  io::RunStore store = io::RunStore::resume(path, header, checkpoint);
+  const scenario::Scenario scenario = runs::stored_scenario(header, path + ":/parameters");
+  session::refuse_unfinished_replay(header, checkpoint.world, path);
+  auto state = std::make_unique<State>(session::Session(scenario, std::move(checkpoint), path));
   state->is_new = false;
   state->origin.scenario_text = header.scenario_given;
   state->store.emplace(std::move(store));
   state->recorder.emplace(state->session, *state->store);
-  if (const RunFile run = RunFile::open(path); !run.all_frame_tilts().empty()) state->begin = run.frame(0);
+  if (const io::RunFile run = io::RunFile::open(path); !run.all_frame_tilts().empty())
+    state->begin = run.frame(0);
   return Simulation(std::move(state));
 }
 
@@ -136,7 +137,7 @@ Simulation::~Simulation() {
   }
 }
 
-bool Simulation::advance_until(const std::function<bool(const Session&)>& reached) {
+bool Simulation::advance_until(const std::function<bool(const session::Session&)>& reached) {
   State& state = *state_;
   state.require_own();
   if (done())
@@ -158,17 +159,18 @@ bool Simulation::step(std::int64_t count) {
   if (count < 0)
     throw Error(ExitCode::usage, fmt::format("step({}): expected a count of steps, 0 or more", count));
   const std::int64_t last = world().step + std::min(count, std::numeric_limits<std::int64_t>::max() / 2);
-  return advance_until([last](const Session& session) { return session.world().step >= last; });
+  return advance_until([last](const session::Session& session) { return session.world().step >= last; });
 }
 
 bool Simulation::deposit() {
-  return advance_until([](const Session& session) { return session.phase() != Phase::deposition; });
+  return advance_until(
+      [](const session::Session& session) { return session.phase() != session::Phase::deposition; });
 }
 
 bool Simulation::tilt_to(double degrees) {
   require_finite(degrees, "a tilt of");
   const double goal = radians(degrees) - reached_within;
-  return advance_until([goal](const Session& session) {
+  return advance_until([goal](const session::Session& session) {
     if (session.world().tilt >= goal) return true;
     if (is_held(session))
       throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate), and never gets there");
@@ -183,16 +185,16 @@ bool Simulation::tilt_by(double degrees) {
 
 bool Simulation::run(double seconds) {
   require_finite(seconds, "a time of");
-  const double end = world().time + seconds, half = 0.5 * time_step(scenario());
-  return advance_until([=](const Session& session) { return session.world().time >= end - half; });
+  const double end = world().time + seconds, half = 0.5 * scenario::time_step(scenario());
+  return advance_until([=](const session::Session& session) { return session.world().time >= end - half; });
 }
 
 bool Simulation::run_until(const std::function<bool()>& holds) {
-  return advance_until([&holds](const Session&) { return holds(); });
+  return advance_until([&holds](const session::Session&) { return holds(); });
 }
 
 bool Simulation::finish() {
-  return advance_until([](const Session& session) {
+  return advance_until([](const session::Session& session) {
     if (is_held(session))
       throw Error(ExitCode::usage, "the tilt is held (tilt_rate), so the run has no end: say for how long");
     return false;
@@ -226,7 +228,7 @@ void Simulation::push(const std::vector<Index>& grains, const std::vector<Vec2>&
   if (grains.size() != velocities.size())
     throw Error(ExitCode::usage, fmt::format("{} velocities for {} grains: expected one for each",
                                              velocities.size(), grains.size()));
-  for (std::size_t k = 0; k < grains.size(); ++k) check_command(command(k), scenario(), world());
+  for (std::size_t k = 0; k < grains.size(); ++k) session::check_command(command(k), scenario(), world());
   for (std::size_t k = 0; k < grains.size(); ++k) apply(command(k));
 }
 void Simulation::drop(Index grains, double x, double height) {
@@ -237,10 +239,10 @@ void Simulation::release() { apply({0, CommandKind::release}); }
 void Simulation::set_friction(double friction) { apply({0, CommandKind::friction, -1, friction}); }
 void Simulation::set_tilt_rate(double rate) { apply({0, CommandKind::tilt_rate, -1, rate}); }
 
-const Scenario& Simulation::scenario() const { return state_->session.scenario(); }
+const scenario::Scenario& Simulation::scenario() const { return state_->session.scenario(); }
 const World& Simulation::world() const { return state_->session.world(); }
-Phase Simulation::phase() const { return state_->session.phase(); }
-bool Simulation::done() const { return phase() == Phase::done; }
+session::Phase Simulation::phase() const { return state_->session.phase(); }
+bool Simulation::done() const { return phase() == session::Phase::done; }
 double Simulation::tilt() const { return degrees(world().tilt); }
 double Simulation::tilt_rate() const { return degrees(state_->session.tilt_rate()); }
 double Simulation::friction() const { return state_->session.law().friction; }
@@ -254,7 +256,7 @@ std::optional<double> Simulation::theta_c() const {
 const RunStatics& Simulation::statics() const { return state_->statics; }
 
 void Simulation::set_analysis(const std::vector<std::string>& settings) {
-  state_->parameters = parse_analysis_settings(settings);
+  state_->parameters = runs::parse_analysis_settings(settings);
   state_->measured.reset();
 }
 
@@ -266,7 +268,7 @@ std::vector<double> Simulation::grain_values(std::string_view name) {
 std::vector<double> Simulation::contact_values(std::string_view name) {
   return state_->measure().contact_values(name);
 }
-Image Simulation::draw(const std::string& map, MapOptions options) {
+render::Image Simulation::draw(const std::string& map, pictures::MapOptions options) {
   return state_->measure().draw(map, std::move(options));
 }
 
@@ -275,19 +277,19 @@ void Simulation::record(const std::string& path, bool overwrite) {
   state.require_own();
   if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
   if (done()) throw Error(ExitCode::usage, "the run is over: there is nothing more to record");
-  if (!state.is_new && phase() == Phase::deposition)
+  if (!state.is_new && phase() == session::Phase::deposition)
     throw Error(
         ExitCode::usage,
         "a bed that is being deposited cannot be recorded from here on: record it before its first step, or "
         "once it rests (deposit)");
-  RunOrigin origin = state.origin;
+  session::RunOrigin origin = state.origin;
   const World& now = world();
   if (!state.is_new)
     origin.branch =
-        BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)), state.session.checkpoint(0.0)};
+        io::BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)), state.session.checkpoint(0.0)};
   state.session.clear_segment();
-  state.store.emplace(
-      RunStore::create(path, run_header(state.session, with_bed(origin, state.session)), overwrite));
+  state.store.emplace(io::RunStore::create(
+      path, session::run_header(state.session, session::with_bed(origin, state.session)), overwrite));
   state.recorder.emplace(state.session, *state.store);
   if (!state.is_new) state.session.record_start();
   try {

@@ -19,9 +19,11 @@
 #include "scenario/scenario.h"
 #include "session/phase.h"
 
-namespace talus {
-
+namespace talus::session {
 class Session;
+}
+
+namespace talus {
 
 /// Not for several threads at once; several simulations may run in several threads. A child of fork can look
 /// at a simulation of its parent and copy it; Error(usage) where it steps, changes or records it.
@@ -29,7 +31,7 @@ class Simulation {
  public:
   /// The bed of the scenario before its first step. `text` is the scenario as it was written, for the header
   /// of a recording; empty: as it is resolved. Throws Error(usage) if it needs more memory than there is.
-  explicit Simulation(const Scenario& scenario, std::string text = {});
+  explicit Simulation(const scenario::Scenario& scenario, std::string text = {});
 
   /// A recorded run, where its last commit left it, which goes on in the same file. Throws
   /// Error(missing_input), Error(bad_data), and Error(cannot_create) where another process is at it.
@@ -73,9 +75,9 @@ class Simulation {
 
   // Where it stands.
 
-  const Scenario& scenario() const;
+  const scenario::Scenario& scenario() const;
   const World& world() const;  ///< grains and contacts after the last step; stays where it is
-  Phase phase() const;
+  session::Phase phase() const;
   bool done() const;
   double tilt() const;       ///< deg
   double tilt_rate() const;  ///< deg/s
@@ -92,7 +94,7 @@ class Simulation {
   double quantity(std::string_view name);
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name);
-  Image draw(const std::string& map, MapOptions options = {});
+  render::Image draw(const std::string& map, pictures::MapOptions options = {});
   /// The state as a run records it.
   const Frame& frame();
   const RunStatics& statics() const;
@@ -113,7 +115,7 @@ class Simulation {
  private:
   struct State;
   explicit Simulation(std::unique_ptr<State> state);
-  bool advance_until(const std::function<bool(const Session&)>& reached);
+  bool advance_until(const std::function<bool(const session::Session&)>& reached);
   void apply(const Command& command);
   std::unique_ptr<State> state_;
 };

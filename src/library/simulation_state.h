@@ -15,13 +15,13 @@
 namespace talus {
 
 struct Simulation::State {
-  Session session;
+  session::Session session;
   RunStatics statics;
-  RunOrigin origin;
-  std::optional<RunStore> store;
-  std::optional<Recorder> recorder;
+  session::RunOrigin origin;
+  std::optional<io::RunStore> store;
+  std::optional<session::Recorder> recorder;
   std::function<bool()> interrupts;
-  AnalysisParameters parameters;
+  analysis::AnalysisParameters parameters;
   bool is_new = true;            ///< neither stepped nor changed
   std::optional<Frame> begin{};  ///< as the tilt began, where that was seen
 
@@ -29,7 +29,7 @@ struct Simulation::State {
 
   pid_t process;  ///< that made it: in a child of fork it can only be looked at and copied
 
-  explicit State(Session from);
+  explicit State(session::Session from);
   bool is_own() const;
   /// Throws Error(usage) in a child of fork.
   void require_own() const;

@@ -6,3 +6,20 @@
 #include "library/measured_frame.h"
 #include "library/simulation.h"
 #include "render/png.h"
+#include "scenario/scenario.h"
+
+namespace talus {
+
+using analysis::AnalysisParameters;
+using analysis::FrameRecord;
+using pictures::MapOptions;
+using render::encode_png;
+using render::Image;
+using render::write_png;
+using scenario::parse_scenario;
+using scenario::read_scenario;
+using scenario::resolved_toml;
+using scenario::Scenario;
+using session::Phase;
+
+}  // namespace talus

@@ -1,6 +1,6 @@
 #include "pictures/background_tasks.h"
 
-namespace talus {
+namespace talus::pictures {
 
 BackgroundTasks::BackgroundTasks(std::size_t most_waiting)
     : most_waiting_(most_waiting), thread_([this] { work(); }) {}
@@ -65,4 +65,4 @@ void BackgroundTasks::work() {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

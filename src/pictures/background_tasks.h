@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-namespace talus {
+namespace talus::pictures {
 
 class BackgroundTasks {
  public:
@@ -45,4 +45,4 @@ class BackgroundTasks {
   std::thread thread_;
 };
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -7,10 +7,10 @@
 
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
-bool is_seen(const FrameView& view, double left, double right, double bottom, double top) {
+bool is_seen(const render::FrameView& view, double left, double right, double bottom, double top) {
   return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
 }
 
@@ -28,20 +28,20 @@ double scale_diameters(double width, double diameter) {
 
 }  // namespace
 
-bool is_seen(const FrameView& view, const Disc& disc) {
+bool is_seen(const render::FrameView& view, const render::Disc& disc) {
   return is_seen(view, disc.x - disc.radius, disc.x + disc.radius, disc.y - disc.radius,
                  disc.y + disc.radius);
 }
 
-bool is_seen(const FrameView& view, const Line& line) {
+bool is_seen(const render::FrameView& view, const render::Line& line) {
   const auto [left, right] = std::minmax(line.x0, line.x1);
   const auto [bottom, top] = std::minmax(line.y0, line.y1);
   const float half = line.half_width;
   return is_seen(view, left - half, right + half, bottom - half, top + half);
 }
 
-FrameView empty_view(const MapExtent& extent) {
-  FrameView view;
+render::FrameView empty_view(const MapExtent& extent) {
+  render::FrameView view;
   view.furniture = false;
   view.x_min = extent.x_min;
   view.x_max = extent.x_max;
@@ -50,40 +50,40 @@ FrameView empty_view(const MapExtent& extent) {
   return view;
 }
 
-void add_disc(FrameView& view, const Disc& disc, const RunStatics& statics) {
+void add_disc(render::FrameView& view, const render::Disc& disc, const RunStatics& statics) {
   if (is_seen(view, disc)) view.discs.push_back(disc);
   if (!statics.periodic) return;
   for (const double shift : {statics.length, -statics.length}) {
-    Disc image = disc;
+    render::Disc image = disc;
     image.x += static_cast<float>(shift);
     if (is_seen(view, image)) view.discs.push_back(image);
   }
 }
 
-void add_line(FrameView& view, const Line& line, const RunStatics& statics) {
+void add_line(render::FrameView& view, const render::Line& line, const RunStatics& statics) {
   if (is_seen(view, line)) view.lines.push_back(line);
   if (!statics.periodic) return;
   for (const double shift : {statics.length, -statics.length}) {
-    Line image = line;
+    render::Line image = line;
     image.x0 += static_cast<float>(shift);
     image.x1 += static_cast<float>(shift);
     if (is_seen(view, image)) view.lines.push_back(image);
   }
 }
 
-Disc disc_of(const BedFrame& bed, Index grain) {
-  Disc disc;
+render::Disc disc_of(const BedFrame& bed, Index grain) {
+  render::Disc disc;
   disc.x = static_cast<float>(bed.frame.x[grain]);
   disc.y = static_cast<float>(bed.frame.y[grain]);
   disc.radius = static_cast<float>(bed.statics.radius[grain]);
   if (grain >= bed.statics.free_count) {
-    disc.rim = gray(0.75);
+    disc.rim = render::gray(0.75);
     disc.hatched = 1.0f;
   }
   return disc;
 }
 
-void add_surroundings(FrameView& view, const BedFrame& bed) {
+void add_surroundings(render::FrameView& view, const BedFrame& bed) {
   const RunStatics& statics = bed.statics;
   view.left_wall = !statics.periodic && view.x_min <= 0.0;
   view.right_wall = !statics.periodic && view.x_max >= statics.length;
@@ -93,4 +93,4 @@ void add_surroundings(FrameView& view, const BedFrame& bed) {
   view.scale_label = number_label(diameters) + " D";
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

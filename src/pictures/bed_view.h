@@ -4,23 +4,23 @@
 #include "pictures/maps.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// What is shown, without grains and without furniture.
-FrameView empty_view(const MapExtent& extent);
+render::FrameView empty_view(const MapExtent& extent);
 
 /// Whether any of it is in what is shown.
-bool is_seen(const FrameView& view, const Disc& disc);
-bool is_seen(const FrameView& view, const Line& line);
+bool is_seen(const render::FrameView& view, const render::Disc& disc);
+bool is_seen(const render::FrameView& view, const render::Line& line);
 
 /// Adds a disc or a line, and in a periodic bed its images, where they reach into what is shown.
-void add_disc(FrameView& view, const Disc& disc, const RunStatics& statics);
-void add_line(FrameView& view, const Line& line, const RunStatics& statics);
+void add_disc(render::FrameView& view, const render::Disc& disc, const RunStatics& statics);
+void add_line(render::FrameView& view, const render::Line& line, const RunStatics& statics);
 
 /// A grain without its look; a grain of the floor is hatched.
-Disc disc_of(const BedFrame& bed, Index grain);
+render::Disc disc_of(const BedFrame& bed, Index grain);
 
 /// Walls and smooth floor, where they are in what is shown, and the scale bar.
-void add_surroundings(FrameView& view, const BedFrame& bed);
+void add_surroundings(render::FrameView& view, const BedFrame& bed);
 
-}  // namespace talus
+}  // namespace talus::pictures

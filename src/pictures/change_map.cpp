@@ -10,11 +10,11 @@
 #include "core/trigonometry.h"
 #include "pictures/motion.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Told from the orange and blue of the scale, from white, and from each other in a gray print.
-constexpr Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
+constexpr render::Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
 bool gives_numbers(MapKind kind) {
@@ -48,14 +48,15 @@ MapLayer difference_layer(const MapFrame& of, const Frame& before, MapSettings s
   for (double& change : changes)
     if (!std::isfinite(change)) change = not_known;
   const double half = 0.5 * (scale.logarithmic ? std::log10(scale.high / scale.low) : scale.high - scale.low);
-  const Scale about_zero{ColourMap::diverging, -half, half};
+  const Scale about_zero{render::ColourMap::diverging, -half, half};
   const std::string& unit = after.legend.bars.at(0).title;
   return scaled_layer_with_outlines(
       fmt::format("Change of {}, {}", begun_small(after.title), between(of, before)), about_zero,
       std::move(changes), bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit));
 }
 
-Line line_between(double x0, double y0, double x1, double y1, double half_width, const Colour& colour) {
+render::Line line_between(double x0, double y0, double x1, double y1, double half_width,
+                          const render::Colour& colour) {
   return {static_cast<float>(x0), static_cast<float>(y0),         static_cast<float>(x1),
           static_cast<float>(y1), static_cast<float>(half_width), colour};
 }
@@ -74,7 +75,7 @@ Vec2 towards(const MapFrame& of, const Frame& at, Index c) {
   return {of.frame.x[b] + period - of.frame.x[a], of.frame.y[b] - of.frame.y[a]};
 }
 
-void add_gained(std::vector<Line>& lines, const MapFrame& of, Index c) {
+void add_gained(std::vector<render::Line>& lines, const MapFrame& of, Index c) {
   const Index a = of.frame.contacts.a[c];
   const double x = of.frame.x[a], y = of.frame.y[a];
   const Vec2 way = towards(of, of.frame, c);
@@ -84,7 +85,7 @@ void add_gained(std::vector<Line>& lines, const MapFrame& of, Index c) {
 
 /// From the centre of each grain to its edge, so that what lies between them stays free, however far they
 /// are apart by now.
-void add_lost(std::vector<Line>& lines, const MapFrame& of, const Frame& before, Index c) {
+void add_lost(std::vector<render::Line>& lines, const MapFrame& of, const Frame& before, Index c) {
   const Index a = before.contacts.a[c], b = before.contacts.b[c];
   const Vec2 way = towards(of, before, c);
   const double distance = std::hypot(way.x, way.y);
@@ -99,13 +100,13 @@ void add_lost(std::vector<Line>& lines, const MapFrame& of, const Frame& before,
 }
 
 MapLayer contacts_layer(const MapFrame& of, const Frame& before) {
-  const ContactChanges changes = contact_changes(before, of.frame);
+  const analysis::ContactChanges changes = analysis::contact_changes(before, of.frame);
   MapLayer layer;
   layer.title = "Contacts gained and lost";
   for (const Index c : changes.lost) add_lost(layer.lines, of, before, c);
   for (const Index c : changes.gained) add_gained(layer.lines, of, c);
-  const auto swatch = [](const Colour& colour, const std::string& label) {
-    return Swatch{Swatch::Kind::line, colour, colour, 0.25, label};
+  const auto swatch = [](const render::Colour& colour, const std::string& label) {
+    return render::Swatch{render::Swatch::Kind::line, colour, colour, 0.25, label};
   };
   layer.legend.swatches = {swatch(gained_colour, fmt::format("contacts gained: {}", changes.gained.size())),
                            swatch(lost_colour, fmt::format("lost: {}", changes.lost.size()))};
@@ -139,10 +140,11 @@ std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& se
   return layers;
 }
 
-FrameView make_change_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
-  FrameView view = compose_map(frame, settings, extent, change_layers(frame, settings, extent));
+render::FrameView make_change_map(const MapFrame& frame, const MapSettings& settings,
+                                  const MapExtent& extent) {
+  render::FrameView view = compose_map(frame, settings, extent, change_layers(frame, settings, extent));
   view.coloured = true;
   return view;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

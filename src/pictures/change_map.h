@@ -4,7 +4,7 @@
 
 #include "pictures/layers.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Whose change is shown where these layers are: of the first of them that gives each grain a number; gamma
 /// where they show what follows from it; else the displacement of grains. Maps of motion are a change
@@ -21,6 +21,7 @@ std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& se
                                     const MapExtent& extent);
 
 /// Their map. Throws as make_map, and Error(internal) where the frames have different numbers of grains.
-FrameView make_change_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
+render::FrameView make_change_map(const MapFrame& frame, const MapSettings& settings,
+                                  const MapExtent& extent);
 
-}  // namespace talus
+}  // namespace talus::pictures

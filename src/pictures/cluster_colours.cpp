@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Grains that a cluster has of an earlier one.
@@ -14,7 +14,7 @@ struct SharedGrains {
 };
 
 /// For each cluster and each earlier one that share grains.
-std::vector<SharedGrains> shared_grains(const Clusters& clusters,
+std::vector<SharedGrains> shared_grains(const analysis::Clusters& clusters,
                                         const std::vector<std::int64_t>& track_of_grain) {
   std::vector<std::pair<std::int64_t, Index>> pairs;
   for (std::size_t i = 0; i < std::min(clusters.label.size(), track_of_grain.size()); ++i)
@@ -36,7 +36,7 @@ std::size_t least_worn(const std::vector<Index>& worn) {
 
 }  // namespace
 
-std::vector<Colour> cluster_palette() {
+std::vector<render::Colour> cluster_palette() {
   // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart. Yellow is
   // left out, as it is too light; a violet and a brown stand for indigo and wine, on which the black rim of a
   // cluster that spans could not be seen.
@@ -44,7 +44,7 @@ std::vector<Colour> cluster_palette() {
           {153, 153, 51}, {136, 204, 238}, {150, 85, 70},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
 }
 
-std::vector<ClusterColour> ClusterColours::next(const Clusters& clusters) {
+std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& clusters) {
   std::vector<SharedGrains> shared = shared_grains(clusters, track_of_grain_);
   // The most grains first; of as many, those of the cluster that was larger.
   std::ranges::sort(shared, [&](const SharedGrains& one, const SharedGrains& other) {
@@ -91,4 +91,4 @@ std::vector<ClusterColour> ClusterColours::next(const Clusters& clusters) {
   return colours;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -7,7 +7,7 @@
 #include "analysis/overload/clusters.h"
 #include "render/colour.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Of one cluster of a frame: its identity over the frames, and its place in the palette; -1 while it is so
 /// small that it has no colour yet.
@@ -21,7 +21,7 @@ struct ClusterColour {
 inline constexpr Index smallest_coloured_cluster = 10;
 
 /// The palette: distinct colours, darker than the grains that are not overloaded.
-std::vector<Colour> cluster_palette();
+std::vector<render::Colour> cluster_palette();
 
 /// Follows clusters through the frames of a run, in their order. A cluster keeps its identity while it grows
 /// or shrinks: that of the earlier cluster of which it has the most grains. So a merger takes the colour of
@@ -30,7 +30,7 @@ std::vector<Colour> cluster_palette();
 class ClusterColours {
  public:
   /// The clusters of the next frame; the result in their order.
-  std::vector<ClusterColour> next(const Clusters& clusters);
+  std::vector<ClusterColour> next(const analysis::Clusters& clusters);
 
  private:
   struct Track {
@@ -41,4 +41,4 @@ class ClusterColours {
   std::vector<Track> tracks_;
 };
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -5,18 +5,18 @@
 #include "pictures/layers.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// From centre to centre, or to the contact point at a wall.
-Line centre_line(const BedFrame& bed, Index contact) {
+render::Line centre_line(const BedFrame& bed, Index contact) {
   const Frame& frame = bed.frame;
   const FrameContacts& contacts = frame.contacts;
   const Index a = contacts.a[contact], b = contacts.b[contact];
   const bool grain = b < frame.grain_count();
   const double x1 = grain ? frame.x[b] + contacts.shift[contact] * bed.statics.length : contacts.px[contact];
   const double y1 = grain ? frame.y[b] : contacts.py[contact];
-  Line line;
+  render::Line line;
   line.x0 = static_cast<float>(frame.x[a]);
   line.y0 = static_cast<float>(frame.y[a]);
   line.x1 = static_cast<float>(x1);
@@ -25,10 +25,10 @@ Line centre_line(const BedFrame& bed, Index contact) {
 }
 
 /// Through the contact point, along the two surfaces: the way they slide.
-Line sliding_line(const FrameContacts& contacts, Index contact, double length) {
+render::Line sliding_line(const FrameContacts& contacts, Index contact, double length) {
   const double x = 0.5 * length * -contacts.ny[contact];
   const double y = 0.5 * length * contacts.nx[contact];
-  Line line;
+  render::Line line;
   line.x0 = static_cast<float>(contacts.px[contact] - x);
   line.y0 = static_cast<float>(contacts.py[contact] - y);
   line.x1 = static_cast<float>(contacts.px[contact] + x);
@@ -36,15 +36,15 @@ Line sliding_line(const FrameContacts& contacts, Index contact, double length) {
   return line;
 }
 
-Swatch line_swatch(const Colour& colour, double width, const std::string& label) {
-  return {Swatch::Kind::line, colour, colour, width, label};
+render::Swatch line_swatch(const render::Colour& colour, double width, const std::string& label) {
+  return {render::Swatch::Kind::line, colour, colour, width, label};
 }
 
 }  // namespace
 
 MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
-  const Colour strong_colour = over.value_or(black);
-  Colour weak_colour = over.value_or(gray(0.4));
+  const render::Colour strong_colour = over.value_or(render::black);
+  render::Colour weak_colour = over.value_or(render::gray(0.4));
   if (over) weak_colour.alpha = 110;  // so that the grains are seen through it
   const FrameContacts& contacts = of.frame.contacts;
   const double mean = std::accumulate(contacts.fn.begin(), contacts.fn.end(), 0.0) / contacts.count();
@@ -56,7 +56,7 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
     for (Index c = 0; c < contacts.count(); ++c) {
       const double force = contacts.fn[c] / mean;
       if ((force > 1.0) != strong) continue;
-      Line line = centre_line(of, c);
+      render::Line line = centre_line(of, c);
       line.half_width = static_cast<float>(force_lines.half_width * std::min(force, force_lines.widest) *
                                            of.statics.mean_diameter);
       line.colour = strong ? strong_colour : weak_colour;
@@ -68,12 +68,12 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
 }
 
 MapLayer critical_layer(const MapFrame& of, const OverColour& over) {
-  const Colour colour = over.value_or(Colour{200, 40, 0});
+  const render::Colour colour = over.value_or(render::Colour{200, 40, 0});
   const FrameContacts& contacts = of.frame.contacts;
   MapLayer layer;
   for (Index c = 0; c < contacts.count(); ++c) {
     if (contacts.status[c] != ContactStatus::sliding) continue;
-    Line line = sliding_line(contacts, c, critical_lines.length * of.statics.mean_diameter);
+    render::Line line = sliding_line(contacts, c, critical_lines.length * of.statics.mean_diameter);
     line.half_width = static_cast<float>(critical_lines.half_width * of.statics.mean_diameter);
     line.colour = colour;
     layer.lines.push_back(line);
@@ -86,4 +86,4 @@ MapLayer critical_layer(const MapFrame& of, const OverColour& over) {
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

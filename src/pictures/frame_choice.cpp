@@ -13,7 +13,7 @@
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Spacing of the frames, rad: their largest step, as single frames lie between (where the slope fails); 1
@@ -157,7 +157,7 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
       const bool up = tilts[first + 1] >= tilts[first];
       std::size_t last = first + 1;
       while (last + 1 < tilts.size() && (tilts[last + 1] >= tilts[last]) == up) ++last;
-      add_every(SeriesPart{first, last + 1}.of(tilts), first, every, spacing, choice);
+      add_every(analysis::SeriesPart{first, last + 1}.of(tilts), first, every, spacing, choice);
       choice.push_back(last);
       first = last;
     }
@@ -171,8 +171,8 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
 }
 
 std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c) {
-  const SeriesPart rise = last_rise(tilts);
-  const std::vector<double> angles = magnitudes(tilts, rise);
+  const analysis::SeriesPart rise = analysis::last_rise(tilts);
+  const std::vector<double> angles = analysis::magnitudes(tilts, rise);
   const auto above = std::upper_bound(angles.begin(), angles.end(), theta_c + 1e-9);
   return rise.first + (above == angles.begin() ? 0 : static_cast<std::size_t>(above - angles.begin()) - 1);
 }
@@ -194,4 +194,4 @@ int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) 
               fmt::format("two frames of the run have the same angle, {} deg and on", names.front()));
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

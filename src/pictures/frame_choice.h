@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::pictures {
 
 /// Indices into `tilts` (rad, in the order of time, not empty), ascending and without doubles. Tilts ascend
 /// but for a run with a programme.
@@ -49,4 +49,4 @@ std::string angle_name(double tilt, int decimals);
 /// tilt. Throws Error(bad_data) where none does.
 int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice);
 
-}  // namespace talus
+}  // namespace talus::pictures

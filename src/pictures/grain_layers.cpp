@@ -6,14 +6,14 @@
 #include "pictures/layers.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 constexpr int dyed_layers = 8;
 constexpr double dyed_column = 10.0;  // D, about
 constexpr double second_shade = 0.7;  // of the channels of every second column
 
-Colour shaded(const Colour& colour) {
+render::Colour shaded(const render::Colour& colour) {
   const auto channel = [](std::uint8_t full) { return static_cast<std::uint8_t>(second_shade * full); };
   return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
 }
@@ -47,7 +47,7 @@ MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
     low -= alike;
     high += alike;
   }
-  const Scale scale = chosen({ColourMap::viridis, low, high}, choice);
+  const Scale scale = chosen({render::ColourMap::viridis, low, high}, choice);
   return scaled_layer("Size of grains", scale, std::move(sizes), bar_of(scale, "diameter in D"));
 }
 
@@ -61,22 +61,23 @@ MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
   };
   double highest = diameter;
   for (Index i = 0; i < statics.free_count; ++i) highest = std::max(highest, begin(i).y);
-  const Scale scale = chosen({ColourMap::viridis, 0.0, highest / diameter}, choice);
+  const Scale scale = chosen({render::ColourMap::viridis, 0.0, highest / diameter}, choice);
   MapLayer layer;
   std::vector<double> heights;
   layer.title = "Layers and columns of the bed as the tilt began";
   for (Index i = 0; i < statics.free_count; ++i) {
     const Vec2 at = begin(i);
-    const Colour light = colour_at(scale.colours, layer_share(share_of(scale, at.y / diameter)));
-    const Colour fill = in_second_column(at.x, statics.length, diameter) ? shaded(light) : light;
+    const render::Colour light =
+        render::colour_at(scale.colours, layer_share(share_of(scale, at.y / diameter)));
+    const render::Colour fill = in_second_column(at.x, statics.length, diameter) ? shaded(light) : light;
     layer.looks.push_back({fill, rim_of(fill)});
     heights.push_back(at.y / diameter);
   }
-  Bar bar{"height above the floor at that time, in D", {}, {}, scale.low, scale.high};
-  const std::size_t colours = colour_ramp(scale.colours).size();
+  render::Bar bar{"height above the floor at that time, in D", {}, {}, scale.low, scale.high};
+  const std::size_t colours = render::colour_ramp(scale.colours).size();
   for (std::size_t k = 0; k < colours; ++k)
-    bar.colours.push_back(
-        colour_at(scale.colours, layer_share((static_cast<double>(k) + 0.5) / static_cast<double>(colours))));
+    bar.colours.push_back(render::colour_at(
+        scale.colours, layer_share((static_cast<double>(k) + 0.5) / static_cast<double>(colours))));
   for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
     bar.ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
   bar.values = std::move(heights);
@@ -84,4 +85,4 @@ MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -8,14 +8,14 @@
 #include "pictures/maps.h"
 #include "pictures/scale.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Grains, or lines, and what explains them.
 struct MapLayer {
-  std::string title;             ///< begins with a capital
-  std::vector<GrainLook> looks;  ///< of each free grain; empty: the layer has lines only
-  std::vector<Line> lines;       ///< without copies across a periodic edge
-  Legend legend;
+  std::string title;                ///< begins with a capital
+  std::vector<GrainLook> looks;     ///< of each free grain; empty: the layer has lines only
+  std::vector<render::Line> lines;  ///< without copies across a periodic edge
+  render::Legend legend;
   std::vector<double> values{};  ///< of each free grain, where looks follow from a value: by this scale
   std::optional<Scale> scale{};
 };
@@ -25,23 +25,23 @@ struct MapLayer {
 MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k);
 /// Of lines over layer k: black, or, where its grains can be dark, what tells from its colours, and from
 /// black and white also in gray.
-Colour colour_over(const MapSettings& settings, std::size_t k);
+render::Colour colour_over(const MapSettings& settings, std::size_t k);
 /// "θ = 12.25°, θ_c = 19.52°", with "(assumed)" where it is.
 std::string caption_of(const Frame& frame, const MapSettings& settings);
 
 /// The bar with what it measures of each free grain.
-Bar measuring(Bar bar, std::vector<double> values);
+render::Bar measuring(render::Bar bar, std::vector<double> values);
 
 /// Grains in the colours of their values.
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
-                      const Bar& bar);
+                      const render::Bar& bar);
 /// The same where those without a value (NaN) only show where they are.
 MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
-                                    const Bar& bar);
+                                    const render::Bar& bar);
 
 /// The map that layers make of a frame, with its furniture: what make_map does of those of its settings.
-FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
-                      std::vector<MapLayer> layers);
+render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
+                              std::vector<MapLayer> layers);
 
 // stress_layers.cpp
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
@@ -64,12 +64,12 @@ MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);
 MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice);
 
 /// The colour of lines over grains that another layer fills; none where they are outlines.
-using OverColour = std::optional<Colour>;
+using OverColour = std::optional<render::Colour>;
 
 /// D: of lines over filled grains. With it they are told from grains of any shade, in gray print too.
 inline constexpr double line_border = 0.06;
 /// Gives lines that cannot be seen through a white border of that width, m, below all of them.
-void add_borders(std::vector<Line>& lines, double border);
+void add_borders(std::vector<render::Line>& lines, double border);
 
 // motion_layers.cpp
 /// Of every free grain; or of one in each square of `spacing` (m) where that is more than D, and longer by
@@ -96,4 +96,4 @@ double coarse_length(const MapFrame& of, const MapSettings& settings);
 /// Gamma_c = sin(theta_c).
 double gamma_c_of(const MapSettings& settings);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Above the bed when it begins to tilt, over its depth: pictures of one size hold all of its later frames.
@@ -53,7 +53,8 @@ LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool o
     : folder_(std::move(folder)), overwrite_(overwrite), warn_(std::move(warn)), tasks_(frames_waiting) {
   series_.asked = series_.plan = plan;
   // A context belongs to the thread that makes it.
-  tasks_.post([this] { renderer_ = std::make_unique<Renderer>(make_context(series_.plan.context)); });
+  tasks_.post(
+      [this] { renderer_ = std::make_unique<render::Renderer>(render::make_context(series_.plan.context)); });
   tasks_.finish();
   prepare_folder(folder_);
   if (!resumed && !overwrite_) refuse_pictures(folder_, series_.plan);
@@ -65,21 +66,21 @@ LiveMaps::~LiveMaps() {
   tasks_.finish();
 }
 
-void LiveMaps::begin(const RunHeader& header, const std::string& path, double step, bool has_program) {
+void LiveMaps::begin(const io::RunHeader& header, const std::string& path, double step, bool has_program) {
   series_.run = header;
   series_.has_program = has_program;
   series_.path = path;
   decimals_ = std::max(2, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
 }
 
-void LiveMaps::meet(const RunFile& file) {
+void LiveMaps::meet(const io::RunFile& file) {
   for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k)
     tasks_.post([this, frame = file.frame(k)] { draw_or_fail(frame); });
   finish();
 }
 
 void LiveMaps::add(const Frame& frame) {
-  tasks_.post([this, stored = as_stored(frame)] { draw_or_fail(stored); });
+  tasks_.post([this, stored = io::as_stored(frame)] { draw_or_fail(stored); });
 }
 
 void LiveMaps::finish() {
@@ -109,15 +110,15 @@ void LiveMaps::draw(Frame frame) {
   const MapPlan& plan = series_.plan;
   if (series_.met.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
   frame = as_mapped(series_, std::move(frame));
-  talus::meet(series_, frame);
+  talus::pictures::meet(series_, frame);
   const std::size_t k = series_.met.instants.size() - 1;
   for (std::size_t map = 0; map < plan.maps.size(); ++map) {
     const PictureFile file = picture_file(series_, "run", folder_, k, map, decimals_);
     if (is_drawn(file.path, file.marks, overwrite_)) continue;
-    const FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
-    write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.marks));
+    const render::FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
+    render::write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.marks));
   }
   before_ = std::move(frame);
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -11,7 +11,7 @@
 #include "pictures/picture_series.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// The plan of maps drawn before the slope has failed: with assumed_theta_c where theta_c is needed and not
 /// given, as that of the run comes too late. Throws as plan_maps does.
@@ -31,11 +31,11 @@ class LiveMaps {
 
   /// The run that is drawn. `path` is its file; `step` its step of tilt, deg, by which names tell frames
   /// apart.
-  void begin(const RunHeader& header, const std::string& path, double step, bool has_program);
+  void begin(const io::RunHeader& header, const std::string& path, double step, bool has_program);
 
   /// The frames that an earlier process has stored: colours go on from them, and pictures that are missing
   /// are drawn. Throws Error(cannot_create) where a picture of another run or other settings has their name.
-  void meet(const RunFile& file);
+  void meet(const io::RunFile& file);
 
   /// Has a new frame drawn; waits while several are waiting. The first failure ends the drawing, not the run.
   void add(const Frame& frame);
@@ -58,11 +58,11 @@ class LiveMaps {
 
   // Of the thread that draws; others look at them when it has finished.
   PictureSeries series_;
-  std::unique_ptr<Renderer> renderer_;
+  std::unique_ptr<render::Renderer> renderer_;
   std::optional<Frame> before_;
   std::optional<Error> failure_;
 
   BackgroundTasks tasks_;
 };
 
-}  // namespace talus
+}  // namespace talus::pictures

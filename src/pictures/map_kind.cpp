@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// What a map has to do with; one may have several.
@@ -27,7 +27,7 @@ struct MapEntry {
   MapKind kind;
   std::string_view name, help = {}, symbol = {}, unit = {};
   unsigned traits = none;
-  const FrameQuantity* quantity = nullptr;
+  const analysis::FrameQuantity* quantity = nullptr;
 };
 
 /// In the order in which they are listed. Those with a name alone show a quantity of grains.
@@ -62,20 +62,20 @@ constexpr auto listed = std::to_array<MapEntry>({
      "D"},
 });
 
-unsigned traits_of(const FrameQuantity& quantity) {
-  const ScaleRule scale = quantity.map.scale;
-  return (quantity.need == FrameNeed::length ? coarse : none) |
-         (quantity.need == FrameNeed::earlier_frame ? earlier : none) |
-         (scale == ScaleRule::sizes || scale == ScaleRule::about_zero ? fitted : none);
+unsigned traits_of(const analysis::FrameQuantity& quantity) {
+  const analysis::ScaleRule scale = quantity.map.scale;
+  return (quantity.need == analysis::FrameNeed::length ? coarse : none) |
+         (quantity.need == analysis::FrameNeed::earlier_frame ? earlier : none) |
+         (scale == analysis::ScaleRule::sizes || scale == analysis::ScaleRule::about_zero ? fitted : none);
 }
 
 /// Those that are listed, then the maps of other quantities of grains.
 const std::vector<MapEntry>& entries() {
   static const std::vector<MapEntry> all = [] {
     std::vector<MapEntry> found(listed.begin(), listed.end());
-    for (const FrameQuantity& quantity : grain_quantities()) {
-      const MapRule& rule = quantity.map;
-      if (rule.scale == ScaleRule::none) continue;
+    for (const analysis::FrameQuantity& quantity : analysis::grain_quantities()) {
+      const analysis::MapRule& rule = quantity.map;
+      if (rule.scale == analysis::ScaleRule::none) continue;
       auto entry = std::ranges::find(found, rule.name, &MapEntry::name);
       if (entry == found.end()) entry = found.insert(entry, {static_cast<MapKind>(found.size()), rule.name});
       entry->help = rule.help;
@@ -120,15 +120,15 @@ std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 MapReading map_reading(MapKind kind, const RunStatics& statics) {
   const MapEntry& entry = entry_of(kind);
   if (entry.quantity == nullptr) return {std::string(entry.symbol), std::string(entry.unit)};
-  return {std::string(entry.symbol), bed_unit(entry.quantity->unit, statics).text};
+  return {std::string(entry.symbol), analysis::bed_unit(entry.quantity->unit, statics).text};
 }
 
-const FrameQuantity* shown_quantity(MapKind kind) { return entry_of(kind).quantity; }
+const analysis::FrameQuantity* shown_quantity(MapKind kind) { return entry_of(kind).quantity; }
 
 bool is_scaled(MapKind kind) { return !entry_of(kind).symbol.empty(); }
 bool is_signed(MapKind kind) {
-  const FrameQuantity* quantity = entry_of(kind).quantity;
-  return quantity != nullptr && quantity->map.scale == ScaleRule::about_zero;
+  const analysis::FrameQuantity* quantity = entry_of(kind).quantity;
+  return quantity != nullptr && quantity->map.scale == analysis::ScaleRule::about_zero;
 }
 
 std::string list_of_maps() { return joined(entries(), ", ", &MapEntry::name); }
@@ -160,4 +160,4 @@ MapLayers map_layers(std::string_view name) {
 
 std::string layers_name(const MapLayers& layers) { return joined(layers, "+", map_name); }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -9,7 +9,7 @@
 
 #include "analysis/frame_quantities.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Quantities of grains that no code names have numbers beyond these.
 enum class MapKind {
@@ -55,7 +55,7 @@ MapReading map_reading(MapKind kind, const RunStatics& statics);
 bool is_scaled(MapKind kind);
 bool is_signed(MapKind kind);
 /// The quantity of grains that it shows by its MapRule; null for a map with rules of its own.
-const FrameQuantity* shown_quantity(MapKind kind);
+const analysis::FrameQuantity* shown_quantity(MapKind kind);
 /// The names of all: "gamma, overloaded, ...".
 std::string list_of_maps();
 
@@ -84,4 +84,4 @@ MapLayers map_layers(std::string_view name);
 /// "gamma+forces", which is also what files are called.
 std::string layers_name(const MapLayers& layers);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::pictures {
 
 /// The words and numbers of the options that `talus render`, `animate`, `panel` and `run --frames` share.
 struct MapOptions {
@@ -28,4 +28,4 @@ struct MapOptions {
   std::optional<double> printed;  ///< cm
 };
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -12,7 +12,7 @@
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::usage, message); }
@@ -104,11 +104,11 @@ MapPlan plan_maps(const MapOptions& options) {
   plan.width = options.width;
   refuse_idle_options(options, plan);
   if (!options.colours.empty()) {
-    const ColourMap colours = colour_map(options.colours);
+    const render::ColourMap colours = render::colour_map(options.colours);
     for (MapSettings& map : plan.maps)
       if (has_bar(map.layers)) map.colours = colours;
   }
-  plan.context = context_kind(options.context);
+  plan.context = render::context_kind(options.context);
   return plan;
 }
 
@@ -129,4 +129,4 @@ bool shows_gamma(const MapPlan& plan) {
   return any_layer(plan, shows_gamma) || std::ranges::any_of(plan.traces, trace_from_frames);
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

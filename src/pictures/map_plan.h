@@ -10,7 +10,7 @@
 #include "pictures/traces.h"
 #include "render/context.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// A region of the bed in D: the origin is its left end on the floor.
 struct Crop {
@@ -23,7 +23,7 @@ struct MapPlan {
   std::vector<TraceKind> traces;
   std::optional<Crop> crop;
   std::optional<double> since;  ///< rad
-  std::optional<ContextKind> context;
+  std::optional<render::ContextKind> context;
   int width = 0;  ///< px
 };
 
@@ -38,4 +38,4 @@ bool needs_theta_c(const MapPlan& plan);
 /// Whether a map or a trace goes by the gamma of grains.
 bool shows_gamma(const MapPlan& plan);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -13,7 +13,7 @@
 #include "pictures/motion.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Whether a layer fills the grains, or has lines only.
@@ -42,12 +42,12 @@ void check_theta_c(const MapSettings& settings) {
 
 /// In the looks of the lower layer that has any, else as outlines; those of a second one as smaller discs
 /// within.
-void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
+void add_grains(render::FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
   constexpr float inner_radius = 0.5f;  // of that of the grain
   const std::size_t count = bed.frame.x.size();
   view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
   const auto add = [&](Index i, const GrainLook& look, float scale) {
-    Disc disc = disc_of(bed, i);
+    render::Disc disc = disc_of(bed, i);
     disc.radius *= scale;
     disc.fill = look.fill;
     disc.rim = look.rim;
@@ -63,7 +63,7 @@ void add_grains(FrameView& view, const BedFrame& bed, std::span<const std::vecto
 }
 
 /// What a bar measures, and in which unit, as it is told of one grain.
-void name_reading(MapKind kind, const MapFrame& of, Bar& bar) {
+void name_reading(MapKind kind, const MapFrame& of, render::Bar& bar) {
   const MapReading reading = map_reading(kind, of.statics);
   bar.symbol = reading.symbol;
   bar.unit = reading.unit;
@@ -85,15 +85,15 @@ std::string joint_title(std::span<const MapLayer> layers) {
 
 }  // namespace
 
-Colour colour_over(const MapSettings& settings, std::size_t k) {
+render::Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
-  const ColourMap own = is_signed(kind) ? ColourMap::diverging : ColourMap::gray;
+  const render::ColourMap own = is_signed(kind) ? render::ColourMap::diverging : render::ColourMap::gray;
   const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
-                     choice_of(settings, k).colours.value_or(own) == ColourMap::diverging;
-  return light ? black : Colour{255, 60, 130};
+                     choice_of(settings, k).colours.value_or(own) == render::ColourMap::diverging;
+  return light ? render::black : render::Colour{255, 60, 130};
 }
 
-Bar measuring(Bar bar, std::vector<double> values) {
+render::Bar measuring(render::Bar bar, std::vector<double> values) {
   bar.values = std::move(values);
   return bar;
 }
@@ -136,16 +136,16 @@ MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spac
 
 }  // namespace
 
-void add_borders(std::vector<Line>& lines, double border) {
-  std::vector<Line> borders, above;
-  for (const Line& line : lines) {
+void add_borders(std::vector<render::Line>& lines, double border) {
+  std::vector<render::Line> borders, above;
+  for (const render::Line& line : lines) {
     if (line.colour.alpha < 255) continue;
     above.push_back(line);
     borders.push_back(line);
     borders.back().half_width += static_cast<float>(border);
-    borders.back().colour = white;
+    borders.back().colour = render::white;
   }
-  std::erase_if(lines, [](const Line& line) { return line.colour.alpha == 255; });
+  std::erase_if(lines, [](const render::Line& line) { return line.colour.alpha == 255; });
   lines.insert(lines.end(), borders.begin(), borders.end());
   lines.insert(lines.end(), above.begin(), above.end());
 }
@@ -174,12 +174,12 @@ std::string caption_of(const Frame& frame, const MapSettings& settings) {
 }
 
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
-                      const Bar& bar) {
+                      const render::Bar& bar) {
   return {title, looks_of(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values), scale};
 }
 
 MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
-                                    const Bar& bar) {
+                                    const render::Bar& bar) {
   return {title, looks_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values),
           scale};
 }
@@ -198,8 +198,8 @@ void extend(MapExtent& extent, const MapExtent& other) {
   extent.y_max = std::max(extent.y_max, other.y_max);
 }
 
-FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent) {
-  FrameView view = empty_view(extent);
+render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent) {
+  render::FrameView view = empty_view(extent);
   add_grains(view, bed, {});
   return view;
 }
@@ -208,25 +208,25 @@ bool has_bar(const MapLayers& layers) {
   return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
 }
 
-FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
+render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
   check_theta_c(settings);
   std::vector<MapLayer> layers;
   for (std::size_t k = 0; k < settings.layers.size(); ++k) {
     layers.push_back(make_layer(frame, settings, extent, k));
-    for (Bar& bar : layers.back().legend.bars) name_reading(settings.layers[k], frame, bar);
+    for (render::Bar& bar : layers.back().legend.bars) name_reading(settings.layers[k], frame, bar);
   }
   return compose_map(frame, settings, extent, std::move(layers));
 }
 
-FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
-                      std::vector<MapLayer> layers) {
+render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
+                              std::vector<MapLayer> layers) {
   std::vector<std::vector<GrainLook>> looks;
   for (MapLayer& layer : layers)
     if (!layer.looks.empty()) looks.push_back(std::move(layer.looks));
-  FrameView view = empty_view(extent);
+  render::FrameView view = empty_view(extent);
   add_grains(view, frame, looks);
   for (const MapLayer& layer : layers)
-    for (const Line& line : layer.lines) add_line(view, line, frame.statics);
+    for (const render::Line& line : layer.lines) add_line(view, line, frame.statics);
   add_surroundings(view, frame);
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
@@ -244,4 +244,4 @@ FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const 
   return view;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

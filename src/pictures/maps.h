@@ -16,7 +16,7 @@
 #include "render/colour_map.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Ends of a scale.
 struct ScaleRange {
@@ -51,9 +51,9 @@ inline constexpr double assumed_theta_c = 20.0;
 
 /// How the maps of a run are drawn; the same for all of its frames.
 struct MapSettings : OverloadRule {
-  MapLayers layers;                  ///< one map, or two: the second is drawn over the first
-  std::optional<ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
-  std::optional<double> range_low;   ///< of the bar of that layer, in the unit of its title
+  MapLayers layers;                          ///< one map, or two: the second is drawn over the first
+  std::optional<render::ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
+  std::optional<double> range_low;           ///< of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
   MotionRanges motion;           ///< of maps of motion where no range is chosen
   bool theta_c_assumed = false;  ///< the caption says so
@@ -98,11 +98,11 @@ struct MapFrame : BedFrame {
 };
 
 /// The outlines of the grains of a frame, without furniture.
-FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
+render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
 
 /// A map of a frame, with its furniture but no traces. Throws Error(bad_data) where a layer is scaled by
 /// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
-FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
+render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
 
 /// Whether a map has a bar: whether `colours` and `range_low`, `range_high` change anything.
 bool has_bar(const MapLayers& layers);
@@ -110,4 +110,4 @@ bool has_bar(const MapLayers& layers);
 /// Stress ratio below which a grain is white in the map of gamma (paper, Fig. 10).
 inline constexpr double white_below = 0.05;
 
-}  // namespace talus
+}  // namespace talus::pictures

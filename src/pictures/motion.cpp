@@ -8,7 +8,7 @@
 #include "pictures/layers.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// To two digits, as bars and legends print it.
@@ -89,4 +89,4 @@ MotionRanges MotionSample::ranges() const {
   return ranges;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

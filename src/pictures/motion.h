@@ -9,7 +9,7 @@
 
 #include "pictures/maps.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// What motion is measured over.
 struct MotionSpan {
@@ -50,4 +50,4 @@ class MotionSample {
   std::map<MapKind, std::array<LogHistogram, 2>> sizes_;  ///< in all, and per degree
 };
 
-}  // namespace talus
+}  // namespace talus::pictures

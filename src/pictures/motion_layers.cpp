@@ -8,7 +8,7 @@
 #include "pictures/motion.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
@@ -25,8 +25,8 @@ std::vector<Index> evenly_spread(const MapFrame& of, double spacing) {
   return grains;
 }
 
-void add_arrow(std::vector<Line>& lines, double x, double y, Vec2 along, double half_width,
-               const Colour& colour) {
+void add_arrow(std::vector<render::Line>& lines, double x, double y, Vec2 along, double half_width,
+               const render::Colour& colour) {
   const auto line = [&](double x0, double y0, double x1, double y1) {
     lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
                      static_cast<float>(y1), static_cast<float>(half_width), colour});
@@ -63,7 +63,7 @@ double largest_displacement(const MapFrame& of, const MotionRanges& motion, cons
 MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
                              double spacing) {
   constexpr double longest = 1.6, cut = 2.0, shortest = 0.2, half_width = 0.04;  // D, or spacing
-  const Colour colour = over.value_or(Colour{0, 90, 180});
+  const render::Colour colour = over.value_or(render::Colour{0, 90, 180});
   const MotionSpan span = motion_span(of);
   const double diameter = of.statics.mean_diameter, unit = std::max(spacing, diameter);
   const double times = magnification(largest_displacement(of, motion, span), longest * unit / diameter);
@@ -80,8 +80,8 @@ MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, con
   }
   const std::string label = fmt::format("arrow = {:.6g} × displacement{}, at most {:.2g} D", times, span.unit,
                                         cut * unit / diameter);
-  layer.legend.swatches = {{Swatch::Kind::line, colour, colour, 0.15, label}};
+  layer.legend.swatches = {{render::Swatch::Kind::line, colour, colour, 0.15, label}};
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -6,7 +6,7 @@
 #include "pictures/texts.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Of clusters that have no colour of their own.
@@ -24,21 +24,21 @@ std::string threshold_text(const MapSettings& settings) {
                      settings.threshold_factor == 1.0 ? "sin θ_c = " : "", threshold_of(settings));
 }
 
-Swatch disc_swatch(const Colour& fill, const Colour& rim, const std::string& label) {
-  return {Swatch::Kind::disc, fill, rim, 0.0, label};
+render::Swatch disc_swatch(const render::Colour& fill, const render::Colour& rim, const std::string& label) {
+  return {render::Swatch::Kind::disc, fill, rim, 0.0, label};
 }
 
 /// A colour for each cluster.
-std::vector<Colour> colours_of(std::span<const ClusterColour> cluster_colours) {
-  const std::vector<Colour> palette = cluster_palette();
-  std::vector<Colour> colours;
+std::vector<render::Colour> colours_of(std::span<const ClusterColour> cluster_colours) {
+  const std::vector<render::Colour> palette = cluster_palette();
+  std::vector<render::Colour> colours;
   for (const ClusterColour& colour : cluster_colours)
-    colours.push_back(colour.palette_index < 0 ? gray(uncoloured_shade)
+    colours.push_back(colour.palette_index < 0 ? render::gray(uncoloured_shade)
                                                : palette[static_cast<std::size_t>(colour.palette_index)]);
   return colours;
 }
 
-std::string clusters_title(const Clusters& clusters, const MapSettings& settings) {
+std::string clusters_title(const analysis::Clusters& clusters, const MapSettings& settings) {
   const std::string reading = ", " + reading_text(settings);
   if (clusters.count() == 0) return "No clusters of overloaded grains" + reading;
   const double share = 100.0 * clusters.size[0] / clusters.members;
@@ -47,13 +47,13 @@ std::string clusters_title(const Clusters& clusters, const MapSettings& settings
 }
 
 /// What marks the clusters that span.
-std::vector<Swatch> spanning_swatches(const Spanning& spanning, std::span<const Colour> colours,
-                                      bool periodic) {
+std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning,
+                                              std::span<const render::Colour> colours, bool periodic) {
   const std::string across = periodic ? "spans the period" : "spans wall to wall";
   const auto swatch = [&](Index cluster, const std::string& label) {
-    return disc_swatch(colours[static_cast<std::size_t>(cluster)], black, label);
+    return disc_swatch(colours[static_cast<std::size_t>(cluster)], render::black, label);
   };
-  std::vector<Swatch> swatches;
+  std::vector<render::Swatch> swatches;
   const bool both = spanning.floor_to_surface >= 0 && spanning.floor_to_surface == spanning.across;
   if (spanning.floor_to_surface >= 0)
     swatches.push_back(
@@ -68,9 +68,9 @@ std::vector<Swatch> spanning_swatches(const Spanning& spanning, std::span<const 
 std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains) {
   std::vector<GrainLook> looks;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
-    const bool overloaded = is_overloaded(bed.frame.gamma[i], threshold);
-    const Colour fill = overloaded ? black : white;
-    looks.push_back({fill, over_grains ? white : rim_of(fill), overloaded});
+    const bool overloaded = stress::is_overloaded(bed.frame.gamma[i], threshold);
+    const render::Colour fill = overloaded ? render::black : render::white;
+    looks.push_back({fill, over_grains ? render::white : rim_of(fill), overloaded});
   }
   return looks;
 }
@@ -79,23 +79,24 @@ std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, boo
 
 MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
   const double threshold = threshold_of(settings);
-  const OverloadCount count = count_overloaded(of, threshold);
+  const stress::OverloadCount count = stress::count_overloaded(of, threshold);
   MapLayer layer;
   layer.title = settings.l_min > 0.0 ? "Overloaded grains, " + reading_text(settings)
                                      : "Overloaded " + reading_text(settings);
   if (count.loaded > 0) layer.title += fmt::format(", p_o = {:.3f}", count.fraction());
   layer.looks = overload_looks(of, threshold, over_grains);
-  layer.legend.swatches = {disc_swatch(black, black, "γ ≥ " + threshold_text(settings))};
+  layer.legend.swatches = {disc_swatch(render::black, render::black, "γ ≥ " + threshold_text(settings))};
   if (!over_grains)
-    layer.legend.swatches.push_back(disc_swatch(white, rim_of(white), "γ < " + threshold_symbol(settings)));
+    layer.legend.swatches.push_back(
+        disc_swatch(render::white, rim_of(render::white), "γ < " + threshold_symbol(settings)));
   return layer;
 }
 
 MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
-  const Clusters clusters = overloaded_clusters(of, settings);
-  const Spanning spanning = find_spanning(clusters, bed_edges(of));
+  const analysis::Clusters clusters = overloaded_clusters(of, settings);
+  const analysis::Spanning spanning = analysis::find_spanning(clusters, analysis::bed_edges(of));
   ClusterColours tracker = of.tracker != nullptr ? *of.tracker : ClusterColours();
-  const std::vector<Colour> colours = colours_of(
+  const std::vector<render::Colour> colours = colours_of(
       of.cluster_colours.empty() ? tracker.next(clusters)
                                  : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()));
   MapLayer layer;
@@ -106,17 +107,17 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
       continue;
     }
     const bool spans = label == spanning.floor_to_surface || label == spanning.across;
-    const Colour fill = colours[static_cast<std::size_t>(label)];
-    layer.looks.push_back({fill, spans ? black : rim_of(fill)});
+    const render::Colour fill = colours[static_cast<std::size_t>(label)];
+    layer.looks.push_back({fill, spans ? render::black : rim_of(fill)});
   }
   const GrainLook other = outline_look();
   layer.legend.swatches = spanning_swatches(spanning, colours, of.statics.periodic);
   layer.legend.swatches.push_back(
-      disc_swatch(gray(uncoloured_shade), rim_of(gray(uncoloured_shade)),
+      disc_swatch(render::gray(uncoloured_shade), rim_of(render::gray(uncoloured_shade)),
                   fmt::format("fewer than {} grains", smallest_coloured_cluster)));
   if (!over_grains)
     layer.legend.swatches.push_back(disc_swatch(other.fill, other.rim, "γ < " + threshold_text(settings)));
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -5,7 +5,7 @@
 #include "analysis/overload/coarse_graining.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// By what maps, traces and curves call a grain overloaded, and join overloaded grains to clusters.
 struct OverloadRule {
@@ -13,8 +13,8 @@ struct OverloadRule {
   double threshold_factor = 1.0;      ///< grains are overloaded from this times Gamma_c on
   bool joined_by_neighbours = false;  ///< grains closer than 1.1 times the sum of their radii join, instead
                                       ///< of those that touch with a force
-  double l_min = default_l_min;  ///< D: diameter of the neighbourhood whose stress ratio is the gamma of a
-                                 ///< grain; 0: the grain alone
+  double l_min = analysis::default_l_min;  ///< D: diameter of the neighbourhood whose stress ratio is the
+                                           ///< gamma of a grain; 0: the grain alone
   bool operator==(const OverloadRule&) const = default;
 };
 
@@ -27,6 +27,6 @@ Frame mapped_frame(Frame frame, const RunStatics& statics, double l_min);
 
 /// Clusters of the overloaded free grains of a frame of mapped_frame: what the map `clusters` and
 /// ClusterColours go by.
-Clusters overloaded_clusters(const BedFrame& bed, const OverloadRule& rule);
+analysis::Clusters overloaded_clusters(const BedFrame& bed, const OverloadRule& rule);
 
-}  // namespace talus
+}  // namespace talus::pictures

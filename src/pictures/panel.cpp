@@ -8,18 +8,18 @@
 #include "render/arrange.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// The beds of a panel, row by row: a title stands where it differs from the one above it, legend and scale
 /// below the last.
-std::vector<std::vector<FrameView>> panel_views(DrawnRun& run, const FrameChoice& choice) {
-  std::vector<std::vector<FrameView>> rows;
+std::vector<std::vector<render::FrameView>> panel_views(DrawnRun& run, const FrameChoice& choice) {
+  std::vector<std::vector<render::FrameView>> rows;
   std::vector<std::string> above(run.series.plan.maps.size());
   for (std::size_t frame : choice) {
-    std::vector<FrameView>& row = rows.emplace_back();
+    std::vector<render::FrameView>& row = rows.emplace_back();
     for (std::size_t map = 0; map < above.size(); ++map) {
-      FrameView& view = row.emplace_back(picture(run, frame, map));
+      render::FrameView& view = row.emplace_back(picture(run, frame, map));
       if (view.title == above[map])
         view.title.clear();
       else
@@ -33,22 +33,23 @@ std::vector<std::vector<FrameView>> panel_views(DrawnRun& run, const FrameChoice
 }
 
 /// All in one pixel format.
-Image draw_rows(std::vector<std::vector<FrameView>>& rows, const MapPlan& plan) {
-  Renderer renderer(make_context(plan.context));
+render::Image draw_rows(std::vector<std::vector<render::FrameView>>& rows, const MapPlan& plan) {
+  render::Renderer renderer(render::make_context(plan.context));
   bool coloured = false;
-  for (const std::vector<FrameView>& row : rows)
-    for (const FrameView& view : row) coloured = coloured || pixel_format(view) == PixelFormat::colour;
-  const std::vector<LayoutLimits> limits = level_rows(rows, plan.width, renderer.font());
-  std::vector<Image> images;
+  for (const std::vector<render::FrameView>& row : rows)
+    for (const render::FrameView& view : row)
+      coloured = coloured || render::pixel_format(view) == render::PixelFormat::colour;
+  const std::vector<render::LayoutLimits> limits = level_rows(rows, plan.width, renderer.font());
+  std::vector<render::Image> images;
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::vector<Image> columns;
-    for (FrameView& view : rows[row]) {
+    std::vector<render::Image> columns;
+    for (render::FrameView& view : rows[row]) {
       view.coloured = coloured;
       columns.push_back(renderer.draw(view, plan.width, limits[row]));
     }
-    images.push_back(beside(columns));
+    images.push_back(render::beside(columns));
   }
-  return stacked(images);
+  return render::stacked(images);
 }
 
 PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const std::vector<std::string>& at,
@@ -69,16 +70,18 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const s
 
 }  // namespace
 
-std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, int width, const Font& font) {
-  LayoutLimits common;
+std::vector<render::LayoutLimits> level_rows(std::vector<std::vector<render::FrameView>>& rows, int width,
+                                             const render::Font& font) {
+  render::LayoutLimits common;
   common.own_turn = true;
-  for (std::vector<FrameView>& row : rows)
-    for (FrameView& view : row) {
+  for (std::vector<render::FrameView>& row : rows)
+    for (render::FrameView& view : row) {
       view.letters /= static_cast<double>(row.size());
-      common.largest_em = std::min(common.largest_em, lay_out(view, width, font).em);
+      common.largest_em = std::min(common.largest_em, render::lay_out(view, width, font).em);
     }
-  std::vector<LayoutLimits> limits;
-  for (const std::vector<FrameView>& row : rows) limits.push_back(level(row, width, font, common));
+  std::vector<render::LayoutLimits> limits;
+  for (const std::vector<render::FrameView>& row : rows)
+    limits.push_back(render::level(row, width, font, common));
   return limits;
 }
 
@@ -88,9 +91,9 @@ PanelDrawn draw_panel(DrawnRun& run, const std::vector<std::string>& at, const s
   fit_to_frames(run, choice);
   const PictureMarks marks = panel_marks(run, choice, at, output);
   if (is_drawn(output, marks, overwrite)) return {choice.size(), true};
-  std::vector<std::vector<FrameView>> rows = panel_views(run, choice);
-  write_png(output, draw_rows(rows, run.series.plan), picture_texts(marks));
+  std::vector<std::vector<render::FrameView>> rows = panel_views(run, choice);
+  render::write_png(output, draw_rows(rows, run.series.plan), picture_texts(marks));
   return {choice.size(), false};
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -12,7 +12,7 @@
 #include "pictures/background_tasks.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Pictures that may wait to be written: of 16 megapixels in colour each takes 48 MB.
@@ -73,7 +73,7 @@ std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice,
 
 void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std::string& folder,
                 const Watch& watch) {
-  Renderer renderer(make_context(run.series.plan.context));
+  render::Renderer renderer(render::make_context(run.series.plan.context));
   BackgroundTasks writer(pictures_waiting);  // while one is encoded and written, the next is drawn
   for (std::size_t done = 0; done < files.size(); ++done) {
     const PictureFile& file = files[done];
@@ -85,13 +85,14 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
               "stopped after {} of {} pictures; repeat the command, and those that are there are kept", done,
               files.size()));
     }
-    Image image = renderer.draw(picture(run, file.frame, file.map), run.series.plan.width);
+    render::Image image = renderer.draw(picture(run, file.frame, file.map), run.series.plan.width);
     if (done == 0) prepare_folder(folder);
-    writer.post(
-        [&file, drawn = std::move(image)] { write_png(file.path, drawn, picture_texts(file.marks)); });
+    writer.post([&file, drawn = std::move(image)] {
+      render::write_png(file.path, drawn, picture_texts(file.marks));
+    });
     if (watch.progress) watch.progress(done + 1, files.size());
   }
   writer.finish();
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -8,7 +8,7 @@
 #include "pictures/frame_choice.h"
 #include "pictures/picture_marks.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// Which frames are asked for.
 struct FramesAsked {
@@ -42,4 +42,4 @@ std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice,
 void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std::string& folder,
                 const Watch& watch);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -10,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 constexpr const char* key_word = "talus:key";
@@ -48,7 +48,7 @@ std::string PictureKey::text() const { return hash_text(hasher_.value()); }
 namespace {
 
 /// Which run it is: its scenario, seed, when it began and with which version; and the version that draws.
-void add_run(PictureKey& key, const RunHeader& header) {
+void add_run(PictureKey& key, const io::RunHeader& header) {
   key.add("talus", version_text());
   key.add("scenario", header.scenario_resolved);
   key.add("seed", std::to_string(header.seed));
@@ -58,7 +58,7 @@ void add_run(PictureKey& key, const RunHeader& header) {
 
 void add_settings(PictureKey& key, const MapSettings& settings, int width, const MapExtent& extent) {
   key.add("layers", layers_name(settings.layers));
-  key.add("colours", settings.colours ? std::string(colour_map_name(*settings.colours)) : "");
+  key.add("colours", settings.colours ? std::string(render::colour_map_name(*settings.colours)) : "");
   key.add("range_low", settings.range_low ? std::vector{*settings.range_low} : std::vector<double>{});
   key.add("range_high", settings.range_high ? std::vector{*settings.range_high} : std::vector<double>{});
   for (const auto& [kind, ranges] : settings.motion.fitting)
@@ -125,7 +125,7 @@ std::string picture_source(const std::string& run, const std::string& shown) {
 
 std::string tilt_text(double tilt) { return fmt::format("{:.3f}", degrees(tilt)); }
 
-PngTexts picture_texts(const PictureMarks& marks) {
+render::PngTexts picture_texts(const PictureMarks& marks) {
   return {{"Software", version_text()},
           {"Source", marks.source},
           {key_word, marks.key},
@@ -135,8 +135,8 @@ PngTexts picture_texts(const PictureMarks& marks) {
 bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite) {
   output_target(path);
   if (!is_there(path)) return false;
-  if (png_text(path, key_word) == marks.key) return true;
-  if (overwrite || png_text(path, request_word) == marks.request) return false;
+  if (render::png_text(path, key_word) == marks.key) return true;
+  if (overwrite || render::png_text(path, request_word) == marks.request) return false;
   throw Error(
       ExitCode::cannot_create,
       path +
@@ -144,4 +144,4 @@ bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite
           "options, or not drawn by Talus); give --overwrite to replace it, or choose another output");
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -9,7 +9,7 @@
 #include "pictures/picture_series.h"
 #include "render/png.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// A hash of named values.
 class PictureKey {
@@ -50,10 +50,10 @@ std::string picture_source(const std::string& run, const std::string& shown);
 std::string tilt_text(double tilt);
 
 /// The texts of a PNG: its marks, and what made it.
-PngTexts picture_texts(const PictureMarks& marks);
+render::PngTexts picture_texts(const PictureMarks& marks);
 
 /// Whether the file is a picture with this key. One with this request and another key is out of date, and to
 /// be replaced. Throws Error(cannot_create) where it is anything else, unless `overwrite`.
 bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -12,7 +12,7 @@
 #include "pictures/motion.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// "0.50,1.25": a place in the bed (m) in mean diameters.
@@ -47,7 +47,7 @@ double place_of(const PictureSeries& series, double tilt, double time) {
   return series.has_program ? time - series.met.instants.front().time : tilt;
 }
 
-void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progress) {
+void meet_all(PictureSeries& series, const io::RunFile& file, const CountDone& progress) {
   const MapPlan& plan = series.plan;
   const bool whole = shows(plan, MapKind::clusters) || std::ranges::any_of(plan.traces, trace_from_frames);
   const std::size_t count = file.all_frame_tilts().size();
@@ -66,7 +66,7 @@ void meet_all(PictureSeries& series, const RunFile& file, const CountDone& progr
   series.met.highest = file.frame_count() - 1;
 }
 
-void take_observables(PictureSeries& series, const RunFile& file) {
+void take_observables(PictureSeries& series, const io::RunFile& file) {
   if (std::ranges::all_of(series.plan.traces, trace_from_frames)) return;
   const std::vector<ObservableRow> rows = file.observables();
   for (std::size_t t = 0; t < series.plan.traces.size(); ++t) {
@@ -128,7 +128,7 @@ void meet(PictureSeries& series, const Frame& mapped) {
     add_instant(series, mapped);
 }
 
-void meet(PictureSeries& series, const Frame& mapped, const Clusters& clusters) {
+void meet(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters) {
   add_instant(series, mapped);
   series.met.rule = series.plan.maps[0];
   series.met.cluster_colours.push_back(series.met.tracker.next(clusters));
@@ -138,8 +138,8 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
   return any_layer(series.plan, needs_reference) ? reference_frame(k, series.since) : std::nullopt;
 }
 
-FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
-                  std::size_t map) {
+render::FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame,
+                          const Frame* reference, std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
   const MetFrames& met = series.met;
   MapFrame of{{frame, series.run.statics}, reference, !series.since};
@@ -150,7 +150,7 @@ FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame
       of.cluster_colours = met.cluster_colours[k];
   }
   of.dyed_at = met.begin;
-  FrameView view = make_map(of, settings, series.extent);
+  render::FrameView view = make_map(of, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
                                      settings, place_of(series, frame.tilt, frame.time),
@@ -159,7 +159,7 @@ FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame
 }
 
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress) {
-  DrawnRun run{RunFile::open(path), {}, {}, {}, {}, {}};
+  DrawnRun run{io::RunFile::open(path), {}, {}, {}, {}, {}};
   PictureSeries& series = run.series;
   series.path = path;
   series.asked = series.plan = plan;
@@ -197,9 +197,9 @@ void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames) {
   for (MapSettings& map : series.plan.maps) map.motion = sample.ranges();
 }
 
-FrameView picture(DrawnRun& run, std::size_t k, std::size_t map) {
+render::FrameView picture(DrawnRun& run, std::size_t k, std::size_t map) {
   read_frame(run, k);
   return picture(run.series, k, run.frame, reference_of(run), map);
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

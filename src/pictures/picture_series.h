@@ -12,7 +12,7 @@
 #include "pictures/cluster_colours.h"
 #include "pictures/map_plan.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// When a frame was, without its grains.
 struct FrameInstant {
@@ -40,7 +40,7 @@ struct MetFrames {
 /// One value from which all pictures of a run follow, together with the frames themselves.
 struct PictureSeries {
   std::string path;  ///< of the run
-  RunHeader run;
+  io::RunHeader run;
   bool has_program = false;  ///< the tilt goes up and down: frames are told apart by number and time
   MapPlan asked;             ///< before theta_c of the run was known
   MapPlan plan;      ///< its theta_c is settled: NaN only where neither the run nor the user has said one
@@ -56,7 +56,7 @@ Frame as_mapped(const PictureSeries& series, Frame frame);
 /// The next frame of the run, as its maps see it. Leaves the extent and the curves as they are.
 void meet(PictureSeries& series, const Frame& mapped);
 /// The same of a frame whose overloaded_clusters are known, where a map shows them.
-void meet(PictureSeries& series, const Frame& mapped, const Clusters& clusters);
+void meet(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters);
 
 /// The frame that motion up to frame k is measured from; none where no map shows any, or nothing has moved
 /// yet.
@@ -65,12 +65,12 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
 /// Map `map` of the plan at frame k, with its traces. `frame` is as its maps see it; where it was not met,
 /// its clusters are coloured as if it followed the last that was. `reference`: where displacements are
 /// measured from, null where nothing has moved yet.
-FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference,
-                  std::size_t map);
+render::FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame,
+                          const Frame* reference, std::size_t map);
 
 /// A run file that is drawn: its series, and the frames that were read last.
 struct DrawnRun {
-  RunFile file;
+  io::RunFile file;
   PictureSeries series;
   std::optional<std::size_t> current, before;  ///< which frames are in memory
   Frame frame, reference;
@@ -91,6 +91,6 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
 void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames);
 
 /// Map `map` of the plan at frame k. Frames are fastest in ascending order, all maps of one after another.
-FrameView picture(DrawnRun& run, std::size_t k, std::size_t map);
+render::FrameView picture(DrawnRun& run, std::size_t k, std::size_t map);
 
-}  // namespace talus
+}  // namespace talus::pictures

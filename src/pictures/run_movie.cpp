@@ -10,7 +10,7 @@
 #include "render/movie.h"
 #include "render/renderer.h"
 
-namespace talus {
+namespace talus::pictures {
 
 namespace {
 
@@ -45,42 +45,43 @@ std::vector<double> clock_tilts(const PictureSeries& series) {
 
 /// What all frames of a movie have in common.
 struct MovieFormat {
-  LayoutLimits limits;  ///< font size, and where the bed stands
-  int height = 0;       ///< px
+  render::LayoutLimits limits;  ///< font size, and where the bed stands
+  int height = 0;               ///< px
   bool coloured = false;
 };
 
 /// The smallest font size, the lowest bed, the largest height, and colour where one of the frames has it:
 /// captions and legends of some are longer than those of others.
-MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, const Font& font) {
+MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, const render::Font& font) {
   MovieFormat format;
-  std::vector<FrameView> views;
+  std::vector<render::FrameView> views;
   for (const MovieFrame& frame : frames) {
-    FrameView& view = views.emplace_back(picture(run, frame.frame, 0));
+    render::FrameView& view = views.emplace_back(picture(run, frame.frame, 0));
     format.limits.largest_em =
-        std::min(format.limits.largest_em, lay_out(view, run.series.plan.width, font).em);
-    format.coloured = format.coloured || pixel_format(view) == PixelFormat::colour;
+        std::min(format.limits.largest_em, render::lay_out(view, run.series.plan.width, font).em);
+    format.coloured = format.coloured || render::pixel_format(view) == render::PixelFormat::colour;
     // The layout needs no more of it.
     view.discs = {};
     view.lines = {};
-    for (Trace& trace : view.traces) trace.x = trace.y = {};
+    for (render::Trace& trace : view.traces) trace.x = trace.y = {};
   }
-  format.limits = level(views, run.series.plan.width, font, format.limits);
-  for (const FrameView& view : views)
-    format.height = std::max(format.height, lay_out(view, run.series.plan.width, font, format.limits).height);
+  format.limits = render::level(views, run.series.plan.width, font, format.limits);
+  for (const render::FrameView& view : views)
+    format.height =
+        std::max(format.height, render::lay_out(view, run.series.plan.width, font, format.limits).height);
   return format;
 }
 
 void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, double fps, const std::string& output,
                 const Watch& watch) {
   const int width = run.series.plan.width;
-  Renderer renderer(make_context(run.series.plan.context));
+  render::Renderer renderer(render::make_context(run.series.plan.context));
   const MovieFormat format = common_format(run, frames, renderer.font());
-  Movie movie(output, width, format.height, format.coloured ? 3 : 1, fps);
+  render::Movie movie(output, width, format.height, format.coloured ? 3 : 1, fps);
   for (std::size_t k = 0; k < frames.size() && !watch.stopped(); ++k) {
-    FrameView view = picture(run, frames[k].frame, 0);
+    render::FrameView view = picture(run, frames[k].frame, 0);
     view.coloured = format.coloured;
-    const Image image = padded(renderer.draw(view, width, format.limits), format.height);
+    const render::Image image = render::padded(renderer.draw(view, width, format.limits), format.height);
     for (int shown = 0; shown < frames[k].times && !watch.stopped(); ++shown) movie.add(image);
     if (watch.progress) watch.progress(k + 1, frames.size());
   }
@@ -128,4 +129,4 @@ std::size_t draw_movie(DrawnRun& run, const MovieTiming& timing, const std::stri
   return count;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -8,7 +8,7 @@
 
 #include "pictures/picture_files.h"
 
-namespace talus {
+namespace talus::pictures {
 
 struct MovieTiming {
   double every = 0.0;           ///< deg between frames of the run that are drawn; 0: all
@@ -31,4 +31,4 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
 std::size_t draw_movie(DrawnRun& run, const MovieTiming& timing, const std::string& output,
                        const Watch& watch);
 
-}  // namespace talus
+}  // namespace talus::pictures

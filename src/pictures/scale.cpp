@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 constexpr double lightest_rim = 0.45;  // shade of gray
@@ -18,7 +18,7 @@ std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(r
 
 /// These multiples of the powers of ten between the ends; of many decades, every second, third, ... power.
 /// All are written as powers if one of them has to be.
-std::vector<BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
+std::vector<render::BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
   constexpr int most_decades = 10;
   constexpr double hair = 1e-9;  // so that rounding loses no tick at an end
   std::vector<double> values;
@@ -31,15 +31,15 @@ std::vector<BarTick> decades(const Scale& scale, std::initializer_list<double> f
       if (share >= -hair && share <= 1.0 + hair) values.push_back(value);
     }
   const bool powers = std::ranges::any_of(values, needs_power);
-  std::vector<BarTick> ticks;
+  std::vector<render::BarTick> ticks;
   for (const double value : values)
     ticks.push_back(
         {std::clamp(share_of(scale, value), 0.0, 1.0), powers ? power_label(value) : number_label(value)});
   return ticks;
 }
 
-std::vector<BarTick> round_shares(const Scale& scale) {
-  std::vector<BarTick> ticks;
+std::vector<render::BarTick> round_shares(const Scale& scale) {
+  std::vector<render::BarTick> ticks;
   for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
     ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
   return ticks;
@@ -47,12 +47,12 @@ std::vector<BarTick> round_shares(const Scale& scale) {
 
 }  // namespace
 
-Colour rim_of(const Colour& fill) {
-  if (is_gray(fill)) return gray(std::max(1.0 - fill.red / 255.0, lightest_rim));
+render::Colour rim_of(const render::Colour& fill) {
+  if (render::is_gray(fill)) return render::gray(std::max(1.0 - fill.red / 255.0, lightest_rim));
   return {darkened(fill.red), darkened(fill.green), darkened(fill.blue), fill.alpha};
 }
 
-GrainLook outline_look() { return {white, gray(0.25), false}; }
+GrainLook outline_look() { return {render::white, render::gray(0.25), false}; }
 
 Scale chosen(Scale scale, const ScaleChoice& choice) {
   scale.colours = choice.colours.value_or(scale.colours);
@@ -72,7 +72,7 @@ double share_of(const Scale& scale, double value) {
 }
 
 GrainLook look_of(const Scale& scale, double value) {
-  const Colour fill = colour_at(scale.colours, share_of(scale, value));
+  const render::Colour fill = render::colour_at(scale.colours, share_of(scale, value));
   return {fill, rim_of(fill), !std::isnan(value)};
 }
 
@@ -90,13 +90,15 @@ std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const dou
   return looks;
 }
 
-Bar bar_of(const Scale& scale, const std::string& title) {
+render::Bar bar_of(const Scale& scale, const std::string& title) {
   constexpr std::size_t few = 3;
-  std::vector<BarTick> ticks = scale.logarithmic ? decades(scale, {1.0}) : std::vector<BarTick>();
+  std::vector<render::BarTick> ticks =
+      scale.logarithmic ? decades(scale, {1.0}) : std::vector<render::BarTick>();
   // Over few decades their halves and fifths are wanted too, and within one round numbers say more.
   if (scale.logarithmic && ticks.size() < few) ticks = decades(scale, {1.0, 2.0, 5.0});
   if (ticks.size() < few) ticks = round_shares(scale);
-  return {title, colour_ramp(scale.colours), std::move(ticks), scale.low, scale.high, scale.logarithmic};
+  return {
+      title, render::colour_ramp(scale.colours), std::move(ticks), scale.low, scale.high, scale.logarithmic};
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -9,24 +9,24 @@
 #include "render/colour_map.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::pictures {
 
 /// How a grain is drawn by a layer.
 struct GrainLook {
-  Colour fill = white;
-  Colour rim = black;
+  render::Colour fill = render::white;
+  render::Colour rim = render::black;
   bool marked = true;  ///< false: the layer has nothing to say of it, and marks nothing over another layer
 };
 
 /// The rim of a grain: darker than its fill, and never lighter than a gray that shows a white grain on white.
-Colour rim_of(const Colour& fill);
+render::Colour rim_of(const render::Colour& fill);
 
 /// A grain that only shows where it is.
 GrainLook outline_look();
 
 /// Values from low to high, in colours.
 struct Scale {
-  ColourMap colours = ColourMap::gray;
+  render::ColourMap colours = render::ColourMap::gray;
   double low = 0.0;
   double high = 1.0;
   bool logarithmic = false;  ///< then 0 < low
@@ -34,7 +34,7 @@ struct Scale {
 
 /// What users chose of the scale of a layer.
 struct ScaleChoice {
-  std::optional<ColourMap> colours;
+  std::optional<render::ColourMap> colours;
   std::optional<double> low, high;
 };
 
@@ -53,6 +53,6 @@ std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> valu
 std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values);
 
 /// The bar, with round numbers, or decades, as ticks.
-Bar bar_of(const Scale& scale, const std::string& title);
+render::Bar bar_of(const Scale& scale, const std::string& title);
 
-}  // namespace talus
+}  // namespace talus::pictures

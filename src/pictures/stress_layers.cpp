@@ -8,7 +8,7 @@
 #include "pictures/layers.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// Where grains are black, over Gamma_c. Of gamma as in the paper's Fig. 10; neighbourhoods average much of
@@ -16,9 +16,11 @@ namespace {
 constexpr double black_gamma = 2.0, black_coarse = 1.5;
 
 /// With ticks at the ends and at Gamma_c.
-Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title, const std::string& end) {
+render::Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title,
+                             const std::string& end) {
   constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
-  Bar bar{title, colour_ramp(scale.colours), {{0.0, number_label(scale.low)}}, scale.low, scale.high};
+  render::Bar bar{
+      title, render::colour_ramp(scale.colours), {{0.0, number_label(scale.low)}}, scale.low, scale.high};
   const double share = share_of(scale, gamma_c);
   if (share > clear_of_ends && share < 1.0 - clear_of_ends)
     bar.ticks.push_back({share, fmt::format("Γ_c = {:.2f}", gamma_c)});
@@ -46,7 +48,7 @@ std::string reading_text(const OverloadRule& rule) {
 
 MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = chosen({ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
+  const Scale scale = chosen({render::ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
   const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
   return scaled_layer(fmt::format("Stress ratio γ of {}{}",
@@ -59,10 +61,11 @@ MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const Scal
 MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
   const double length = coarse_length(of, settings);
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = chosen({ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
+  const Scale scale = chosen({render::ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("{:.2f}", scale.high);
   return scaled_layer(fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length), scale,
-                      coarse_stress_ratio(of, length), stress_ratio_bar(scale, gamma_c, "γ_l", end));
+                      analysis::coarse_stress_ratio(of, length),
+                      stress_ratio_bar(scale, gamma_c, "γ_l", end));
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

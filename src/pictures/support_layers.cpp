@@ -7,13 +7,13 @@
 #include "pictures/layers.h"
 #include "stress/bed.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
-constexpr Colour largest_colour{0, 114, 178}, other_colour{230, 159, 0};
+constexpr render::Colour largest_colour{0, 114, 178}, other_colour{230, 159, 0};
 
-Swatch grain_swatch(const GrainLook& look, const std::string& label) {
-  return {Swatch::Kind::disc, look.fill, look.rim, 0.0, label};
+render::Swatch grain_swatch(const GrainLook& look, const std::string& label) {
+  return {render::Swatch::Kind::disc, look.fill, look.rim, 0.0, label};
 }
 
 }  // namespace
@@ -22,10 +22,10 @@ MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
   constexpr double most = 6.0;  // of equal disks
   const FrameContacts& contacts = of.frame.contacts;
   const std::vector<Index> counts =
-      loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);
-  const Scale scale = chosen({ColourMap::viridis, 0.0, most}, choice);
-  return scaled_layer(fmt::format("Contacts of grains, z = {:.2f}", coordination_number(counts)), scale,
-                      {counts.begin(), counts.end()}, bar_of(scale, "contacts that carry force"));
+      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);
+  const Scale scale = chosen({render::ColourMap::viridis, 0.0, most}, choice);
+  return scaled_layer(fmt::format("Contacts of grains, z = {:.2f}", stress::coordination_number(counts)),
+                      scale, {counts.begin(), counts.end()}, bar_of(scale, "contacts that carry force"));
 }
 
 MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
@@ -36,14 +36,14 @@ MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
     none.title = "Rigid clusters are not counted without friction";
     return none;
   }
-  const std::vector<Index> label = find_rigid_clusters(fixed + 1, bonds_of(of)).label;
+  const std::vector<Index> label = analysis::find_rigid_clusters(fixed + 1, analysis::bonds_of(of)).label;
   std::vector<Index> bodies(label.size(), 0), grains(label.size(), 0);
   for (Index body = 0; body <= fixed; ++body) {
     ++bodies[label[body]];
     grains[label[body]] += body < fixed ? 1 : 0;
   }
   const Index largest = static_cast<Index>(std::ranges::max_element(grains) - grains.begin());
-  const auto look_in = [](const Colour& fill) { return GrainLook{fill, rim_of(fill)}; };
+  const auto look_in = [](const render::Colour& fill) { return GrainLook{fill, rim_of(fill)}; };
   MapLayer layer;
   for (Index i = 0; i < fixed; ++i)
     layer.looks.push_back(
@@ -60,4 +60,4 @@ MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

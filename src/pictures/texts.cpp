@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 /// "⁻¹²".
@@ -74,4 +74,4 @@ std::vector<RoundTick> round_ticks(double low, double high, int most) {
   return ticks;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

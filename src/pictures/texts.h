@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::pictures {
 
 /// A number on a scale.
 struct RoundTick {
@@ -25,4 +25,4 @@ double round_step(double width, int most);
 /// The multiples of the step of round_step between low and high (low < high), both included.
 std::vector<RoundTick> round_ticks(double low, double high, int most);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -14,20 +14,20 @@
 #include "pictures/texts.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 struct TraceEntry {
   TraceKind kind;
   std::string_view name;
-  QuantityMember member;
+  analysis::QuantityMember member;
 };
 
 constexpr auto entries = std::to_array<TraceEntry>({
-    {TraceKind::overloaded, "overloaded", &FrameThreshold::overloaded_fraction},
-    {TraceKind::largest_cluster, "largest_cluster", &FrameThreshold::largest_share},
-    {TraceKind::stress_ratio, "stress_ratio", &FrameRecord::stress_ratio},
-    {TraceKind::volume_strain, "volume_strain", &FrameRecord::volume_strain},
+    {TraceKind::overloaded, "overloaded", &analysis::FrameThreshold::overloaded_fraction},
+    {TraceKind::largest_cluster, "largest_cluster", &analysis::FrameThreshold::largest_share},
+    {TraceKind::stress_ratio, "stress_ratio", &analysis::FrameRecord::stress_ratio},
+    {TraceKind::volume_strain, "volume_strain", &analysis::FrameRecord::volume_strain},
 });
 
 constexpr auto kinds = [] {
@@ -47,8 +47,8 @@ TraceKind kind_of(std::string_view name) {
                           entries.back().name, did_you_mean(name, names_of(entries))));
 }
 
-std::vector<AxisTick> axis_ticks(double low, double high, int most) {
-  std::vector<AxisTick> ticks;
+std::vector<render::AxisTick> axis_ticks(double low, double high, int most) {
+  std::vector<render::AxisTick> ticks;
   for (const RoundTick& tick : round_ticks(low, high, most)) ticks.push_back({tick.value, tick.label});
   return ticks;
 }
@@ -76,7 +76,9 @@ std::span<const TraceKind> trace_kinds() { return kinds; }
 
 std::string_view trace_name(TraceKind kind) { return entry_of(kind).name; }
 
-const Quantity& trace_quantity(TraceKind kind) { return quantity_of(entry_of(kind).member); }
+const analysis::Quantity& trace_quantity(TraceKind kind) {
+  return analysis::quantity_of(entry_of(kind).member);
+}
 
 std::vector<TraceKind> trace_kinds(std::string_view name) {
   std::vector<TraceKind> chosen;
@@ -93,11 +95,11 @@ std::vector<TraceKind> trace_kinds(std::string_view name) {
 
 bool trace_from_frames(TraceKind kind) { return !trace_quantity(kind).display.observable; }
 
-bool needs_theta_c(TraceKind kind) { return needs_threshold(trace_quantity(kind)); }
+bool needs_theta_c(TraceKind kind) { return analysis::needs_threshold(trace_quantity(kind)); }
 
 double frame_value(TraceKind kind, const BedFrame& bed, const OverloadRule& rule) {
-  if (kind == TraceKind::overloaded) return count_overloaded(bed, threshold_of(rule)).fraction();
-  if (kind == TraceKind::largest_cluster) return largest_share(overloaded_clusters(bed, rule));
+  if (kind == TraceKind::overloaded) return stress::count_overloaded(bed, threshold_of(rule)).fraction();
+  if (kind == TraceKind::largest_cluster) return analysis::largest_share(overloaded_clusters(bed, rule));
   throw Error(ExitCode::internal, fmt::format("trace '{}' of a frame", trace_name(kind)));
 }
 
@@ -106,18 +108,18 @@ Observable trace_column(TraceKind kind) {
   throw Error(ExitCode::internal, fmt::format("trace '{}' has no column", trace_name(kind)));
 }
 
-Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
-                 const OverloadRule& rule, double place_now, TraceAxis axis) {
+render::Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
+                         const OverloadRule& rule, double place_now, TraceAxis axis) {
   const bool over_tilt = axis == TraceAxis::tilt;
   const auto shown_place = [over_tilt](double place) { return over_tilt ? degrees(place) : place; };
   constexpr int most_x = 8, most_y = 3;
-  const Quantity& quantity = trace_quantity(kind);
-  Trace trace;
-  trace.title = shown_title(quantity);
+  const analysis::Quantity& quantity = trace_quantity(kind);
+  render::Trace trace;
+  trace.title = analysis::shown_title(quantity);
   if (trace_from_frames(kind)) trace.title += ", " + reading_text(rule);
   trace.x_title = over_tilt ? "θ in °" : "t in s";
   for (const double place : places) trace.x.push_back(shown_place(place));
-  for (const double value : values) trace.y.push_back(shown(quantity, value, 1.0));
+  for (const double value : values) trace.y.push_back(analysis::shown(quantity, value, 1.0));
   trace.mark = shown_place(place_now);
 
   const ScaleRange x = range_of(trace.x, 0.5);
@@ -136,4 +138,4 @@ Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const
   return trace;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

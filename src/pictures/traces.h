@@ -11,7 +11,7 @@
 #include "pictures/maps.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::pictures {
 
 enum class TraceKind {
   overloaded,       ///< p_o: overloaded grains over those that carry something
@@ -25,7 +25,7 @@ std::span<const TraceKind> trace_kinds();
 
 std::string_view trace_name(TraceKind kind);
 /// What the trace shows.
-const Quantity& trace_quantity(TraceKind kind);
+const analysis::Quantity& trace_quantity(TraceKind kind);
 
 /// The traces of a name: "overloaded", or several with commas or + between. Throws Error(usage) with the
 /// names that there are at an unknown one, and where there is twice the same.
@@ -49,7 +49,7 @@ enum class TraceAxis { tilt, time };
 /// The curve of `values` (in the unit of the observables; NaN makes a gap) over `places` (rad or s,
 /// ascending, as many), with the range of all of them, a mark at the place of the frame shown, and over the
 /// tilt theta_c where it is known and in the range. The tilt is given in degrees.
-Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
-                 const OverloadRule& rule, double place_now, TraceAxis axis = TraceAxis::tilt);
+render::Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,
+                         const OverloadRule& rule, double place_now, TraceAxis axis = TraceAxis::tilt);
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -9,27 +9,27 @@
 #include "pictures/motion.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
-const FrameQuantity& quantity_of(MapKind kind) {
-  const FrameQuantity* quantity = shown_quantity(kind);
+const analysis::FrameQuantity& quantity_of(MapKind kind) {
+  const analysis::FrameQuantity* quantity = shown_quantity(kind);
   if (quantity == nullptr) throw Error(ExitCode::internal, "a map that is no number of each grain");
   return *quantity;
 }
 
 Scale scale_of(MapKind kind, const MapFrame& of, const MapSettings& settings, bool per_degree) {
   constexpr int most_ticks = 4;
-  const ScaleRule rule = quantity_of(kind).map.scale;
+  const analysis::ScaleRule rule = quantity_of(kind).map.scale;
   ScaleRange range = fixed_motion_range(kind, per_degree);
   if (fits_frames(kind)) range = settings.motion.of(kind, per_degree).value_or(range);
-  if (rule == ScaleRule::by_depth) {
+  if (rule == analysis::ScaleRule::by_depth) {
     const double largest = range.high * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
     const double step = round_step(largest, most_ticks);
     range.high = std::ceil(largest / step) * step;
   }
-  return {rule == ScaleRule::about_zero ? ColourMap::diverging : ColourMap::viridis, range.low, range.high,
-          rule == ScaleRule::sizes};
+  return {rule == analysis::ScaleRule::about_zero ? render::ColourMap::diverging : render::ColourMap::viridis,
+          range.low, range.high, rule == analysis::ScaleRule::sizes};
 }
 
 /// ", 5 to 99 % of grains" if the range is one that fits; empty if it is fixed or chosen.
@@ -43,17 +43,17 @@ std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degre
 }  // namespace
 
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree) {
-  const MapRule& rule = quantity_of(kind).map;
+  const analysis::MapRule& rule = quantity_of(kind).map;
   return per_degree ? ScaleRange{rule.low_per_degree, rule.high_per_degree} : ScaleRange{rule.low, rule.high};
 }
 
 std::vector<double> map_values(MapKind kind, const MapFrame& of, const MapSettings& settings) {
-  const FrameQuantity& quantity = quantity_of(kind);
-  GrainSource source = {of};
+  const analysis::FrameQuantity& quantity = quantity_of(kind);
+  analysis::GrainSource source = {of};
   source.earlier = of.reference;
   if (needs_reference(kind)) source.degrees = motion_span(of).degrees;
   if (is_coarse(kind)) source.length = coarse_length(of, settings);
-  const double unit = bed_unit(quantity.unit, of.statics).value;
+  const double unit = analysis::bed_unit(quantity.unit, of.statics).value;
   std::vector<double> values = quantity.values(source, 0);
   values.resize(static_cast<std::size_t>(of.statics.free_count));
   for (double& value : values) value /= unit;
@@ -62,19 +62,21 @@ std::vector<double> map_values(MapKind kind, const MapFrame& of, const MapSettin
 
 MapLayer value_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
                      const ScaleChoice& choice) {
-  const MapRule& rule = quantity_of(kind).map;
+  const analysis::MapRule& rule = quantity_of(kind).map;
   const MotionSpan span = needs_reference(kind) ? motion_span(of) : MotionSpan{};
   const Scale scale = chosen(scale_of(kind, of, settings, span.per_degree), choice);
   const std::string averaged =
       is_coarse(kind) ? fmt::format(", coarse-grained over {:.6g} D", settings.length) : std::string();
-  const Bar bar = bar_of(scale, fmt::format("{}{}{}{}", rule.bar, span.unit, rule.sign,
-                                            fitted_text(kind, settings.motion, span.per_degree, choice)));
+  const render::Bar bar =
+      bar_of(scale, fmt::format("{}{}{}{}", rule.bar, span.unit, rule.sign,
+                                fitted_text(kind, settings.motion, span.per_degree, choice)));
   MapLayer layer = (rule.outlines ? scaled_layer_with_outlines : scaled_layer)(
       fmt::format("{}{}{}", rule.title, span.title, averaged), scale, map_values(kind, of, settings), bar);
   const GrainLook open = outline_look();
   if (!rule.without.empty())
-    layer.legend.swatches = {{Swatch::Kind::disc, open.fill, open.rim, 0.0, std::string(rule.without)}};
+    layer.legend.swatches = {
+        {render::Swatch::Kind::disc, open.fill, open.rim, 0.0, std::string(rule.without)}};
   return layer;
 }
 
-}  // namespace talus
+}  // namespace talus::pictures

@@ -13,7 +13,7 @@
 #include "session/measure.h"
 #include "solver/balance.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// Exponentially distributed with mean 1, by comparisons of uniform numbers alone (von Neumann 1951): the
@@ -47,7 +47,7 @@ double factor_of_memory(ForceStart start, Random& random) {
   }
 }
 
-double mean_normal_impulse(const ContactSolution& solution) {
+double mean_normal_impulse(const solver::ContactSolution& solution) {
   double sum = 0.0;
   int carrying = 0;
   for (const double pn : solution.pn)
@@ -59,15 +59,16 @@ double mean_normal_impulse(const ContactSolution& solution) {
 }
 
 /// The problem with its contacts in another order: contact c of the result is contact order[c].
-ContactProblem reordered(const ContactProblem& problem, const std::vector<std::size_t>& order) {
-  ContactProblem result = problem;
+solver::ContactProblem reordered(const solver::ContactProblem& problem,
+                                 const std::vector<std::size_t>& order) {
+  solver::ContactProblem result = problem;
   const auto take = [&order](const auto& from, auto& to) {
     for (std::size_t c = 0; c < order.size(); ++c) to[c] = from[order[c]];
   };
   take(problem.a, result.a);
   take(problem.b, result.b);
-  for (auto field : {&ContactProblem::nx, &ContactProblem::ny, &ContactProblem::cn, &ContactProblem::ct,
-                     &ContactProblem::mu})
+  for (auto field : {&solver::ContactProblem::nx, &solver::ContactProblem::ny, &solver::ContactProblem::cn,
+                     &solver::ContactProblem::ct, &solver::ContactProblem::mu})
     take(problem.*field, result.*field);
   return result;
 }
@@ -80,15 +81,16 @@ std::vector<std::size_t> random_order(std::size_t count, Random& random) {
   return order;
 }
 
-SolverReport solve_shuffled(const ContactProblem& problem, const SolverSettings& settings, Random& random,
-                            SolverWorkspace& workspace, ContactSolution& solution) {
+solver::SolverReport solve_shuffled(const solver::ContactProblem& problem,
+                                    const solver::SolverSettings& settings, Random& random,
+                                    solver::SolverWorkspace& workspace, solver::ContactSolution& solution) {
   const std::vector<std::size_t> order = random_order(solution.pn.size(), random);
-  ContactSolution shuffled = solution;
+  solver::ContactSolution shuffled = solution;
   for (std::size_t c = 0; c < order.size(); ++c) {
     shuffled.pn[c] = solution.pn[order[c]];
     shuffled.pt[c] = solution.pt[order[c]];
   }
-  const SolverReport report = solve(reordered(problem, order), settings, workspace, shuffled);
+  const solver::SolverReport report = solver::solve(reordered(problem, order), settings, workspace, shuffled);
   solution.vx = shuffled.vx;
   solution.vy = shuffled.vy;
   solution.omega = shuffled.omega;
@@ -99,21 +101,21 @@ SolverReport solve_shuffled(const ContactProblem& problem, const SolverSettings&
   return report;
 }
 
-SolverReport search_on(const ContactProblem& problem, ForceMethod method, const ForceSearch& search,
-                       Random& random, ContactSolution& solution) {
+solver::SolverReport search_on(const solver::ContactProblem& problem, ForceMethod method,
+                               const ForceSearch& search, Random& random, solver::ContactSolution& solution) {
   if (method == ForceMethod::balance)
-    return balance(problem, search.tolerance, search.max_iterations, solution);
-  SolverSettings settings;
+    return solver::balance(problem, search.tolerance, search.max_iterations, solution);
+  solver::SolverSettings settings;
   settings.tolerance = search.tolerance;
   settings.max_iterations = search.max_iterations;
-  SolverWorkspace workspace;
-  if (method == ForceMethod::contact_dynamics) return solve(problem, settings, workspace, solution);
-  settings.kind = SolverKind::gauss_seidel;
+  solver::SolverWorkspace workspace;
+  if (method == ForceMethod::contact_dynamics) return solver::solve(problem, settings, workspace, solution);
+  settings.kind = solver::SolverKind::gauss_seidel;
   return solve_shuffled(problem, settings, random, workspace, solution);
 }
 
 /// Free grains with a velocity above `limit`, m/s.
-Index count_faster(const ContactSolution& solution, Index free_count, double limit) {
+Index count_faster(const solver::ContactSolution& solution, Index free_count, double limit) {
   Index count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i) {
     const double vx = solution.vx[i], vy = solution.vy[i];
@@ -122,7 +124,7 @@ Index count_faster(const ContactSolution& solution, Index free_count, double lim
   return count;
 }
 
-double relative_distance(const ContactSolution& one, const ContactSolution& reference) {
+double relative_distance(const solver::ContactSolution& one, const solver::ContactSolution& reference) {
   double difference = 0.0, scale = 0.0;
   for (std::size_t c = 0; c < one.pn.size(); ++c) {
     const double dn = one.pn[c] - reference.pn[c], dt = one.pt[c] - reference.pt[c];
@@ -132,7 +134,7 @@ double relative_distance(const ContactSolution& one, const ContactSolution& refe
   return std::sqrt(difference / scale);
 }
 
-std::vector<ForceQuantity> quantities_of(const AnalysisParameters& parameters) {
+std::vector<ForceQuantity> quantities_of(const analysis::AnalysisParameters& parameters) {
   std::vector<ForceQuantity> quantities = {{"Gamma"}, {"critical_share"}};
   for (const double factor : parameters.threshold_factors)
     for (const char* name : {"p_o", "lc_mean", "lc_max"}) quantities.push_back({name, factor});
@@ -142,8 +144,10 @@ std::vector<ForceQuantity> quantities_of(const AnalysisParameters& parameters) {
 /// Measures frames one after the other.
 class Measurement {
  public:
-  Measurement(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c)
-      : statics_(statics), parameters_(parameters), analysis_(begin_analysis(statics, parameters, theta_c)) {
+  Measurement(const RunStatics& statics, const analysis::AnalysisParameters& parameters, double theta_c)
+      : statics_(statics),
+        parameters_(parameters),
+        analysis_(analysis::begin_analysis(statics, parameters, theta_c)) {
     if (parameters.averaging > 0.0)
       throw Error(ExitCode::bad_data, "the forces of one frame cannot be averaged over frames");
     if (analysis_.thresholds.empty())
@@ -153,10 +157,11 @@ class Measurement {
 
   /// In the order of quantities_of.
   std::vector<double> of(Frame frame) const {
-    const FrameRecord record = analyse_frame(
-        {with_analysed_gamma(std::move(frame), statics_, parameters_), statics_}, parameters_, analysis_);
+    const analysis::FrameRecord record = analysis::analyse_frame(
+        {analysis::with_analysed_gamma(std::move(frame), statics_, parameters_), statics_}, parameters_,
+        analysis_);
     std::vector<double> found = {record.stress_ratio, record.critical_share};
-    for (const FrameThreshold& at : record.thresholds)
+    for (const analysis::FrameThreshold& at : record.thresholds)
       found.insert(found.end(), {at.overloaded_fraction, at.lc_mean / statics_.mean_diameter,
                                  at.lc_max / statics_.mean_diameter});
     return found;
@@ -164,8 +169,8 @@ class Measurement {
 
  private:
   const RunStatics& statics_;
-  const AnalysisParameters& parameters_;
-  Analysis analysis_;  ///< of no frames: thresholds and the cut
+  const analysis::AnalysisParameters& parameters_;
+  analysis::Analysis analysis_;  ///< of no frames: thresholds and the cut
 };
 
 ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {
@@ -207,9 +212,9 @@ std::vector<ForceAttempt> force_attempts(const ForceSearch& search) {
   return attempts;
 }
 
-ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random) {
-  ContactSolution guess = bed.step.guess;
-  const ContactProblem& problem = bed.step.problem;
+solver::ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random) {
+  solver::ContactSolution guess = bed.step.guess;
+  const solver::ContactProblem& problem = bed.step.problem;
   const bool from_memory = start != ForceStart::exponential && start != ForceStart::uniform;
   const double mean = from_memory ? 0.0 : mean_normal_impulse(guess) * random.uniform(0.0, 2.0);
   for (std::size_t c = 0; c < guess.pn.size(); ++c) {
@@ -240,7 +245,7 @@ ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const Fo
   return found;
 }
 
-World loaded_world(const FrozenBed& bed, const ContactSolution& solution) {
+World loaded_world(const FrozenBed& bed, const solver::ContactSolution& solution) {
   World world = bed.world;
   const Index free = world.grains.free_count;
   std::copy_n(solution.vx.begin(), free, world.grains.vx.begin());
@@ -259,7 +264,7 @@ int FrameForces::admissible() const {
 }
 
 FrameForces admissible_forces(const FrozenBed& bed, const BedFrame& stored,
-                              const AnalysisParameters& parameters, double theta_c,
+                              const analysis::AnalysisParameters& parameters, double theta_c,
                               const ForceSearch& search) {
   const Measurement measurement(stored.statics, parameters, theta_c);
   FrameForces found;
@@ -270,18 +275,18 @@ FrameForces admissible_forces(const FrozenBed& bed, const BedFrame& stored,
   Random random(search.seed);
   for (const ForceAttempt& attempt : force_attempts(search)) {
     ForceSet set = find_forces(bed, attempt, search, random);
-    set.values = measurement.of(make_frame(loaded_world(bed, set.solution), bed.law));
+    set.values = measurement.of(session::make_frame(loaded_world(bed, set.solution), bed.law));
     found.sets.push_back(std::move(set));
   }
   for (std::size_t q = 0; q < found.quantities.size(); ++q) found.spreads.push_back(spread_of(q, found.sets));
   return found;
 }
 
-FrameForces admissible_forces(const RunFile& run, std::size_t k, const AnalysisParameters& parameters,
-                              const ForceSearch& search) {
+FrameForces admissible_forces(const io::RunFile& run, std::size_t k,
+                              const analysis::AnalysisParameters& parameters, const ForceSearch& search) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   return admissible_forces(frozen_frame(run, k), {run.frame(k), run.header().statics}, parameters, theta_c,
                            search);
 }
 
-}  // namespace talus
+}  // namespace talus::problems

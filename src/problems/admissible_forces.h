@@ -12,7 +12,7 @@
 #include "core/random.h"
 #include "problems/step_problem.h"
 
-namespace talus {
+namespace talus::problems {
 
 /// The forces from which a search starts. Random ones act on closed contacts only; the mean of their normal
 /// forces is that of the remembered ones times a random number between 0 and 2, and |f_t| is uniform up to
@@ -56,13 +56,13 @@ struct ForceSearch {
 std::vector<ForceAttempt> force_attempts(const ForceSearch& search);
 
 /// The first guess of an attempt, impulses in the order of the contacts of the bed.
-ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random);
+solver::ContactSolution first_guess(ForceStart start, const FrozenBed& bed, Random& random);
 
 /// Forces that were found.
 struct ForceSet {
   ForceAttempt attempt;
-  SolverReport report;
-  ContactSolution solution;    ///< impulses and velocities of the step
+  solver::SolverReport report;
+  solver::ContactSolution solution;  ///< impulses and velocities of the step
   double momentum_left = 0.0;  ///< rms velocity that the step gives, over g h: 0 where all is balanced, 1
                                ///< where all fall
   Index unbalanced = 0;        ///< free grains that get more than a tenth of g h
@@ -77,7 +77,7 @@ ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const Fo
                      Random& random);
 
 /// The bed with these forces, and the velocities of the step.
-World loaded_world(const FrozenBed& bed, const ContactSolution& solution);
+World loaded_world(const FrozenBed& bed, const solver::ContactSolution& solution);
 
 /// What is measured of a set of forces.
 struct ForceQuantity {
@@ -110,11 +110,11 @@ struct FrameForces {
 /// `stored` is the frame with its own forces; `theta_c` in rad gives Gamma_c where the parameters do not.
 /// Throws Error(bad_data) where neither does, and where the parameters average over frames.
 FrameForces admissible_forces(const FrozenBed& bed, const BedFrame& stored,
-                              const AnalysisParameters& parameters, double theta_c,
+                              const analysis::AnalysisParameters& parameters, double theta_c,
                               const ForceSearch& search);
 
 /// The same of frame k of a run.
-FrameForces admissible_forces(const RunFile& run, std::size_t k, const AnalysisParameters& parameters,
-                              const ForceSearch& search);
+FrameForces admissible_forces(const io::RunFile& run, std::size_t k,
+                              const analysis::AnalysisParameters& parameters, const ForceSearch& search);
 
-}  // namespace talus
+}  // namespace talus::problems

@@ -9,7 +9,7 @@
 #include "core/types.h"
 #include "io/child_process.h"
 
-namespace talus {
+namespace talus::problems {
 
 /// What a problem file holds. Vectors of unknowns are (n, t) of contact 0, (n, t) of contact 1, ...
 struct FclibProblem {
@@ -36,11 +36,11 @@ void write_fclib(const std::string& path, const FclibProblem& problem, const std
 FclibProblem read_fclib(const std::string& path);
 
 /// The problem in the arrays of a file called `path`; throws as read_fclib does.
-FclibProblem checked_problem(const std::string& path, const Parcels& found);
+FclibProblem checked_problem(const std::string& path, const io::Parcels& found);
 
 /// Writes a copy of the problem file `from` to `to`, with r and u as its /solution, in place of one that it
 /// has. `to` appears whole or not at all, and may be `from`.
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u);
 
-}  // namespace talus
+}  // namespace talus::problems

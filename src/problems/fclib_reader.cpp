@@ -9,13 +9,13 @@
 #include "problems/fclib_file.h"
 #include "problems/fclib_schema.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// A problem file of any program, as far as it is known to be one of numbers.
 class FclibFile {
  public:
-  FclibFile(std::string path, const Parcels& found) : path_(std::move(path)), found_(found) {}
+  FclibFile(std::string path, const io::Parcels& found) : path_(std::move(path)), found_(found) {}
 
   /// Whether a group or data set is there.
   bool has(const std::string& path) const { return found_.contains(path); }
@@ -25,7 +25,7 @@ class FclibFile {
   std::vector<T> read(const std::string& path) const {
     const auto found = found_.find(path);
     if (found == found_.end()) refuse(path, "is missing");
-    auto values = values_of<std::vector<T>>(found->second);
+    auto values = io::values_of<std::vector<T>>(found->second);
     for (std::size_t k = 0; k < values.size(); ++k)
       if (!std::isfinite(values[k]))
         refuse(path, fmt::format("holds a value that is not finite, at index {}", k));
@@ -49,19 +49,20 @@ class FclibFile {
 
  private:
   std::string path_;
-  const Parcels& found_;
+  const io::Parcels& found_;
 };
 
 /// The groups and data sets that a problem is read from, as far as they are there.
-Parcels arrays_in(hdf5::Reader reader) {
-  Parcels found;
+io::Parcels arrays_in(io::hdf5::Reader reader) {
+  io::Parcels found;
   for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus", "/talus/run"})
     if (reader.has(group)) found[group];
-  for (const DataSetField& field : fclib_schema())
-    if (field.type != ElementType::text && !field.path.starts_with("/solution/") && reader.has(field.path))
-      found[field.path] = field.type == ElementType::int32
-                              ? bytes_of(reader.read_numbers<Index>(field.path))
-                              : bytes_of(reader.read_numbers<double>(field.path));
+  for (const io::DataSetField& field : fclib_schema())
+    if (field.type != io::ElementType::text && !field.path.starts_with("/solution/") &&
+        reader.has(field.path))
+      found[field.path] = field.type == io::ElementType::int32
+                              ? io::bytes_of(reader.read_numbers<Index>(field.path))
+                              : io::bytes_of(reader.read_numbers<double>(field.path));
   return found;
 }
 
@@ -156,7 +157,7 @@ void read_vectors(const FclibFile& file, FclibProblem& problem) {
                                         "two for each contact of /fclib_local/vectors/mu");
 }
 
-std::size_t expected_size(const DataSetField& field, const FclibProblem& problem, std::size_t bodies) {
+std::size_t expected_size(const io::DataSetField& field, const FclibProblem& problem, std::size_t bodies) {
   if (field.shape == "1") return 1;
   return field.shape == "B" ? bodies : problem.mu.size();
 }
@@ -164,7 +165,7 @@ std::size_t expected_size(const DataSetField& field, const FclibProblem& problem
 void read_additions(const FclibFile& file, FclibProblem& problem) {
   if (!file.has("/talus")) return;
   const std::size_t bodies = file.read<double>("/talus/bodies/vx").size();
-  for (const DataSetField& field : fclib_schema()) {
+  for (const io::DataSetField& field : fclib_schema()) {
     if (!field.path.starts_with("/talus/")) continue;
     if (field.path.starts_with("/talus/run/") && !file.has("/talus/run")) continue;  // of an older Talus
     if (field.path == "/talus/bodies/column" && !file.has(field.path)) continue;     // of a small bed
@@ -172,7 +173,7 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
     const std::string why = field.shape == "1"   ? "a single one"
                             : field.shape == "B" ? "one for each body of /talus/bodies/vx"
                                                  : "one for each contact of /fclib_local/vectors/mu";
-    if (field.type == ElementType::int32) {
+    if (field.type == io::ElementType::int32) {
       problem.integers[field.path] = file.read<Index>(field.path, size, why);
       check_index(file, field.path, problem.integers[field.path], bodies);
     } else {
@@ -183,7 +184,7 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
 
 }  // namespace
 
-FclibProblem checked_problem(const std::string& path, const Parcels& found) {
+FclibProblem checked_problem(const std::string& path, const io::Parcels& found) {
   const FclibFile file(path, found);
   check_kind(file, path);
   FclibProblem problem;
@@ -195,9 +196,9 @@ FclibProblem checked_problem(const std::string& path, const Parcels& found) {
 }
 
 FclibProblem read_fclib(const std::string& path) {
-  std::vector<std::byte> bytes = read_file(path);
-  const auto work = [&] { return arrays_in(hdf5::Reader::from_memory(std::move(bytes), path)); };
-  return checked_problem(path, in_child_process(path, bytes.size(), work));
+  std::vector<std::byte> bytes = io::read_file(path);
+  const auto work = [&] { return arrays_in(io::hdf5::Reader::from_memory(std::move(bytes), path)); };
+  return checked_problem(path, io::in_child_process(path, bytes.size(), work));
 }
 
-}  // namespace talus
+}  // namespace talus::problems

@@ -2,12 +2,12 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
-using enum ElementType;
+using enum io::ElementType;
 
-std::vector<DataSetField> make_schema() {
+std::vector<io::DataSetField> make_schema() {
   return {
       {"/fclib_local/spacedim", int32, "1", "1", "dimension of space, 2"},
       {"/fclib_local/W/nzmax", int32, "1", "1", "number of entries of W"},
@@ -64,15 +64,15 @@ std::vector<DataSetField> make_schema() {
 
 }  // namespace
 
-const std::vector<DataSetField>& fclib_schema() {
-  static const std::vector<DataSetField> schema = make_schema();
+const std::vector<io::DataSetField>& fclib_schema() {
+  static const std::vector<io::DataSetField> schema = make_schema();
   return schema;
 }
 
-const DataSetField& fclib_field(const std::string& path) {
-  for (const DataSetField& field : fclib_schema())
+const io::DataSetField& fclib_field(const std::string& path) {
+  for (const io::DataSetField& field : fclib_schema())
     if (field.path == path) return field;
   throw Error(ExitCode::internal, "the schema of problem files has no data set " + path);
 }
 
-}  // namespace talus
+}  // namespace talus::problems

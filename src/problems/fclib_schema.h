@@ -7,12 +7,12 @@
 
 #include "io/run_schema.h"
 
-namespace talus {
+namespace talus::problems {
 
 /// Letters of the shapes: B bodies, C contacts, U = 2 C unknowns, E entries of W.
-const std::vector<DataSetField>& fclib_schema();
+const std::vector<io::DataSetField>& fclib_schema();
 
 /// The row of a data set. Throws Error(internal) where the table has none.
-const DataSetField& fclib_field(const std::string& path);
+const io::DataSetField& fclib_field(const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::problems

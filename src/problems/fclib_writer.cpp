@@ -6,22 +6,22 @@
 #include "problems/fclib_file.h"
 #include "problems/fclib_schema.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// An array of the size that it has.
 template <typename T>
-void write(hdf5::Writer& writer, const std::string& path, const std::vector<T>& values) {
-  DataSetField field = fclib_field(path);
+void write(io::hdf5::Writer& writer, const std::string& path, const std::vector<T>& values) {
+  io::DataSetField field = fclib_field(path);
   field.shape = std::to_string(values.size());
   writer.write(field, values);
 }
 
-void write(hdf5::Writer& writer, const std::string& path, Index value) {
+void write(io::hdf5::Writer& writer, const std::string& path, Index value) {
   write(writer, path, std::vector<Index>{value});
 }
 
-void write(hdf5::Writer& writer, const std::string& path, const std::string& text) {
+void write(io::hdf5::Writer& writer, const std::string& path, const std::string& text) {
   writer.write_text(fclib_field(path), text + '\0');  // for programs in C
 }
 
@@ -33,7 +33,7 @@ std::vector<Index> row_begins(const std::vector<Index>& row, std::size_t rows) {
   return begin;
 }
 
-void write_local_problem(hdf5::Writer& file, const FclibProblem& problem) {
+void write_local_problem(io::hdf5::Writer& file, const FclibProblem& problem) {
   const auto rows = static_cast<Index>(problem.q.size());
   write(file, "/fclib_local/spacedim", 2);
   write(file, "/fclib_local/W/nzmax", static_cast<Index>(problem.value.size()));
@@ -57,27 +57,27 @@ void write_local_problem(hdf5::Writer& file, const FclibProblem& problem) {
 }  // namespace
 
 void write_fclib(const std::string& path, const FclibProblem& problem, const std::vector<double>& guess_u) {
-  hdf5::Writer file({});
+  io::hdf5::Writer file({});
   write_local_problem(file, problem);
   write(file, "/guesses/number_of_guesses", 1);
   write(file, "/guesses/1/r", problem.guess_r);
   write(file, "/guesses/1/u", guess_u);
   for (const auto& [set, values] : problem.reals) write(file, set, values);
   for (const auto& [set, values] : problem.integers) write(file, set, values);
-  write_durably(path, file.image());
+  io::write_durably(path, file.image());
 }
 
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u) {
-  const std::vector<std::byte> bytes = read_file(from);
+  const std::vector<std::byte> bytes = io::read_file(from);
   const auto with_solution = [&] {  // HDF5 may fail on a file of another program: not in this process
-    hdf5::Writer file({}, 0, bytes, from);
+    io::hdf5::Writer file({}, 0, bytes, from);
     file.remove("/solution");
     write(file, "/solution/r", r);
     write(file, "/solution/u", u);
-    return Parcels{{"file", file.image()}};
+    return io::Parcels{{"file", file.image()}};
   };
-  write_durably(to, in_child_process(from, bytes.size(), with_solution)["file"]);
+  io::write_durably(to, io::in_child_process(from, bytes.size(), with_solution)["file"]);
 }
 
-}  // namespace talus
+}  // namespace talus::problems

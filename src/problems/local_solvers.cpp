@@ -6,7 +6,7 @@
 #include "solver/local_law.h"
 #include "solver/momentum.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 struct LocalSums {
@@ -20,13 +20,14 @@ struct LocalSums {
 
 /// One sweep over all contacts in their order, each solved exactly for the impulses of the moment: turns Y
 /// into P_new. `p` is P.
-LocalSums sweep(const LocalProblem& problem, const std::vector<LocalContact>& contacts,
-                const std::vector<Impulse>& p, std::vector<Impulse>& y) {
+LocalSums sweep(const solver::LocalProblem& problem, const std::vector<solver::LocalContact>& contacts,
+                const std::vector<solver::Impulse>& p, std::vector<solver::Impulse>& y) {
   LocalSums sums;
   for (Index c = 0; c < problem.contact_count(); ++c) {
-    const LocalContact& contact = contacts[c];
-    const Impulse from = y[c];
-    const Impulse to = solve_local_contact(contact, from, relative_velocity(problem, y, c));
+    const solver::LocalContact& contact = contacts[c];
+    const solver::Impulse from = y[c];
+    const solver::Impulse to =
+        solver::solve_local_contact(contact, from, solver::relative_velocity(problem, y, c));
     const double dn = to.normal - from.normal;
     const double dt = to.tangential - from.tangential;
     sums.change += dn * dn + dt * dt;
@@ -39,35 +40,37 @@ LocalSums sweep(const LocalProblem& problem, const std::vector<LocalContact>& co
 }
 
 /// P becomes P_new, which Y holds, and Y becomes P_new + beta (P_new - P).
-void extrapolate(double beta, std::vector<Impulse>& p, std::vector<Impulse>& y) {
+void extrapolate(double beta, std::vector<solver::Impulse>& p, std::vector<solver::Impulse>& y) {
   for (std::size_t c = 0; c < p.size(); ++c) {
-    const Impulse before = p[c];
+    const solver::Impulse before = p[c];
     p[c] = y[c];
     y[c].normal += beta * (p[c].normal - before.normal);
     y[c].tangential += beta * (p[c].tangential - before.tangential);
   }
 }
 
-Residual look_at(const LocalProblem& problem, LocalSolution& solution) {
-  velocities_from_impulses(problem, solution);
-  return natural_map_residual(problem, solution);
+solver::Residual look_at(const solver::LocalProblem& problem, solver::LocalSolution& solution) {
+  solver::velocities_from_impulses(problem, solution);
+  return solver::natural_map_residual(problem, solution);
 }
 
 }  // namespace
 
-SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, LocalSolution& solution) {
-  const std::vector<LocalContact> contacts = local_contacts(problem);
-  std::vector<Impulse>& p = solution.p;
-  std::vector<Impulse> y = p;
-  Momentum momentum;
-  SolverReport report;
+solver::SolverReport solve(const solver::LocalProblem& problem, const solver::SolverSettings& settings,
+                           solver::LocalSolution& solution) {
+  const std::vector<solver::LocalContact> contacts = solver::local_contacts(problem);
+  std::vector<solver::Impulse>& p = solution.p;
+  std::vector<solver::Impulse> y = p;
+  solver::Momentum momentum;
+  solver::SolverReport report;
   report.residual = look_at(problem, solution);
   // The residual costs as much as a sweep, so it is looked at now and then.
   while (report.residual.eta > settings.tolerance && report.iterations < settings.max_iterations) {
     const int next_look = std::min(settings.max_iterations, report.iterations + 5 + report.iterations / 16);
     for (; report.iterations < next_look; ++report.iterations) {
       const LocalSums sums = sweep(problem, contacts, p, y);
-      if (settings.kind == SolverKind::accelerated) momentum.update(sums.relative_change(), sums.ascent);
+      if (settings.kind == solver::SolverKind::accelerated)
+        momentum.update(sums.relative_change(), sums.ascent);
       extrapolate(momentum.beta, p, y);
     }
     report.residual = look_at(problem, solution);
@@ -76,4 +79,4 @@ SolverReport solve(const LocalProblem& problem, const SolverSettings& settings, 
   return report;
 }
 
-}  // namespace talus
+}  // namespace talus::problems

@@ -7,24 +7,24 @@
 #include "base/errors.h"
 #include "problems/fclib_file.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 struct RealField {
   const char* path;
-  std::vector<double> ContactProblem::*values;
+  std::vector<double> solver::ContactProblem::*values;
 };
 constexpr std::array<RealField, 10> real_fields = {{
-    {"/talus/bodies/vx", &ContactProblem::vx},
-    {"/talus/bodies/vy", &ContactProblem::vy},
-    {"/talus/bodies/omega", &ContactProblem::omega},
-    {"/talus/bodies/inverse_mass", &ContactProblem::inverse_mass},
-    {"/talus/bodies/inverse_inertia", &ContactProblem::inverse_inertia},
-    {"/talus/bodies/lever", &ContactProblem::lever},
-    {"/talus/contacts/nx", &ContactProblem::nx},
-    {"/talus/contacts/ny", &ContactProblem::ny},
-    {"/talus/contacts/cn", &ContactProblem::cn},
-    {"/talus/contacts/ct", &ContactProblem::ct},
+    {"/talus/bodies/vx", &solver::ContactProblem::vx},
+    {"/talus/bodies/vy", &solver::ContactProblem::vy},
+    {"/talus/bodies/omega", &solver::ContactProblem::omega},
+    {"/talus/bodies/inverse_mass", &solver::ContactProblem::inverse_mass},
+    {"/talus/bodies/inverse_inertia", &solver::ContactProblem::inverse_inertia},
+    {"/talus/bodies/lever", &solver::ContactProblem::lever},
+    {"/talus/contacts/nx", &solver::ContactProblem::nx},
+    {"/talus/contacts/ny", &solver::ContactProblem::ny},
+    {"/talus/contacts/cn", &solver::ContactProblem::cn},
+    {"/talus/contacts/ct", &solver::ContactProblem::ct},
 }};
 
 struct ScaleField {
@@ -70,11 +70,11 @@ std::vector<Pair> pairs(const std::vector<double>& values) {
 }
 
 /// The entries of W by rows.
-void put_matrix(const LocalProblem& local, FclibProblem& file) {
+void put_matrix(const solver::LocalProblem& local, FclibProblem& file) {
   for (Index row = 0; row < 2 * local.contact_count(); ++row) {
     const Index c = row / 2;
     for (Index k = local.row_begin[c]; k < local.row_begin[c + 1]; ++k) {
-      const DelassusBlock& w = local.block[k];
+      const solver::DelassusBlock& w = local.block[k];
       file.row.insert(file.row.end(), 2, row);
       file.column.insert(file.column.end(), {2 * local.column[k], 2 * local.column[k] + 1});
       if (row % 2 == 0)
@@ -85,14 +85,14 @@ void put_matrix(const LocalProblem& local, FclibProblem& file) {
   }
 }
 
-LocalProblem local_problem_of(const FclibProblem& file) {
-  std::vector<MatrixEntry> entries(file.value.size());
+solver::LocalProblem local_problem_of(const FclibProblem& file) {
+  std::vector<solver::MatrixEntry> entries(file.value.size());
   for (std::size_t k = 0; k < entries.size(); ++k) entries[k] = {file.row[k], file.column[k], file.value[k]};
-  return local_problem(std::move(entries), pairs<RelativeVelocity>(file.q), file.mu);
+  return solver::local_problem(std::move(entries), pairs<solver::RelativeVelocity>(file.q), file.mu);
 }
 
 /// What solvers rely on beyond sizes and ranges.
-void check_bodies(const std::string& path, const ContactProblem& problem) {
+void check_bodies(const std::string& path, const solver::ContactProblem& problem) {
   const auto refuse = [&path](const char* set, Index k, const char* what) {
     throw Error(ExitCode::bad_data, fmt::format("{}: data set {} {}, at index {}", path, set, what, k));
   };
@@ -123,7 +123,7 @@ std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibPr
 }
 
 StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
-                            const std::vector<Impulse>& guess) {
+                            const std::vector<solver::Impulse>& guess) {
   StepProblem step;
   for (const RealField& field : real_fields) step.problem.*field.values = file.reals.at(field.path);
   for (const ScaleField& field : scale_fields) step.scales.*field.value = file.reals.at(field.path)[0];
@@ -134,19 +134,19 @@ StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
   if (file.integers.contains(column)) step.problem.column = file.integers.at(column);
   for (const Index k : step.problem.column) step.problem.columns = std::max(step.problem.columns, k + 1);
   check_bodies(path, step.problem);
-  for (const Impulse& p : guess) {
+  for (const solver::Impulse& p : guess) {
     step.guess.pn.push_back(p.normal);
     step.guess.pt.push_back(p.tangential);
   }
-  velocities_from_impulses(step.problem, step.guess);
+  solver::velocities_from_impulses(step.problem, step.guess);
   return step;
 }
 
 }  // namespace
 
 void write_problem(const std::string& path, const StepProblem& step, const std::string& title) {
-  const LocalProblem local = local_problem(step.problem);
-  const LocalSolution guess = local_form(step.problem, step.guess);
+  const solver::LocalProblem local = solver::local_problem(step.problem);
+  const solver::LocalSolution guess = solver::local_form(step.problem, step.guess);
   FclibProblem file;
   file.title = title;
   put_matrix(local, file);
@@ -167,7 +167,7 @@ void write_problem(const std::string& path, const StepProblem& step, const std::
 StoredProblem stored_problem(const std::string& path, const FclibProblem& file) {
   StoredProblem stored;
   stored.local = local_problem_of(file);
-  stored.guess = pairs<Impulse>(file.guess_r);
+  stored.guess = pairs<solver::Impulse>(file.guess_r);
   stored.guess.resize(file.mu.size());
   if (!file.reals.empty()) stored.step = step_problem_of(path, file, stored.guess);
   return stored;
@@ -175,8 +175,8 @@ StoredProblem stored_problem(const std::string& path, const FclibProblem& file) 
 
 StoredProblem read_problem(const std::string& path) { return stored_problem(path, read_fclib(path)); }
 
-void write_solution(const std::string& from, const std::string& to, const LocalSolution& solution) {
+void write_solution(const std::string& from, const std::string& to, const solver::LocalSolution& solution) {
   write_fclib_solution(from, to, flat(solution.p), flat(solution.u));
 }
 
-}  // namespace talus
+}  // namespace talus::problems

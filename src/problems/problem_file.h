@@ -7,15 +7,15 @@
 #include "problems/step_problem.h"
 #include "solver/local_problem.h"
 
-namespace talus {
+namespace talus::problems {
 
 struct FclibProblem;
 
 /// What a problem file holds: W, q and mu, and where Talus wrote it, the step they belong to.
 struct StoredProblem {
-  LocalProblem local;
-  std::vector<Impulse> guess;       ///< zero where the file has none
-  std::optional<StepProblem> step;  ///< as it was written, bit for bit; velocities of its guess included
+  solver::LocalProblem local;
+  std::vector<solver::Impulse> guess;  ///< zero where the file has none
+  std::optional<StepProblem> step;     ///< as it was written, bit for bit; velocities of its guess included
 };
 
 /// `title` says where the problem comes from.
@@ -27,6 +27,6 @@ StoredProblem stored_problem(const std::string& path, const FclibProblem& file);
 StoredProblem read_problem(const std::string& path);
 
 /// A copy of the problem file `from` with the solution in it.
-void write_solution(const std::string& from, const std::string& to, const LocalSolution& solution);
+void write_solution(const std::string& from, const std::string& to, const solver::LocalSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::problems

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// Sums of squares over the contacts.
@@ -20,7 +20,7 @@ struct Sums {
 };
 
 /// The nearest point of the cone |P_t| <= mu P_n.
-Impulse nearest_in_cone(double pn, double pt, double mu) {
+solver::Impulse nearest_in_cone(double pn, double pt, double mu) {
   const double tangential = std::fabs(pt);
   if (mu * tangential <= -pn) return {};
   if (tangential <= mu * pn) return {pn, pt};
@@ -28,8 +28,9 @@ Impulse nearest_in_cone(double pn, double pt, double mu) {
   return {normal, std::copysign(mu * normal, pt)};
 }
 
-void add_contact(Sums& sums, Impulse p, RelativeVelocity u, RelativeVelocity q, double mu) {
-  const Impulse projected =
+void add_contact(Sums& sums, solver::Impulse p, solver::RelativeVelocity u, solver::RelativeVelocity q,
+                 double mu) {
+  const solver::Impulse projected =
       nearest_in_cone(p.normal - (u.normal + mu * std::fabs(u.tangential)), p.tangential - u.tangential, mu);
   const double dn = p.normal - projected.normal;
   const double dt = p.tangential - projected.tangential;
@@ -41,19 +42,19 @@ void add_contact(Sums& sums, Impulse p, RelativeVelocity u, RelativeVelocity q, 
 
 }  // namespace
 
-double siconos_error(const LocalProblem& problem, const std::vector<Impulse>& p) {
+double siconos_error(const solver::LocalProblem& problem, const std::vector<solver::Impulse>& p) {
   Sums sums;
   for (Index c = 0; c < problem.contact_count(); ++c)
-    add_contact(sums, p[c], relative_velocity(problem, p, c), problem.q[c], problem.mu[c]);
+    add_contact(sums, p[c], solver::relative_velocity(problem, p, c), problem.q[c], problem.mu[c]);
   return sums.error();
 }
 
-double siconos_error(const ContactProblem& problem, const ContactSolution& solution) {
+double siconos_error(const solver::ContactProblem& problem, const solver::ContactSolution& solution) {
   Sums sums;
   for (Index c = 0; c < problem.contact_count(); ++c)
-    add_contact(sums, {solution.pn[c], solution.pt[c]}, relative_velocity(problem, solution, c),
-                free_relative_velocity(problem, c), problem.mu[c]);
+    add_contact(sums, {solution.pn[c], solution.pt[c]}, solver::relative_velocity(problem, solution, c),
+                solver::free_relative_velocity(problem, c), problem.mu[c]);
   return sums.error();
 }
 
-}  // namespace talus
+}  // namespace talus::problems

@@ -14,7 +14,7 @@
 #include "session/run_header.h"
 #include "session/session.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
@@ -40,37 +40,38 @@ double weight(const World& world) {
 struct InForce {
   double friction = 0.0;
   std::optional<double> tilt_rate;  ///< rad/s, where it was changed
-  std::optional<Drag> drag;
+  std::optional<session::Drag> drag;
 };
-InForce in_force(const RunFile& run, const Scenario& scenario, std::int64_t step) {
-  const Schedule given = set_by_commands(run, step + 1);
+InForce in_force(const io::RunFile& run, const scenario::Scenario& scenario, std::int64_t step) {
+  const session::Schedule given = session::set_by_commands(run, step + 1);
   InForce now{given.friction.value_or(scenario.contact.friction), {}, given.drag};
   if (given.course) now.tilt_rate = given.course->rate;
   return now;
 }
 
 /// Steps taken before the first one of the tilt.
-std::int64_t first_step(const RunFile& run) {
+std::int64_t first_step(const io::RunFile& run) {
   if (!run.header().branch) return run.frame(0).step;
-  const Checkpoint& start = run.header().branch->start;
+  const io::Checkpoint& start = run.header().branch->start;
   return start.world.step - find_value(start.integers, "tilt_steps").value_or(0);
 }
 
 /// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
 /// tilt, as in a run; with a programme that of the number of the step. The first frame is that before the
 /// first step of the tilt.
-double next_tilt(const RunFile& run, const World& world, const Scenario& scenario, const InForce& now) {
+double next_tilt(const io::RunFile& run, const World& world, const scenario::Scenario& scenario,
+                 const InForce& now) {
   const double tilt = world.tilt;
-  if (now.tilt_rate) return tilt + *now.tilt_rate * time_step(scenario);
-  if (run.has_program()) return TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
+  if (now.tilt_rate) return tilt + *now.tilt_rate * scenario::time_step(scenario);
+  if (run.has_program()) return scenario::TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
   const double step_angle = radians(scenario.tilt.step);
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }
 
 /// The problem of the next step of a world, whose grains are moved to the midpoint; `contacts` become its
 /// contacts with what is remembered.
-StepProblem form_step(World& world, const StepSettings& settings, double closed_below, double mean_diameter,
-                      Contacts& contacts) {
+StepProblem form_step(World& world, const dynamics::StepSettings& settings, double closed_below,
+                      double mean_diameter, Contacts& contacts) {
   if (settings.law.rolling_friction > 0.0)
     throw Error(
         ExitCode::bad_data,
@@ -78,25 +79,25 @@ StepProblem form_step(World& world, const StepSettings& settings, double closed_
                     "of a step and its admissible forces have no moments; choose a run with "
                     "contact.rolling_friction = 0",
                     settings.law.rolling_friction));
-  StepWorkspace workspace;
-  begin_step(world, settings, workspace);
+  dynamics::StepWorkspace workspace;
+  dynamics::begin_step(world, settings, workspace);
   if (closed_below > 0.0) {
     close_remembered_contacts(closed_below, workspace.contacts);
-    form_problem(world, workspace.contacts, settings.law, settings.h, settings.solver.tolerance,
-                 workspace.problem);
+    dynamics::form_problem(world, workspace.contacts, settings.law, settings.h, settings.solver.tolerance,
+                           workspace.problem);
   }
   StepProblem step;
   step.problem = std::move(workspace.problem);
   step.guess = std::move(workspace.solution);
-  velocities_from_impulses(step.problem, step.guess);
+  solver::velocities_from_impulses(step.problem, step.guess);
   step.scales = {settings.h, world.gravity, world.tilt, mean_diameter, weight(world)};
   contacts = std::move(workspace.contacts);
   return step;
 }
 
 /// What the run asks of the next step of a world.
-StepTolerance tolerance_of(const World& world, const Scenario& scenario) {
-  const StepSettings settings = step_settings(scenario, world);
+StepTolerance tolerance_of(const World& world, const scenario::Scenario& scenario) {
+  const dynamics::StepSettings settings = session::step_settings(scenario, world);
   return {rms_velocity(world.grains) / (world.gravity * settings.h), settings.solver.tolerance,
           scenario.solver.tolerance};
 }
@@ -104,30 +105,30 @@ StepTolerance tolerance_of(const World& world, const Scenario& scenario) {
 /// A frame as the start of a step.
 struct FrameStart {
   World world;
-  StepSettings settings;
+  dynamics::StepSettings settings;
   StepTolerance tolerance;
   double mean_diameter = 0.0;  ///< m
   double closed_below = 0.0;   ///< m; 0 where positions are not rounded
   double next_tilt = 0.0;      ///< rad
 };
-FrameStart start_at_frame(const RunFile& run, std::size_t k) {
-  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
+FrameStart start_at_frame(const io::RunFile& run, std::size_t k) {
+  const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   FrameStart start;
-  start.world = world_at_frame(run, k);
+  start.world = session::world_at_frame(run, k);
   const InForce now = in_force(run, scenario, start.world.step);
-  start.settings = step_settings(scenario);
+  start.settings = session::step_settings(scenario);
   start.tolerance = tolerance_of(start.world, scenario);
   start.settings.law.friction = now.friction;
   start.mean_diameter = scenario.grains.mean_diameter;
   if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
   start.next_tilt = next_tilt(run, start.world, scenario, now);
-  if (now.drag) pull(*now.drag, start.mean_diameter, time_step(scenario), start.world);
+  if (now.drag) session::pull(*now.drag, start.mean_diameter, scenario::time_step(scenario), start.world);
   return start;
 }
 
 }  // namespace
 
-StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
+StepProblem problem_after_frame(const io::RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);
   start.world.tilt = start.next_tilt;
   Contacts contacts;
@@ -137,7 +138,7 @@ StepProblem problem_after_frame(const RunFile& run, std::size_t k) {
   return step;
 }
 
-FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter) {
+FrozenBed freeze(World world, const dynamics::StepSettings& settings, double mean_diameter) {
   const double closed_at_rest = 0.01 * world.gravity * settings.h * settings.h;
   const double closed_below = std::max(gap_resolution(world), closed_at_rest);
   for (auto* velocity : {&world.grains.vx, &world.grains.vy, &world.grains.omega})
@@ -150,13 +151,13 @@ FrozenBed freeze(World world, const StepSettings& settings, double mean_diameter
   return bed;
 }
 
-FrozenBed frozen_frame(const RunFile& run, std::size_t k) {
+FrozenBed frozen_frame(const io::RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);
   return freeze(std::move(start.world), start.settings, start.mean_diameter);
 }
 
-double carried_weight(const StepProblem& step, const ContactSolution& solution) {
-  const ContactProblem& problem = step.problem;
+double carried_weight(const StepProblem& step, const solver::ContactSolution& solution) {
+  const solver::ContactProblem& problem = step.problem;
   const double up_x = -sine(step.scales.tilt);
   const double up_y = cosine(step.scales.tilt);
   double impulse = 0.0;
@@ -171,4 +172,4 @@ double carried_weight(const StepProblem& step, const ContactSolution& solution) 
   return impulse / (step.scales.weight * step.scales.h);
 }
 
-}  // namespace talus
+}  // namespace talus::problems

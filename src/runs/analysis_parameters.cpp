@@ -5,19 +5,21 @@
 #include "scenario/settings.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
-using P = AnalysisParameters;
+using P = analysis::AnalysisParameters;
 
-NumberRange from_zero_to(double high) { return {0.0, high, true, {}}; }
-NumberRange above_zero_or(double high, std::string word) { return {0.0, high, false, std::move(word)}; }
+scenario::NumberRange from_zero_to(double high) { return {0.0, high, true, {}}; }
+scenario::NumberRange above_zero_or(double high, std::string word) {
+  return {0.0, high, false, std::move(word)};
+}
 
 }  // namespace
 
 const std::vector<AnalysisKey>& analysis_keys() {
   static const std::vector<AnalysisKey> keys = {
-      {{"threshold_factors", "Gamma_c", NumberList{4, 10.0},
+      {{"threshold_factors", "Gamma_c", scenario::NumberList{4, 10.0},
         "thresholds from which on a grain counts as overloaded; all that depends on one is computed for "
         "each"},
        &P::threshold_factors},
@@ -35,7 +37,7 @@ const std::vector<AnalysisKey>& analysis_keys() {
       {{"lc_cut", "D", above_zero_or(1e4, "depth"),
         "diameter at which the search for l_c ends; depth: min(H, L/2)"},
        &P::lc_cut},
-      {{"joining", "", Choices{{"contacts", "neighbours"}},
+      {{"joining", "", scenario::Choices{{"contacts", "neighbours"}},
         "what joins two overloaded grains: a contact with force, or centres closer than 1.1 times the sum of "
         "the radii"},
        &P::joining},
@@ -43,13 +45,13 @@ const std::vector<AnalysisKey>& analysis_keys() {
         "tilt over which the internal moment of a grain is averaged, half of it on either side of the frame; "
         "0: that of the frame alone"},
        &P::averaging},
-      {{"min_contacts", "", IntegerRange{1, 6},
+      {{"min_contacts", "", scenario::IntegerRange{1, 6},
         "force-carrying contacts that a grain must have to count: a grain with fewer has no gamma, as one "
         "that carries nothing"},
        &P::min_contacts},
-      {{"sections", "", IntegerRange{1, 1000}, "equal sections along the bed, for sigma_xx over x"},
+      {{"sections", "", scenario::IntegerRange{1, 1000}, "equal sections along the bed, for sigma_xx over x"},
        &P::sections},
-      {{"bins", "", IntegerRange{1, 1000}, "bins of each distribution and correlation"}, &P::bins},
+      {{"bins", "", scenario::IntegerRange{1, 1000}, "bins of each distribution and correlation"}, &P::bins},
       {{"event_velocity", "g h", above_zero_or(1e6, "solver"),
         "rms velocity of the free grains from which on a bed rearranges; solver: what the solver leaves at "
         "its tolerance, times 10"},
@@ -67,21 +69,21 @@ const std::vector<AnalysisKey>& analysis_keys() {
   return keys;
 }
 
-AnalysisParameters parse_analysis_settings(const std::vector<std::string>& settings) {
-  return parse_settings(analysis_keys(), settings, "lc_cut=30");
+analysis::AnalysisParameters parse_analysis_settings(const std::vector<std::string>& settings) {
+  return scenario::parse_settings(analysis_keys(), settings, "lc_cut=30");
 }
 
-Facts as_facts(const AnalysisParameters& parameters) {
+Facts as_facts(const analysis::AnalysisParameters& parameters) {
   Facts facts;
   for (const AnalysisKey& key : analysis_keys())
-    facts.emplace_back(key.name, plain_text(key.get(parameters)));
+    facts.emplace_back(key.name, scenario::plain_text(key.get(parameters)));
   return facts;
 }
 
-AnalysisParameters from_facts(const Facts& facts) {
+analysis::AnalysisParameters from_facts(const Facts& facts) {
   std::vector<std::string> settings;
   for (const auto& [name, value] : facts) settings.push_back(fmt::format("{}={}", name, value));
   return parse_analysis_settings(settings);
 }
 
-}  // namespace talus
+}  // namespace talus::runs

@@ -9,19 +9,19 @@
 #include "core/snapshot.h"
 #include "scenario/key.h"
 
-namespace talus {
+namespace talus::runs {
 
-using AnalysisKey = Key<AnalysisParameters>;
+using AnalysisKey = scenario::Key<analysis::AnalysisParameters>;
 
 const std::vector<AnalysisKey>& analysis_keys();
 
 /// The parameters with "key=value" settings on the defaults. Throws LocatedError(bad_data) with a line for
 /// each setting that is not accepted.
-AnalysisParameters parse_analysis_settings(const std::vector<std::string>& settings);
+analysis::AnalysisParameters parse_analysis_settings(const std::vector<std::string>& settings);
 
 /// Names and values of all parameters, in the order of their table.
-Facts as_facts(const AnalysisParameters& parameters);
+Facts as_facts(const analysis::AnalysisParameters& parameters);
 /// The parameters of such a list, as an analysis has it. Throws as parse_analysis_settings does.
-AnalysisParameters from_facts(const Facts& facts);
+analysis::AnalysisParameters from_facts(const Facts& facts);
 
-}  // namespace talus
+}  // namespace talus::runs

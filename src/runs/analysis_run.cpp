@@ -20,7 +20,7 @@
 #include "runs/analysis_parameters.h"
 #include "runs/event_catalogue.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
 /// What the next frame is compared with.
@@ -33,10 +33,10 @@ Frame places_of(const Frame& frame) {
 }
 
 /// Frames are handed out one at a time, in their order: HDF5 reads for one thread only.
-void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, int threads,
-                    const AnalysisProgress& progress, Analysis& analysis) {
+void analyse_frames(const io::RunFile& run, const analysis::AnalysisParameters& parameters, int threads,
+                    const AnalysisProgress& progress, analysis::Analysis& analysis) {
   analysis.frames.resize(run.frame_count());
-  std::vector<PersistenceDiagram> networks(run.frame_count());
+  std::vector<analysis::PersistenceDiagram> networks(run.frame_count());
   std::mutex reading;
   std::size_t next = 0, done = 0;
   Frame last;  ///< places in the frame that was read before
@@ -49,11 +49,11 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
       const Frame before = std::exchange(last, places_of(frame));
       lock.unlock();
       const BedFrame bed = {frame, run.header().statics};
-      FrameRecord& record = analysis.frames[k];
-      record = analyse_frame(bed, parameters, analysis);
-      networks[k] = force_persistence(bed, record.mean_normal_force);
-      take_topology(networks[k], bed.statics.free_count, analysis.network_threshold, record);
-      if (k > 0) take_deformation(before, bed, record);
+      analysis::FrameRecord& record = analysis.frames[k];
+      record = analysis::analyse_frame(bed, parameters, analysis);
+      networks[k] = analysis::force_persistence(bed, record.mean_normal_force);
+      analysis::take_topology(networks[k], bed.statics.free_count, analysis.network_threshold, record);
+      if (k > 0) analysis::take_deformation(before, bed, record);
       lock.lock();
       ++done;
       if (progress) progress(done);
@@ -63,15 +63,16 @@ void analyse_frames(const RunFile& run, const AnalysisParameters& parameters, in
   for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& other : others) other.get();
-  take_network_changes(networks, run.header().statics.free_count, analysis.frames);
+  analysis::take_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
 /// What the run has observed already: for each frame that of the last row not after it. By the time: a
 /// command may hold the tilt.
-void take_observables(const RunFile& run, const std::vector<ObservableRow>& rows, Analysis& analysis) {
+void take_observables(const io::RunFile& run, const std::vector<ObservableRow>& rows,
+                      analysis::Analysis& analysis) {
   const std::vector<double>& times = run.all_frame_times();
   for (std::size_t k = 0; k < analysis.frames.size(); ++k) {
-    FrameRecord& frame = analysis.frames[k];
+    analysis::FrameRecord& frame = analysis.frames[k];
     const auto after = std::ranges::upper_bound(
         rows, times[k], {}, [](const ObservableRow& row) { return at(row, Observable::time); });
     if (after == rows.begin()) continue;
@@ -88,56 +89,58 @@ std::vector<double> column(const std::vector<ObservableRow>& rows, Observable fi
   return values;
 }
 
-void find_dilation(const std::vector<ObservableRow>& rows, Analysis& analysis) {
+void find_dilation(const std::vector<ObservableRow>& rows, analysis::Analysis& analysis) {
   const std::vector<double> tilts = column(rows, Observable::tilt);
   const Observable strains[] = {Observable::volume_strain, Observable::centre_of_mass_strain};
   for (std::size_t s = 0; s < std::size(strains); ++s) {
-    const DilationOnset onset =
-        dilation_onset(tilts, column(rows, strains[s]), analysis.theta_c, radians(dilation_window));
+    const analysis::DilationOnset onset = analysis::dilation_onset(
+        tilts, column(rows, strains[s]), analysis.theta_c, radians(analysis::dilation_window));
     analysis.dilation[s] = onset.tilt;
     analysis.dilation_low[s] = onset.low;
     analysis.dilation_high[s] = onset.high;
   }
 }
 
-void find_failure_ratio(const std::vector<ObservableRow>& rows, Analysis& analysis) {
-  const FailureRatio ratio =
-      failure_ratio(column(rows, Observable::tilt), column(rows, Observable::sigma_t_over_n),
-                    analysis.theta_c, radians(failure_window));
+void find_failure_ratio(const std::vector<ObservableRow>& rows, analysis::Analysis& analysis) {
+  const analysis::FailureRatio ratio =
+      analysis::failure_ratio(column(rows, Observable::tilt), column(rows, Observable::sigma_t_over_n),
+                              analysis.theta_c, radians(analysis::failure_window));
   analysis.failure_ratio = ratio.mean;
   analysis.failure_ratio_spread = ratio.spread;
 }
 
-void find_transitions(Analysis& analysis) {
-  const auto [first, frames, tilts, other_side] = last_rise(analysis.frames);
+void find_transitions(analysis::Analysis& analysis) {
+  const auto [first, frames, tilts, other_side] = analysis::last_rise(analysis.frames);
   for (std::size_t f = 0; f < analysis.thresholds.size(); ++f) {
     std::vector<double> lengths;
     std::vector<Index> spans;
-    for (const FrameRecord* frame : frames) {
+    for (const analysis::FrameRecord* frame : frames) {
       lengths.push_back(frame->thresholds[f].lc_max);
       spans.push_back(frame->thresholds[f].spans_depth);
     }
-    RunThreshold& threshold = analysis.thresholds[f];
-    const LengthJump jump = length_jump(tilts, lengths, analysis.theta_c, analysis.lc_cut);
+    analysis::RunThreshold& threshold = analysis.thresholds[f];
+    const analysis::LengthJump jump =
+        analysis::length_jump(tilts, lengths, analysis.theta_c, analysis.lc_cut);
     threshold.lc_jump = jump.tilt;
     threshold.lc_jump_error = jump.error;
     threshold.lc_jump_size = jump.size;
-    const PercolationOnset onset = percolation_onset(tilts, spans, analysis.theta_c);
+    const analysis::PercolationOnset onset = analysis::percolation_onset(tilts, spans, analysis.theta_c);
     threshold.percolation = onset.tilt;
     threshold.percolation_error = onset.error;
   }
 }
 
-void find_growth(Analysis& analysis) {
-  const auto [first, frames, tilts, other_side] = last_rise(analysis.frames);
+void find_growth(analysis::Analysis& analysis) {
+  const auto [first, frames, tilts, other_side] = analysis::last_rise(analysis.frames);
   std::vector<double> means, weighted_means;
-  for (const FrameRecord* frame : frames) {
+  for (const analysis::FrameRecord* frame : frames) {
     means.push_back(frame->critical_mean);
     weighted_means.push_back(frame->critical_weighted_mean);
   }
   const std::vector<double>* const sizes[] = {&means, &weighted_means};
   for (std::size_t s = 0; s < std::size(sizes); ++s) {
-    const GrowthExponent growth = growth_exponent(tilts, *sizes[s], analysis.theta_c, radians(growth_window));
+    const analysis::GrowthExponent growth =
+        analysis::growth_exponent(tilts, *sizes[s], analysis.theta_c, radians(analysis::growth_window));
     analysis.critical_exponent[s] = growth.exponent;
     analysis.critical_exponent_error[s] = growth.error;
   }
@@ -145,8 +148,9 @@ void find_growth(Analysis& analysis) {
 
 }  // namespace
 
-std::string analysis_key(const RunFile& run, const AnalysisParameters& parameters) {
-  std::string text = fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), analysis_version);
+std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParameters& parameters) {
+  std::string text =
+      fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), io::analysis_version);
   // Analyses without these lines took every contact for one between grains, and none for mobilised without
   // friction, and the last row of a hold for all frames in it.
   const RunStatics& statics = run.header().statics;
@@ -159,28 +163,28 @@ std::string analysis_key(const RunFile& run, const AnalysisParameters& parameter
   return hash_text(hash_bytes(std::as_bytes(std::span(text))));
 }
 
-Analysis analyse_run(const RunFile& run, const AnalysisParameters& parameters, int threads,
-                     const AnalysisProgress& progress) {
+analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisParameters& parameters,
+                               int threads, const AnalysisProgress& progress) {
   if (run.frame_count() == 0)
     throw Error(ExitCode::bad_data, "the run has no frames: its bed has not been tilted yet; let it go on");
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   const RunStatics& statics = run.header().statics;
-  Analysis analysis = begin_analysis(statics, parameters, theta_c);
+  analysis::Analysis analysis = analysis::begin_analysis(statics, parameters, theta_c);
   analysis.parameters = as_facts(parameters);
   analysis.key = analysis_key(run, parameters);
   analyse_frames(run, parameters, threads, progress, analysis);
   std::vector<ObservableRow> rows = run.observables();
   take_observables(run, rows, analysis);
   find_events(run, rows, parameters, analysis);
-  rows = rows_of_last_rise(rows);
+  rows = analysis::rows_of_last_rise(rows);
   find_dilation(rows, analysis);
   find_failure_ratio(rows, analysis);
   find_transitions(analysis);
   find_growth(analysis);
-  analysis.first_slide =
-      first_slide(column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
-                  slide_distance * statics.mean_diameter, radians(slide_window));
+  analysis.first_slide = analysis::first_slide(
+      column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
+      analysis::slide_distance * statics.mean_diameter, radians(analysis::slide_window));
   return analysis;
 }
 
-}  // namespace talus
+}  // namespace talus::runs

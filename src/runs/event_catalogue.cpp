@@ -12,7 +12,7 @@
 #include "core/trigonometry.h"
 #include "runs/run_view.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
 constexpr double phase_of_tilt = 1.0;
@@ -36,7 +36,7 @@ struct TiltSteps {
 };
 
 /// None where the run has no steps of the tilt, one is missing, or there are no two rows to tell h from.
-std::optional<TiltSteps> tilt_steps(const RunFile& run, const std::vector<ObservableRow>& rows) {
+std::optional<TiltSteps> tilt_steps(const io::RunFile& run, const std::vector<ObservableRow>& rows) {
   TiltSteps steps;
   for (const StepRow& row : run.steps()) {
     if (at(row, StepField::phase) != phase_of_tilt) continue;
@@ -86,15 +86,16 @@ struct EventSpan {
   double surface = 0.0;                   ///< m, mean free surface in that frame
 };
 
-double threshold_of(const RunFile& run, const AnalysisParameters& parameters, double h) {
+double threshold_of(const io::RunFile& run, const analysis::AnalysisParameters& parameters, double h) {
   const double fall = run.header().statics.gravity * h;
   if (parameters.event_velocity) return *parameters.event_velocity * fall;
   const double tolerance = stored_scenario(run.header(), "the scenario of the run").solver.tolerance;
   return event_threshold_factor * solver_velocity_error * tolerance * fall;
 }
 
-EventRecord record_of(const Burst& burst, const TiltSteps& steps, const StepSeries& series) {
-  EventRecord event;
+analysis::EventRecord record_of(const analysis::Burst& burst, const TiltSteps& steps,
+                                const StepSeries& series) {
+  analysis::EventRecord event;
   const std::int64_t before = steps.step(burst.first) - 1, last = steps.step(burst.last);
   event.begin = series.value(before, Observable::tilt);
   event.end = series.value(last, Observable::tilt);
@@ -115,7 +116,7 @@ EventRecord record_of(const Burst& burst, const TiltSteps& steps, const StepSeri
 double begin_of_last_rise(const std::vector<ObservableRow>& rows) {
   std::vector<double> tilts;
   for (const ObservableRow& row : rows) tilts.push_back(at(row, Observable::tilt));
-  return at(rows[last_rise(tilts).first], Observable::step);
+  return at(rows[analysis::last_rise(tilts).first], Observable::step);
 }
 
 /// The angle by which the bed is turned from one step to another, up or down, rad.
@@ -134,16 +135,17 @@ double angle_turned(const StepSeries& series, std::int64_t from, std::int64_t to
 }
 
 /// Failure by theta_c, which is in the event of the last rise that began before it and ends after it.
-EventKind kind_of(const Burst& burst, const EventRecord& event, double theta_c, bool in_last_rise) {
-  if (in_last_rise && std::abs(event.end) >= theta_c) return EventKind::failure;
-  return burst.is_over ? EventKind::rearrangement : EventKind::unfinished;
+analysis::EventKind kind_of(const analysis::Burst& burst, const analysis::EventRecord& event, double theta_c,
+                            bool in_last_rise) {
+  if (in_last_rise && std::abs(event.end) >= theta_c) return analysis::EventKind::failure;
+  return burst.is_over ? analysis::EventKind::rearrangement : analysis::EventKind::unfinished;
 }
 
 /// Reads the frames in their order, and tells the events what lies between two of them.
 class EventFrames {
  public:
-  EventFrames(const RunFile& run, const TiltSteps& steps, const AnalysisParameters& parameters,
-              std::span<EventSpan> spans, Analysis& analysis)
+  EventFrames(const io::RunFile& run, const TiltSteps& steps, const analysis::AnalysisParameters& parameters,
+              std::span<EventSpan> spans, analysis::Analysis& analysis)
       : statics_(run.header().statics),
         steps_(steps),
         least_(parameters.event_displacement * statics_.mean_diameter),
@@ -164,12 +166,12 @@ class EventFrames {
     std::size_t end = next_;
     while (end < spans_.size() && spans_[end].first <= now.step) ++end;
     if (end == next_) return;
-    const double work =
-        gravity_work(statics_, mean_displacement(*before, now, statics_), 0.5 * (before->tilt + now.tilt));
+    const double work = analysis::gravity_work(statics_, analysis::mean_displacement(*before, now, statics_),
+                                               0.5 * (before->tilt + now.tilt));
     const double path = steps_.path_between(before->step, now.step);
     const auto sharing = static_cast<Index>(end - next_);
     for (std::size_t e = next_; e < end; ++e) {
-      EventRecord& event = analysis_.events[e];
+      analysis::EventRecord& event = analysis_.events[e];
       const double of_event = steps_.path_between(std::max(spans_[e].first - 1, before->step),
                                                   std::min(spans_[e].last, now.step));
       event.energy = (std::isnan(event.energy) ? 0.0 : event.energy) + work * of_event / path;
@@ -183,8 +185,9 @@ class EventFrames {
     }
   }
 
-  void take_movement(const Frame& now, EventSpan& span, EventRecord& event) const {
-    const Movement movement = movement_between(*span.before, now, statics_, least_, span.surface);
+  void take_movement(const Frame& now, EventSpan& span, analysis::EventRecord& event) const {
+    const analysis::Movement movement =
+        analysis::movement_between(*span.before, now, statics_, least_, span.surface);
     event.grains = movement.grains;
     event.depth = movement.depth;
     event.centre = {movement.centre.x, movement.centre.y};
@@ -196,7 +199,7 @@ class EventFrames {
   const TiltSteps& steps_;
   double least_;  ///< m
   std::span<EventSpan> spans_;
-  Analysis& analysis_;
+  analysis::Analysis& analysis_;
   std::size_t next_ = 0;  ///< the first event that is not over before the frames that are met
 };
 
@@ -207,11 +210,11 @@ double mean_grain_mass(const RunStatics& statics) {
          statics.free_count;
 }
 
-void find_event_laws(double size_minimum, Analysis& analysis) {
+void find_event_laws(double size_minimum, analysis::Analysis& analysis) {
   std::vector<double> sizes, waits;
   double dilating = 0.0, energy = 0.0;
-  for (const EventRecord& event : analysis.events) {
-    if (event.kind != static_cast<Index>(EventKind::rearrangement)) continue;
+  for (const analysis::EventRecord& event : analysis.events) {
+    if (event.kind != static_cast<Index>(analysis::EventKind::rearrangement)) continue;
     sizes.push_back(event.energy);
     waits.push_back(event.waiting);
     if (!std::isnan(event.energy)) energy += event.energy;
@@ -224,13 +227,14 @@ void find_event_laws(double size_minimum, Analysis& analysis) {
   analysis.event_dilating_share = share;
   analysis.event_dilating_share_error = std::sqrt(share * (1.0 - share) / count);
 
-  const PowerLaw size = std::isnan(size_minimum) ? power_law(sizes) : power_law_from(sizes, size_minimum);
+  const analysis::PowerLaw size =
+      std::isnan(size_minimum) ? analysis::power_law(sizes) : analysis::power_law_from(sizes, size_minimum);
   analysis.event_size_exponent = size.exponent;
   analysis.event_size_exponent_error = size.error;
   analysis.event_size_minimum = size.minimum;
   analysis.event_size_distance = size.distance;
   analysis.event_size_count = size.count;
-  const PowerLaw wait = power_law(waits);
+  const analysis::PowerLaw wait = analysis::power_law(waits);
   analysis.event_waiting_exponent = wait.exponent;
   analysis.event_waiting_exponent_error = wait.error;
   analysis.event_waiting_minimum = wait.minimum;
@@ -238,13 +242,13 @@ void find_event_laws(double size_minimum, Analysis& analysis) {
   analysis.event_waiting_count = wait.count;
   double shortest = not_known;
   for (const double angle : waits) shortest = std::fmin(shortest, angle);
-  const ExponentialLaw law = exponential_law(waits, shortest);
+  const analysis::ExponentialLaw law = analysis::exponential_law(waits, shortest);
   analysis.event_waiting_mean = law.mean;
   analysis.event_waiting_mean_error = law.error;
 }
 
-void find_events(const RunFile& run, const std::vector<ObservableRow>& rows,
-                 const AnalysisParameters& parameters, Analysis& analysis) {
+void find_events(const io::RunFile& run, const std::vector<ObservableRow>& rows,
+                 const analysis::AnalysisParameters& parameters, analysis::Analysis& analysis) {
   const auto steps = tilt_steps(run, rows);
   if (!steps) return;
   const RunStatics& statics = run.header().statics;
@@ -253,13 +257,14 @@ void find_events(const RunFile& run, const std::vector<ObservableRow>& rows,
   analysis.event_quiet_time = parameters.event_quiet * std::sqrt(statics.mean_diameter / statics.gravity);
   const auto quiet_steps =
       static_cast<std::size_t>(std::max(1.0, std::round(analysis.event_quiet_time / steps->h)));
-  const std::vector<Burst> bursts = find_bursts(steps->velocity, analysis.event_threshold, quiet_steps);
-  analysis.event_noise = quiet_velocity(steps->velocity, bursts);
+  const std::vector<analysis::Burst> bursts =
+      analysis::find_bursts(steps->velocity, analysis.event_threshold, quiet_steps);
+  analysis.event_noise = analysis::quiet_velocity(steps->velocity, bursts);
   const double last_rise_begins = begin_of_last_rise(rows);
   std::vector<EventSpan> spans;
-  for (const Burst& burst : bursts) {
+  for (const analysis::Burst& burst : bursts) {
     const std::int64_t first = steps->step(burst.first), last = steps->step(burst.last);
-    EventRecord event = record_of(burst, *steps, series);
+    analysis::EventRecord event = record_of(burst, *steps, series);
     event.kind = static_cast<Index>(
         kind_of(burst, event, analysis.theta_c, static_cast<double>(last) >= last_rise_begins));
     if (!spans.empty()) event.waiting = angle_turned(series, spans.back().last, first - 1);
@@ -271,4 +276,4 @@ void find_events(const RunFile& run, const std::vector<ObservableRow>& rows,
   find_event_laws(parameters.event_size_min ? *parameters.event_size_min * unit : not_known, analysis);
 }
 
-}  // namespace talus
+}  // namespace talus::runs

@@ -8,7 +8,7 @@
 #include "analysis/record.h"
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::runs {
 
 /// Velocity that the solver leaves at a residual eta, over eta g h, in the paper's bed (docs/solver.md).
 inline constexpr double solver_velocity_error = 3000.0;
@@ -19,14 +19,14 @@ inline constexpr double event_threshold_factor = 10.0;
 /// tilt. Sets all members of the analysis that are called event..., as the table of quantities defines
 /// them. Nothing but their NaN where the run has no steps or rows of the tilt, as one that was repaired may.
 /// Throws as RunFile::positions does.
-void find_events(const RunFile& run, const std::vector<ObservableRow>& rows,
-                 const AnalysisParameters& parameters, Analysis& analysis);
+void find_events(const io::RunFile& run, const std::vector<ObservableRow>& rows,
+                 const analysis::AnalysisParameters& parameters, analysis::Analysis& analysis);
 
 /// The laws of sizes and waiting angles, and the share that dilates, of the events that are there.
 /// `size_minimum`: J/m, NaN for that of the best fit.
-void find_event_laws(double size_minimum, Analysis& analysis);
+void find_event_laws(double size_minimum, analysis::Analysis& analysis);
 
 /// Mean mass of a free grain, kg/m.
 double mean_grain_mass(const RunStatics& statics);
 
-}  // namespace talus
+}  // namespace talus::runs

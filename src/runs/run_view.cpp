@@ -7,10 +7,10 @@
 #include "io/analysis_file.h"
 #include "runs/analysis_run.h"
 
-namespace talus {
+namespace talus::runs {
 
-Scenario stored_scenario(const RunHeader& header, const std::string& name) {
-  return parse_scenario(header.scenario_resolved, name);
+scenario::Scenario stored_scenario(const io::RunHeader& header, const std::string& name) {
+  return scenario::parse_scenario(header.scenario_resolved, name);
 }
 
 std::string version_of(const Facts& provenance) {
@@ -18,13 +18,13 @@ std::string version_of(const Facts& provenance) {
                      find_value(provenance, "git_hash").value_or("unknown"));
 }
 
-RunView view_of_run(const std::string& path, RunFile file, Analysis analysis) {
+RunView view_of_run(const std::string& path, io::RunFile file, analysis::Analysis analysis) {
   RunView run;
   run.path = path;
   run.file = std::move(file);
   run.analysis = std::move(analysis);
-  const RunHeader& header = run.file->header();
-  const Checkpoint& end = run.file->checkpoint();
+  const io::RunHeader& header = run.file->header();
+  const io::Checkpoint& end = run.file->checkpoint();
   run.statics = header.statics;
   run.scenario = stored_scenario(header, path);
   run.scenario_text = header.scenario_resolved;
@@ -33,11 +33,11 @@ RunView view_of_run(const std::string& path, RunFile file, Analysis analysis) {
   return run;
 }
 
-RunView analysed_run(const std::string& path, const AnalysisParameters& parameters,
+RunView analysed_run(const std::string& path, const analysis::AnalysisParameters& parameters,
                      const AnalysisOptions& options) {
-  RunFile run = RunFile::open(path);
+  io::RunFile run = io::RunFile::open(path);
   if (run.complete() && !options.force)
-    if (auto stored = read_analysis(run); stored && stored->key == analysis_key(run, parameters)) {
+    if (auto stored = io::read_analysis(run); stored && stored->key == analysis_key(run, parameters)) {
       RunView view = view_of_run(path, std::move(run), std::move(*stored));
       view.kept = "analysis read from the file";
       view.is_kept = true;
@@ -47,12 +47,12 @@ RunView analysed_run(const std::string& path, const AnalysisParameters& paramete
   const auto progress = [&](std::size_t done) {
     if (options.progress) options.progress(done, count);
   };
-  Analysis analysis = analyse_run(run, parameters, options.threads, progress);
+  analysis::Analysis analysis = analyse_run(run, parameters, options.threads, progress);
   // Who may not write here reads all the same.
   const std::string reason = run.complete() ? protection_of(path) : "the run is not complete";
   if (reason.empty()) {
-    store_analysis(path, analysis, hash_text(state_hash(run.checkpoint().world)));
-    run = RunFile::open(path);  // storing replaces the file
+    io::store_analysis(path, analysis, hash_text(state_hash(run.checkpoint().world)));
+    run = io::RunFile::open(path);  // storing replaces the file
   }
   RunView view = view_of_run(path, std::move(run), std::move(analysis));
   view.is_kept = reason.empty();
@@ -60,4 +60,4 @@ RunView analysed_run(const std::string& path, const AnalysisParameters& paramete
   return view;
 }
 
-}  // namespace talus
+}  // namespace talus::runs

@@ -7,7 +7,7 @@
 #include "base/visible_text.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 std::string text_of(const NumberRange& range) {
@@ -126,4 +126,4 @@ std::optional<KeyValue> admitted(const KeyHead& key, const KeyValue& value) {
   return std::visit([&value](const auto& range) { return admitted_by(range, value); }, key.range);
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -14,7 +14,7 @@
 
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 
 /// A finite number from `low` (included or not) to `high`, or the string `word`, if there is one.
 struct NumberRange {
@@ -154,4 +154,4 @@ std::string expectation(const KeyHead& key);
 /// value is of another kind or out of range.
 std::optional<KeyValue> admitted(const KeyHead& key, const KeyValue& value);
 
-}  // namespace talus
+}  // namespace talus::scenario

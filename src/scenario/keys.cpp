@@ -4,7 +4,7 @@
 
 #include "scenario/tilt_program.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 using Keys = std::vector<ScenarioKey>;
@@ -231,4 +231,4 @@ const ScenarioKey* find_key(std::string_view wanted) {
   return found == scenario_keys().end() ? nullptr : &*found;
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

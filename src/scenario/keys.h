@@ -8,7 +8,7 @@
 #include "scenario/key.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::scenario {
 
 using ScenarioKey = Key<Scenario>;
 
@@ -18,4 +18,4 @@ const std::vector<ScenarioKey>& scenario_keys();
 /// The key with that full name ("contact.friction", "seed"); nullptr if there is none.
 const ScenarioKey* find_key(std::string_view full_name);
 
-}  // namespace talus
+}  // namespace talus::scenario

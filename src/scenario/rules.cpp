@@ -6,7 +6,7 @@
 #include "scenario/text.h"
 #include "scenario/tilt_program.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 constexpr double shortest_time_step = 1e-5;  // s
@@ -70,4 +70,4 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
   return broken;
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -6,7 +6,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::scenario {
 
 struct BrokenRule {
   std::vector<std::string> keys;  ///< full names of its keys, the one most likely to be wrong first
@@ -16,4 +16,4 @@ struct BrokenRule {
 /// The rules that are broken by a scenario whose keys are each in range; none if it can be run.
 std::vector<BrokenRule> broken_rules(const Scenario& scenario);
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::scenario {
 
 enum class BedBoundary { periodic, walls };
 enum class BedFloor { rough, smooth };
@@ -141,4 +141,4 @@ std::string resolved_toml(const Scenario& scenario);
 /// The keys in which two scenarios differ, with both values: "contact.friction is 0.5 there, 0.3 here".
 std::string differences(const Scenario& there, const Scenario& here);
 
-}  // namespace talus
+}  // namespace talus::scenario

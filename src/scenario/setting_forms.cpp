@@ -8,7 +8,7 @@
 
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 /// Small letters and digits alone.
@@ -120,4 +120,4 @@ std::string meant_setting(const KeyHeads& keys, const std::string& option, std::
                            : fmt::format("; give the number alone, in {}", key->unit);
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -8,7 +8,7 @@
 
 #include "scenario/key.h"
 
-namespace talus {
+namespace talus::scenario {
 
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);
@@ -30,4 +30,4 @@ std::optional<KeyValue> typed_number(const KeyHead& key, std::string_view value)
 /// and for two settings in one. Empty where nothing is known. `option`: "--set".
 std::string meant_setting(const KeyHeads& keys, const std::string& option, std::string_view setting);
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -8,7 +8,7 @@
 
 #include "scenario/key.h"
 
-namespace talus {
+namespace talus::scenario {
 
 /// The values of `--set key=value` settings. `example` is a setting for messages: "lc_cut=30". Throws
 /// LocatedError(bad_data) with a line for each setting that is not accepted: `--set lc_cut=-3: error: key
@@ -28,4 +28,4 @@ Struct parse_settings(const std::vector<Key<Struct>>& keys, const std::vector<st
   return result;
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

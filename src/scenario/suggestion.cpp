@@ -9,7 +9,7 @@
 #include "base/nearest_word.h"
 #include "base/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -98,4 +98,4 @@ std::string suggest_section(const KeyHeads& keys, std::string_view section) {
   return fmt::format("; expected one of [{}]", joined(sections_of(keys), "], ["));
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -6,7 +6,7 @@
 
 #include "scenario/key.h"
 
-namespace talus {
+namespace talus::scenario {
 
 /// The end of a message about an unknown key `name` in `section` (which exists; empty above the first one):
 /// "; did you mean 'contact.friction'?", "; 'friction' belongs to [contact]", or what the section has.
@@ -15,4 +15,4 @@ std::string suggest_key(const KeyHeads& keys, std::string_view section, std::str
 /// The same for an unknown section.
 std::string suggest_section(const KeyHeads& keys, std::string_view section);
 
-}  // namespace talus
+}  // namespace talus::scenario

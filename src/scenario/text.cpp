@@ -10,7 +10,7 @@
 #include "base/visible_text.h"
 #include "scenario/keys.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 std::string comment(const KeyHead& key) {
@@ -80,4 +80,4 @@ std::string resolved_toml(const Scenario& scenario) {
   return text + aligned(lines);
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

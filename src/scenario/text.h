@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-namespace talus {
+namespace talus::scenario {
 
 /// The value of a key, as in TOML.
 using KeyValue =
@@ -22,4 +22,4 @@ std::string toml_text(const KeyValue& value);
 /// The value as it is written in a setting: 200, 1e-06, periodic, 1,2, or "to 12, to 0".
 std::string plain_text(const KeyValue& value);
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 constexpr double steepest = 60.0;                  // deg
@@ -237,4 +237,4 @@ std::string program_fault(const Scenario& scenario) {
   return fault.empty() ? "" : "a programme that can be carried out; this one " + fault;
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -9,7 +9,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::scenario {
 
 /// One phrase of a programme, such as "to 12 at 0.5".
 struct ProgramPhrase {
@@ -76,4 +76,4 @@ class TiltProgram {
 /// expected and what was found. Empty where nothing is, and without a programme.
 std::string program_fault(const Scenario& scenario);
 
-}  // namespace talus
+}  // namespace talus::scenario

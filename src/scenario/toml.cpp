@@ -23,7 +23,7 @@
 #include "scenario/suggestion.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes
@@ -464,4 +464,4 @@ std::string differences(const Scenario& there, const Scenario& here) {
   return joined(parts, "; ");
 }
 
-}  // namespace talus
+}  // namespace talus::scenario

@@ -15,7 +15,7 @@
 #include "io/run_file.h"
 #include "session/bed_table.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr std::size_t most_grains = 2'000'000;
@@ -71,19 +71,20 @@ void compare(const std::string& path, const std::string& what, double found, con
                        what, found, key, expected));
 }
 
-RunFile open_run(const std::string& path) {
+io::RunFile open_run(const std::string& path) {
   try {
-    return RunFile::open(path);
+    return io::RunFile::open(path);
   } catch (const Error& error) {
     if (error.code() == ExitCode::missing_input) refuse_missing(error.what());
     throw;
   }
 }
 
-FileGrains read_run(const std::string& path, std::size_t frame, LengthUnit unit, const BedPlan& plan) {
-  if (unit != LengthUnit::mean_diameter)
+FileGrains read_run(const std::string& path, std::size_t frame, scenario::LengthUnit unit,
+                    const dynamics::BedPlan& plan) {
+  if (unit != scenario::LengthUnit::mean_diameter)
     refuse(path, "a run has units of its own: expected no deposition.file_unit, or \"D\"");
-  const RunFile run = open_run(path);
+  const io::RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
     refuse(path, fmt::format("the run has {}: expected bed.boundary = {}",
@@ -117,11 +118,12 @@ std::string table_text(const std::string& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > largest_table)
     refuse(path, fmt::format("the table is too large: expected at most {} bytes", largest_table));
-  const std::vector<std::byte> bytes = read_file(path);
+  const std::vector<std::byte> bytes = io::read_file(path);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-FileGrains read_table(const std::string& path, std::size_t frame, LengthUnit unit, const BedPlan& plan) {
+FileGrains read_table(const std::string& path, std::size_t frame, scenario::LengthUnit unit,
+                      const dynamics::BedPlan& plan) {
   const std::string text = table_text(path);
   if (frame > 0) refuse(path, "a table has no frames: expected deposition.frame = 0");
   FileGrains grains{.path = path, .frame = 0, .lines = {}, .centres = {}, .radii = {}};
@@ -133,7 +135,7 @@ FileGrains read_table(const std::string& path, std::size_t frame, LengthUnit uni
   return grains;
 }
 
-void check_sizes(const FileGrains& grains, const BedPlan& plan) {
+void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
   const std::size_t count = grains.radii.size();
   if (count == 0) refuse(grains.path, "there is no grain: expected lines with x, y and radius");
   if (count > most_grains)
@@ -151,7 +153,7 @@ void check_sizes(const FileGrains& grains, const BedPlan& plan) {
                                  : ""));
 }
 
-void check_places(const FileGrains& grains, const BedPlan& plan) {
+void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
   for (std::size_t i = 0; i < grains.centres.size(); ++i) {
     const double x = grains.centres[i].x / plan.mean_diameter, y = grains.centres[i].y / plan.mean_diameter;
     const double length = plan.length / plan.mean_diameter;
@@ -176,10 +178,10 @@ std::string body_name(const FileGrains& grains, const World& world, Index body) 
   return plane.normal.x > 0.0 ? "the wall at x = 0" : "the wall at x = bed.length";
 }
 
-void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& world) {
-  NeighbourList list;
+void check_overlaps(const FileGrains& grains, const dynamics::BedPlan& plan, const World& world) {
+  contact::NeighbourList list;
   Contacts contacts;
-  detect_contacts(list, world.grains, world.boundary, 0.0, contacts);
+  contact::detect_contacts(list, world.grains, world.boundary, 0.0, contacts);
   const auto deepest = std::ranges::min_element(contacts.gap);
   if (deepest == contacts.gap.end() || *deepest >= -largest_file_overlap * plan.mean_diameter) return;
   const auto c = static_cast<std::size_t>(deepest - contacts.gap.begin());
@@ -193,17 +195,18 @@ void check_overlaps(const FileGrains& grains, const BedPlan& plan, const World& 
 
 }  // namespace
 
-World bed_of_file(const std::string& path, std::size_t frame, const BedPlan& plan, LengthUnit unit) {
+World bed_of_file(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
+                  scenario::LengthUnit unit) {
   const FileGrains grains =
-      is_run(path) ? read_run(path, frame, unit, plan) : read_table(path, frame, unit, plan);
+      io::is_run(path) ? read_run(path, frame, unit, plan) : read_table(path, frame, unit, plan);
   check_sizes(grains, plan);
   check_places(grains, plan);
-  World world = empty_bed(plan);
+  World world = dynamics::empty_bed(plan);
   for (std::size_t i = 0; i < grains.centres.size(); ++i)
     add_disk(world.grains, grains.centres[i], grains.radii[i], plan.density, false);
-  add_floor(plan, world);
+  dynamics::add_floor(plan, world);
   check_overlaps(grains, plan, world);
   return world;
 }
 
-}  // namespace talus
+}  // namespace talus::session

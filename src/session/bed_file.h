@@ -7,7 +7,7 @@
 #include "dynamics/bed.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// Overlaps up to this are taken back by the steps that bring the bed to rest, D.
 inline constexpr double largest_file_overlap = 0.01;
@@ -19,7 +19,7 @@ inline constexpr double mean_diameter_tolerance = 0.1;
 /// those of the plan. Throws Error(missing_input) where there is no such file, and Error(bad_data) with the
 /// place where it cannot be read, or where it does not fit the plan: another period, boundary or mean
 /// diameter, overlaps, grains outside.
-World bed_of_file(const std::string& path, std::size_t frame, const BedPlan& plan,
-                  LengthUnit unit = LengthUnit::mean_diameter);
+World bed_of_file(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
+                  scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter);
 
-}  // namespace talus
+}  // namespace talus::session

@@ -13,7 +13,7 @@
 #include "scenario/text.h"
 #include "session/table_columns.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// The text after its byte-order mark.
@@ -81,7 +81,7 @@ TableGrain grain_of(const TablePlace& place, const TableColumns& columns, const 
   if (size <= 0.0)
     place.refuse(cells[columns.size.at].column,
                  fmt::format("{} = {}: expected a finite number > 0, in {}", columns.size.name,
-                             short_text(value_in(place, columns.size, cells[columns.size.at])),
+                             scenario::short_text(value_in(place, columns.size, cells[columns.size.at])),
                              unit_text(columns.size.unit)));
   if (columns.depth && length_in(*columns.depth) != 0.0)
     place.refuse(cells[columns.depth->at].column,
@@ -92,7 +92,7 @@ TableGrain grain_of(const TablePlace& place, const TableColumns& columns, const 
 
 /// The columns that the last comment to name them has; x, y and radius if none does.
 TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string_view>>& comments,
-                                 LengthUnit unit, std::size_t count) {
+                                 scenario::LengthUnit unit, std::size_t count) {
   for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment)
     if (auto columns = columns_of_comment(comment->first, comment->second, unit, count)) return *columns;
   return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
@@ -100,24 +100,24 @@ TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::st
 
 }  // namespace
 
-double in_metres(double length, LengthUnit unit, double mean_diameter) {
+double in_metres(double length, scenario::LengthUnit unit, double mean_diameter) {
   switch (unit) {
-    case LengthUnit::mean_diameter:
+    case scenario::LengthUnit::mean_diameter:
       return length * mean_diameter;
-    case LengthUnit::metre:
+    case scenario::LengthUnit::metre:
       return length;
-    case LengthUnit::centimetre:
+    case scenario::LengthUnit::centimetre:
       return length / 1e2;
-    case LengthUnit::millimetre:
+    case scenario::LengthUnit::millimetre:
       return length / 1e3;
-    case LengthUnit::micrometre:
+    case scenario::LengthUnit::micrometre:
       break;
   }
   return length / 1e6;
 }
 
-std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name, LengthUnit unit,
-                                        double mean_diameter) {
+std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name,
+                                        scenario::LengthUnit unit, double mean_diameter) {
   std::vector<TableGrain> grains;
   TablePlace place{name, 0};
   std::vector<std::pair<TablePlace, std::string_view>> comments;
@@ -138,4 +138,4 @@ std::vector<TableGrain> parse_bed_table(const std::string& text, const std::stri
   return grains;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,7 +7,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// A line of a table. Lengths in m.
 struct TableGrain {
@@ -17,7 +17,7 @@ struct TableGrain {
 };
 
 /// A length in m; `mean_diameter` in m.
-double in_metres(double length, LengthUnit unit, double mean_diameter);
+double in_metres(double length, scenario::LengthUnit unit, double mean_diameter);
 
 /// The grains of a table of text in UTF-8, one in each line: x, y and radius, or the columns that the first
 /// line names (or the last comment before the grains, if it names them all), in any order: x, y or z, and the
@@ -26,7 +26,7 @@ double in_metres(double length, LengthUnit unit, double mean_diameter);
 /// is a comment. Columns without a unit are in `unit`. `name` is what messages call the table. Throws
 /// LocatedError(bad_data) with the first place that cannot be read, or that names another unit than `unit`
 /// (D, the default, gives way to it).
-std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name, LengthUnit unit,
-                                        double mean_diameter);
+std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name,
+                                        scenario::LengthUnit unit, double mean_diameter);
 
-}  // namespace talus
+}  // namespace talus::session

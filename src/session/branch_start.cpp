@@ -13,7 +13,7 @@
 #include "session/frame_state.h"
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double same_tilt = 1e-9;     // rad
@@ -22,8 +22,8 @@ constexpr double farthest_held = 1e6;  // D
 
 /// One start, and how it is refused.
 struct CheckedStart {
-  const BranchOrigin& branch;
-  const Scenario& scenario;
+  const io::BranchOrigin& branch;
+  const scenario::Scenario& scenario;
   const std::string& file;
 
   const World& world() const { return branch.start.world; }
@@ -53,8 +53,8 @@ void check_velocities(const CheckedStart& start) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double velocity = of_rim ? grains.radius[i] * values[i] : values[i];
       start.must(std::abs(velocity) <= limit, name,
-                 fmt::format("moves grain {} at {} m/s, expected at most {} m/s", i, short_text(velocity),
-                             short_text(limit)));
+                 fmt::format("moves grain {} at {} m/s, expected at most {} m/s", i,
+                             scenario::short_text(velocity), scenario::short_text(limit)));
     }
   };
   check("vx", grains.vx, false);
@@ -63,7 +63,7 @@ void check_velocities(const CheckedStart& start) {
 }
 
 void check_phase(const CheckedStart& start, const Schedule& schedule) {
-  const bool follows = start.scenario.tilt.after_failure != AfterFailure::stop;
+  const bool follows = start.scenario.tilt.after_failure != scenario::AfterFailure::stop;
   const std::int64_t steps = start.world().step;
   start.must(schedule.phase == Phase::tilt || schedule.phase == Phase::flow, "integers/phase",
              fmt::format("is {}, but a branch begins in the tilt (1) or in the flow after failure (3)",
@@ -75,12 +75,12 @@ void check_phase(const CheckedStart& start, const Schedule& schedule) {
   start.must(schedule.quiet_steps <= steps, "integers/quiet_steps",
              fmt::format("is {}, of {} steps in all", schedule.quiet_steps, steps));
   start.must(schedule.baseline.volume > 0.0, "reals/baseline_volume",
-             fmt::format("is {}, expected a volume above 0", short_text(schedule.baseline.volume)));
+             fmt::format("is {}, expected a volume above 0", scenario::short_text(schedule.baseline.volume)));
 }
 
 /// The tilt follows from the scenario, from the steps taken, and from what a command has set.
 void check_tilt(const CheckedStart& start, const Schedule& schedule) {
-  const TiltProgram program(start.scenario);
+  const scenario::TiltProgram program(start.scenario);
   const std::int64_t last = schedule.last_tilt_step.value_or(0);
   start.must(schedule.last_tilt_step.has_value() != program.empty(), "integers/last_tilt_step",
              program.empty() ? "is there, but the scenario has no programme of the tilt"
@@ -94,8 +94,8 @@ void check_tilt(const CheckedStart& start, const Schedule& schedule) {
   const double expected = scheduled_tilt(start.scenario, program, schedule);
   start.must(std::abs(start.world().tilt - expected) <= same_tilt, "tilt",
              fmt::format("is {} deg, but the scenario has {} deg after its {} steps of the tilt",
-                         short_text(degrees(start.world().tilt)), short_text(degrees(expected)),
-                         schedule.tilt_steps));
+                         scenario::short_text(degrees(start.world().tilt)),
+                         scenario::short_text(degrees(expected)), schedule.tilt_steps));
 }
 
 /// What commands had set is what a command can set.
@@ -120,8 +120,9 @@ void check_commanded(const CheckedStart& start, const Schedule& schedule) {
 
 }  // namespace
 
-void check_branch_start(const BranchOrigin& branch, const Scenario& scenario, const std::string& file) {
-  const bool follows = scenario.tilt.after_failure != AfterFailure::stop;
+void check_branch_start(const io::BranchOrigin& branch, const scenario::Scenario& scenario,
+                        const std::string& file) {
+  const bool follows = scenario.tilt.after_failure != scenario::AfterFailure::stop;
   const Schedule schedule = stored_schedule(start_of(branch), follows, file, "/branch");
   const CheckedStart start{branch, scenario, file};
   check_boundary(start);
@@ -131,4 +132,4 @@ void check_branch_start(const BranchOrigin& branch, const Scenario& scenario, co
   check_commanded(start, schedule);
 }
 
-}  // namespace talus
+}  // namespace talus::session

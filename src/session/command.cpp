@@ -11,7 +11,7 @@
 #include "core/trigonometry.h"
 #include "session/drag.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double fastest_push = 100.0;  // sqrt(g D)
@@ -38,7 +38,7 @@ void check_grain(const Command& command, const World& world) {
            fmt::format("a free grain, 0 ... {}", world.grains.free_count - 1));
 }
 
-void check_push(const Command& command, const Scenario& scenario, const World& world) {
+void check_push(const Command& command, const scenario::Scenario& scenario, const World& world) {
   check_grain(command, world);
   const double limit = fastest_push * std::sqrt(world.gravity * scenario.grains.mean_diameter);
   const double speed = std::sqrt(command.x * command.x + command.y * command.y);
@@ -47,7 +47,7 @@ void check_push(const Command& command, const Scenario& scenario, const World& w
            fmt::format("less than 100 sqrt(g D) = {:.4g} m/s", limit));
 }
 
-void check_drop(const Command& command, const Scenario& scenario, const World& world) {
+void check_drop(const Command& command, const scenario::Scenario& scenario, const World& world) {
   if (command.grain < 1 || command.grain > most_dropped)
     refuse(command, fmt::format("{} grains", command.grain), fmt::format("1 ... {}", most_dropped));
   if (!std::isfinite(command.x))
@@ -56,7 +56,7 @@ void check_drop(const Command& command, const Scenario& scenario, const World& w
   check_range(command, "height", command.y, highest_drop * scenario.grains.mean_diameter, " m");
 }
 
-void check_drag(const Command& command, const Scenario& scenario, const World& world) {
+void check_drag(const Command& command, const scenario::Scenario& scenario, const World& world) {
   check_grain(command, world);
   const double farthest = farthest_drag * scenario.grains.mean_diameter;
   const Vec2 way = way_of_drag({command.grain, command.x, command.y}, world);
@@ -110,7 +110,7 @@ std::string command_text(const Command& command) {
   return command.x == 0.0 ? "hold the tilt" : fmt::format("tilt rate {:.4g} deg/s", command.x);
 }
 
-void check_command(const Command& command, const Scenario& scenario, const World& world) {
+void check_command(const Command& command, const scenario::Scenario& scenario, const World& world) {
   switch (command.kind) {
     case CommandKind::push:
       return check_push(command, scenario, world);
@@ -179,4 +179,4 @@ double time_before(const Command& command, std::span<const ObservableRow> rows) 
                  at(*around->after, Observable::time));
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -11,7 +11,7 @@
 #include "core/world.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// The largest coefficient of friction that a command can set.
 inline constexpr double largest_friction = 10.0;
@@ -26,7 +26,7 @@ std::string command_text(const Command& command);
 /// not finite or out of range. Speeds are below 100 sqrt(g D), counts 1 ... 1000, heights 0 ... 100 D,
 /// frictions 0 ... 10, rates 0 (the tilt is held) ... 100 deg/s, and a drag is held within 50 D of its grain;
 /// between walls x of a drop lies on the bed.
-void check_command(const Command& command, const Scenario& scenario, const World& world);
+void check_command(const Command& command, const scenario::Scenario& scenario, const World& world);
 
 /// The commands that somebody gave: of each drag only its beginning, without what moved and ended it.
 std::vector<Command> given_commands(std::span<const Command> commands);
@@ -53,4 +53,4 @@ std::vector<Index> surface_grains(const World& world);
 /// fewer grains.
 void drop_grains(World& world, Index count, double x, double height);
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,74 +9,78 @@
 #include "dynamics/geometric.h"
 #include "session/bed_file.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// Beyond this coefficient of restitution a bed comes to rest late, and never at 1.
 constexpr double elastic = 0.9;
 
-BedPlan bed_plan(const Scenario& scenario) {
-  BedPlan plan;
+dynamics::BedPlan bed_plan(const scenario::Scenario& scenario) {
+  dynamics::BedPlan plan;
   plan.mean_diameter = scenario.grains.mean_diameter;
   plan.size_ratio = scenario.grains.size_ratio;
   plan.density = scenario.grains.density;
   plan.length = scenario.bed.length * scenario.grains.mean_diameter;
   plan.grain_count = static_cast<Index>(std::lround(scenario.bed.length * scenario.bed.depth));
-  plan.periodic = scenario.bed.boundary == BedBoundary::periodic;
-  plan.rough_floor = scenario.bed.floor == BedFloor::rough;
+  plan.periodic = scenario.bed.boundary == scenario::BedBoundary::periodic;
+  plan.rough_floor = scenario.bed.floor == scenario::BedFloor::rough;
   plan.seed = scenario.seed;
   return plan;
 }
 
-World bed_without_grains(const BedPlan& plan) {
-  World world = empty_bed(plan);
-  add_floor(plan, world);
+World bed_without_grains(const dynamics::BedPlan& plan) {
+  World world = dynamics::empty_bed(plan);
+  dynamics::add_floor(plan, world);
   return world;
 }
 
 }  // namespace
 
-World initial_bed(const Scenario& scenario) {
-  const BedPlan plan = bed_plan(scenario);
-  const Scenario::Deposition& deposition = scenario.deposition;
-  if (deposition.method == DepositionMethod::collapse)
-    return make_loose_bed(plan, deposition.initial_solid_fraction);
-  if (deposition.method == DepositionMethod::geometric)
-    return make_geometric_bed(
+World initial_bed(const scenario::Scenario& scenario) {
+  const dynamics::BedPlan plan = bed_plan(scenario);
+  const scenario::Scenario::Deposition& deposition = scenario.deposition;
+  if (deposition.method == scenario::DepositionMethod::collapse)
+    return dynamics::make_loose_bed(plan, deposition.initial_solid_fraction);
+  if (deposition.method == scenario::DepositionMethod::geometric)
+    return dynamics::make_geometric_bed(
         plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
-  if (deposition.method == DepositionMethod::file)
+  if (deposition.method == scenario::DepositionMethod::file)
     return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan,
                        deposition.file_unit);
   return bed_without_grains(plan);
 }
 
-std::string bed_hash(const Scenario& scenario) {
-  const bool from_file = scenario.deposition.method == DepositionMethod::file;
+std::string bed_hash(const scenario::Scenario& scenario) {
+  const bool from_file = scenario.deposition.method == scenario::DepositionMethod::file;
   return from_file ? hash_text(state_hash(initial_bed(scenario))) : std::string();
 }
 
-Boundary boundary_of(const Scenario& scenario) { return bed_without_grains(bed_plan(scenario)).boundary; }
+Boundary boundary_of(const scenario::Scenario& scenario) {
+  return bed_without_grains(bed_plan(scenario)).boundary;
+}
 
-Index grain_count(const Scenario& scenario) {
-  if (scenario.deposition.method == DepositionMethod::file) return initial_bed(scenario).grains.free_count;
+Index grain_count(const scenario::Scenario& scenario) {
+  if (scenario.deposition.method == scenario::DepositionMethod::file)
+    return initial_bed(scenario).grains.free_count;
   return bed_plan(scenario).grain_count;
 }
 
-std::vector<Arrival> arrivals_of(const Scenario& scenario) {
-  if (scenario.deposition.method != DepositionMethod::pour) return {};
-  return pour_arrivals(bed_plan(scenario));
+std::vector<dynamics::Arrival> arrivals_of(const scenario::Scenario& scenario) {
+  if (scenario.deposition.method != scenario::DepositionMethod::pour) return {};
+  return dynamics::pour_arrivals(bed_plan(scenario));
 }
 
-PourRule pour_rule(const Scenario& scenario) {
+dynamics::PourRule pour_rule(const scenario::Scenario& scenario) {
   const double diameter = scenario.grains.mean_diameter, gravity = World().gravity;
   return {.speed = scenario.deposition.arrival_speed * std::sqrt(gravity * diameter),
           .interval = std::sqrt(diameter / gravity) / (scenario.deposition.rate * scenario.bed.length),
           .density = scenario.grains.density};
 }
 
-std::string advice_for_rest(const Scenario& scenario, double velocity) {
-  const Scenario::ContactLaw& law = scenario.contact;
-  const double rest = scenario.deposition.rest_velocity, usual = Scenario::Deposition().rest_velocity;
+std::string advice_for_rest(const scenario::Scenario& scenario, double velocity) {
+  const scenario::Scenario::ContactLaw& law = scenario.contact;
+  const double rest = scenario.deposition.rest_velocity,
+               usual = scenario::Scenario::Deposition().rest_velocity;
   const auto keeps = [](const char* key, double value) {
     const bool whole = std::fabs(value) == 1.0;
     return fmt::format("with {} = {:g} impacts take {} energy{}: set it nearer to 0{}", key, value,
@@ -95,9 +99,9 @@ std::string advice_for_rest(const Scenario& scenario, double velocity) {
   return "allow more time (deposition.max_time), or set solver.moving_tolerance or solver.tolerance lower";
 }
 
-double end_of_arrivals(const Scenario& scenario) {
-  if (scenario.deposition.method != DepositionMethod::pour) return 0.0;
+double end_of_arrivals(const scenario::Scenario& scenario) {
+  if (scenario.deposition.method != scenario::DepositionMethod::pour) return 0.0;
   return pour_rule(scenario).interval * (bed_plan(scenario).grain_count - 1);
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,33 +7,33 @@
 #include "dynamics/pour.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// The bed before its first step: all grains, or where they are poured none, above or on the floor. Throws as
 /// bed_of_file does where they are those of a file.
-World initial_bed(const Scenario& scenario);
+World initial_bed(const scenario::Scenario& scenario);
 
 /// The hash of the bed that a scenario takes from a file, before its first step; empty for other methods.
 /// Throws as bed_of_file does.
-std::string bed_hash(const Scenario& scenario);
+std::string bed_hash(const scenario::Scenario& scenario);
 
 /// Its walls and its smooth floor, which stay as they are.
-Boundary boundary_of(const Scenario& scenario);
+Boundary boundary_of(const scenario::Scenario& scenario);
 
 /// How many grains the bed will have. Reads and checks a file, and throws as bed_of_file does.
-Index grain_count(const Scenario& scenario);
+Index grain_count(const scenario::Scenario& scenario);
 
 /// The grains that are poured, in the order of their arrival; none for other methods.
-std::vector<Arrival> arrivals_of(const Scenario& scenario);
+std::vector<dynamics::Arrival> arrivals_of(const scenario::Scenario& scenario);
 
 /// How they arrive, in SI units.
-PourRule pour_rule(const Scenario& scenario);
+dynamics::PourRule pour_rule(const scenario::Scenario& scenario);
 
 /// When the last grain arrives, s; 0 where all are there from the beginning.
-double end_of_arrivals(const Scenario& scenario);
+double end_of_arrivals(const scenario::Scenario& scenario);
 
 /// What to do about a bed that did not come to rest in time, with the key that keeps it from it; `velocity`
 /// in g h.
-std::string advice_for_rest(const Scenario& scenario, double velocity);
+std::string advice_for_rest(const scenario::Scenario& scenario, double velocity);
 
-}  // namespace talus
+}  // namespace talus::session

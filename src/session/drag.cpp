@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double longest_step = 0.25;  // 1 / w
@@ -28,4 +28,4 @@ void pull(const Drag& drag, double mean_diameter, double h, World& world) {
   world.grains.vy[drag.grain] += h * acceleration.y;
 }
 
-}  // namespace talus
+}  // namespace talus::session

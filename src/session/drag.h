@@ -5,7 +5,7 @@
 #include "core/world.h"
 #include "session/schedule.h"
 
-namespace talus {
+namespace talus::session {
 
 /// From the centre of the grain to where the spring is held, m; the shortest way around a periodic bed.
 Vec2 way_of_drag(const Drag& drag, const World& world);
@@ -18,4 +18,4 @@ Vec2 drag_acceleration(const Drag& drag, double mean_diameter, double h, const W
 /// Gives the grain the velocity that the spring does in a step of length h, before the step is taken.
 void pull(const Drag& drag, double mean_diameter, double h, World& world);
 
-}  // namespace talus
+}  // namespace talus::session

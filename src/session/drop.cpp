@@ -9,7 +9,7 @@
 #include "session/measure.h"
 #include "stress/free_surface.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// Room between grains of the lattice, as a share of the largest diameter.
@@ -100,10 +100,10 @@ void remove_contacts(Contacts& contacts, const std::vector<bool>& lifted) {
 
 std::vector<Index> surface_grains(const World& world) {
   const Grains& grains = world.grains;
-  const std::vector<SurfaceArc> surface = free_surface(grains, world.boundary);
+  const std::vector<stress::SurfaceArc> surface = stress::free_surface(grains, world.boundary);
   std::vector<Index> found;
   for (Index i = 0; i < grains.free_count; ++i)
-    if (grains.y[i] + grains.radius[i] >= height_of(surface, grains.x[i])) found.push_back(i);
+    if (grains.y[i] + grains.radius[i] >= stress::height_of(surface, grains.x[i])) found.push_back(i);
   return found;
 }
 
@@ -124,4 +124,4 @@ void drop_grains(World& world, Index count, double x, double height) {
   remove_contacts(world.contacts, lifted);
 }
 
-}  // namespace talus
+}  // namespace talus::session

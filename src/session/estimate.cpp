@@ -9,7 +9,7 @@
 #include "scenario/tilt_program.h"
 #include "session/deposition.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 // Measured on one core (x86-64, AVX2) with beds of L = 50 D, H = 20 D and L = 200 D, H = 40 D, tilted to
@@ -39,13 +39,15 @@ constexpr double bytes_per_step = 12.0;
 constexpr double gravity = 9.81;  // m/s^2
 
 /// How many more iterations than at the default tolerance a smaller residual or the slower solver takes.
-double difficulty(const Scenario& scenario) {
-  const double digits = std::log10(scenario.solver.tolerance) / std::log10(Scenario{}.solver.tolerance);
-  return digits * (scenario.solver.method == SolverMethod::accelerated ? 1.0 : gauss_seidel_iterations);
+double difficulty(const scenario::Scenario& scenario) {
+  const double digits =
+      std::log10(scenario.solver.tolerance) / std::log10(scenario::Scenario{}.solver.tolerance);
+  return digits *
+         (scenario.solver.method == scenario::SolverMethod::accelerated ? 1.0 : gauss_seidel_iterations);
 }
 
 /// A run commits at each frame, and every output.checkpoint_every, though not more often than it steps.
-double seconds_of_commits(const Scenario& scenario, const Estimate& sizes, double computing) {
+double seconds_of_commits(const scenario::Scenario& scenario, const Estimate& sizes, double computing) {
   const auto steps = static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
   const double commits = std::min(steps, computing / std::max(scenario.output.checkpoint_every, 1e-6)) +
                          static_cast<double>(sizes.frames);
@@ -53,38 +55,38 @@ double seconds_of_commits(const Scenario& scenario, const Estimate& sizes, doubl
 }
 
 /// The steepest that the tilt comes to, deg.
-double steepest_expected(const Scenario& scenario, const TiltProgram& program) {
+double steepest_expected(const scenario::Scenario& scenario, const scenario::TiltProgram& program) {
   if (program.empty()) return scenario.tilt.end_angle.value_or(assumed_repose);
   double steepest = program.ends_at_repose() ? assumed_repose : 0.0;
-  for (const TiltSegment& segment : program.segments())
+  for (const scenario::TiltSegment& segment : program.segments())
     if (!program.ends_at_repose() || &segment != &program.segments().back())
       steepest = std::max({steepest, std::abs(segment.from), std::abs(segment.to)});
   return steepest;
 }
 
 /// Steps that may follow failure, which a slope that holds up to tilt.end_angle does not see.
-double steps_of_flow(const Scenario& scenario, double end) {
+double steps_of_flow(const scenario::Scenario& scenario, double end) {
   switch (scenario.tilt.after_failure) {
-    case AfterFailure::lower:
-      return end / scenario.tilt.lowering_rate / time_step(scenario);
-    case AfterFailure::hold:
-      return scenario.deposition.max_time / time_step(scenario);
-    case AfterFailure::stop:
+    case scenario::AfterFailure::lower:
+      return end / scenario.tilt.lowering_rate / scenario::time_step(scenario);
+    case scenario::AfterFailure::hold:
+      return scenario.deposition.max_time / scenario::time_step(scenario);
+    case scenario::AfterFailure::stop:
       break;
   }
   return 0.0;
 }
 
-double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {
+double estimated_seconds(const scenario::Scenario& scenario, const Estimate& sizes) {
   const double factor = difficulty(scenario);
   const double most = scenario.solver.max_iterations;
-  const double tilt = scenario.deposition.method == DepositionMethod::collapse
+  const double tilt = scenario.deposition.method == scenario::DepositionMethod::collapse
                           ? iterations_of_tilt_of_collapsed
                           : iterations_of_tilt;
   const double iterations =
       std::min(iterations_of_deposition * factor, most) * static_cast<double>(sizes.deposition_steps) +
       std::min(tilt * factor, most) * static_cast<double>(sizes.tilt_steps + sizes.flow_steps);
-  const bool accelerated = scenario.solver.method == SolverMethod::accelerated;
+  const bool accelerated = scenario.solver.method == scenario::SolverMethod::accelerated;
   const double computing = (accelerated ? seconds_per_contact_and_iteration : seconds_per_contact_and_sweep) *
                            sizes.contacts * iterations;
   return computing + seconds_of_commits(scenario, sizes, computing);
@@ -100,27 +102,28 @@ double estimated_file(const Estimate& sizes) {
 
 }  // namespace
 
-std::int64_t expected_tilt_steps(const Scenario& scenario) {
-  const TiltProgram program(scenario);
+std::int64_t expected_tilt_steps(const scenario::Scenario& scenario) {
+  const scenario::TiltProgram program(scenario);
   if (program.empty())
     return std::llround(scenario.tilt.end_angle.value_or(assumed_repose) / scenario.tilt.step);
   if (!program.ends_at_repose()) return program.steps();
-  const TiltSegment& last = program.segments().back();
+  const scenario::TiltSegment& last = program.segments().back();
   const double rise = std::max(0.0, assumed_repose - last.from) / last.step;
   return last.begin + std::min(last.steps, static_cast<std::int64_t>(std::llround(rise)));
 }
 
-Estimate estimate(const Scenario& scenario) {
+Estimate estimate(const scenario::Scenario& scenario) {
   Estimate result;
   result.grains = grain_count(scenario);
-  if (scenario.bed.floor == BedFloor::rough) result.floor_grains = static_cast<Index>(scenario.bed.length);
+  if (scenario.bed.floor == scenario::BedFloor::rough)
+    result.floor_grains = static_cast<Index>(scenario.bed.length);
   result.contacts = static_cast<Index>(std::lround(contacts_per_grain * result.grains));
-  result.time_step = time_step(scenario);
+  result.time_step = scenario::time_step(scenario);
 
   const double depth = scenario.bed.depth * scenario.grains.mean_diameter;
   const double rest = std::min(falls_until_rest * std::sqrt(depth / gravity), scenario.deposition.max_time);
   result.deposition_steps = std::llround((end_of_arrivals(scenario) + rest) / result.time_step);
-  const TiltProgram program(scenario);
+  const scenario::TiltProgram program(scenario);
   const double end = steepest_expected(scenario, program);
   result.tilt_steps = expected_tilt_steps(scenario);
   result.program_parts = static_cast<std::int64_t>(program.segments().size());
@@ -140,9 +143,9 @@ Estimate estimate(const Scenario& scenario) {
   return result;
 }
 
-void require_memory(const Scenario& scenario) {
-  Scenario without_flow = scenario;
-  without_flow.tilt.after_failure = AfterFailure::stop;
+void require_memory(const scenario::Scenario& scenario) {
+  scenario::Scenario without_flow = scenario;
+  without_flow.tilt.after_failure = scenario::AfterFailure::stop;
   const Estimate expected = estimate(without_flow);
   const double most = machine_memory();
   if (expected.memory > most)
@@ -166,4 +169,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-}  // namespace talus
+}  // namespace talus::session

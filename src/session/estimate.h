@@ -7,14 +7,14 @@
 #include "core/types.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// The angle at which a slope is assumed to fail where the run ends at repose, deg.
 inline constexpr double assumed_repose = 20.0;
 
 /// Steps that the tilt will take: where it goes on until the slope fails, to assumed_repose; with a programme
 /// all of it, but for what its last part does beyond that angle.
-std::int64_t expected_tilt_steps(const Scenario& scenario);
+std::int64_t expected_tilt_steps(const scenario::Scenario& scenario);
 
 /// Sizes and steps follow from the scenario, but for the length of the deposition and the angle of repose;
 /// time, memory and disk are within a factor of about two for beds like the paper's.
@@ -35,11 +35,11 @@ struct Estimate {
 };
 
 /// Throws as grain_count does.
-Estimate estimate(const Scenario& scenario);
+Estimate estimate(const scenario::Scenario& scenario);
 
 /// Throws Error(out_of_memory) where a run takes more memory than this process can have, without the flow
 /// after failure, which may be short.
-void require_memory(const Scenario& scenario);
+void require_memory(const scenario::Scenario& scenario);
 
 /// "12 MB", "13.8 GB".
 std::string size_text(double bytes);
@@ -47,4 +47,4 @@ std::string size_text(double bytes);
 /// "8 s", "2 min 05 s", "3 h 10 min".
 std::string duration_text(double seconds);
 
-}  // namespace talus
+}  // namespace talus::session

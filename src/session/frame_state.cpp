@@ -12,7 +12,7 @@
 #include "session/run_header.h"
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 Contacts memory_of(const FrameContacts& from) {
@@ -32,17 +32,17 @@ Contacts memory_of(const FrameContacts& from) {
 /// What a run knows of its course, and so how it stood at a step.
 class RunCourse {
  public:
-  explicit RunCourse(const RunFile& run)
+  explicit RunCourse(const io::RunFile& run)
       : run_(run),
-        scenario_(stored_scenario(run.header(), "/parameters/scenario_resolved")),
+        scenario_(runs::stored_scenario(run.header(), "/parameters/scenario_resolved")),
         end_(stored_schedule(run.checkpoint(), follows_failure(), "the run")),
         steps_(run.steps()),
         rows_(run.all_observables()) {}
 
-  bool follows_failure() const { return scenario_.tilt.after_failure != AfterFailure::stop; }
+  bool follows_failure() const { return scenario_.tilt.after_failure != scenario::AfterFailure::stop; }
 
   Schedule commanded(std::int64_t step) const {
-    const TiltProgram program(scenario_);
+    const scenario::TiltProgram program(scenario_);
     Schedule schedule = before_commands();
     for (const Command& command : run_.commands()) {
       if (command.step >= step) break;
@@ -66,7 +66,7 @@ class RunCourse {
     schedule.baseline = end_.baseline;
     if (end_.last_tilt_step) schedule.last_tilt_step = std::min(step, *end_.last_tilt_step);
     const double rest_velocity =
-        scenario_.deposition.rest_velocity * run_.header().statics.gravity * time_step(scenario_);
+        scenario_.deposition.rest_velocity * run_.header().statics.gravity * scenario::time_step(scenario_);
     schedule.quiet_steps = rows_in_a_row(step, [rest_velocity](const StepRow& row) {
       return at(row, StepField::rms_velocity) <= rest_velocity;
     });
@@ -122,23 +122,23 @@ class RunCourse {
   }
 
   /// A flow that failed the slope later, or had failed it: how far it had come by the rows.
-  SurfaceFlow flow_at(std::int64_t step, const World& world, Phase phase) const {
+  dynamics::SurfaceFlow flow_at(std::int64_t step, const World& world, Phase phase) const {
     if (!end_.flow.failed || std::abs(world.tilt) < end_.flow.onset_tilt) return {};
     if (phase == Phase::flow) return end_.flow;
     auto row = row_at(step);
     if (row == rows_.end()) return {};
     const double now = at(*row, Observable::surface_displacement);
     while (row != rows_.begin() && std::abs(at(*row, Observable::tilt)) > end_.flow.onset_tilt) --row;
-    SurfaceFlow flow{.flowing = true, .onset_tilt = end_.flow.onset_tilt};
+    dynamics::SurfaceFlow flow{.flowing = true, .onset_tilt = end_.flow.onset_tilt};
     flow.displacement = std::abs(now - at(*row, Observable::surface_displacement));
     const RunStatics& statics = run_.header().statics;
-    flow.failed =
-        flow.displacement >= flow_rule(statics.mean_diameter, statics.gravity, world.boundary).distance;
+    flow.failed = flow.displacement >=
+                  dynamics::flow_rule(statics.mean_diameter, statics.gravity, world.boundary).distance;
     return flow;
   }
 
-  const RunFile& run_;
-  Scenario scenario_;
+  const io::RunFile& run_;
+  scenario::Scenario scenario_;
   Schedule end_;
   std::vector<StepRow> steps_;
   std::vector<ObservableRow> rows_;
@@ -146,7 +146,7 @@ class RunCourse {
 
 /// A run that was repaired tells how it stood at a frame only where none of its steps, rows of observables
 /// and commands is lost.
-void require_course(const RunFile& run) {
+void require_course(const io::RunFile& run) {
   const std::string lost = run.lost();
   if (lost.empty()) return;
   const std::int64_t begun = run.header().branch ? run.header().branch->start.world.step : 0;
@@ -172,14 +172,14 @@ void wrap_rounded(World& world) {
 
 }  // namespace
 
-bool may_lack_commands(const RunFile& run) {
+bool may_lack_commands(const io::RunFile& run) {
   const std::string lost = run.lost();
   const auto names = {"/commands", "/branch", "/contents", "segment_"};
   return std::ranges::any_of(names,
                              [&lost](const char* name) { return lost.find(name) != std::string::npos; });
 }
 
-World world_at_frame(const RunFile& run, std::size_t k) {
+World world_at_frame(const io::RunFile& run, std::size_t k) {
   if (!run.has_state())
     throw Error(ExitCode::bad_data,
                 "the run was repaired and its last state is lost; without it no step can be formed");
@@ -200,17 +200,17 @@ World world_at_frame(const RunFile& run, std::size_t k) {
   return world;
 }
 
-Schedule set_by_commands(const RunFile& run, std::int64_t step) { return RunCourse(run).commanded(step); }
+Schedule set_by_commands(const io::RunFile& run, std::int64_t step) { return RunCourse(run).commanded(step); }
 
-Checkpoint start_of(const BranchOrigin& branch) {
-  Checkpoint none, start = branch.start;
+io::Checkpoint start_of(const io::BranchOrigin& branch) {
+  io::Checkpoint none, start = branch.start;
   store_schedule({}, true, none);
   start.results = none.results;
   return start;
 }
 
-Checkpoint checkpoint_at_frame(const RunFile& run, std::size_t k) {
-  Checkpoint checkpoint;
+io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k) {
+  io::Checkpoint checkpoint;
   checkpoint.world = world_at_frame(run, k);
   require_course(run);
   wrap_rounded(checkpoint.world);
@@ -224,4 +224,4 @@ Checkpoint checkpoint_at_frame(const RunFile& run, std::size_t k) {
   return checkpoint;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -5,10 +5,10 @@
 
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::session {
 
-GuardValues guard_values(const World& world, const StepReport& report, std::int64_t unconverged,
-                         const Scenario& scenario) {
+GuardValues guard_values(const World& world, const dynamics::StepReport& report, std::int64_t unconverged,
+                         const scenario::Scenario& scenario) {
   const Motion& motion = report.motion;
   const double diameter = scenario.grains.mean_diameter;
   GuardValues values{};
@@ -21,8 +21,8 @@ GuardValues guard_values(const World& world, const StepReport& report, std::int6
   return values;
 }
 
-GuardValues guard_limits(const Scenario& scenario) {
-  const Scenario::Guards& guards = scenario.guards;
+GuardValues guard_limits(const scenario::Scenario& scenario) {
+  const scenario::Scenario::Guards& guards = scenario.guards;
   return {guards.velocity, guards.overlap, guards.energy, static_cast<double>(guards.unconverged)};
 }
 
@@ -41,8 +41,8 @@ std::string guard_message(Guard guard, double value, double limit, std::int64_t 
     }
     return number + " steps in a row did not reach their tolerance";
   };
-  return fmt::format("step {}: {}; guards.{} allows {}", step, said(short_text(value)),
-                     guard_names[static_cast<std::size_t>(guard)], short_text(limit));
+  return fmt::format("step {}: {}; guards.{} allows {}", step, said(scenario::short_text(value)),
+                     guard_names[static_cast<std::size_t>(guard)], scenario::short_text(limit));
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -11,7 +11,7 @@
 #include "dynamics/step.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 enum class Guard : std::size_t { velocity, overlap, energy, unconverged, count };
 inline constexpr std::size_t guard_count = static_cast<std::size_t>(Guard::count);
@@ -22,9 +22,9 @@ inline constexpr std::array<std::string_view, guard_count> guard_names = {"veloc
 using GuardValues = std::array<double, guard_count>;
 
 /// After a step; `unconverged` steps in a row have missed their tolerance by then.
-GuardValues guard_values(const World& world, const StepReport& report, std::int64_t unconverged,
-                         const Scenario& scenario);
-GuardValues guard_limits(const Scenario& scenario);
+GuardValues guard_values(const World& world, const dynamics::StepReport& report, std::int64_t unconverged,
+                         const scenario::Scenario& scenario);
+GuardValues guard_limits(const scenario::Scenario& scenario);
 
 /// "step 812: a grain moves at 1.2e+04 sqrt(g D); guards.velocity allows 1000".
 std::string guard_message(Guard guard, double value, double limit, std::int64_t step);
@@ -35,4 +35,4 @@ struct GuardWarnings {
   std::array<std::int64_t, guard_count> first{};  ///< the first of them
 };
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,21 +7,21 @@
 #include "stress/internal_moment.h"
 #include "stress/stress_state.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
-double friction_of(const World& world, const ContactLawParameters& law, Index b) {
+double friction_of(const World& world, const dynamics::ContactLawParameters& law, Index b) {
   const Index plane = b - world.grains.count();
   return plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall ? law.wall_friction
                                                                                    : law.friction;
 }
 
-ContactStatus status_of(const World& world, const ContactLawParameters& law, Index c) {
-  return contact_status(world.contacts.fn[c], world.contacts.ft[c],
-                        friction_of(world, law, world.contacts.b[c]));
+ContactStatus status_of(const World& world, const dynamics::ContactLawParameters& law, Index c) {
+  return stress::contact_status(world.contacts.fn[c], world.contacts.ft[c],
+                                friction_of(world, law, world.contacts.b[c]));
 }
 
-double critical_fraction(const World& world, const ContactLawParameters& law) {
+double critical_fraction(const World& world, const dynamics::ContactLawParameters& law) {
   Index carrying = 0;
   Index critical = 0;
   for (Index c = 0; c < world.contacts.count(); ++c) {
@@ -32,7 +32,8 @@ double critical_fraction(const World& world, const ContactLawParameters& law) {
   return carrying > 0 ? static_cast<double>(critical) / carrying : 0.0;
 }
 
-void append_contact(const World& world, const ContactLawParameters& law, Index c, FrameContacts& out) {
+void append_contact(const World& world, const dynamics::ContactLawParameters& law, Index c,
+                    FrameContacts& out) {
   const Contacts& contacts = world.contacts;
   const Index a = contacts.a[c];
   out.a.push_back(a);
@@ -58,14 +59,14 @@ double within_period(double x, double period) {
 }  // namespace
 
 Baseline measure_baseline(const World& world) {
-  return {bed_volume(world.grains, world.boundary), centre_of_mass_height(world.grains)};
+  return {stress::bed_volume(world.grains, world.boundary), stress::centre_of_mass_height(world.grains)};
 }
 
 ObservableRow measure(const World& world, const RowContext& context) {
   std::vector<Tensor2> moments;
-  internal_moments(world.grains, world.contacts, moments);
-  const Tensor2 sum = sum_of_moments(moments, 0, world.grains.free_count);
-  const double volume = bed_volume(world.grains, world.boundary);
+  stress::internal_moments(world.grains, world.contacts, moments);
+  const Tensor2 sum = stress::sum_of_moments(moments, 0, world.grains.free_count);
+  const double volume = stress::bed_volume(world.grains, world.boundary);
   ObservableRow row{};
   at(row, Observable::step) = static_cast<double>(world.step);
   at(row, Observable::time) = world.time;
@@ -74,13 +75,13 @@ ObservableRow measure(const World& world, const RowContext& context) {
   // The paper's y axis points into the bed, ours out of it: the shear component changes its sign.
   at(row, Observable::sigma_t) = -sum.yx / volume;
   at(row, Observable::sigma_t_over_n) = -sum.yx / sum.yy;
-  at(row, Observable::stress_ratio) = stress_state(sum).ratio;
-  at(row, Observable::solid_fraction) = solid_area(world.grains) / volume;
-  at(row, Observable::coordination_number) = coordination_number(world.grains, world.contacts);
+  at(row, Observable::stress_ratio) = stress::stress_state(sum).ratio;
+  at(row, Observable::solid_fraction) = stress::solid_area(world.grains) / volume;
+  at(row, Observable::coordination_number) = stress::coordination_number(world.grains, world.contacts);
   at(row, Observable::critical_fraction) = critical_fraction(world, context.law);
   at(row, Observable::volume_strain) = volume / context.baseline.volume - 1.0;
   at(row, Observable::centre_of_mass_strain) =
-      centre_of_mass_height(world.grains) / context.baseline.centre_of_mass_height - 1.0;
+      stress::centre_of_mass_height(world.grains) / context.baseline.centre_of_mass_height - 1.0;
   at(row, Observable::surface_displacement) = context.surface_displacement;
   at(row, Observable::kinetic_energy) = kinetic_energy(world.grains);
   at(row, Observable::rms_velocity) = rms_velocity(world.grains);
@@ -90,7 +91,7 @@ ObservableRow measure(const World& world, const RowContext& context) {
   return row;
 }
 
-StepRow step_row(const World& world, const StepReport& report, double phase) {
+StepRow step_row(const World& world, const dynamics::StepReport& report, double phase) {
   StepRow row{};
   at(row, StepField::step) = static_cast<double>(world.step);
   at(row, StepField::phase) = phase;
@@ -102,7 +103,7 @@ StepRow step_row(const World& world, const StepReport& report, double phase) {
   return row;
 }
 
-Frame make_frame(const World& world, const ContactLawParameters& law) {
+Frame make_frame(const World& world, const dynamics::ContactLawParameters& law) {
   const Grains& grains = world.grains;
   Frame frame;
   frame.step = world.step;
@@ -117,12 +118,13 @@ Frame make_frame(const World& world, const ContactLawParameters& law) {
   frame.vy = grains.vy;
   frame.omega = grains.omega;
   frame.image = grains.image;
-  internal_moments(grains, world.contacts, frame.internal_moment);
+  stress::internal_moments(grains, world.contacts, frame.internal_moment);
   frame.gamma.reserve(frame.internal_moment.size());
-  for (const Tensor2& moment : frame.internal_moment) frame.gamma.push_back(stress_state(moment).ratio);
+  for (const Tensor2& moment : frame.internal_moment)
+    frame.gamma.push_back(stress::stress_state(moment).ratio);
   for (Index c = 0; c < world.contacts.count(); ++c)
     if (world.contacts.fn[c] > 0.0) append_contact(world, law, c, frame.contacts);
   return frame;
 }
 
-}  // namespace talus
+}  // namespace talus::session

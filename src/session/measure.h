@@ -5,7 +5,7 @@
 #include "dynamics/contact_law_parameters.h"
 #include "dynamics/step.h"
 
-namespace talus {
+namespace talus::session {
 
 /// Where strains are counted from: the bed at rest before the tilt.
 struct Baseline {
@@ -17,7 +17,7 @@ Baseline measure_baseline(const World& world);
 /// What a row of observables needs besides the world.
 struct RowContext {
   Baseline baseline;
-  ContactLawParameters law;
+  dynamics::ContactLawParameters law;
   double mean_diameter = 0.0;         ///< m
   double surface_displacement = 0.0;  ///< m
   double largest_overlap = 0.0;       ///< m
@@ -27,9 +27,9 @@ struct RowContext {
 ObservableRow measure(const World& world, const RowContext& context);
 
 /// One row of the series of steps.
-StepRow step_row(const World& world, const StepReport& report, double phase);
+StepRow step_row(const World& world, const dynamics::StepReport& report, double phase);
 
 /// A frame: a copy of the state with grain stresses and the contacts that carry force.
-Frame make_frame(const World& world, const ContactLawParameters& law);
+Frame make_frame(const World& world, const dynamics::ContactLawParameters& law);
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,13 +7,13 @@
 #include "session/session.h"
 #include "stress/free_surface.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// Mean height of the free surface within `half_width` of a place, m; in a periodic bed beyond its ends too.
 double mean_height(const World& world, double centre, double half_width) {
   const Boundary& boundary = world.boundary;
-  const std::vector<SurfaceArc> surface = free_surface(world.grains, boundary);
+  const std::vector<stress::SurfaceArc> surface = stress::free_surface(world.grains, boundary);
   const double half = boundary.periodic ? std::min(half_width, 0.5 * boundary.length) : half_width;
   double area = 0.0, width = 0.0;
   for (const int image : {-1, 0, 1}) {
@@ -21,7 +21,7 @@ double mean_height(const World& world, double centre, double half_width) {
     const double from = std::max(0.0, centre - half + image * boundary.length);
     const double to = std::min(boundary.length, centre + half + image * boundary.length);
     if (!(to > from)) continue;
-    area += area_below(surface, from, to);
+    area += stress::area_below(surface, from, to);
     width += to - from;
   }
   return width > 0.0 ? area / width : 0.0;
@@ -73,30 +73,31 @@ double push(Grains& grains, std::span<const Index> pushed, double velocity) {
   return kinetic_energy(grains) - before;
 }
 
-Trial follow(World& world, const Scenario& scenario, const std::function<void()>& keep_on) {
+Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& keep_on) {
   const double diameter = scenario.grains.mean_diameter;
   const double time_unit = std::sqrt(diameter / world.gravity);
-  const double h = time_step(scenario);
+  const double h = scenario::time_step(scenario);
   const double rest_velocity = scenario.deposition.rest_velocity * world.gravity * h;
-  const FlowRule rule = flow_rule(diameter, world.gravity, world.boundary);
+  const dynamics::FlowRule rule = dynamics::flow_rule(diameter, world.gravity, world.boundary);
   const Grains before = world.grains;
-  StepWorkspace workspace;
-  SurfaceFlow flow;
+  dynamics::StepWorkspace workspace;
+  dynamics::SurfaceFlow flow;
   Trial trial;
   int quiet = 0;
   double time = 0.0;
   while (trial.end == TrialEnd::undecided && time < trial_time * time_unit) {
     if (keep_on) keep_on();
-    const StepReport report = step(world, step_settings(scenario, world), workspace);
+    const dynamics::StepReport report = dynamics::step(world, step_settings(scenario, world), workspace);
     time += h;
-    const double surface = bed_volume(world.grains, world.boundary) / world.boundary.length;
-    const double velocity = surface_velocity(world.grains, surface - surface_layer_depth * diameter);
+    const double surface = stress::bed_volume(world.grains, world.boundary) / world.boundary.length;
+    const double velocity =
+        dynamics::surface_velocity(world.grains, surface - dynamics::surface_layer_depth * diameter);
     trial.displacement += h * velocity / diameter;
-    follow_surface(flow, velocity, world.tilt, h, rule);
+    dynamics::follow_surface(flow, velocity, world.tilt, h, rule);
     quiet = report.motion.rms_velocity <= rest_velocity ? quiet + 1 : 0;
     if (flow.failed)
       trial.end = TrialEnd::avalanche;
-    else if (quiet >= rest_steps && report.solver.converged)
+    else if (quiet >= dynamics::rest_steps && report.solver.converged)
       trial.end = TrialEnd::rest;
   }
   trial.time = time / time_unit;
@@ -104,7 +105,7 @@ Trial follow(World& world, const Scenario& scenario, const std::function<void()>
   return trial;
 }
 
-Trial push_trial(World world, const Scenario& scenario, const SurfacePatch& patch, double strength,
+Trial push_trial(World world, const scenario::Scenario& scenario, const SurfacePatch& patch, double strength,
                  const std::function<void()>& keep_on) {
   const double diameter = scenario.grains.mean_diameter;
   const double disk_mass = scenario.grains.density * 0.25 * pi * diameter * diameter;
@@ -116,4 +117,4 @@ Trial push_trial(World world, const Scenario& scenario, const SurfacePatch& patc
   return trial;
 }
 
-}  // namespace talus
+}  // namespace talus::session

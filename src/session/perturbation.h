@@ -10,7 +10,7 @@
 #include "core/world.h"
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// A part of the free surface. Lengths in mean diameters D.
 struct SurfacePatch {
@@ -50,10 +50,10 @@ struct Trial {
 
 /// Steps a world at its tilt, as a run of the scenario does, until it is at rest or has failed. `keep_on` is
 /// asked before each step, and throws where the trial is to be given up; it may be empty.
-Trial follow(World& world, const Scenario& scenario, const std::function<void()>& keep_on = {});
+Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& keep_on = {});
 
 /// A push of `strength` on the patch in the middle of a copy of the bed, and what became of it.
-Trial push_trial(World world, const Scenario& scenario, const SurfacePatch& patch, double strength,
+Trial push_trial(World world, const scenario::Scenario& scenario, const SurfacePatch& patch, double strength,
                  const std::function<void()>& keep_on = {});
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,7 +9,7 @@
 #include "core/snapshot.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 bool read_number(std::string_view text, auto& number) {
@@ -20,7 +20,7 @@ bool read_number(std::string_view text, auto& number) {
 }  // namespace
 
 std::string patch_text(const SurfacePatch& patch) {
-  return fmt::format("{}x{}", short_text(patch.width), short_text(patch.depth));
+  return fmt::format("{}x{}", scenario::short_text(patch.width), scenario::short_text(patch.depth));
 }
 
 std::optional<SurfacePatch> parse_patch(const std::string& text) {
@@ -34,8 +34,8 @@ std::optional<SurfacePatch> parse_patch(const std::string& text) {
 }
 
 std::string plan_text(const PerturbationPlan& plan) {
-  return fmt::format("--from {} --every {} --patch {}", short_text(plan.first), short_text(plan.every),
-                     patch_text(plan.patch));
+  return fmt::format("--from {} --every {} --patch {}", scenario::short_text(plan.first),
+                     scenario::short_text(plan.every), patch_text(plan.patch));
 }
 
 std::optional<PerturbationPlan> parse_plan(const std::string& text) {
@@ -62,7 +62,7 @@ std::vector<TrialRow> rows_of(const PerturbedState& state, std::int64_t step) {
   return rows;
 }
 
-PerturbationTable table_of(const RunFile& run, const PerturbationPlan& plan, const std::string& path) {
+PerturbationTable table_of(const io::RunFile& run, const PerturbationPlan& plan, const std::string& path) {
   const std::string found = find_value(run.header().provenance, trials_fact).value_or("none");
   if (found != plan_text(plan))
     throw Error(ExitCode::bad_data,
@@ -82,4 +82,4 @@ PerturbationTable table_of(const RunFile& run, const PerturbationPlan& plan, con
   return table;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,7 +9,7 @@
 #include "io/run_file.h"
 #include "session/perturbation.h"
 
-namespace talus {
+namespace talus::session {
 
 /// When a run is perturbed, and where.
 struct PerturbationPlan {
@@ -51,6 +51,6 @@ std::vector<TrialRow> rows_of(const PerturbedState& state, std::int64_t step);
 
 /// The table of the trials that are stored with a run, bit for bit. Throws Error(bad_data), naming `path`,
 /// where the run is not perturbed by this plan.
-PerturbationTable table_of(const RunFile& run, const PerturbationPlan& plan, const std::string& path);
+PerturbationTable table_of(const io::RunFile& run, const PerturbationPlan& plan, const std::string& path);
 
-}  // namespace talus
+}  // namespace talus::session

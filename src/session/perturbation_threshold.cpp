@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus {
+namespace talus::session {
 
 Threshold threshold_of(std::span<const Trial> trials) {
   Threshold found;
@@ -45,7 +45,7 @@ std::vector<Trial> search_threshold(const std::function<Trial(double strength)>&
   return trials;
 }
 
-std::vector<Trial> perturb(World world, const Scenario& scenario, const SurfacePatch& patch,
+std::vector<Trial> perturb(World world, const scenario::Scenario& scenario, const SurfacePatch& patch,
                            const std::function<void()>& keep_on) {
   std::vector<Trial> trials = {follow(world, scenario, keep_on)};
   if (trials.front().end != TrialEnd::rest) return trials;
@@ -55,4 +55,4 @@ std::vector<Trial> perturb(World world, const Scenario& scenario, const SurfaceP
   return trials;
 }
 
-}  // namespace talus
+}  // namespace talus::session

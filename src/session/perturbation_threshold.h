@@ -8,7 +8,7 @@
 
 #include "session/perturbation.h"
 
-namespace talus {
+namespace talus::session {
 
 /// Pushes that a search tries, in sqrt(g D). The strongest alone carries the surface layer by less than the
 /// 5 D that count as an avalanche; a stronger one would be counted as one where nothing gives way.
@@ -40,7 +40,7 @@ std::vector<Trial> search_threshold(const std::function<Trial(double strength)>&
 
 /// Leaves a copy of the bed to itself at its tilt, the first trial; where it comes to rest, searches for the
 /// threshold of pushes on the bed at rest. `keep_on` as in follow.
-std::vector<Trial> perturb(World world, const Scenario& scenario, const SurfacePatch& patch,
+std::vector<Trial> perturb(World world, const scenario::Scenario& scenario, const SurfacePatch& patch,
                            const std::function<void()>& keep_on = {});
 
-}  // namespace talus
+}  // namespace talus::session

@@ -2,7 +2,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::session {
 
 void Recorder::advance() {
   try {
@@ -14,7 +14,7 @@ void Recorder::advance() {
 }
 
 void Recorder::commit(const std::vector<TrialRow>& trials) {
-  Segment segment = session_->segment();
+  io::Segment segment = session_->segment();
   segment.trials = trials;
   store_->commit(segment, session_->checkpoint(store_->seconds_writing()));
   session_->clear_segment();
@@ -27,4 +27,4 @@ void Recorder::commit_if_due() {
     commit();
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -6,12 +6,12 @@
 
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 
 /// Commits a session to a store. Neither is owned.
 class Recorder {
  public:
-  Recorder(Session& session, RunStore& store) : session_(&session), store_(&store) {}
+  Recorder(Session& session, io::RunStore& store) : session_(&session), store_(&store) {}
 
   /// Takes a step of the session. Where it cannot be taken, the state before it, which is whole, is
   /// committed, so that it can be looked at, and what the step throws goes through.
@@ -24,8 +24,8 @@ class Recorder {
  private:
   using Clock = std::chrono::steady_clock;
   Session* session_;
-  RunStore* store_;
+  io::RunStore* store_;
   Clock::time_point last_ = Clock::now();
 };
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "session/recorder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -56,7 +56,7 @@ bool time_is_up(double allowed, double elapsed, double longest_step) {
   return allowed - elapsed <= std::max(0.01 * allowed, 2.0 * longest_step);
 }
 
-RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) {
+RunEnd run_to_end(Session& session, io::RunStore& store, const RunControl& control) {
   const Clock::time_point start = Clock::now();
   double longest_step = 0.0;
   const auto must_stop = [&] {
@@ -82,7 +82,7 @@ RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control) 
                                                                              : RunEnd::stopped;
 }
 
-RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,
+RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> commands, std::int64_t steps,
               const RunControl& control) {
   const Clock::time_point start = Clock::now();
   std::optional<Recorder> recorder;
@@ -105,4 +105,4 @@ RunEnd replay(Session& session, RunStore* store, std::span<const Command> comman
   return RunEnd::complete;
 }
 
-}  // namespace talus
+}  // namespace talus::session

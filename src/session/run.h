@@ -10,7 +10,7 @@
 
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 
 /// What a client is told while a run goes on.
 struct RunProgress {
@@ -35,7 +35,7 @@ struct RunControl {
   /// once. Must not change anything the run depends on. May be empty.
   std::function<std::vector<TrialRow>(const Session&)> trials;
   /// Packs the run when it is done, as RunStore::pack with `goes_on`; returns what that does. Empty: that.
-  std::function<bool(RunStore& store, const std::function<bool()>& goes_on)> pack;
+  std::function<bool(io::RunStore& store, const std::function<bool()>& goes_on)> pack;
 };
 
 enum class RunEnd { complete, stopped };
@@ -47,14 +47,14 @@ bool time_is_up(double allowed, double elapsed, double longest_step);
 /// Steps the session to its end and commits to the store: at each frame, every output.checkpoint_every
 /// seconds of wall time, and when it stops. A complete run is packed into its file; one that is told to stop
 /// meanwhile stays a folder. An error is thrown on after what was computed before it has been committed.
-RunEnd run_to_end(Session& session, RunStore& store, const RunControl& control);
+RunEnd run_to_end(Session& session, io::RunStore& store, const RunControl& control);
 
 /// Steps a new session to the state after `steps` steps, and does each command where its step number says.
 /// What it records goes to the store, if there is one, as in run_to_end; a run that is then done is packed,
 /// another stays a folder. Ends early where the session is done before, or where `control` asks for it
 /// (stopped). Throws Error(bad_data) where a command cannot be done, and as Session::advance before the last
 /// step.
-RunEnd replay(Session& session, RunStore* store, std::span<const Command> commands, std::int64_t steps,
+RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> commands, std::int64_t steps,
               const RunControl& control);
 
-}  // namespace talus
+}  // namespace talus::session

@@ -19,7 +19,7 @@
 #include "session/run_header.h"
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double smallest_force = 1e-9;  // m g
@@ -54,7 +54,7 @@ struct Frictions {
 
 /// The friction in force at a step: the scenario's, or what a command has set, before a branch began or
 /// since. Of a run that may lack a command, the largest that one can set.
-double friction_at(const RunFile& run, double given, std::int64_t step) {
+double friction_at(const io::RunFile& run, double given, std::int64_t step) {
   if (may_lack_commands(run)) return largest_friction;
   if (run.header().branch) given = find_value(run.header().branch->start.reals, "friction").value_or(given);
   for (const Command& command : run.commands())
@@ -63,7 +63,8 @@ double friction_at(const RunFile& run, double given, std::int64_t step) {
 }
 
 /// Of frame k: the first has the forces of the last step of the deposition.
-Frictions frictions_of(const RunFile& run, const Scenario& scenario, std::size_t k, const Frame& frame) {
+Frictions frictions_of(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k,
+                       const Frame& frame) {
   Frictions mu{scenario.contact.friction, scenario.contact.wall_friction};
   if (k == 0 && frame.tilt == 0.0)
     mu = {scenario.deposition.friction.value_or(mu.grains),
@@ -83,13 +84,13 @@ void check_remaining_steps(const std::vector<StepRow>& rows, Findings& found) {
 }
 
 /// `begun`: the steps taken before the first one of the run, if it is a branch.
-void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const Checkpoint& checkpoint,
+void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const io::Checkpoint& checkpoint,
                  Findings& found) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::int64_t step = begun + static_cast<std::int64_t>(k) + 1;
     if (at(rows[k], StepField::step) != static_cast<double>(step)) {
       found.add("/steps/step", fmt::format("row {} is of step {}, expected {}", k,
-                                           short_text(at(rows[k], StepField::step)), step));
+                                           scenario::short_text(at(rows[k], StepField::step)), step));
       break;
     }
     if (!all_finite(rows[k]))
@@ -106,9 +107,9 @@ void check_observables(const std::vector<ObservableRow>& rows, double last_step,
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double step = at(rows[k], Observable::step);
     if (!(step > before) || step > last_step)
-      found.add("/observables/step",
-                fmt::format("row {} is of step {}, expected one after {}, up to {}", k, short_text(step),
-                            short_text(before), short_text(last_step)));
+      found.add("/observables/step", fmt::format("row {} is of step {}, expected one after {}, up to {}", k,
+                                                 scenario::short_text(step), scenario::short_text(before),
+                                                 scenario::short_text(last_step)));
     before = step;
     for (const Observable field : {Observable::time, Observable::tilt, Observable::kinetic_energy,
                                    Observable::volume_strain, Observable::largest_overlap})
@@ -155,8 +156,8 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
 }
 
 /// D; how far two grains may overlap: what the guards of the run allow, and where these only warn, any of it.
-double overlap_allowed(const Scenario& scenario) {
-  if (scenario.guards.action == GuardAction::warn) return std::numeric_limits<double>::infinity();
+double overlap_allowed(const scenario::Scenario& scenario) {
+  if (scenario.guards.action == scenario::GuardAction::warn) return std::numeric_limits<double>::infinity();
   return std::max(overlap_limit, scenario.guards.overlap);
 }
 
@@ -189,11 +190,11 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_all
   check.largest_mobilisation = std::max(check.largest_mobilisation, mobilised);
   if (pulling > 0) found.add(name, fmt::format("{} contacts pull; normal forces are >= 0", pulling));
   if (deepest > overlap_allowed * bed.statics.mean_diameter)
-    found.add(name,
-              fmt::format("two grains overlap by {} D", short_text(deepest / bed.statics.mean_diameter)));
+    found.add(name, fmt::format("two grains overlap by {} D",
+                                scenario::short_text(deepest / bed.statics.mean_diameter)));
   if (mobilised > mobilisation_limit)
-    found.add(name,
-              fmt::format("a tangential force is {} mu f_n, Coulomb's law allows 1", short_text(mobilised)));
+    found.add(name, fmt::format("a tangential force is {} mu f_n, Coulomb's law allows 1",
+                                scenario::short_text(mobilised)));
 }
 
 /// Moments within rolling friction (T38).
@@ -201,7 +202,7 @@ void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Fi
   const FrameContacts& contacts = bed.frame.contacts;
   if (contacts.moment.size() != (mu_r > 0.0 ? contacts.a.size() : 0)) {
     found.add(name, fmt::format("{} moments of {} contacts, with contact.rolling_friction = {}",
-                                contacts.moment.size(), contacts.a.size(), short_text(mu_r)));
+                                contacts.moment.size(), contacts.a.size(), scenario::short_text(mu_r)));
     return;
   }
   const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
@@ -214,7 +215,7 @@ void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Fi
   }
   if (mobilised > mobilisation_limit)
     found.add(name, fmt::format("a moment is {} mu_r (r_a + r_b) f_n, rolling friction allows 1",
-                                short_text(mobilised)));
+                                scenario::short_text(mobilised)));
 }
 
 /// What contacts give each grain: the sum of forces, and the internal moment (paper, Eq. 4).
@@ -263,21 +264,22 @@ void check_moments(const Frame& frame, const Loads& loads, const std::string& na
   if (error > moment_error_limit * largest)
     found.add(name,
               fmt::format("internal_moment is not that of the contacts: it differs by {} of the largest",
-                          short_text(error / largest)));
+                          scenario::short_text(error / largest)));
 }
 
 /// m g; what a velocity may change by in one step of a bed at rest, from one bound of rest to the other,
 /// twice.
-double imbalance_allowed(const Scenario& scenario) {
+double imbalance_allowed(const scenario::Scenario& scenario) {
   return std::max(imbalance_limit, 4.0 * scenario.deposition.rest_velocity);
 }
 
 /// Adds the force of the spring that drags a grain.
-void add_drag(const RunFile& run, const Scenario& scenario, std::size_t k, std::int64_t step, Loads& loads) {
+void add_drag(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k, std::int64_t step,
+              Loads& loads) {
   const std::optional<Drag> drag = set_by_commands(run, step).drag;
   if (!drag) return;
-  const Vec2 pulled =
-      drag_acceleration(*drag, scenario.grains.mean_diameter, time_step(scenario), world_at_frame(run, k));
+  const Vec2 pulled = drag_acceleration(*drag, scenario.grains.mean_diameter, scenario::time_step(scenario),
+                                        world_at_frame(run, k));
   loads.force[static_cast<std::size_t>(drag->grain)] +=
       run.header().statics.mass[static_cast<std::size_t>(drag->grain)] * Vector2{pulled.x, pulled.y};
 }
@@ -300,7 +302,7 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
   if (imbalance > imbalance_allowed)
     found.add(name,
               fmt::format("the bed is recorded as at rest, but forces and weight differ by {} m g (rms)",
-                          short_text(imbalance)));
+                          scenario::short_text(imbalance)));
 }
 
 // --- what is stored twice ---
@@ -308,7 +310,7 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
 bool is_same(double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); }
 
 /// The parameters that a reader finds without the scenario are those of the scenario.
-void check_parameters(const RunHeader& header, const Scenario& scenario, Findings& found) {
+void check_parameters(const io::RunHeader& header, const scenario::Scenario& scenario, Findings& found) {
   const RunStatics& statics = header.statics;
   if (header.seed != scenario.seed) found.add("/provenance", "the seed is not that of the scenario");
   const double diameter = scenario.grains.mean_diameter;
@@ -319,8 +321,9 @@ void check_parameters(const RunHeader& header, const Scenario& scenario, Finding
       {"gravity", {statics.gravity, World().gravity}}};
   for (const auto& [name, pair] : values)
     if (!is_same(pair.first, pair.second))
-      found.add(std::string("/parameters/").append(name),
-                "is " + short_text(pair.first) + ", the scenario says " + short_text(pair.second));
+      found.add(std::string("/parameters/").append(name), "is " + scenario::short_text(pair.first) +
+                                                              ", the scenario says " +
+                                                              scenario::short_text(pair.second));
 }
 
 /// The grains that have arrived are those of the last state.
@@ -332,19 +335,20 @@ void check_grains(const RunStatics& all, const World& world, Findings& found) {
 }
 
 /// Results follow from the state of the run.
-void check_results(const Scenario& scenario, const Checkpoint& checkpoint, Findings& found) try {
+void check_results(const scenario::Scenario& scenario, const io::Checkpoint& checkpoint,
+                   Findings& found) try {
   const Figures results = Session(scenario, checkpoint, "/checkpoint").checkpoint(0.0).results;
   for (const auto& [name, value] : checkpoint.results)
     if (const auto expected = find_value(results, name); expected && !is_same(*expected, value))
-      found.add("/results/" + name,
-                "is " + short_text(value) + ", the state of the run says " + short_text(*expected));
+      found.add("/results/" + name, "is " + scenario::short_text(value) + ", the state of the run says " +
+                                        scenario::short_text(*expected));
 } catch (const Error& error) {
   found.add("/checkpoint", error.what());
 }
 
 /// A branch begins with a state of its scenario, and its first frame is that state.
-void check_branch(const RunFile& run, const Scenario& scenario, Findings& found) try {
-  const BranchOrigin& branch = *run.header().branch;
+void check_branch(const io::RunFile& run, const scenario::Scenario& scenario, Findings& found) try {
+  const io::BranchOrigin& branch = *run.header().branch;
   check_branch_start(branch, scenario, "the run");
   if (!run.lost().empty() || !run.has_frames() || run.all_frame_tilts().empty()) return;
   const Frame first = run.positions(0);
@@ -362,7 +366,7 @@ void check_branch(const RunFile& run, const Scenario& scenario, Findings& found)
 
 }  // namespace
 
-RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& progress) {
+RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)>& progress) {
   RunCheck check;
   Findings found{check};
   for (const std::string& path : run.changed_data_sets()) found.add_changed(path);
@@ -381,7 +385,7 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
   else
     check_steps(steps, begun, run.checkpoint(), found);
   check_observables(rows, static_cast<double>(last_step), lacks, found);
-  const Scenario scenario = stored_scenario(run.header(), "/parameters/scenario_resolved");
+  const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   check_parameters(run.header(), scenario, found);
   if (run.header().branch) check_branch(run, scenario, found);
   if (run.has_state()) {
@@ -422,4 +426,4 @@ RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& p
   return check;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,7 +9,7 @@
 
 #include "io/run_file.h"
 
-namespace talus {
+namespace talus::session {
 
 struct RunCheck {
   /// What is wrong, one sentence each with the data set or the frame; at most `most_faults`, and how many
@@ -35,6 +35,6 @@ inline constexpr double moment_error_limit = 1e-5;
 /// Reads all of a run. Of one that was repaired (RunFile::lost) the series may lack rows and values.
 /// `progress` is called after each frame with how many there were; may be empty. Frames that cannot be read
 /// are faults. Throws as RunFile where the run itself cannot be read.
-RunCheck check_run(const RunFile& run, const std::function<void(std::size_t)>& progress);
+RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)>& progress);
 
-}  // namespace talus
+}  // namespace talus::session

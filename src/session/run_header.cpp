@@ -13,13 +13,13 @@
 #include "session/branch_start.h"
 #include "session/frame_state.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr const char* bed_fact = "bed_hash";
 
 std::string bed_of(const Session& at_start) {
-  const bool from_file = at_start.scenario().deposition.method == DepositionMethod::file;
+  const bool from_file = at_start.scenario().deposition.method == scenario::DepositionMethod::file;
   return from_file ? hash_text(state_hash(at_start.world())) : std::string();
 }
 
@@ -47,11 +47,11 @@ RunOrigin with_bed(RunOrigin origin, const Session& at_start) {
 
 std::string bed_of(const Facts& provenance) { return find_value(provenance, bed_fact).value_or(""); }
 
-RunHeader run_header(const Session& session, const RunOrigin& origin) {
-  RunHeader header;
+io::RunHeader run_header(const Session& session, const RunOrigin& origin) {
+  io::RunHeader header;
   header.statics = run_statics(session.scenario(), session.world());
   header.scenario_given = origin.scenario_text;
-  header.scenario_resolved = resolved_toml(session.scenario());
+  header.scenario_resolved = scenario::resolved_toml(session.scenario());
   header.seed = session.scenario().seed;
   header.provenance = {{"version", version},
                        {"git_hash", git_hash},
@@ -67,7 +67,7 @@ RunHeader run_header(const Session& session, const RunOrigin& origin) {
   return header;
 }
 
-void refuse_unfinished_replay(const RunHeader& header, const World& world, const std::string& path) {
+void refuse_unfinished_replay(const io::RunHeader& header, const World& world, const std::string& path) {
   const std::optional<std::string> steps = find_value(header.provenance, "replay_steps");
   if (!steps || world.step >= std::atoll(steps->c_str())) return;
   const std::string run = find_value(header.provenance, "replay_of").value_or("RUN");
@@ -77,8 +77,8 @@ void refuse_unfinished_replay(const RunHeader& header, const World& world, const
                           path, run, world.step, *steps, run, path));
 }
 
-Session session_at_start(const RunHeader& header, const std::string& name) {
-  const Scenario scenario = stored_scenario(header, name + ":/parameters");
+Session session_at_start(const io::RunHeader& header, const std::string& name) {
+  const scenario::Scenario scenario = runs::stored_scenario(header, name + ":/parameters");
   if (!header.branch) {
     Session session(scenario);
     const std::string bed = bed_of(header.provenance);
@@ -95,4 +95,4 @@ Session session_at_start(const RunHeader& header, const std::string& name) {
   return session;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -7,7 +7,7 @@
 #include "runs/run_view.h"
 #include "session/session.h"
 
-namespace talus {
+namespace talus::session {
 
 /// Where a run comes from, for its provenance.
 struct RunOrigin {
@@ -15,7 +15,7 @@ struct RunOrigin {
   std::string scenario_file;
   std::string command_line;
   int threads = 1;
-  std::optional<BranchOrigin> branch{};
+  std::optional<io::BranchOrigin> branch{};
   std::string bed{};  ///< hash of a bed that came from a file (with_bed)
 };
 
@@ -27,15 +27,15 @@ RunOrigin with_bed(RunOrigin origin, const Session& at_start);
 std::string bed_of(const Facts& provenance);
 
 /// The header of a run that this program begins now, on this host.
-RunHeader run_header(const Session& session, const RunOrigin& origin);
+io::RunHeader run_header(const Session& session, const RunOrigin& origin);
 
 /// Throws Error(bad_data) where the run is a replay that was stopped: what goes on from there lacks the
 /// commands that were still to come.
-void refuse_unfinished_replay(const RunHeader& header, const World& world, const std::string& path);
+void refuse_unfinished_replay(const io::RunHeader& header, const World& world, const std::string& path);
 
 /// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
 /// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do, and
 /// where deposition.file now holds another bed.
-Session session_at_start(const RunHeader& header, const std::string& name);
+Session session_at_start(const io::RunHeader& header, const std::string& name);
 
-}  // namespace talus
+}  // namespace talus::session

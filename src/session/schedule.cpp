@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double most_steps = 0x1p53;  // all numbers of steps up to this are doubles
@@ -77,7 +77,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({reals, "drag_x", &s.drag->x});
     all.push_back({reals, "drag_y", &s.drag->y});
   }
-  if (s.last_tilt_step) all.push_back({integers, last_tilt_step_name, &*s.last_tilt_step});
+  if (s.last_tilt_step) all.push_back({integers, io::last_tilt_step_name, &*s.last_tilt_step});
   all.push_back({integers, "unconverged_in_a_row", &s.unconverged_in_a_row, where_not_zero});
   for (std::size_t k = 0; k < guard_count; ++k) {
     const std::string name = std::string("warnings_").append(guard_names[k]);
@@ -90,8 +90,8 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({results, "theta_r", &s.angle_at_rest});
     all.push_back({results, "unconverged_steps_flow", count(s.record.unconverged_flow), as_result});
   }
-  for (std::size_t k = 0; k < stage_count; ++k)
-    all.push_back({timing, std::string("stage_").append(stage_names[k]), &s.seconds.stages[k]});
+  for (std::size_t k = 0; k < dynamics::stage_count; ++k)
+    all.push_back({timing, std::string("stage_").append(dynamics::stage_names[k]), &s.seconds.stages[k]});
   return all;
 }
 
@@ -115,7 +115,7 @@ auto& reals_at(CheckpointGroup place, auto& checkpoint) {
                                              : checkpoint.timing;
 }
 
-std::optional<double> find(const ScheduleField& field, const Checkpoint& checkpoint) {
+std::optional<double> find(const ScheduleField& field, const io::Checkpoint& checkpoint) {
   if (field.place != CheckpointGroup::integers)
     return find_value(reals_at(field.place, checkpoint), field.name);
   const std::optional<std::int64_t> found = find_value(checkpoint.integers, field.name);
@@ -138,11 +138,11 @@ struct CheckpointOrigin {
 }
 
 /// Sets the value of a field, or refuses what it cannot be.
-void take(double number, const ScheduleField& field, const Checkpoint& checkpoint,
+void take(double number, const ScheduleField& field, const io::Checkpoint& checkpoint,
           const CheckpointOrigin& origin) {
   const auto check = [&](double most, const char* expected) {
     if (!(number >= 0.0 && number <= most))
-      refuse(field, origin, fmt::format("is {}, expected {}", short_text(number), expected));
+      refuse(field, origin, fmt::format("is {}, expected {}", scenario::short_text(number), expected));
   };
   if (Phase* const* phase = std::get_if<Phase*>(&field.value)) {
     check(static_cast<double>(Phase::flow), "0, 1, 2 or 3");
@@ -157,7 +157,7 @@ void take(double number, const ScheduleField& field, const Checkpoint& checkpoin
     **flag = number != 0.0;
   } else if (double* const* real = std::get_if<double*>(&field.value)) {
     if (field.place == CheckpointGroup::reals && !std::isfinite(number))
-      refuse(field, origin, fmt::format("is {}, expected a finite number", short_text(number)));
+      refuse(field, origin, fmt::format("is {}, expected a finite number", scenario::short_text(number)));
     **real = number;
   } else if (std::optional<double>* const* real_or_none = std::get_if<std::optional<double>*>(&field.value)) {
     if (!std::isnan(number)) **real_or_none = number;
@@ -170,7 +170,7 @@ std::optional<double> angle_of_repose(const Schedule& schedule) {
   return schedule.flow.failed ? std::optional<double>(schedule.flow.onset_tilt) : std::nullopt;
 }
 
-void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint) {
+void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint) {
   for (const ScheduleField& field : fields(schedule, follows)) {
     const double number = number_of(field.value);
     if (field.kept == Kept::where_not_zero && number == 0.0) continue;
@@ -181,14 +181,14 @@ void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint) {
   }
 }
 
-Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& file,
+Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const std::string& file,
                          const std::string& group) {
   const CheckpointOrigin origin{file, group};
   Schedule schedule;
   if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
   if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();
   if (find_value(checkpoint.integers, "drag_grain")) schedule.drag.emplace();
-  if (find_value(checkpoint.integers, last_tilt_step_name)) schedule.last_tilt_step.emplace();
+  if (find_value(checkpoint.integers, io::last_tilt_step_name)) schedule.last_tilt_step.emplace();
   for (const ScheduleField& field : fields(schedule, follows)) {
     if (field.kept == Kept::as_result) continue;
     if (const std::optional<double> number = find(field, checkpoint))
@@ -209,4 +209,4 @@ std::uint64_t schedule_hash(Schedule schedule) {
   return hash.value();
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -13,7 +13,7 @@
 #include "session/measure.h"
 #include "session/phase.h"
 
-namespace talus {
+namespace talus::session {
 
 /// How well the steps were solved so far.
 struct SolverRecord {
@@ -41,7 +41,7 @@ struct Drag {
 struct RunSeconds {
   double deposition = 0.0;
   double tilt = 0.0;  ///< and what follows it
-  StageSeconds stages{};
+  dynamics::StageSeconds stages{};
 };
 
 /// A value: with the world and the scenario it is all that a resumed run needs.
@@ -52,7 +52,7 @@ struct Schedule {
   std::int64_t quiet_steps = 0;  ///< in a row, until now
   std::int64_t unconverged_in_a_row = 0;
   Baseline baseline;
-  SurfaceFlow flow;
+  dynamics::SurfaceFlow flow;
   double surface_height = 0.0;        ///< m, mean free surface at the last row
   double surface_displacement = 0.0;  ///< m
   double residual_since_row = 0.0;    ///< worst eta since the last row
@@ -74,14 +74,14 @@ std::optional<double> angle_of_repose(const Schedule& schedule);
 /// Adds the values of a schedule to a checkpoint, under the names of one table. What no command has changed,
 /// what was never broken, and, unless the scenario `follows` the slope after failure, what belongs to that,
 /// is left out.
-void store_schedule(Schedule schedule, bool follows, Checkpoint& checkpoint);
+void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint);
 
 /// The schedule in a checkpoint. Throws Error(bad_data) where it lacks a value or has an impossible one;
 /// `origin` is what messages call the file, and `group` where the checkpoint stands in it.
-Schedule stored_schedule(const Checkpoint& checkpoint, bool follows, const std::string& origin,
+Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const std::string& origin,
                          const std::string& group = "/checkpoint");
 
 /// A hash of all values of the table that are state, to the last bit: not of wall times.
 std::uint64_t schedule_hash(Schedule schedule);
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,16 +9,18 @@
 #include "session/drag.h"
 #include "stress/free_surface.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 std::int64_t steps_between(double degrees_between, double step) {
   return std::max<std::int64_t>(1, std::llround(degrees_between / step));
 }
 
-bool follows_failure(const Scenario& scenario) { return scenario.tilt.after_failure != AfterFailure::stop; }
+bool follows_failure(const scenario::Scenario& scenario) {
+  return scenario.tilt.after_failure != scenario::AfterFailure::stop;
+}
 
-double seconds(const StepReport& report) {
+double seconds(const dynamics::StepReport& report) {
   double sum = 0.0;
   for (double stage : report.seconds) sum += stage;
   return sum;
@@ -26,8 +28,8 @@ double seconds(const StepReport& report) {
 
 }  // namespace
 
-ContactLawParameters contact_law(const Scenario& scenario) {
-  ContactLawParameters law;
+dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario) {
+  dynamics::ContactLawParameters law;
   law.friction = scenario.contact.friction;
   law.wall_friction = scenario.contact.wall_friction;
   law.rolling_friction = scenario.contact.rolling_friction;
@@ -38,31 +40,33 @@ ContactLawParameters contact_law(const Scenario& scenario) {
   return law;
 }
 
-StepSettings step_settings(const Scenario& scenario) {
+dynamics::StepSettings step_settings(const scenario::Scenario& scenario) {
   // Beside what the velocities may close, which the step adds: room for what they become in the step.
   constexpr double margin_over_d = 0.002;
-  StepSettings settings;
-  settings.h = time_step(scenario);
+  dynamics::StepSettings settings;
+  settings.h = scenario::time_step(scenario);
   settings.margin = margin_over_d * scenario.grains.mean_diameter;
   settings.law = contact_law(scenario);
-  settings.solver.kind = scenario.solver.method == SolverMethod::accelerated ? SolverKind::accelerated
-                                                                             : SolverKind::gauss_seidel;
+  settings.solver.kind = scenario.solver.method == scenario::SolverMethod::accelerated
+                             ? solver::SolverKind::accelerated
+                             : solver::SolverKind::gauss_seidel;
   settings.solver.tolerance = scenario.solver.tolerance;
   settings.solver.max_iterations = scenario.solver.max_iterations;
   return settings;
 }
 
-StepSettings step_settings(const Scenario& scenario, const World& world) {
-  StepSettings settings = step_settings(scenario);
+dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const World& world) {
+  dynamics::StepSettings settings = step_settings(scenario);
   const double velocity = rms_velocity(world.grains) / (world.gravity * settings.h);
   settings.solver.tolerance = std::clamp(velocity * scenario.solver.moving_tolerance,
                                          scenario.solver.tolerance, scenario.solver.moving_tolerance);
   return settings;
 }
 
-RunStatics run_statics(const Scenario& scenario, const World& world) {
+RunStatics run_statics(const scenario::Scenario& scenario, const World& world) {
   RunStatics statics;
-  const Grains grains = with_all_arrivals(world.grains, arrivals_of(scenario), scenario.grains.density);
+  const Grains grains =
+      dynamics::with_all_arrivals(world.grains, arrivals_of(scenario), scenario.grains.density);
   statics.free_count = grains.free_count;
   statics.radius = grains.radius;
   statics.mass = grains.mass;
@@ -76,23 +80,24 @@ RunStatics run_statics(const Scenario& scenario, const World& world) {
   return statics;
 }
 
-double scheduled_tilt(const Scenario& scenario, const TiltProgram& program, const Schedule& schedule) {
+double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltProgram& program,
+                      const Schedule& schedule) {
   if (!program.empty() && !schedule.course) return program.tilt(schedule.tilt_steps);
   if (!schedule.course) return static_cast<double>(schedule.tilt_steps) * radians(scenario.tilt.step);
   return schedule.course->from + static_cast<double>(schedule.tilt_steps - schedule.course->since) *
-                                     schedule.course->rate * time_step(scenario);
+                                     schedule.course->rate * scenario::time_step(scenario);
 }
 
-Session::Session(const Scenario& scenario)
+Session::Session(const scenario::Scenario& scenario)
     : scenario_(scenario),
       program_(scenario),
       world_(initial_bed(scenario)),
       arrivals_(arrivals_of(scenario)) {
   reserve_grains();
-  let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
+  dynamics::let_arrive(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
 }
 
-Session::Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin,
+Session::Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint, const std::string& origin,
                  const std::string& group)
     : scenario_(scenario),
       program_(scenario),
@@ -107,8 +112,8 @@ void Session::reserve_grains() {
   reserve(world_.grains, static_cast<std::size_t>(world_.grains.count() + waiting));
 }
 
-ContactLawParameters Session::law() const {
-  ContactLawParameters law = contact_law(scenario_);
+dynamics::ContactLawParameters Session::law() const {
+  dynamics::ContactLawParameters law = contact_law(scenario_);
   if (schedule_.phase == Phase::deposition) {
     law.friction = scenario_.deposition.friction.value_or(law.friction);
     law.wall_friction = scenario_.deposition.wall_friction.value_or(law.wall_friction);
@@ -117,8 +122,8 @@ ContactLawParameters Session::law() const {
   return law;
 }
 
-StepSettings Session::settings() const {
-  StepSettings settings = step_settings(scenario_, world_);
+dynamics::StepSettings Session::settings() const {
+  dynamics::StepSettings settings = step_settings(scenario_, world_);
   settings.law = law();
   settings.solver.threads = threads_;
   return settings;
@@ -126,7 +131,7 @@ StepSettings Session::settings() const {
 
 bool Session::is_quiet() const {
   return report_.motion.rms_velocity <=
-         scenario_.deposition.rest_velocity * world_.gravity * time_step(scenario_);
+         scenario_.deposition.rest_velocity * world_.gravity * scenario::time_step(scenario_);
 }
 
 void Session::apply(Command command) {
@@ -166,7 +171,7 @@ void Session::record_start() {
   segment_.frames.push_back(make_frame(world_, law()));
 }
 
-const StepReport& Session::advance() {
+const dynamics::StepReport& Session::advance() {
   if (!broken_guard_.empty() && schedule_.phase != Phase::done)
     throw Error(ExitCode::bad_data, broken_guard_);
   const BeforeStep before = before_step();
@@ -209,13 +214,13 @@ bool Session::have_all_arrived() const {
 void Session::advance_deposition() {
   take_step();
   if (!have_all_arrived()) {
-    let_arrive(arrivals_, pour_rule(scenario_), time_step(scenario_), world_);
+    dynamics::let_arrive(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
     return;
   }
   if (is_at_rest() && report_.solver.converged) {
     begin_tilt();
   } else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time) {
-    const double velocity = report_.motion.rms_velocity / (world_.gravity * time_step(scenario_));
+    const double velocity = report_.motion.rms_velocity / (world_.gravity * scenario::time_step(scenario_));
     throw Error(ExitCode::bad_data,
                 fmt::format("the bed did not come to rest within deposition.max_time = {:g} s: its rms "
                             "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; {}",
@@ -231,7 +236,9 @@ void Session::begin_tilt() {
   record_start();
 }
 
-double Session::scheduled_tilt() const { return talus::scheduled_tilt(scenario_, program_, schedule_); }
+double Session::scheduled_tilt() const {
+  return talus::session::scheduled_tilt(scenario_, program_, schedule_);
+}
 
 bool Session::tilt_is_over() const {
   if (follows_program()) return schedule_.flow.failed || schedule_.tilt_steps >= program_.steps();
@@ -247,8 +254,9 @@ void Session::advance_tilt() {
   if (schedule_.last_tilt_step) schedule_.last_tilt_step = world_.step;
   const bool failed_before = schedule_.flow.failed;
   const double downslope = world_.tilt < 0.0 ? -velocity : velocity;
-  follow_surface(schedule_.flow, downslope, std::abs(world_.tilt), time_step(scenario_),
-                 flow_rule(scenario_.grains.mean_diameter, world_.gravity, world_.boundary));
+  dynamics::follow_surface(
+      schedule_.flow, downslope, std::abs(world_.tilt), scenario::time_step(scenario_),
+      dynamics::flow_rule(scenario_.grains.mean_diameter, world_.gravity, world_.boundary));
 
   const bool followed = schedule_.flow.failed && follows_failure(scenario_);
   const bool ends = followed || tilt_is_over();
@@ -260,8 +268,8 @@ void Session::advance_tilt() {
 
 void Session::advance_flow() {
   ++schedule_.flow_steps;
-  const double time = static_cast<double>(schedule_.flow_steps) * time_step(scenario_);
-  const bool lowered = scenario_.tilt.after_failure == AfterFailure::lower;
+  const double time = static_cast<double>(schedule_.flow_steps) * scenario::time_step(scenario_);
+  const bool lowered = scenario_.tilt.after_failure == scenario::AfterFailure::lower;
   const double failed_at = scheduled_tilt(), side = failed_at < 0.0 ? -1.0 : 1.0;
   if (lowered)
     world_.tilt = side * std::max(0.0, side * failed_at - time * radians(scenario_.tilt.lowering_rate)) + 0.0;
@@ -271,15 +279,16 @@ void Session::advance_flow() {
   const bool ends = rests || (lowered ? world_.tilt == 0.0 : time >= scenario_.deposition.max_time);
   record(ends, ends);
   if (rests)
-    schedule_.angle_at_rest = side * (world_.tilt - surface_inclination(world_.grains, world_.boundary));
+    schedule_.angle_at_rest =
+        side * (world_.tilt - stress::surface_inclination(world_.grains, world_.boundary));
   if (ends) schedule_.phase = Phase::done;
 }
 
 double Session::take_step_and_follow() {
   take_step();
-  const double layer = surface_layer_depth * scenario_.grains.mean_diameter;
-  const double velocity = surface_velocity(world_.grains, schedule_.surface_height - layer);
-  schedule_.surface_displacement += time_step(scenario_) * velocity;
+  const double layer = dynamics::surface_layer_depth * scenario_.grains.mean_diameter;
+  const double velocity = dynamics::surface_velocity(world_.grains, schedule_.surface_height - layer);
+  schedule_.surface_displacement += scenario::time_step(scenario_) * velocity;
   return velocity;
 }
 
@@ -292,8 +301,9 @@ void Session::record(bool row, bool frame) {
 }
 
 void Session::take_step() {
-  if (schedule_.drag) pull(*schedule_.drag, scenario_.grains.mean_diameter, time_step(scenario_), world_);
-  report_ = step(world_, settings(), workspace_);
+  if (schedule_.drag)
+    pull(*schedule_.drag, scenario_.grains.mean_diameter, scenario::time_step(scenario_), world_);
+  report_ = dynamics::step(world_, settings(), workspace_);
   schedule_.quiet_steps = is_quiet() && have_all_arrived() ? schedule_.quiet_steps + 1 : 0;
   const bool tilting = schedule_.phase == Phase::tilt;
   if (!report_.solver.converged)
@@ -306,7 +316,7 @@ void Session::take_step() {
     double& worst = is_at_rest() ? schedule_.record.residual_max_rest : schedule_.record.residual_max_moving;
     worst = std::max(worst, eta);
   }
-  for (std::size_t k = 0; k < stage_count; ++k) schedule_.seconds.stages[k] += report_.seconds[k];
+  for (std::size_t k = 0; k < dynamics::stage_count; ++k) schedule_.seconds.stages[k] += report_.seconds[k];
   (schedule_.phase == Phase::deposition ? schedule_.seconds.deposition : schedule_.seconds.tilt) +=
       seconds(report_);
   segment_.steps.push_back(step_row(world_, report_, static_cast<double>(schedule_.phase)));
@@ -319,7 +329,7 @@ void Session::watch() {
   const GuardValues limits = guard_limits(scenario_);
   for (std::size_t k = 0; k < guard_count; ++k) {
     if (values[k] <= limits[k]) continue;
-    if (scenario_.guards.action == GuardAction::warn) {
+    if (scenario_.guards.action == scenario::GuardAction::warn) {
       if (schedule_.warnings.steps[k]++ == 0) schedule_.warnings.first[k] = world_.step;
     } else if (broken_guard_.empty()) {
       broken_guard_ = guard_message(static_cast<Guard>(k), values[k], limits[k], world_.step);
@@ -349,7 +359,7 @@ void Session::record_row() {
 
 double Session::tilt_rate() const {
   if (follows_program())
-    return radians(program_.segment_of(schedule_.tilt_steps + 1).step) / time_step(scenario_);
+    return radians(program_.segment_of(schedule_.tilt_steps + 1).step) / scenario::time_step(scenario_);
   return schedule_.course ? schedule_.course->rate : radians(scenario_.tilt.rate);
 }
 
@@ -360,12 +370,12 @@ Session Session::copy() const {
   return other;
 }
 
-Checkpoint Session::checkpoint(double seconds_writing) const {
-  Checkpoint checkpoint;
+io::Checkpoint Session::checkpoint(double seconds_writing) const {
+  io::Checkpoint checkpoint;
   checkpoint.world = world_;
   store_schedule(schedule_, follows_failure(scenario_), checkpoint);
   checkpoint.timing.emplace_back("write", seconds_writing);
   return checkpoint;
 }
 
-}  // namespace talus
+}  // namespace talus::session

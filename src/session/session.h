@@ -15,7 +15,7 @@
 #include "session/deposition.h"
 #include "session/schedule.h"
 
-namespace talus {
+namespace talus::session {
 
 /// The tolerance asked of a step grows with the velocity of the bed, from solver.tolerance at rest to
 /// solver.moving_tolerance at an rms velocity of g h: an error of the solver is a velocity too, and stays
@@ -23,11 +23,11 @@ namespace talus {
 class Session {
  public:
   /// A new run: the bed of the scenario before its first step.
-  explicit Session(const Scenario& scenario);
+  explicit Session(const scenario::Scenario& scenario);
   /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
   /// what messages call the file, and `group` where the checkpoint stands in it.
-  Session(const Scenario& scenario, Checkpoint checkpoint, const std::string& origin = "the checkpoint",
-          const std::string& group = "/checkpoint");
+  Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint,
+          const std::string& origin = "the checkpoint", const std::string& group = "/checkpoint");
 
   /// Records a row and a frame of the state as it is: those with which a branch of another run begins.
   void record_start();
@@ -36,7 +36,7 @@ class Session {
   /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and
   /// Error(internal) where the step before has broken a guard of the scenario whose action is to stop: its
   /// state is whole, to be looked at.
-  const StepReport& advance();
+  const dynamics::StepReport& advance();
 
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
   /// then on, in a deposition for what is left of it as well; a rate of the tilt set in a deposition is that
@@ -50,23 +50,23 @@ class Session {
   /// Threads of the solver; the result does not depend on them.
   void use_threads(int threads) { threads_ = threads; }
 
-  const Scenario& scenario() const { return scenario_; }
+  const scenario::Scenario& scenario() const { return scenario_; }
   /// Its grains stay where they are in memory, also while more of them arrive.
   const World& world() const { return world_; }
   const Schedule& schedule() const { return schedule_; }
   Phase phase() const { return schedule_.phase; }
-  const StepReport& last_report() const { return report_; }
+  const dynamics::StepReport& last_report() const { return report_; }
   /// The course of the tilt that the scenario gives; empty: it grows.
-  const TiltProgram& program() const { return program_; }
+  const scenario::TiltProgram& program() const { return program_; }
   /// Whether the tilt follows it: a command that sets the rate of the tilt ends this.
   bool follows_program() const { return !program_.empty() && !schedule_.course; }
   /// The contact law of the next step.
-  ContactLawParameters law() const;
+  dynamics::ContactLawParameters law() const;
   /// rad/s, of the scenario or as a command has set it, or of the part of a programme that the next step
   /// belongs to, below 0 where it lowers the tilt; 0: the tilt is held.
   double tilt_rate() const;
   /// rad, the magnitude of the tilt; no value while the slope has not failed.
-  std::optional<double> angle_of_repose() const { return talus::angle_of_repose(schedule_); }
+  std::optional<double> angle_of_repose() const { return talus::session::angle_of_repose(schedule_); }
   /// Slope of the free surface against the horizontal where the flow after failure has come to rest, rad; no
   /// value before, or where it has not: by 0 deg where the tilt is lowered, within deposition.max_time where
   /// it is held.
@@ -75,16 +75,16 @@ class Session {
   /// The observables of the state as it is.
   ObservableRow row() const;
   /// What was recorded since the last call of clear_segment.
-  const Segment& segment() const { return segment_; }
+  const io::Segment& segment() const { return segment_; }
   void clear_segment() { segment_ = {}; }
   /// Puts back what had been recorded of a run that goes back to a state it had.
-  void put_back(Segment segment) { segment_ = std::move(segment); }
+  void put_back(io::Segment segment) { segment_ = std::move(segment); }
 
   /// The same state, on one thread, with nothing recorded.
   Session copy() const;
 
   /// All that a resumed run needs. `seconds_writing` goes to the timing.
-  Checkpoint checkpoint(double seconds_writing) const;
+  io::Checkpoint checkpoint(double seconds_writing) const;
 
  private:
   /// What is changed ahead of a step, which may turn out not to be possible.
@@ -95,11 +95,11 @@ class Session {
     Vec2 dragged;  ///< velocity of the grain that is dragged, if any
   };
 
-  StepSettings settings() const;
+  dynamics::StepSettings settings() const;
   BeforeStep before_step() const;
   void go_back_to(const BeforeStep& before);
   bool is_quiet() const;  ///< after the last step slower than deposition.rest_velocity
-  bool is_at_rest() const { return schedule_.quiet_steps >= rest_steps; }
+  bool is_at_rest() const { return schedule_.quiet_steps >= dynamics::rest_steps; }
   bool have_all_arrived() const;
   void take_step();
   void watch();
@@ -116,35 +116,36 @@ class Session {
   double scheduled_tilt() const;  ///< rad, after the steps of the tilt taken so far
   bool tilt_is_over() const;      ///< after these steps, whatever follows
 
-  Scenario scenario_;
-  TiltProgram program_;
+  scenario::Scenario scenario_;
+  scenario::TiltProgram program_;
   World world_;
   Schedule schedule_;
-  std::vector<Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world
-  Segment segment_;
+  std::vector<dynamics::Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world
+  io::Segment segment_;
   std::string broken_guard_;  ///< why the next step is not taken
 
   int threads_ = 1;
-  StepReport report_;
-  StepWorkspace workspace_;
+  dynamics::StepReport report_;
+  dynamics::StepWorkspace workspace_;
 };
 
 /// The contact law of a scenario, after deposition.
-ContactLawParameters contact_law(const Scenario& scenario);
+dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario);
 
 /// A step of the tilt of a bed at rest, on one thread.
-StepSettings step_settings(const Scenario& scenario);
+dynamics::StepSettings step_settings(const scenario::Scenario& scenario);
 
 /// The next step of a world in the tilt, on one thread: with the tolerance that its velocity asks for.
-StepSettings step_settings(const Scenario& scenario, const World& world);
+dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const World& world);
 
 /// rad, after the steps of the tilt taken so far.
-double scheduled_tilt(const Scenario& scenario, const TiltProgram& program, const Schedule& schedule);
+double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltProgram& program,
+                      const Schedule& schedule);
 
 /// What does not change during the run: of all grains, those included that have not arrived yet.
-RunStatics run_statics(const Scenario& scenario, const World& world);
+RunStatics run_statics(const scenario::Scenario& scenario, const World& world);
 
 /// A slope that has not failed at this angle ends its run, deg.
 inline constexpr double steepest_tilt = 60.0;
 
-}  // namespace talus
+}  // namespace talus::session

@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t'; }
@@ -74,17 +74,20 @@ std::string lower(std::string_view text) {
 }
 
 constexpr std::array units = {
-    std::pair<std::string_view, LengthUnit>{"d", LengthUnit::mean_diameter},
-    std::pair<std::string_view, LengthUnit>{"m", LengthUnit::metre},
-    std::pair<std::string_view, LengthUnit>{"cm", LengthUnit::centimetre},
-    std::pair<std::string_view, LengthUnit>{"mm", LengthUnit::millimetre},
-    std::pair<std::string_view, LengthUnit>{"um", LengthUnit::micrometre},
-    std::pair<std::string_view, LengthUnit>{"\xc2\xb5m", LengthUnit::micrometre},  // the micro sign
-    std::pair<std::string_view, LengthUnit>{"\xce\xbcm", LengthUnit::micrometre},  // the Greek letter
+    std::pair<std::string_view, scenario::LengthUnit>{"d", scenario::LengthUnit::mean_diameter},
+    std::pair<std::string_view, scenario::LengthUnit>{"m", scenario::LengthUnit::metre},
+    std::pair<std::string_view, scenario::LengthUnit>{"cm", scenario::LengthUnit::centimetre},
+    std::pair<std::string_view, scenario::LengthUnit>{"mm", scenario::LengthUnit::millimetre},
+    std::pair<std::string_view, scenario::LengthUnit>{"um", scenario::LengthUnit::micrometre},
+    std::pair<std::string_view, scenario::LengthUnit>{"\xc2\xb5m",
+                                                      scenario::LengthUnit::micrometre},  // the micro sign
+    std::pair<std::string_view, scenario::LengthUnit>{"\xce\xbcm",
+                                                      scenario::LengthUnit::micrometre},  // the Greek letter
 };
 
-std::optional<LengthUnit> unit_of(std::string_view word) {
-  const auto found = std::ranges::find(units, word, &std::pair<std::string_view, LengthUnit>::first);
+std::optional<scenario::LengthUnit> unit_of(std::string_view word) {
+  const auto found =
+      std::ranges::find(units, word, &std::pair<std::string_view, scenario::LengthUnit>::first);
   return found == units.end() ? std::nullopt : std::optional(found->second);
 }
 
@@ -108,7 +111,7 @@ struct NamedColumn {
 
 /// Nothing for a name that has no meaning here: "id", "x_velocity".
 std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& cell, std::size_t at,
-                                      LengthUnit unit) {
+                                      scenario::LengthUnit unit) {
   const std::string name = lower(cell.text);
   const auto end = std::min(name.find_first_of(" \t_/[("), name.size());
   const auto role = std::ranges::find(roles, std::string_view(name).substr(0, end),
@@ -123,13 +126,13 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
     word = trimmed({word.substr(1, word.size() - 2), 1}).text;
   else if (word.starts_with('_') || word.starts_with('/'))
     word.remove_prefix(1);
-  const std::optional<LengthUnit> own = unit_of(word);
+  const std::optional<scenario::LengthUnit> own = unit_of(word);
   if (!own && !bracketed) return std::nullopt;
   const std::string shown = visible_word(cell.text);
   if (!own)
     place.refuse(cell.column,
                  fmt::format("the column \"{}\" has an unknown unit: expected D, m, cm, mm or um", shown));
-  if (unit != LengthUnit::mean_diameter && *own != unit)
+  if (unit != scenario::LengthUnit::mean_diameter && *own != unit)
     place.refuse(cell.column, fmt::format("the column \"{}\" names another unit than deposition.file_unit: "
                                           "leave one of them out",
                                           shown));
@@ -138,8 +141,8 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
 }
 
 /// Finds the columns among the cells; a message about what is missing, or nothing.
-std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells, LengthUnit unit,
-                         TableColumns& columns) {
+std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells,
+                         scenario::LengthUnit unit, TableColumns& columns) {
   std::array<std::optional<TableColumn>, roles.size()> found;
   std::string twice;
   for (std::size_t at = 0; at < cells.size(); ++at) {
@@ -204,12 +207,13 @@ std::vector<TableCell> cells_of(std::string_view line, bool tabs) {
   return any ? cells : std::vector<TableCell>();
 }
 
-std::string unit_text(LengthUnit unit) {
-  if (unit == LengthUnit::mean_diameter) return "mean diameters D";
-  return std::string(std::ranges::find(units, unit, &std::pair<std::string_view, LengthUnit>::second)->first);
+std::string unit_text(scenario::LengthUnit unit) {
+  if (unit == scenario::LengthUnit::mean_diameter) return "mean diameters D";
+  return std::string(
+      std::ranges::find(units, unit, &std::pair<std::string_view, scenario::LengthUnit>::second)->first);
 }
 
-TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit) {
+TableColumns named_columns(const TablePlace& place, std::string_view line, scenario::LengthUnit unit) {
   std::vector<TableCell> cells;
   TableColumns columns = columns_in(place, line, cells);
   const std::string fault = find_columns(place, cells, unit, columns);
@@ -225,11 +229,11 @@ TableColumns named_columns(const TablePlace& place, std::string_view line, Lengt
 }
 
 std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
-                                               LengthUnit unit, std::size_t count) {
+                                               scenario::LengthUnit unit, std::size_t count) {
   std::vector<TableCell> cells;
   TableColumns columns = columns_in(place, comment, cells);
   if (cells.size() == count && find_columns(place, cells, unit, columns).empty()) return columns;
   return std::nullopt;
 }
 
-}  // namespace talus
+}  // namespace talus::session

@@ -9,7 +9,7 @@
 
 #include "scenario/scenario.h"
 
-namespace talus {
+namespace talus::session {
 
 /// A value or a name, without its quotes.
 struct TableCell {
@@ -34,7 +34,7 @@ std::string_view comment_of(std::string_view line);
 struct TableColumn {
   std::size_t at = 0;  ///< among the cells of a line
   std::string name;
-  LengthUnit unit = LengthUnit::mean_diameter;
+  scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter;
 };
 
 struct TableColumns {
@@ -47,15 +47,15 @@ struct TableColumns {
 };
 
 /// "mean diameters D", or the name of another unit.
-std::string unit_text(LengthUnit unit);
+std::string unit_text(scenario::LengthUnit unit);
 
 /// The columns that a line names. Throws LocatedError(bad_data) where x, the height or the size is missing or
 /// there twice, or has a unit that is unknown or contradicts `unit` (bed_table.h).
-TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit);
+TableColumns named_columns(const TablePlace& place, std::string_view line, scenario::LengthUnit unit);
 
 /// The columns that a comment names if it has a name for each of `count`, with x, height and size among them;
 /// else nothing.
 std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
-                                               LengthUnit unit, std::size_t count);
+                                               scenario::LengthUnit unit, std::size_t count);
 
-}  // namespace talus
+}  // namespace talus::session

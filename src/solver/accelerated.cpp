@@ -8,7 +8,7 @@
 #include "solver/momentum.h"
 #include "solver/sweep.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 // P0 is renewed after so many sweeps at the latest, as velocities in single precision gather their rounding
@@ -280,4 +280,4 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
   return outcome;
 }
 
-}  // namespace talus
+}  // namespace talus::solver

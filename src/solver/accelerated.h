@@ -11,7 +11,7 @@
 #include "solver/residual.h"
 #include "solver/team_choice.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Arrays and threads kept between solves; no state that a result depends on.
 struct AcceleratedWorkspace {
@@ -36,4 +36,4 @@ ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, Accelerated
 AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double tolerance, int max_iterations,
                                      int threads, AcceleratedWorkspace& workspace, ContactSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

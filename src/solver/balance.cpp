@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// The problem without demands of velocities; contacts that are open stay so.
@@ -127,4 +127,4 @@ SolverReport balance(const ContactProblem& problem, double tolerance, int max_it
   return report;
 }
 
-}  // namespace talus
+}  // namespace talus::solver

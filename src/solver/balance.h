@@ -5,7 +5,7 @@
 
 #include "solver/solve.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Looks for impulses of the closed contacts (c_n <= 0) that leave the bodies no velocity, from the first
 /// guess in `solution` on: minimises the kinetic energy of v = v_free + M^-1 H P over Coulomb's cones by
@@ -16,4 +16,4 @@ namespace talus {
 SolverReport balance(const ContactProblem& problem, double tolerance, int max_iterations,
                      ContactSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

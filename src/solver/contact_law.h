@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::solver {
 
 struct Impulse {
   double normal = 0.0;
@@ -37,4 +37,4 @@ inline double solve_rolling(double pr, double ur, double w_r, double mu_r, doubl
   return admissible_rolling(pr - ur * w_r, mu_r, pn);
 }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -2,7 +2,7 @@
 
 #include "solver/contact_law.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 void push(const ContactProblem& problem, ContactSolution& solution, Index body, double fx, double fy,
@@ -45,4 +45,4 @@ void gauss_seidel_sweep(const ContactProblem& problem, ContactSolution& solution
   }
 }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -5,7 +5,7 @@
 
 #include "solver/contact_law.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 // How far a contact goes towards its solution. The modes that limit the momentum are tangential, grains that
@@ -413,4 +413,4 @@ ContactArrays contact_arrays(Linearisation& w) {
 
 BodyArrays body_arrays(Linearisation& w) { return {w.velocity.data(), w.before.data()}; }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -14,7 +14,7 @@
 #include "solver/sweep_kernels.h"
 #include "solver/sweep_order.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Contacts are shared out in blocks of this many; the sums of a block do not depend on who computes them.
 inline constexpr Index contacts_per_block = 512;
@@ -122,4 +122,4 @@ void unload_velocities(const ContactProblem& problem, Index first, Index last, c
 ContactArrays contact_arrays(Linearisation& w);
 BodyArrays body_arrays(Linearisation& w);
 
-}  // namespace talus
+}  // namespace talus::solver

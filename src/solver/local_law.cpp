@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// Below this share of the diagonal the coupling within a block is round-off.
@@ -65,4 +65,4 @@ Residual natural_map_residual(const LocalProblem& problem, const LocalSolution& 
   return sums.residual();
 }
 
-}  // namespace talus
+}  // namespace talus::solver

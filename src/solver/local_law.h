@@ -4,7 +4,7 @@
 #include "solver/local_problem.h"
 #include "solver/residual.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// One contact of a local problem, ready to be solved with all others held.
 struct LocalContact {
@@ -33,4 +33,4 @@ inline Impulse solve_local_contact(const LocalContact& contact, Impulse p, Relat
 /// The measure of residual.h for a problem in local form; `solution` holds impulses and their velocities.
 Residual natural_map_residual(const LocalProblem& problem, const LocalSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 void add(DelassusBlock& block, const MatrixEntry& entry) {
@@ -115,4 +115,4 @@ void velocities_from_impulses(const LocalProblem& problem, LocalSolution& soluti
     solution.u[c] = relative_velocity(problem, solution.p, c);
 }
 
-}  // namespace talus
+}  // namespace talus::solver

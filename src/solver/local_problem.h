@@ -7,7 +7,7 @@
 #include "solver/contact_law.h"
 #include "solver/problem.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// A 2 x 2 block of the Delassus operator, 1/kg, column by column: `tn` is the tangential velocity that a
 /// unit normal impulse gives.
@@ -67,4 +67,4 @@ inline RelativeVelocity relative_velocity(const LocalProblem& problem, const std
 /// U = W P + q at every contact.
 void velocities_from_impulses(const LocalProblem& problem, LocalSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::solver {
 
 /// Decides after each sweep how far the next one extrapolates. Restarts are those of O'Donoghue and Candes
 /// (2015), and one more: sliding makes the problem non-associated, so that the residual can grow along the
@@ -41,4 +41,4 @@ struct Momentum {
   }
 };
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -8,7 +8,7 @@
 
 #include "solver/linearisation.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// Brings what is known up to what is now; returns whether it was so before.
@@ -176,4 +176,4 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Thread
   choose_units(problem, guess, team, w);
 }
 
-}  // namespace talus
+}  // namespace talus::solver

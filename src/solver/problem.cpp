@@ -1,6 +1,6 @@
 #include "solver/problem.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 RelativeVelocity relative_velocity(const ContactProblem& problem, const std::vector<double>& vx,
@@ -63,4 +63,4 @@ void velocities_from_impulses(const ContactProblem& problem, ContactSolution& so
   }
 }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -5,7 +5,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Bodies i with velocity (v_x, v_y, omega), contacts c between bodies a and b with normal n (from a to b)
 /// and tangent t = (-n_y, n_x). Unknowns are the impulses P = (P_n, P_t) on b. With v = v_free + M^-1 H P
@@ -89,4 +89,4 @@ RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c);
 /// v = v_free + M^-1 H P (T6), summed contact by contact in their order.
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

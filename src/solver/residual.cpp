@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus {
+namespace talus::solver {
 
 Residual ResidualSums::residual() const {
   if (!(scale() > 0.0)) return {};
@@ -28,4 +28,4 @@ Residual natural_map_residual(const ContactProblem& problem, const ContactSoluti
   return sums.residual();
 }
 
-}  // namespace talus
+}  // namespace talus::solver

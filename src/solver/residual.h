@@ -6,7 +6,7 @@
 #include "solver/contact_law.h"
 #include "solver/problem.h"
 
-namespace talus {
+namespace talus::solver {
 
 struct Residual {
   double eta = 0.0;      ///< || P' - P || / || P ||, dimensionless
@@ -44,4 +44,4 @@ struct ResidualSums {
 /// `solution` must hold impulses and the velocities that belong to them.
 Residual natural_map_residual(const ContactProblem& problem, const ContactSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 // How far a rolling impulse goes towards its solution: as far as a tangential one.
@@ -73,4 +73,4 @@ void take_rolling(const ContactProblem& problem, RollingContacts& w, LookArrays&
   arrays.ur = w.ur.data();
 }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -7,7 +7,7 @@
 #include "solver/problem.h"
 #include "solver/sweep_kernels.h"
 
-namespace talus {
+namespace talus::solver {
 
 struct RollingContacts {
   // Double precision, at P0, in the order of the problem.
@@ -45,4 +45,4 @@ double take_rolling_increment(std::size_t c, Index slot, double impulse_unit, Ro
 /// Adds the fields of these contacts to those that the residual is computed from.
 void take_rolling(const ContactProblem& problem, RollingContacts& w, LookArrays& arrays);
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -2,7 +2,7 @@
 
 #include "solver/gauss_seidel.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// The residual costs as much as a sweep, so it is looked at now and then.
@@ -51,4 +51,4 @@ SolverReport solve(const ContactProblem& problem, const SolverSettings& settings
   return report;
 }
 
-}  // namespace talus
+}  // namespace talus::solver

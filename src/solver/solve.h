@@ -5,7 +5,7 @@
 #include "solver/problem.h"
 #include "solver/residual.h"
 
-namespace talus {
+namespace talus::solver {
 
 enum class SolverKind {
   gauss_seidel,  ///< reference: nonlinear Gauss-Seidel in the order of the contacts
@@ -41,4 +41,4 @@ ThreadTeam* team_at_hand(const ContactProblem& problem, const SolverSettings& se
 SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,
                    ContactSolution& solution);
 
-}  // namespace talus
+}  // namespace talus::solver

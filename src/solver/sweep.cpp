@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 // From so many domains on, some 250 000 contacts, a wave pays: smaller beds stay in the last cache.
@@ -162,4 +162,4 @@ double sweep(Sweeper& sweeper, int count, Momentum& momentum) {
   return change;
 }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -8,7 +8,7 @@
 #include "solver/linearisation.h"
 #include "solver/momentum.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// So many sweeps may follow each other before the momentum is looked at.
 inline constexpr int most_sweeps_in_a_row = 4;
@@ -47,4 +47,4 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta);
 /// || of the last one. The next sweeps have the other turn.
 double sweep(Sweeper& sweeper, int count, Momentum& momentum);
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -1,6 +1,6 @@
 #include "solver/sweep_kernels.h"
 
-namespace talus {
+namespace talus::solver {
 
 SweepKernels sweep_kernels() {
 #if defined(__x86_64__)
@@ -9,4 +9,4 @@ SweepKernels sweep_kernels() {
   return sweep_kernels_baseline();
 }
 
-}  // namespace talus
+}  // namespace talus::solver

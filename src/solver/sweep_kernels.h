@@ -9,7 +9,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Four floats, as wide as a vector register of the baseline: velocity of a body. Its spin is r omega, which
 /// makes disks of any size alike; where contacts resist rolling, its turn is omega times a length that is
@@ -165,4 +165,4 @@ SweepKernels sweep_kernels();
 SweepKernels sweep_kernels_baseline();
 SweepKernels sweep_kernels_avx2();
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -7,7 +7,7 @@
 
 #include "base/thread_team.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 constexpr Index lanes = lane_count * groups_abreast;
@@ -226,4 +226,4 @@ void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std:
 
 int most_members(const ContactProblem& problem) { return (domains_of(problem).count + 1) / 2; }
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -7,7 +7,7 @@
 #include "solver/problem.h"
 #include "solver/sweep_kernels.h"
 
-namespace talus {
+namespace talus::solver {
 
 /// Contacts are swept in their order, from the first body to the last, as far as that matters: a contact
 /// comes after all earlier ones that share a body with it. So that this can be done eight contacts at a time
@@ -93,4 +93,4 @@ void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std:
 /// How many members of a team find work in each phase of a sweep.
 int most_members(const ContactProblem& problem);
 
-}  // namespace talus
+}  // namespace talus::solver

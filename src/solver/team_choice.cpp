@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 constexpr double window = 0.02;  // s, several slices of the scheduler
@@ -46,4 +46,4 @@ void TeamChoice::decide(double cost) {
   turn();
 }
 
-}  // namespace talus
+}  // namespace talus::solver

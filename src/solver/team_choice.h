@@ -1,7 +1,7 @@
 #pragma once
 /// Whether a team of threads is worth its waiting.
 
-namespace talus {
+namespace talus::solver {
 
 /// Where other processes want the processors too, the members of a team wait for each other more than they
 /// help. This measures what work costs in the team and alone, and tells which is the faster at present; it
@@ -28,4 +28,4 @@ class TeamChoice {
   int patience_ = 0;                   ///< windows from a trial to the next
 };
 
-}  // namespace talus
+}  // namespace talus::solver

@@ -4,7 +4,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::stress {
 
 double solid_area(const Grains& grains) {
   double sum = 0.0;
@@ -49,4 +49,4 @@ double coordination_number(const Grains& grains, const Contacts& contacts) {
   return coordination_number(loaded_contacts(contacts.a, contacts.b, contacts.fn, grains.free_count));
 }
 
-}  // namespace talus
+}  // namespace talus::stress

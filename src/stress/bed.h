@@ -8,7 +8,7 @@
 #include "core/types.h"
 #include "core/world.h"
 
-namespace talus {
+namespace talus::stress {
 
 /// Area of the free grains, m^2.
 double solid_area(const Grains& grains);
@@ -28,4 +28,4 @@ std::vector<Index> loaded_contacts(std::span<const Index> a, std::span<const Ind
 double coordination_number(std::span<const Index> loaded_contacts);
 double coordination_number(const Grains& grains, const Contacts& contacts);
 
-}  // namespace talus
+}  // namespace talus::stress

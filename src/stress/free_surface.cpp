@@ -7,7 +7,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::stress {
 namespace {
 
 struct Disk {
@@ -216,4 +216,4 @@ double surface_inclination(const Grains& grains, const Boundary& boundary) {
   return arctangent(moment / (length * length * length / 96.0));
 }
 
-}  // namespace talus
+}  // namespace talus::stress

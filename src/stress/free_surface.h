@@ -5,7 +5,7 @@
 
 #include "core/world.h"
 
-namespace talus {
+namespace talus::stress {
 
 /// A piece of the free surface, from the end of the piece before it to its own: the upper side of a disk, or,
 /// with radius 0, the plane y = 0 of the tops of the floor grains.
@@ -33,4 +33,4 @@ double bed_volume(const Grains& grains, const Boundary& boundary);
 /// surface ends at the height at which it begins.
 double surface_inclination(const Grains& grains, const Boundary& boundary);
 
-}  // namespace talus
+}  // namespace talus::stress

@@ -2,7 +2,7 @@
 
 #include "core/tensor.h"
 
-namespace talus {
+namespace talus::stress {
 
 void internal_moments(const Grains& grains, const Contacts& contacts, std::vector<Tensor2>& moments) {
   const Index count = grains.count();
@@ -28,4 +28,4 @@ Tensor2 sum_of_moments(const std::vector<Tensor2>& moments, Index first, Index l
   return sum;
 }
 
-}  // namespace talus
+}  // namespace talus::stress

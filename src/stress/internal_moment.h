@@ -7,7 +7,7 @@
 #include "core/grains.h"
 #include "core/types.h"
 
-namespace talus {
+namespace talus::stress {
 
 /// Internal moment of each grain, M_ij = - sum_a r_i f_j - (1/2) I omega^2 delta_ij (T19), with r
 /// from the centre of the grain to the contact and f the force on the grain. One tensor for each grain, floor
@@ -18,4 +18,4 @@ void internal_moments(const Grains& grains, const Contacts& contacts, std::vecto
 /// Sum of the moments of grains first ... last - 1, in that order.
 Tensor2 sum_of_moments(const std::vector<Tensor2>& moments, Index first, Index last);
 
-}  // namespace talus
+}  // namespace talus::stress

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace talus {
+namespace talus::stress {
 
 OverloadCount count_overloaded(const BedFrame& bed, double gamma_c) {
   OverloadCount count;
@@ -13,4 +13,4 @@ OverloadCount count_overloaded(const BedFrame& bed, double gamma_c) {
   return count;
 }
 
-}  // namespace talus
+}  // namespace talus::stress

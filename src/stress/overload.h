@@ -3,7 +3,7 @@
 
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::stress {
 
 /// Whether a grain with stress ratio `gamma` carries more than the packing's Coulomb threshold
 /// Gamma_c = sin(theta_c): gamma >= gamma_c (T23). A grain that carries nothing (NaN) is not.
@@ -19,4 +19,4 @@ struct OverloadCount {
 };
 OverloadCount count_overloaded(const BedFrame& bed, double gamma_c);
 
-}  // namespace talus
+}  // namespace talus::stress

@@ -4,7 +4,7 @@
 
 #include "core/tensor.h"
 
-namespace talus {
+namespace talus::stress {
 
 StressState stress_state(const Tensor2& tensor) {
   const auto m = matrix(tensor);
@@ -18,4 +18,4 @@ StressState stress_state(const Tensor2& tensor) {
   return state;
 }
 
-}  // namespace talus
+}  // namespace talus::stress

@@ -3,7 +3,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::stress {
 
 /// The state of a symmetric tensor, from the symmetric part of the one given.
 struct StressState {
@@ -15,4 +15,4 @@ struct StressState {
 
 StressState stress_state(const Tensor2& tensor);
 
-}  // namespace talus
+}  // namespace talus::stress

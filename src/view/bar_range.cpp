@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr double least_share = 0.02;  // of the range, that is left of it
@@ -44,4 +44,4 @@ std::array<double, 2> pulled(const HeldBar& held, double share) {
           high == 1.0 ? bar.high : rounded(value_at(bar, high), bar)};
 }
 
-}  // namespace talus
+}  // namespace talus::view

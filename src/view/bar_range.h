@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace talus {
+namespace talus::view {
 
 /// The ends of a bar.
 struct BarEnds {
@@ -27,4 +27,4 @@ struct HeldBar {
 /// stay apart.
 std::array<double, 2> pulled(const HeldBar& held, double share);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -13,7 +13,7 @@
 #include "core/trigonometry.h"
 #include "io/durable_file.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr const char* header = "time (s),tilt (deg),note";
@@ -65,7 +65,7 @@ std::string bookmarks_path(const std::string& run) {
 std::vector<Bookmark> read_bookmarks(const std::string& path) {
   if (!is_there(path)) return {};
   std::vector<Bookmark> bookmarks;
-  std::istringstream lines = text_stream(read_text(path));
+  std::istringstream lines = text_stream(io::read_text(path));
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();
@@ -79,7 +79,7 @@ void write_bookmarks(const std::string& path, const std::vector<Bookmark>& bookm
   std::string text = fmt::format("{}\n", header);
   for (const Bookmark& bookmark : bookmarks)
     text += fmt::format("{},{},{}\n", bookmark.time, degrees(bookmark.tilt), csv_quoted(bookmark.note));
-  write_text(path, text);
+  io::write_text(path, text);
 }
 
 void set_bookmark(std::vector<Bookmark>& bookmarks, Bookmark bookmark) {
@@ -92,4 +92,4 @@ void set_bookmark(std::vector<Bookmark>& bookmarks, Bookmark bookmark) {
     bookmarks.insert(place, std::move(bookmark));
 }
 
-}  // namespace talus
+}  // namespace talus::view

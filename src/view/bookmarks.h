@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace talus {
+namespace talus::view {
 
 struct Bookmark {
   double time = 0.0;  ///< s, of the frame
@@ -25,4 +25,4 @@ void write_bookmarks(const std::string& path, const std::vector<Bookmark>& bookm
 /// Sets the note of the bookmark at that time, or adds one in its place; a line break becomes a blank.
 void set_bookmark(std::vector<Bookmark>& bookmarks, Bookmark bookmark);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr double smallest_part = 3.0;  // D, that fill the width of a picture
@@ -38,14 +38,14 @@ double picture_aspect(double depth, double turn_max) {
   return largest_extent(1.0, depth, turn_max) / largest_extent(depth, 1.0, turn_max);
 }
 
-ViewCamera clamped(const ViewCamera& camera, const MapExtent& bed, double mean_diameter) {
+ViewCamera clamped(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter) {
   const double largest_zoom = std::max(1.0, (bed.x_max - bed.x_min) / (smallest_part * mean_diameter));
   return {std::clamp(camera.centre_x, bed.x_min, bed.x_max),
           std::clamp(camera.centre_y, bed.y_min, bed.y_max), std::clamp(camera.zoom, 1.0, largest_zoom)};
 }
 
-MapExtent shown_part(const ViewCamera& camera, const MapExtent& bed, double mean_diameter, double aspect,
-                     double turn_max) {
+pictures::MapExtent shown_part(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter,
+                               double aspect, double turn_max) {
   const ViewCamera of = clamped(camera, bed, mean_diameter);
   const double shape = shape_of(aspect, turn_max);
   const double length = std::max(bed.x_max - bed.x_min, (bed.y_max - bed.y_min) / shape) / of.zoom;
@@ -55,13 +55,13 @@ MapExtent shown_part(const ViewCamera& camera, const MapExtent& bed, double mean
   return {x, x + length, y, y + depth};
 }
 
-ViewCamera centred(const ViewCamera& camera, const MapExtent& part) {
+ViewCamera centred(const ViewCamera& camera, const pictures::MapExtent& part) {
   return {0.5 * (part.x_min + part.x_max), 0.5 * (part.y_min + part.y_max), camera.zoom};
 }
 
-MapExtent common_part(const MapExtent& one, const MapExtent& other) {
+pictures::MapExtent common_part(const pictures::MapExtent& one, const pictures::MapExtent& other) {
   return {std::max(one.x_min, other.x_min), std::min(one.x_max, other.x_max),
           std::max(one.y_min, other.y_min), std::min(one.y_max, other.y_max)};
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -2,49 +2,51 @@
 
 #include <algorithm>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// What mirrored black and white become: neither blinds, nor is lost in the ground.
 constexpr double brightest = 245.0, darkest = 34.0;
-constexpr Colour floor_fill{46, 51, 59}, floor_rim{140, 148, 160};
+constexpr render::Colour floor_fill{46, 51, 59}, floor_rim{140, 148, 160};
 constexpr double dark_luma = 60.0;  // below it a grain needs a rim that is lighter
-constexpr Colour light_rim{96, 104, 118};
+constexpr render::Colour light_rim{96, 104, 118};
 
-Colour mirrored(const Colour& colour) {
-  if (!is_gray(colour)) return colour;
+render::Colour mirrored(const render::Colour& colour) {
+  if (!render::is_gray(colour)) return colour;
   const double share = 1.0 - colour.red / 255.0;
   const auto value = static_cast<std::uint8_t>(darkest + share * (brightest - darkest));
   return {value, value, value, colour.alpha};
 }
 
-bool all_gray(const Bar& bar) {
-  return std::ranges::all_of(bar.colours, [](const Colour& colour) { return is_gray(colour); });
+bool all_gray(const render::Bar& bar) {
+  return std::ranges::all_of(bar.colours,
+                             [](const render::Colour& colour) { return render::is_gray(colour); });
 }
 
 /// Whether the bar goes from one hue to another through a light gray.
-bool passes_white(const Bar& bar) {
-  const Colour& middle = bar.colours[bar.colours.size() / 2];
+bool passes_white(const render::Bar& bar) {
+  const render::Colour& middle = bar.colours[bar.colours.size() / 2];
   const int low = std::min({middle.red, middle.green, middle.blue});
   const int high = std::max({middle.red, middle.green, middle.blue});
   return !all_gray(bar) && low > 200 && high - low < 20;
 }
 
-bool keeps_grains(const FrameView& map) {
-  return std::ranges::any_of(
-      map.legends, [](const Legend& legend) { return std::ranges::any_of(legend.bars, passes_white); });
+bool keeps_grains(const render::FrameView& map) {
+  return std::ranges::any_of(map.legends, [](const render::Legend& legend) {
+    return std::ranges::any_of(legend.bars, passes_white);
+  });
 }
 
 /// The rim of a grain whose fill is that on a dark ground. A black one marks a cluster that spans: it stays
 /// if its colour is so light that it would not be seen mirrored.
-Colour rim_on_dark(const Colour& fill, const Colour& rim) {
+render::Colour rim_on_dark(const render::Colour& fill, const render::Colour& rim) {
   constexpr double light_luma = 110.0;
-  if (luma(fill) < dark_luma) return light_rim;
-  const bool marks = rim == black && !is_gray(fill);
-  return marks && luma(fill) > light_luma ? black : mirrored(rim);
+  if (render::luma(fill) < dark_luma) return light_rim;
+  const bool marks = rim == render::black && !render::is_gray(fill);
+  return marks && render::luma(fill) > light_luma ? render::black : mirrored(rim);
 }
 
-void mirror(Disc& disc, bool keep) {
+void mirror(render::Disc& disc, bool keep) {
   if (disc.hatched > 0.5f) {
     disc.fill = floor_fill;
     disc.rim = floor_rim;
@@ -57,23 +59,23 @@ void mirror(Disc& disc, bool keep) {
 
 }  // namespace
 
-FrameView on_dark_ground(FrameView map) {
+render::FrameView on_dark_ground(render::FrameView map) {
   const bool keep = keeps_grains(map);
-  for (Disc& disc : map.discs) mirror(disc, keep);
-  for (Line& line : map.lines)
+  for (render::Disc& disc : map.discs) mirror(disc, keep);
+  for (render::Line& line : map.lines)
     if (!keep) line.colour = mirrored(line.colour);
-  for (Legend& legend : map.legends) {
-    for (Bar& bar : legend.bars)
+  for (render::Legend& legend : map.legends) {
+    for (render::Bar& bar : legend.bars)
       if (all_gray(bar)) std::ranges::transform(bar.colours, bar.colours.begin(), mirrored);
-    for (Swatch& swatch : legend.swatches) {
+    for (render::Swatch& swatch : legend.swatches) {
       if (keep) continue;
       swatch.fill = mirrored(swatch.fill);
-      swatch.rim =
-          swatch.kind == Swatch::Kind::disc ? rim_on_dark(swatch.fill, swatch.rim) : mirrored(swatch.rim);
+      swatch.rim = swatch.kind == render::Swatch::Kind::disc ? rim_on_dark(swatch.fill, swatch.rim)
+                                                             : mirrored(swatch.rim);
     }
   }
   map.transparent = true;
   return map;
 }
 
-}  // namespace talus
+}  // namespace talus::view

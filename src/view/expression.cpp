@@ -11,7 +11,7 @@
 #include "base/nearest_word.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using Operation = Expression::Operation;
@@ -365,4 +365,4 @@ bool holds(const Expression& condition, std::span<const double> values) {
   return stack.back() != 0.0;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace talus {
+namespace talus::view {
 
 /// A name that a condition may have.
 struct ExpressionName {
@@ -57,4 +57,4 @@ Expression parse_condition(std::string_view text, std::span<const ExpressionName
 /// never holds, != included: where there is no value, nothing is to be said of it.
 bool holds(const Expression& condition, std::span<const double> values);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -7,7 +7,7 @@
 
 #include "pictures/overload_rule.h"
 
-namespace talus {
+namespace talus::view {
 
 FrameAhead::FrameAhead(RunStatics statics, ReadFrame read)
     : statics_(std::move(statics)), read_(std::move(read)) {}
@@ -21,7 +21,7 @@ void FrameAhead::begin(std::size_t k, double l_min, const std::shared_ptr<const 
     try {
       ShownFrame shown{known ? known : read_(k), nullptr};
       if (shown.stored->x.size() != statics_.radius.size()) return std::nullopt;
-      shown.mapped = std::make_shared<const Frame>(mapped_frame(*shown.stored, statics_, l_min));
+      shown.mapped = std::make_shared<const Frame>(pictures::mapped_frame(*shown.stored, statics_, l_min));
       return shown;
     } catch (const std::exception&) {
       return std::nullopt;
@@ -39,4 +39,4 @@ std::optional<ShownFrame> FrameAhead::take(std::size_t k, double l_min) {
   return made_.get();
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -9,7 +9,7 @@
 #include "core/snapshot.h"
 #include "view/frame_source.h"
 
-namespace talus {
+namespace talus::view {
 
 /// A frame as it is stored, and with the gamma of neighbourhoods (mapped_frame).
 struct ShownFrame {
@@ -45,4 +45,4 @@ class FrameAhead {
   std::future<std::optional<ShownFrame>> made_;  ///< the last: it is waited for before the rest goes
 };
 
-}  // namespace talus
+}  // namespace talus::view

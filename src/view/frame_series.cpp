@@ -5,26 +5,27 @@
 #include <iterator>
 #include <utility>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// Of a run none of whose frames was met.
-PictureSeries pictures_of_clusters(const RunStatics& statics) {
-  PictureSeries pictures;
+pictures::PictureSeries pictures_of_clusters(const RunStatics& statics) {
+  pictures::PictureSeries pictures;
   pictures.run.statics = statics;
-  pictures.extent = bed_extent(statics);
-  pictures.plan.maps.emplace_back().layers = {MapKind::clusters};
+  pictures.extent = pictures::bed_extent(statics);
+  pictures.plan.maps.emplace_back().layers = {pictures::MapKind::clusters};
   return pictures;
 }
 
 /// The record of a frame where it is asked for.
-std::optional<FrameRecord> meet_and_measure(PictureSeries& pictures, const Frame& stored, bool with_values) {
-  const OverloadRule& rule = pictures.plan.maps[0];
-  const Frame frame = as_mapped(pictures, stored);
+std::optional<analysis::FrameRecord> meet_and_measure(pictures::PictureSeries& pictures, const Frame& stored,
+                                                      bool with_values) {
+  const pictures::OverloadRule& rule = pictures.plan.maps[0];
+  const Frame frame = pictures::as_mapped(pictures, stored);
   const BedFrame bed{frame, pictures.run.statics};
-  const Clusters clusters = overloaded_clusters(bed, rule);
-  extend(pictures.extent, bed);
-  meet(pictures, frame, clusters);
+  const analysis::Clusters clusters = pictures::overloaded_clusters(bed, rule);
+  pictures::extend(pictures.extent, bed);
+  pictures::meet(pictures, frame, clusters);
   return with_values ? std::optional(overload_record(bed, clusters, rule)) : std::nullopt;
 }
 
@@ -33,10 +34,10 @@ std::optional<FrameRecord> meet_and_measure(PictureSeries& pictures, const Frame
 FrameSeries::FrameSeries(const RunStatics& statics, ReadFrame read)
     : statics_(statics),
       read_(std::move(read)),
-      extent_(bed_extent(statics)),
+      extent_(pictures::bed_extent(statics)),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void FrameSeries::begin(const OverloadRule& rule, std::vector<FrameRecord> known) {
+void FrameSeries::begin(const pictures::OverloadRule& rule, std::vector<analysis::FrameRecord> known) {
   rule_ = rule;
   values_ = std::move(known);
   const std::scoped_lock lock(shared_.mutex);
@@ -57,7 +58,7 @@ void FrameSeries::set_counts(std::size_t frames, std::size_t of_tilt) {
   shared_.changed.notify_all();
 }
 
-bool FrameSeries::take_in(PictureSeries& pictures) {
+bool FrameSeries::take_in(pictures::PictureSeries& pictures) {
   const std::scoped_lock lock(shared_.mutex);
   const bool failed = shared_.error != error_;
   error_ = shared_.error;
@@ -71,8 +72,8 @@ bool FrameSeries::take_in(PictureSeries& pictures) {
 
 void FrameSeries::work(const std::stop_token& stop) {
   int turn = 0;
-  PictureSeries pictures = pictures_of_clusters(statics_);
-  OverloadRule& rule = pictures.plan.maps[0];
+  pictures::PictureSeries pictures = pictures_of_clusters(statics_);
+  pictures::OverloadRule& rule = pictures.plan.maps[0];
   std::unique_lock lock(shared_.mutex);
   for (;;) {
     const bool anything = shared_.changed.wait(lock, stop, [&] {
@@ -89,7 +90,7 @@ void FrameSeries::work(const std::stop_token& stop) {
     const std::size_t next = pictures.met.instants.size();
     const bool with_values = next >= shared_.known && next < shared_.of_tilt;
     lock.unlock();
-    std::optional<FrameRecord> values;
+    std::optional<analysis::FrameRecord> values;
     std::string error;
     try {
       values = meet_and_measure(pictures, *read_(next), with_values);
@@ -106,4 +107,4 @@ void FrameSeries::work(const std::stop_token& stop) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::view

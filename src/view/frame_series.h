@@ -13,7 +13,7 @@
 #include "view/frame_source.h"
 #include "view/frame_values.h"
 
-namespace talus {
+namespace talus::view {
 
 /// Reads frames in a thread of its own. All members are for one other thread.
 class FrameSeries {
@@ -26,21 +26,21 @@ class FrameSeries {
   FrameSeries& operator=(const FrameSeries&) = delete;
 
   /// All frames anew, by this rule. Values that are `known`, of the first frames, are not worked out again.
-  void begin(const OverloadRule& rule, std::vector<FrameRecord> known);
+  void begin(const pictures::OverloadRule& rule, std::vector<analysis::FrameRecord> known);
   /// How many frames there are, and how many of them, the first, are of the tilt: only these have values.
   void set_counts(std::size_t frames, std::size_t of_tilt);
 
   /// Takes in what is ready; true where there was something. Only here does anything below change, and what
   /// the pictures of the run know of frames that were met.
-  bool take_in(PictureSeries& pictures);
+  bool take_in(pictures::PictureSeries& pictures);
 
-  const OverloadRule& rule() const { return rule_; }
+  const pictures::OverloadRule& rule() const { return rule_; }
   /// Of the first frames of the tilt, as far as they are known.
-  const std::vector<FrameRecord>& values() const { return values_; }
+  const std::vector<analysis::FrameRecord>& values() const { return values_; }
   /// Whether all frames of the tilt have values.
   bool has_all_values() const { return values_.size() >= of_tilt_; }
   /// The bed in all frames met since the series was made.
-  const MapExtent& extent() const { return extent_; }
+  const pictures::MapExtent& extent() const { return extent_; }
   /// Why frames could not be read on; empty where they could.
   const std::string& error() const { return error_; }
 
@@ -50,11 +50,11 @@ class FrameSeries {
     std::mutex mutex;
     std::condition_variable_any changed;
     int turn = 0;  ///< counts the calls of begin; 0: none yet
-    OverloadRule rule;
+    pictures::OverloadRule rule;
     std::size_t known = 0, frames = 0, of_tilt = 0;
-    std::vector<FrameRecord> ready;
-    std::optional<MetFrames> met;  ///< none where it has been taken in
-    MapExtent extent;
+    std::vector<analysis::FrameRecord> ready;
+    std::optional<pictures::MetFrames> met;  ///< none where it has been taken in
+    pictures::MapExtent extent;
     std::string error;
   };
 
@@ -62,13 +62,13 @@ class FrameSeries {
 
   RunStatics statics_;
   ReadFrame read_;
-  OverloadRule rule_;
+  pictures::OverloadRule rule_;
   std::size_t of_tilt_ = 0;
-  std::vector<FrameRecord> values_;
-  MapExtent extent_;
+  std::vector<analysis::FrameRecord> values_;
+  pictures::MapExtent extent_;
   std::string error_;
   Shared shared_;
   std::jthread thread_;  ///< the last: it is joined before the rest goes
 };
 
-}  // namespace talus
+}  // namespace talus::view

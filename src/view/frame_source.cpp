@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr double slowest = 1e-3;  // deg/s
@@ -37,7 +37,7 @@ std::shared_ptr<const Frame> RecordedFrames::read(std::size_t k) {
 
 RunFrames::RunFrames(const std::string& path, std::shared_ptr<ReadingTurn> turn) : turn_(std::move(turn)) {
   const std::scoped_lock lock(*turn_);
-  file_.emplace(RunFile::open(path));
+  file_.emplace(io::RunFile::open(path));
   if (file_->all_frame_tilts().empty())
     throw Error(ExitCode::bad_data,
                 path + " has no frames yet: there is nothing to show before the tilt begins");
@@ -112,4 +112,4 @@ bool Replay::advance(double seconds) {
   return index_ != before;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -14,7 +14,7 @@
 #include "io/run_file.h"
 #include "view/run_clock.h"
 
-namespace talus {
+namespace talus::view {
 
 /// Frame k of a run, for any thread.
 using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
@@ -66,7 +66,7 @@ class RunFrames final : public FrameSource {
   RunFrames& operator=(const RunFrames&) = delete;
 
   /// Header, tilts and results; before there is a second thread, also series.
-  const RunFile& file() const { return *file_; }
+  const io::RunFile& file() const { return *file_; }
   std::shared_ptr<const Frame> read(std::size_t k) override;
   /// Those asked for last are kept, up to some 256 MB.
   std::shared_ptr<const Frame> frame(std::size_t k) override;
@@ -77,7 +77,7 @@ class RunFrames final : public FrameSource {
 
  private:
   std::shared_ptr<ReadingTurn> turn_;
-  std::optional<RunFile> file_;
+  std::optional<io::RunFile> file_;
   std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< the last asked for in front
 };
 
@@ -110,4 +110,4 @@ class Replay {
   double waited_ = 0.0;  ///< s since the frame shown was reached
 };
 
-}  // namespace talus
+}  // namespace talus::view

@@ -8,54 +8,59 @@
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 bool is_near(double one, double other) { return std::abs(one - other) <= 1e-9 * std::abs(other); }
 
 }  // namespace
 
-CoarseGrainingRule coarse_graining_rule(const OverloadRule& rule, const RunStatics& statics) {
-  const double threshold = threshold_of(rule);
+analysis::CoarseGrainingRule coarse_graining_rule(const pictures::OverloadRule& rule,
+                                                  const RunStatics& statics) {
+  const double threshold = pictures::threshold_of(rule);
   return {.threshold = threshold,
           .end_ratio = threshold,
           .l_min = rule.l_min * statics.mean_diameter,
-          .cut = length_cut(statics, rule.l_min)};
+          .cut = analysis::length_cut(statics, rule.l_min)};
 }
 
-FrameRecord overload_record(const BedFrame& bed, const Clusters& clusters, const OverloadRule& rule) {
-  FrameThreshold at;
-  take_overloaded(count_overloaded(bed, threshold_of(rule)), bed.statics, at);
-  take_lengths(coarse_graining(bed, coarse_graining_rule(rule, bed.statics)), at);
-  take_clusters(clusters, bed_edges(bed), at);
+analysis::FrameRecord overload_record(const BedFrame& bed, const analysis::Clusters& clusters,
+                                      const pictures::OverloadRule& rule) {
+  analysis::FrameThreshold at;
+  analysis::take_overloaded(stress::count_overloaded(bed, pictures::threshold_of(rule)), bed.statics, at);
+  analysis::take_lengths(analysis::coarse_graining(bed, coarse_graining_rule(rule, bed.statics)), at);
+  analysis::take_clusters(clusters, analysis::bed_edges(bed), at);
   return {.tilt = bed.frame.tilt, .thresholds = {at}};
 }
 
-std::optional<Analysis> read_usable_analysis(const RunFile& run) {
+std::optional<analysis::Analysis> read_usable_analysis(const io::RunFile& run) {
   if (!run.complete()) return std::nullopt;
-  std::optional<Analysis> analysis = read_analysis(run);
+  std::optional<analysis::Analysis> analysis = io::read_analysis(run);
   if (!analysis) return std::nullopt;
-  const AnalysisParameters parameters = from_facts(analysis->parameters);
+  const analysis::AnalysisParameters parameters = runs::from_facts(analysis->parameters);
   const bool single_frames = parameters.averaging == 0.0 && parameters.min_contacts == 1;
-  const bool same_cut = is_near(analysis->lc_cut, length_cut(run.header().statics, parameters.l_min));
-  if (!single_frames || !same_cut || analysis->key != analysis_key(run, parameters)) return std::nullopt;
+  const bool same_cut =
+      is_near(analysis->lc_cut, analysis::length_cut(run.header().statics, parameters.l_min));
+  if (!single_frames || !same_cut || analysis->key != runs::analysis_key(run, parameters))
+    return std::nullopt;
   return analysis;
 }
 
-std::optional<std::size_t> find_threshold(const Analysis& analysis, const OverloadRule& rule) {
-  const AnalysisParameters parameters = from_facts(analysis.parameters);
-  const bool neighbours = parameters.joining == Joining::neighbours;
+std::optional<std::size_t> find_threshold(const analysis::Analysis& analysis,
+                                          const pictures::OverloadRule& rule) {
+  const analysis::AnalysisParameters parameters = runs::from_facts(analysis.parameters);
+  const bool neighbours = parameters.joining == analysis::Joining::neighbours;
   if (neighbours != rule.joined_by_neighbours || parameters.l_min != rule.l_min) return std::nullopt;
-  const double wanted = threshold_of(rule);
+  const double wanted = pictures::threshold_of(rule);
   for (std::size_t f = 0; f < analysis.thresholds.size(); ++f)
     if (is_near(analysis.thresholds[f].gamma, wanted) && is_near(analysis.thresholds[f].end_ratio, wanted))
       return f;
   return std::nullopt;
 }
 
-std::vector<FrameRecord> stored_records(const Analysis& analysis, std::size_t f) {
-  std::vector<FrameRecord> records;
-  for (const FrameRecord& frame : analysis.frames) {
+std::vector<analysis::FrameRecord> stored_records(const analysis::Analysis& analysis, std::size_t f) {
+  std::vector<analysis::FrameRecord> records;
+  for (const analysis::FrameRecord& frame : analysis.frames) {
     records.push_back({.tilt = frame.tilt, .thresholds = {frame.thresholds[f]}});
     records.back().thresholds[0].lc.clear();
     records.back().thresholds[0].cluster.clear();
@@ -63,4 +68,4 @@ std::vector<FrameRecord> stored_records(const Analysis& analysis, std::size_t f)
   return records;
 }
 
-}  // namespace talus
+}  // namespace talus::view

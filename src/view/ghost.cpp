@@ -7,7 +7,7 @@
 
 #include "core/statistics.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// A curve of one run, by ascending x.
@@ -21,8 +21,8 @@ std::optional<std::size_t> threshold_at(const GhostRun& run, double factor) {
   return std::nullopt;
 }
 
-RunCurve curve_of(const GhostRun& run, const Quantity& quantity, PlotAxis axis, double factor) {
-  const auto f = needs_threshold(quantity) ? threshold_at(run, factor) : 0;
+RunCurve curve_of(const GhostRun& run, const analysis::Quantity& quantity, PlotAxis axis, double factor) {
+  const auto f = analysis::needs_threshold(quantity) ? threshold_at(run, factor) : 0;
   if (!f || (axis == PlotAxis::time && run.times.empty())) return {};
   RunCurve curve;
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
@@ -30,7 +30,8 @@ RunCurve curve_of(const GhostRun& run, const Quantity& quantity, PlotAxis axis, 
     const double x = place_on({axis, run.theta_c}, run.frames[k].tilt, time);
     if (!std::isfinite(x)) return {};
     curve.x.push_back(x);
-    curve.y.push_back(shown(quantity, number_of(quantity, run.frames[k], *f), run.mean_diameter));
+    curve.y.push_back(
+        analysis::shown(quantity, analysis::number_of(quantity, run.frames[k], *f), run.mean_diameter));
   }
   if (!curve.x.empty() && curve.x.front() > curve.x.back()) {
     std::ranges::reverse(curve.x);
@@ -72,7 +73,7 @@ GhostCurve band_of(const std::vector<RunCurve>& curves) {
   std::vector<double> values(curves.size());
   for (double step = std::ceil(low / spacing); step * spacing <= high; step += 1.0) {
     for (std::size_t r = 0; r < curves.size(); ++r) values[r] = value_at(curves[r], step * spacing);
-    const Statistics of = statistics_of(values);
+    const Statistics of = talus::statistics_of(values);
     const bool enough = of.count >= 2 && 2 * of.count >= static_cast<int>(curves.size());
     band.x.push_back(step * spacing);
     band.mean.push_back(enough ? of.mean : not_known);
@@ -88,7 +89,7 @@ std::string text_of(const Ghost& ghost) {
   return fmt::format("{}: {} runs, mean ± standard deviation", ghost.name, ghost.runs.size());
 }
 
-GhostCurve ghost_curve(const Ghost& ghost, const Quantity& quantity, PlotAxis axis, double factor) {
+GhostCurve ghost_curve(const Ghost& ghost, const analysis::Quantity& quantity, PlotAxis axis, double factor) {
   std::vector<RunCurve> curves;
   for (const GhostRun& run : ghost.runs)
     if (RunCurve curve = curve_of(run, quantity, axis, factor); !curve.x.empty())
@@ -106,4 +107,4 @@ void plot_ghost(const Ghost* ghost, PlotAxis axis, double factor, std::vector<Pl
     }
 }
 
-}  // namespace talus
+}  // namespace talus::view

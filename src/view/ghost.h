@@ -8,15 +8,15 @@
 #include "core/snapshot.h"
 #include "view/plots.h"
 
-namespace talus {
+namespace talus::view {
 
 /// A run behind the curves: the part of it that leads to failure.
 struct GhostRun {
-  std::vector<FrameRecord> frames;  ///< of its last rise, with all thresholds of its analysis
-  std::vector<double> times;        ///< of these frames, s; empty where they are not known
-  std::vector<double> factors;      ///< of the thresholds, in Gamma_c
-  double theta_c = not_known;       ///< rad
-  double mean_diameter = 0.0;       ///< m
+  std::vector<analysis::FrameRecord> frames;  ///< of its last rise, with all thresholds of its analysis
+  std::vector<double> times;                  ///< of these frames, s; empty where they are not known
+  std::vector<double> factors;                ///< of the thresholds, in Gamma_c
+  double theta_c = not_known;                 ///< rad
+  double mean_diameter = 0.0;                 ///< m
 };
 
 struct Ghost {
@@ -32,9 +32,9 @@ std::string text_of(const Ghost& ghost);
 /// several it is their mean and standard deviation (n - 1) on a common grid, interpolated linearly between
 /// the frames of each, where at least half of them, and two, have a value. Empty where no run has the axis or
 /// the threshold.
-GhostCurve ghost_curve(const Ghost& ghost, const Quantity& quantity, PlotAxis axis, double factor);
+GhostCurve ghost_curve(const Ghost& ghost, const analysis::Quantity& quantity, PlotAxis axis, double factor);
 
 /// Puts it behind all curves along the run that show a quantity; without a ghost takes it away.
 void plot_ghost(const Ghost* ghost, PlotAxis axis, double factor, std::vector<Plot>& plots);
 
-}  // namespace talus
+}  // namespace talus::view

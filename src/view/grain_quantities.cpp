@@ -4,25 +4,27 @@
 
 #include "analysis/quantities.h"
 
-namespace talus {
+namespace talus::view {
 
-std::string head_of(const GrainNumber& number) {
-  const std::string unit = scaled_unit(number.quantity->unit);
+std::string head_of(const analysis::GrainNumber& number) {
+  const std::string unit = analysis::scaled_unit(number.quantity->unit);
   return unit == "1" ? number.name : fmt::format("{} ({})", number.name, unit);
 }
 
 const std::vector<ExpressionName>& grain_names() {
   static const std::vector<ExpressionName> names = [] {
     std::vector<ExpressionName> all;
-    for (const GrainNumber& number : grain_numbers()) all.push_back({number.name, number.quantity->flag});
+    for (const analysis::GrainNumber& number : analysis::grain_numbers())
+      all.push_back({number.name, number.quantity->flag});
     return all;
   }();
   return names;
 }
 
-std::vector<Index> grains_where(const Expression& condition, const GrainSource& of) {
+std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& of) {
   std::vector<std::vector<double>> columns;
-  for (const std::string& name : condition.names) columns.push_back(values_of(grain_number(name), of));
+  for (const std::string& name : condition.names)
+    columns.push_back(analysis::values_of(analysis::grain_number(name), of));
   std::vector<Index> grains;
   std::vector<double> row(columns.size());
   for (Index i = 0; i < of.statics.free_count; ++i) {
@@ -32,4 +34,4 @@ std::vector<Index> grains_where(const Expression& condition, const GrainSource& 
   return grains;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -7,7 +7,7 @@
 
 #include "view/inspection.h"
 
-namespace talus {
+namespace talus::view {
 
 HistoryInstant instant_of(const Frame& frame, const Selection& question) {
   HistoryInstant instant;
@@ -107,4 +107,4 @@ std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::s
   return plots;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -15,7 +15,7 @@
 #include "view/plots.h"
 #include "view/selection.h"
 
-namespace talus {
+namespace talus::view {
 
 /// A grain in a frame.
 struct GrainPlace {
@@ -79,4 +79,4 @@ class HistorySeries {
 std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
                                 double weight, const PlotAbscissa& abscissa);
 
-}  // namespace talus
+}  // namespace talus::view

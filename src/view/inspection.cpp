@@ -7,7 +7,7 @@
 #include "analysis/free_grains.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// A plane is named by where it is seen from the grain.
@@ -40,7 +40,7 @@ std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
 }
 
 /// l_c, as coarse_graining has it.
-double length_of(const NeighbourhoodCurve& curve, const CoarseGrainingRule& rule) {
+double length_of(const analysis::NeighbourhoodCurve& curve, const analysis::CoarseGrainingRule& rule) {
   for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k) {
     const bool below = k + 1 < curve.l.size() && curve.l[k + 1] <= rule.l_min;
     if (!below && curve.gamma[k] <= rule.threshold) return std::max(curve.l[k], rule.l_min);
@@ -48,7 +48,7 @@ double length_of(const NeighbourhoodCurve& curve, const CoarseGrainingRule& rule
   return rule.cut;
 }
 
-double gamma_at(const NeighbourhoodCurve& curve, double l) {
+double gamma_at(const analysis::NeighbourhoodCurve& curve, double l) {
   const auto after = std::ranges::upper_bound(curve.l, l);
   return after == curve.l.begin() ? not_known
                                   : curve.gamma[static_cast<std::size_t>(after - curve.l.begin()) - 1];
@@ -61,8 +61,8 @@ std::string body_name(const BedFrame& bed, Index body, double nx) {
   return fmt::format("{} {}", body < bed.statics.free_count ? "grain" : "floor grain", body);
 }
 
-Inspection inspect(const BedFrame& bed, const Clusters& clusters, const CoarseGrainingRule& rule,
-                   double neighbourhood, Index grain) {
+Inspection inspect(const BedFrame& bed, const analysis::Clusters& clusters,
+                   const analysis::CoarseGrainingRule& rule, double neighbourhood, Index grain) {
   const auto i = static_cast<std::size_t>(grain);
   Inspection of;
   of.grain = grain;
@@ -76,15 +76,15 @@ Inspection inspect(const BedFrame& bed, const Clusters& clusters, const CoarseGr
   of.omega = bed.frame.omega[i];
   of.contacts = contacts_of(bed, grain);
   of.internal_moment = bed.frame.internal_moment[i];
-  of.state = stress_state(of.internal_moment);
+  of.state = stress::stress_state(of.internal_moment);
   of.gamma = bed.frame.gamma[i];
   of.neighbourhood_gamma = not_known;
   if (!of.free) return of;
-  of.overloaded = is_overloaded(of.gamma, rule.threshold);
+  of.overloaded = stress::is_overloaded(of.gamma, rule.threshold);
   of.cluster = clusters.label[i];
   if (of.cluster >= 0) of.cluster_size = clusters.size[static_cast<std::size_t>(of.cluster)];
   const double widest = std::max(rule.cut, neighbourhood);
-  of.curve = neighbourhood_curve(bed, grain, widest);
+  of.curve = analysis::neighbourhood_curve(bed, grain, widest);
   if (of.overloaded) of.coarse_graining_length = length_of(of.curve, rule);
   of.neighbourhood_gamma = gamma_at(of.curve, neighbourhood);
   return of;
@@ -119,7 +119,7 @@ ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, do
 }
 
 std::optional<Index> find_grain(const BedFrame& bed, double x, double y) {
-  const double period = period_of(bed.statics);
+  const double period = analysis::period_of(bed.statics);
   std::optional<Index> nearest;
   double least = bed.statics.mean_diameter;  // from the edge of a disc; negative within it
   for (Index i = 0; i < bed.frame.grain_count(); ++i) {
@@ -133,4 +133,4 @@ std::optional<Index> find_grain(const BedFrame& bed, double x, double y) {
   return nearest;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -11,7 +11,7 @@
 #include "stress/stress_state.h"
 #include "view/selection.h"
 
-namespace talus {
+namespace talus::view {
 
 /// A contact of the selected grain.
 struct GrainContact {
@@ -31,12 +31,12 @@ struct Inspection {
   double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, omega = 0.0;
   std::vector<GrainContact> contacts;
   Tensor2 internal_moment;
-  StressState state;   ///< of the internal moment: its ratio is the gamma of the grain alone
-  double gamma = 0.0;  ///< as the frame has it: of the neighbourhood of diameter l_min
+  stress::StressState state;  ///< of the internal moment: its ratio is the gamma of the grain alone
+  double gamma = 0.0;         ///< as the frame has it: of the neighbourhood of diameter l_min
   bool overloaded = false;
   Index cluster = -1;  ///< of the overloaded clusters; -1 for none
   Index cluster_size = 0;
-  NeighbourhoodCurve curve;  ///< gamma_l over l (paper, Fig. 11)
+  analysis::NeighbourhoodCurve curve;  ///< gamma_l over l (paper, Fig. 11)
   std::optional<double>
       coarse_graining_length;        ///< m; none where it is not overloaded; the cut where it is cut off
   double neighbourhood_gamma = 0.0;  ///< gamma_l at ViewState::neighbourhood
@@ -49,8 +49,8 @@ std::string body_name(const BedFrame& bed, Index body, double nx);
 /// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
 /// neighbourhoods. `clusters` are those of the overloaded grains of the frame, which are found by the rule;
 /// `neighbourhood` (m) is the diameter of neighbourhood_gamma.
-Inspection inspect(const BedFrame& bed, const Clusters& clusters, const CoarseGrainingRule& rule,
-                   double neighbourhood, Index grain);
+Inspection inspect(const BedFrame& bed, const analysis::Clusters& clusters,
+                   const analysis::CoarseGrainingRule& rule, double neighbourhood, Index grain);
 
 /// All there is to say of one contact.
 struct ContactInspection {
@@ -76,4 +76,4 @@ double mobilised(double fn, double ft, double friction);
 /// one whose edge is nearest, not farther than a mean diameter.
 std::optional<Index> find_grain(const BedFrame& bed, double x, double y);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -11,7 +11,7 @@
 #include "core/observables.h"
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What the run has recorded since it began.
 struct LiveHistory {
@@ -45,4 +45,4 @@ std::vector<T> since(const std::vector<T>& items, std::size_t from) {
   return {items.begin() + static_cast<std::ptrdiff_t>(std::min(from, items.size())), items.end()};
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -19,7 +19,7 @@
 #include "session/run_header.h"
 #include "view/live_history.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -35,9 +35,9 @@ struct Goal {
   bool end_of_deposition = false;
 };
 
-bool is_reached(const Goal& goal, const Session& session) {
+bool is_reached(const Goal& goal, const session::Session& session) {
   return session.world().step >= goal.step || session.world().tilt >= goal.tilt - reached_within ||
-         (goal.end_of_deposition && session.phase() != Phase::deposition);
+         (goal.end_of_deposition && session.phase() != session::Phase::deposition);
 }
 
 /// How much of the session's segment the history has, or what of the history there was.
@@ -49,12 +49,12 @@ constexpr std::size_t most_marks = 64;  // some megabytes each in a bed of 8000 
 
 /// A run before a command.
 struct Mark {
-  Checkpoint state;
+  io::Checkpoint state;
   Taken history;
 };
 
 /// Whether a command begins something, and does not just go on with a drag, or end it.
-bool begins(const Command& command, const std::optional<Drag>& drag) {
+bool begins(const Command& command, const std::optional<session::Drag>& drag) {
   if (command.kind == CommandKind::drag) return !drag || drag->grain != command.grain;
   return command.kind != CommandKind::release;
 }
@@ -72,11 +72,11 @@ std::string one_line(std::string text) {
 /// The session, the store and what belongs to them are the solver's alone once it runs; the rest is shared,
 /// under the mutex.
 struct LiveRun::State {
-  Session session;
+  session::Session session;
   const RunStatics statics;
-  const RunOrigin origin;
-  std::optional<RunStore> store;
-  std::optional<Recorder> recorder;
+  const session::RunOrigin origin;
+  std::optional<io::RunStore> store;
+  std::optional<session::Recorder> recorder;
   bool is_recorded = false;  ///< also after it has been packed
   Taken taken;
   std::vector<StepRow> steps;  ///< all since the beginning
@@ -98,10 +98,10 @@ struct LiveRun::State {
 
   std::jthread solver;  ///< last: ends before what it uses
 
-  State(const Scenario& scenario, RunOrigin from)
-      : session(from.branch ? Session(scenario, from.branch->start) : Session(scenario)),
-        statics(run_statics(scenario, session.world())),
-        origin(with_bed(std::move(from), session)) {
+  State(const scenario::Scenario& scenario, session::RunOrigin from)
+      : session(from.branch ? session::Session(scenario, from.branch->start) : session::Session(scenario)),
+        statics(session::run_statics(scenario, session.world())),
+        origin(session::with_bed(std::move(from), session)) {
     if (origin.branch) session.record_start();
   }
 
@@ -113,7 +113,7 @@ struct LiveRun::State {
   void answer();
   void apply(const Command& command);
   void back(const std::string& output);
-  Segment recorded_until(const Taken& end) const;
+  io::Segment recorded_until(const Taken& end) const;
   void record(const std::string& output, bool overwrite);
   void take_step();
   void keep(const std::function<void()>& store_something);
@@ -170,7 +170,8 @@ void LiveRun::State::work(const std::stop_token& stop) {
 
 bool LiveRun::State::goes_on() {
   const std::lock_guard lock(mutex);
-  if (pause_asked || session.phase() == Phase::done || (goal && is_reached(*goal, session))) goal.reset();
+  if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
+    goal.reset();
   pause_asked = false;
   return goal.has_value();
 }
@@ -211,9 +212,9 @@ void LiveRun::State::apply(const Command& command) {
 }
 
 /// What was recorded from the beginning up to there.
-Segment LiveRun::State::recorded_until(const Taken& end) const {
+io::Segment LiveRun::State::recorded_until(const Taken& end) const {
   const auto first = [](const auto& of, std::size_t count) { return std::span(of).first(count); };
-  Segment segment;
+  io::Segment segment;
   for (const auto& one : first(history.frames, end.frames)) segment.frames.push_back(*one);
   for (const auto& row : first(history.observables, end.observables)) segment.observables.push_back(row);
   for (const Command& command : first(history.commands, end.commands)) segment.commands.push_back(command);
@@ -224,13 +225,13 @@ Segment LiveRun::State::recorded_until(const Taken& end) const {
 void LiveRun::State::back(const std::string& output) {
   if (marks.empty()) throw Error(ExitCode::usage, "no command has been given that could be taken back");
   Mark& mark = marks.back();
-  Session before(session.scenario(), mark.state, "the state before the command");
+  session::Session before(session.scenario(), mark.state, "the state before the command");
   before.use_threads(origin.threads);
-  Segment segment = recorded_until(mark.history);
+  io::Segment segment = recorded_until(mark.history);
   const Taken whole = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
                        segment.steps.size()};
   if (is_recorded) {
-    RunStore next = RunStore::create(output, run_header(before, origin), false);
+    io::RunStore next = io::RunStore::create(output, session::run_header(before, origin), false);
     end();
     store.emplace(std::move(next));
     recorder.emplace(session, *store);
@@ -256,7 +257,7 @@ void LiveRun::State::back(const std::string& output) {
 
 /// Records all that the session has done since it began, and what comes.
 void LiveRun::State::record(const std::string& output, bool overwrite) {
-  store = RunStore::create(output, run_header(session, origin), overwrite);
+  store = io::RunStore::create(output, session::run_header(session, origin), overwrite);
   recorder.emplace(session, *store);
   is_recorded = true;
 }
@@ -296,7 +297,7 @@ void LiveRun::State::keep(const std::function<void()>& store_something) {
 
 /// Copies what the segment has that is new to the history.
 void LiveRun::State::take_in() {
-  const Segment& segment = session.segment();
+  const io::Segment& segment = session.segment();
   std::vector<std::shared_ptr<const Frame>> frames;
   for (std::size_t k = taken.frames; k < segment.frames.size(); ++k)
     frames.push_back(std::make_shared<const Frame>(segment.frames[k]));
@@ -318,8 +319,8 @@ void LiveRun::State::describe() {
   status.step = world.step;
   status.time = world.time;
   status.tilt = world.tilt;
-  status.depositing = session.phase() == Phase::deposition;
-  status.done = session.phase() == Phase::done;
+  status.depositing = session.phase() == session::Phase::deposition;
+  status.done = session.phase() == session::Phase::done;
   status.theta_c = session.angle_of_repose();
   status.tilt_rate = degrees(session.tilt_rate());
   status.friction = session.law().friction;
@@ -334,7 +335,7 @@ void LiveRun::State::describe() {
 }
 
 void LiveRun::State::show_frame() {
-  auto next = std::make_shared<const Frame>(make_frame(session.world(), session.law()));
+  auto next = std::make_shared<const Frame>(session::make_frame(session.world(), session.law()));
   // A step late is made good by the next.
   const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
   show_at = std::max(show_at + interval, Clock::now());
@@ -356,7 +357,7 @@ void LiveRun::State::show_pause() {
 
 /// Packs a run that is done.
 void LiveRun::State::pack() {
-  if (!store || session.phase() != Phase::done) return;
+  if (!store || session.phase() != session::Phase::done) return;
   keep([this] {
     if (taken.steps > 0 || taken.commands > 0) recorder->commit();
     store->pack();
@@ -366,7 +367,7 @@ void LiveRun::State::pack() {
 }
 
 void LiveRun::State::end() {
-  const Segment& segment = session.segment();
+  const io::Segment& segment = session.segment();
   if (recorder && !(segment.steps.empty() && segment.commands.empty())) keep([this] { recorder->commit(); });
   pack();
 }
@@ -381,10 +382,11 @@ void LiveRun::State::fail(const std::exception& error) {
 
 // --- the interface ---
 
-LiveRun::LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
-                 bool overwrite, const std::string& command_line, const std::optional<BranchOrigin>& branch)
-    : state_(std::make_unique<State>(scenario,
-                                     RunOrigin{scenario_text, {}, command_line, solver_threads(), branch})) {
+LiveRun::LiveRun(const scenario::Scenario& scenario, const std::string& scenario_text,
+                 const std::string& output, bool overwrite, const std::string& command_line,
+                 const std::optional<io::BranchOrigin>& branch)
+    : state_(std::make_unique<State>(
+          scenario, session::RunOrigin{scenario_text, {}, command_line, solver_threads(), branch})) {
   state_->session.use_threads(state_->origin.threads);
   state_->take_in();
   if (!output.empty()) state_->record(output, overwrite);
@@ -472,4 +474,4 @@ std::vector<Command> LiveRun::commands() const {
   return state_->history.commands;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -15,7 +15,7 @@
 #include "scenario/scenario.h"
 #include "session/command.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What the solver's thread has to say, a copy that does not change.
 struct LiveStatus {
@@ -43,8 +43,9 @@ class LiveRun {
   /// Begins the run of a scenario, paused before its first step. With an `output`, it is recorded as `talus
   /// run` records it, with its commands; `overwrite` as there. Without, all of it is kept in memory. With a
   /// `branch` it begins with that frame. Throws as RunStore::create.
-  LiveRun(const Scenario& scenario, const std::string& scenario_text, const std::string& output,
-          bool overwrite, const std::string& command_line, const std::optional<BranchOrigin>& branch = {});
+  LiveRun(const scenario::Scenario& scenario, const std::string& scenario_text, const std::string& output,
+          bool overwrite, const std::string& command_line,
+          const std::optional<io::BranchOrigin>& branch = {});
   /// Finishes the step under way, commits what there is, and ends. A run that is done is packed.
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
@@ -93,4 +94,4 @@ class LiveRun {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace talus
+}  // namespace talus::view

@@ -12,40 +12,40 @@
 #include "pictures/texts.h"
 #include "view/scene.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-constexpr Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170}, cluster_colour{240, 130, 0};
+constexpr render::Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170}, cluster_colour{240, 130, 0};
 constexpr std::size_t few = 500;                   // grains whose rings are drawn finely
 constexpr double largest_ring_width = 0.05;        // D
 constexpr double least_ring_width = 1.0 / 2500.0;  // of the width of the picture: about a pixel
 
 /// A circle of straight lines, with its images in a periodic bed.
-void add_circle(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
-                const RunStatics& statics, int circle_lines = 64) {
+void add_circle(render::FrameView& view, Vec2 centre, double radius, double half_width,
+                const render::Colour& colour, const RunStatics& statics, int circle_lines = 64) {
   const auto corner = [&](int k) {
     const double angle = 2.0 * pi * k / circle_lines;
     return Vec2{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
   };
   for (int k = 0; k < circle_lines; ++k) {
     const Vec2 from = corner(k), to = corner(k + 1);
-    add_line(view,
-             {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
-              static_cast<float>(to.y), static_cast<float>(half_width), colour},
-             statics);
+    pictures::add_line(view,
+                       {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
+                        static_cast<float>(to.y), static_cast<float>(half_width), colour},
+                       statics);
   }
 }
 
-bool is_in_picture(const FrameView& view, const BedFrame& bed, std::size_t i) {
+bool is_in_picture(const render::FrameView& view, const BedFrame& bed, std::size_t i) {
   const double margin = bed.statics.radius[i];
-  const double x = bed.frame.x[i], y = bed.frame.y[i], period = period_of(bed.statics);
+  const double x = bed.frame.x[i], y = bed.frame.y[i], period = analysis::period_of(bed.statics);
   if (y < view.y_min - margin || y > view.y_max + margin) return false;
   return std::ranges::any_of(std::initializer_list<double>{x - period, x, x + period}, [&](double at) {
     return at >= view.x_min - margin && at <= view.x_max + margin;
   });
 }
 
-void add_contact(FrameView& view, const BedFrame& bed, std::size_t c, double half_width) {
+void add_contact(render::FrameView& view, const BedFrame& bed, std::size_t c, double half_width) {
   const FrameContacts& contacts = bed.frame.contacts;
   const RunStatics& statics = bed.statics;
   const auto a = static_cast<std::size_t>(contacts.a[c]);
@@ -53,24 +53,26 @@ void add_contact(FrameView& view, const BedFrame& bed, std::size_t c, double hal
   const bool plane = contacts.b[c] >= bed.frame.grain_count();
   const double reach =
       statics.radius[a] + (plane ? 0.0 : statics.radius[static_cast<std::size_t>(contacts.b[c])]);
-  for (const auto& [width, colour] : {std::pair{2.0 * half_width, white}, {half_width, selection_colour}}) {
-    add_line(view,
-             {static_cast<float>(from.x), static_cast<float>(from.y),
-              static_cast<float>(from.x + reach * contacts.nx[c]),
-              static_cast<float>(from.y + reach * contacts.ny[c]), static_cast<float>(width), colour},
-             statics);
+  for (const auto& [width, colour] :
+       {std::pair{2.0 * half_width, render::white}, {half_width, selection_colour}}) {
+    pictures::add_line(
+        view,
+        {static_cast<float>(from.x), static_cast<float>(from.y),
+         static_cast<float>(from.x + reach * contacts.nx[c]),
+         static_cast<float>(from.y + reach * contacts.ny[c]), static_cast<float>(width), colour},
+        statics);
     add_circle(view, {contacts.px[c], contacts.py[c]}, 0.22 * statics.mean_diameter, width, colour, statics);
   }
 }
 
 /// Line by line, each from where the bed is: its images follow from that.
-void add_trail(FrameView& view, const BedFrame& bed, const std::vector<Vec2>& trail, double half_width,
-               const Colour& colour) {
-  const double period = period_of(bed.statics);
+void add_trail(render::FrameView& view, const BedFrame& bed, const std::vector<Vec2>& trail,
+               double half_width, const render::Colour& colour) {
+  const double period = analysis::period_of(bed.statics);
   for (std::size_t k = 1; k < trail.size(); ++k) {
     const Vec2 from = trail[k - 1], to = trail[k];
     const double shift = period > 0.0 ? period * std::floor(from.x / period) : 0.0;
-    add_line(
+    pictures::add_line(
         view,
         {static_cast<float>(from.x - shift), static_cast<float>(from.y), static_cast<float>(to.x - shift),
          static_cast<float>(to.y), static_cast<float>(half_width), colour},
@@ -80,11 +82,12 @@ void add_trail(FrameView& view, const BedFrame& bed, const std::vector<Vec2>& tr
 
 /// A stroke between each grain of a cluster and each neighbour that is not of it. Fills and rims of grains
 /// stay as they are: a cluster can be most of the bed.
-void add_outline(FrameView& view, const BedFrame& bed, const Clusters& clusters, Index cluster) {
+void add_outline(render::FrameView& view, const BedFrame& bed, const analysis::Clusters& clusters,
+                 Index cluster) {
   if (cluster < 0) return;
   const RunStatics& statics = bed.statics;
-  const double period = period_of(statics);
-  for (const Link& link : neighbour_links(bed)) {
+  const double period = analysis::period_of(statics);
+  for (const analysis::Link& link : analysis::neighbour_links(bed)) {
     if ((clusters.label[link.a] == cluster) == (clusters.label[link.b] == cluster)) continue;
     const double r = statics.radius[link.a], x = bed.frame.x[link.a], y = bed.frame.y[link.a];
     const double dx = bed.frame.x[link.b] + link.shift * period - x, dy = bed.frame.y[link.b] - y;
@@ -92,23 +95,24 @@ void add_outline(FrameView& view, const BedFrame& bed, const Clusters& clusters,
     const double ux = dx / distance, uy = dy / distance;
     const double reach = r + 0.5 * (distance - r - statics.radius[link.b]);
     const double half = 0.6 * std::min(r, statics.radius[link.b]);
-    add_line(view,
-             {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
-              static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
-              static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
-             statics);
+    pictures::add_line(
+        view,
+        {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
+         static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
+         static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
+        statics);
   }
 }
 
 /// On a white ground, to be seen over dark grains and light ones.
-void add_ring(FrameView& view, Vec2 centre, double radius, double half_width, const Colour& colour,
-              const RunStatics& statics) {
-  add_circle(view, centre, radius, 2.0 * half_width, white, statics);
+void add_ring(render::FrameView& view, Vec2 centre, double radius, double half_width,
+              const render::Colour& colour, const RunStatics& statics) {
+  add_circle(view, centre, radius, 2.0 * half_width, render::white, statics);
   add_circle(view, centre, radius, half_width, colour, statics);
 }
 
 /// The grain that is looked at, and its neighbourhoods.
-void add_looked_at(FrameView& view, const BedFrame& bed, const Overlay& overlay) {
+void add_looked_at(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   if (!overlay.selected) return;
   const RunStatics& statics = bed.statics;
   const double d = statics.mean_diameter;
@@ -123,11 +127,11 @@ void add_looked_at(FrameView& view, const BedFrame& bed, const Overlay& overlay)
 }
 
 /// What is selected beside it, and where it has been.
-void add_selection(FrameView& view, const BedFrame& bed, const Overlay& overlay) {
+void add_selection(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   const double d = bed.statics.mean_diameter, width = view.x_max - view.x_min;
   const double half_width = std::clamp(least_ring_width * width, 0.02 * d, largest_ring_width * d);
   const int lines = overlay.grains.size() > few ? 12 : 32;
-  for (const auto& [pen, colour] : {std::pair{2.0 * half_width, white}, {half_width, trail_colour}})
+  for (const auto& [pen, colour] : {std::pair{2.0 * half_width, render::white}, {half_width, trail_colour}})
     for (const std::vector<Vec2>& trail : overlay.trails) add_trail(view, bed, trail, pen, colour);
   for (const Index grain : overlay.grains) {
     const auto i = static_cast<std::size_t>(grain);
@@ -142,17 +146,18 @@ void add_selection(FrameView& view, const BedFrame& bed, const Overlay& overlay)
 
 std::vector<double> growing_diameters(double largest) {
   if (!(largest > 0.0)) return {};
-  const double step = round_step(largest, 5);
+  const double step = pictures::round_step(largest, 5);
   std::vector<double> diameters;
   for (int k = 1; k * step < largest - 0.25 * step; ++k) diameters.push_back(k * step);
   diameters.push_back(largest);
   return diameters;
 }
 
-void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay, const Clusters& clusters) {
+void add_overlay(render::FrameView& view, const BedFrame& bed, const Overlay& overlay,
+                 const analysis::Clusters& clusters) {
   add_outline(view, bed, clusters, overlay.cluster);
   add_looked_at(view, bed, overlay);
   add_selection(view, bed, overlay);
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -7,7 +7,7 @@
 #include "analysis/packing/packing.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr std::size_t most_points = 2000;  // of a curve over steps: about as many as pixels
@@ -17,7 +17,9 @@ Plot& plot_of(std::vector<Plot>& plots, PlotKind kind) { return plots[static_cas
 
 PlotSeries curve(const std::string& name) { return {name, {}, {}, false, {}}; }
 PlotSeries law(const std::string& name) { return {name, {}, {}, true, {}}; }
-PlotSeries series_of(const QuantityMember& member) { return talus::series_of(quantity_of(member)); }
+PlotSeries series_of(const analysis::QuantityMember& member) {
+  return talus::view::series_of(analysis::quantity_of(member));
+}
 
 /// A logarithmic axis has no place for zero.
 double positive(double value) { return value > 0.0 ? value : not_known; }
@@ -41,7 +43,9 @@ double largest_of(std::span<const StepRow> rows, StepField field) {
 
 }  // namespace
 
-PlotSeries series_of(const Quantity& quantity) { return {quantity.display.symbol, {}, {}, false, quantity}; }
+PlotSeries series_of(const analysis::Quantity& quantity) {
+  return {quantity.display.symbol, {}, {}, false, quantity};
+}
 
 double place_on(const PlotAbscissa& abscissa, double tilt, double time) {
   switch (abscissa.axis) {
@@ -71,10 +75,10 @@ Plot plot_along_run(const std::string& name, const std::string& title, std::vect
   return {name, title, title_of(PlotAxis::tilt), true, false, std::move(series)};
 }
 
-Plot plot_of_quantity(const Quantity& quantity) {
-  Quantity titled = quantity;
+Plot plot_of_quantity(const analysis::Quantity& quantity) {
+  analysis::Quantity titled = quantity;
   if (titled.display.title.empty()) titled.display = {.symbol = quantity.name, .title = quantity.name};
-  Plot plot = plot_along_run(quantity.name, shown_title(titled), {series_of(titled)});
+  Plot plot = plot_along_run(quantity.name, analysis::shown_title(titled), {series_of(titled)});
   plot.added = true;
   return plot;
 }
@@ -82,19 +86,21 @@ Plot plot_of_quantity(const Quantity& quantity) {
 std::vector<Plot> empty_plots() {
   std::vector<Plot> plots(plot_count);
   const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
-  const auto set_quantity = [&set](PlotKind kind, const std::string& name, const QuantityMember& member) {
-    set(kind, plot_along_run(name, shown_title(quantity_of(member)), {series_of(member)}));
+  const auto set_quantity = [&set](PlotKind kind, const std::string& name,
+                                   const analysis::QuantityMember& member) {
+    set(kind,
+        plot_along_run(name, analysis::shown_title(analysis::quantity_of(member)), {series_of(member)}));
   };
   set(PlotKind::stress,
       plot_along_run("stress", "Packing",
-                     {series_of(&FrameRecord::stress_ratio), series_of(&FrameRecord::sigma_t_over_n),
-                      law("sin θ"), law("tan θ")}));
-  set_quantity(PlotKind::overloaded, "overloaded", &FrameThreshold::overloaded_fraction);
-  set_quantity(PlotKind::cluster, "cluster", &FrameThreshold::largest_share);
-  set(PlotKind::lengths,
-      plot_along_run("lengths", "ℓ_c in D",
-                     {series_of(&FrameThreshold::lc_mean), series_of(&FrameThreshold::lc_max)}));
-  set_quantity(PlotKind::strain, "strain", &FrameRecord::volume_strain);
+                     {series_of(&analysis::FrameRecord::stress_ratio),
+                      series_of(&analysis::FrameRecord::sigma_t_over_n), law("sin θ"), law("tan θ")}));
+  set_quantity(PlotKind::overloaded, "overloaded", &analysis::FrameThreshold::overloaded_fraction);
+  set_quantity(PlotKind::cluster, "cluster", &analysis::FrameThreshold::largest_share);
+  set(PlotKind::lengths, plot_along_run("lengths", "ℓ_c in D",
+                                        {series_of(&analysis::FrameThreshold::lc_mean),
+                                         series_of(&analysis::FrameThreshold::lc_max)}));
+  set_quantity(PlotKind::strain, "strain", &analysis::FrameRecord::volume_strain);
   set(PlotKind::energy, plot_along_run("energy", "Energy E_k/mgD of a grain", {curve("kinetic energy")}));
   plot_of(plots, PlotKind::energy).log_y = true;
   set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {curve("pdf")}});
@@ -122,7 +128,8 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
       clear(series);
       for (const ObservableRow& row : rows)
         add(series, place_of(row),
-            shown(*series.quantity, at(row, *series.quantity->display.observable), statics.mean_diameter));
+            analysis::shown(*series.quantity, at(row, *series.quantity->display.observable),
+                            statics.mean_diameter));
     }
   PlotSeries& sine_law = plot_of(plots, PlotKind::stress).series[2];
   PlotSeries& tangent_law = plot_of(plots, PlotKind::stress).series[3];
@@ -139,16 +146,17 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
   }
 }
 
-void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots, bool stored) {
+void plot_frames(std::span<const analysis::FrameRecord> frames, std::span<const double> times,
+                 double mean_diameter, const PlotAbscissa& abscissa, std::vector<Plot>& plots, bool stored) {
   for (Plot& plot : plots)
     for (PlotSeries& series : plot.series) {
       if (!series.quantity || series.quantity->display.observable) continue;
-      if (stored && needs_threshold(*series.quantity)) continue;
+      if (stored && analysis::needs_threshold(*series.quantity)) continue;
       clear(series);
       for (std::size_t k = 0; k < frames.size(); ++k)
         add(series, place_on(abscissa, frames[k].tilt, times[k]),
-            shown(*series.quantity, number_of(*series.quantity, frames[k]), mean_diameter));
+            analysis::shown(*series.quantity, analysis::number_of(*series.quantity, frames[k]),
+                            mean_diameter));
     }
 }
 
@@ -156,7 +164,7 @@ void note_threshold(double factor, std::optional<double> assumed, std::vector<Pl
   const std::string note = fmt::format("at {:.3g} Γ_c", factor) +
                            (assumed ? fmt::format(", if θ_c = {:.3g}°", degrees(*assumed)) : std::string());
   const auto has_one = [](const PlotSeries& series) {
-    return series.quantity && needs_threshold(*series.quantity);
+    return series.quantity && analysis::needs_threshold(*series.quantity);
   };
   for (Plot& plot : plots)
     if (std::ranges::any_of(plot.series, has_one)) plot.note = note;
@@ -192,7 +200,7 @@ RangeStatistics statistics_of(const PlotSeries& series, double low, double high)
 void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots) {
   PlotSeries& series = plot_of(plots, PlotKind::gamma).series[0];
   clear(series);
-  const Histogram histogram = stress_ratio_distribution(bed, gamma_bins);
+  const analysis::Histogram histogram = analysis::stress_ratio_distribution(bed, gamma_bins);
   if (histogram.total == 0.0) return;
   const std::vector<double> density = histogram.density();
   for (std::size_t bin = 0; bin < density.size(); ++bin) add(series, histogram.centre(bin), density[bin]);
@@ -211,4 +219,4 @@ void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots) {
   }
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -12,7 +12,7 @@
 #include "core/snapshot.h"
 #include "view/frame_values.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What the curves of a run are over.
 enum class PlotAxis { tilt, angle_left, time };
@@ -43,11 +43,11 @@ struct GhostCurve {
 
 /// One curve along the run, and what is known of it.
 struct PlotSeries {
-  std::string name;                                 ///< "p_o": short, for the legend
-  std::vector<double> x, y;                         ///< places on the axis; NaN where there is none
-  bool law = false;                                 ///< what theory says, beside what was measured
-  std::optional<Quantity> quantity = std::nullopt;  ///< what it shows, where the table has it
-  GhostCurve behind{};                              ///< empty where nothing is
+  std::string name;                                           ///< "p_o": short, for the legend
+  std::vector<double> x, y;                                   ///< places on the axis; NaN where there is none
+  bool law = false;                                           ///< what theory says, beside what was measured
+  std::optional<analysis::Quantity> quantity = std::nullopt;  ///< what it shows, where the table has it
+  GhostCurve behind{};                                        ///< empty where nothing is
 };
 
 /// A plot beside the map: curves along the run, or over what else `x_title` says.
@@ -80,11 +80,11 @@ enum class PlotKind : std::size_t {
 inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::count);
 
 /// An empty curve of a quantity, called by its symbol, and an empty plot of some along the run.
-PlotSeries series_of(const Quantity& quantity);
+PlotSeries series_of(const analysis::Quantity& quantity);
 Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
 
 /// An empty plot of one quantity along the run, named as it is, with its title, or its name, and its unit.
-Plot plot_of_quantity(const Quantity& quantity);
+Plot plot_of_quantity(const analysis::Quantity& quantity);
 
 /// All plots, empty, over the tilt.
 std::vector<Plot> empty_plots();
@@ -98,8 +98,9 @@ void plot_observables(std::span<const ObservableRow> rows, const RunStatics& sta
 /// Fills the curves of all other quantities, from frames with one threshold, or, of a `stored` analysis,
 /// those of quantities that depend on no threshold; `times` (s) are of the frames, and may be more. Values
 /// that are NaN make a gap.
-void plot_frames(std::span<const FrameRecord> frames, std::span<const double> times, double mean_diameter,
-                 const PlotAbscissa& abscissa, std::vector<Plot>& plots, bool stored = false);
+void plot_frames(std::span<const analysis::FrameRecord> frames, std::span<const double> times,
+                 double mean_diameter, const PlotAbscissa& abscissa, std::vector<Plot>& plots,
+                 bool stored = false);
 /// Notes the threshold, in Gamma_c, of the plots whose quantities have one; `assumed` (rad): the theta_c that
 /// it follows from while the slope has not failed.
 void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots);
@@ -117,4 +118,4 @@ void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots);
 /// Fills residual and iterations. Of many steps, groups in a row are drawn as one, at the largest value.
 void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots);
 
-}  // namespace talus
+}  // namespace talus::view

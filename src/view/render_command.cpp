@@ -8,14 +8,14 @@
 #include "core/trigonometry.h"
 #include "render/colour_map.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// As short as it can be: eight digits tell any two frames apart.
 std::string number(double value) { return fmt::format("{:.8g}", value == 0.0 ? 0.0 : value); }
 
 /// In D, rounded into the part: `talus render` refuses what leaves the bed.
-std::string crop_text(const MapExtent& part, double diameter) {
+std::string crop_text(const pictures::MapExtent& part, double diameter) {
   constexpr double parts = 100.0;  // of D
   const auto up = [&](double x) { return number(std::ceil(x / diameter * parts - 1e-9) / parts); };
   const auto down = [&](double x) { return number(std::floor(x / diameter * parts + 1e-9) / parts); };
@@ -24,40 +24,46 @@ std::string crop_text(const MapExtent& part, double diameter) {
 
 /// The range that is not the one that `talus render` finds by itself: one that was chosen, or, of motion, the
 /// fixed one of the window.
-std::optional<ScaleRange> range_of(const RenderRequest& shown) {
-  const MapSettings& settings = shown.settings;
-  if (!has_bar(settings.layers)) return std::nullopt;
-  if (settings.range_low && settings.range_high) return ScaleRange{*settings.range_low, *settings.range_high};
-  const auto bar = std::ranges::find_if(settings.layers, [](MapKind kind) { return has_bar({kind}); });
-  if (!fits_frames(*bar)) return std::nullopt;
-  return fixed_motion_range(*bar, !shown.since && !shown.in_flow);
+std::optional<pictures::ScaleRange> range_of(const RenderRequest& shown) {
+  const pictures::MapSettings& settings = shown.settings;
+  if (!pictures::has_bar(settings.layers)) return std::nullopt;
+  if (settings.range_low && settings.range_high)
+    return pictures::ScaleRange{*settings.range_low, *settings.range_high};
+  const auto bar =
+      std::ranges::find_if(settings.layers, [](pictures::MapKind kind) { return pictures::has_bar({kind}); });
+  if (!pictures::fits_frames(*bar)) return std::nullopt;
+  return pictures::fixed_motion_range(*bar, !shown.since && !shown.in_flow);
 }
 
 }  // namespace
 
 std::string render_command_line(const RenderRequest& shown) {
-  const MapSettings& settings = shown.settings;
-  const MapLayers& layers = settings.layers;
+  const pictures::MapSettings& settings = shown.settings;
+  const pictures::MapLayers& layers = settings.layers;
   std::string line = "talus render " + shell_quoted(shown.run);
   const auto add = [&line](const std::string& option, const std::string& value) {
     line += fmt::format(" {} {}", option, value);
   };
   const auto flag = [&line](const std::string& option) { line += " " + option; };
-  add("--map", layers_name(layers));
+  add("--map", pictures::layers_name(layers));
   add("--at", shown.frame ? fmt::format("frame{}", *shown.frame) : number(degrees(shown.tilt)));
   if (shown.in_flow) flag("--flow");
-  const bool by_theta_c = any_layer(layers, needs_theta_c);
+  const bool by_theta_c = pictures::any_layer(layers, pictures::needs_theta_c);
   if (by_theta_c && settings.theta_c_assumed) add("--theta-c", number(degrees(settings.theta_c)));
-  if (any_layer(layers, shows_gamma) && settings.l_min != MapSettings().l_min)
+  if (pictures::any_layer(layers, pictures::shows_gamma) && settings.l_min != pictures::MapSettings().l_min)
     add("--l-min", number(settings.l_min));
-  const bool by_threshold = shows(layers, MapKind::overloaded) || shows(layers, MapKind::clusters);
+  const bool by_threshold = pictures::shows(layers, pictures::MapKind::overloaded) ||
+                            pictures::shows(layers, pictures::MapKind::clusters);
   if (by_threshold && settings.threshold_factor != 1.0) add("--threshold", number(settings.threshold_factor));
-  if (any_layer(layers, is_coarse) && settings.length != MapSettings().length)
+  if (pictures::any_layer(layers, pictures::is_coarse) && settings.length != pictures::MapSettings().length)
     add("--length", number(settings.length));
-  if (shown.since && any_layer(layers, needs_reference)) add("--since", number(degrees(*shown.since)));
-  if (settings.joined_by_neighbours && shows(layers, MapKind::clusters)) add("--joined", "neighbours");
-  if (has_bar(layers) && settings.colours) add("--colours", std::string(colour_map_name(*settings.colours)));
-  if (const std::optional<ScaleRange> range = range_of(shown))
+  if (shown.since && pictures::any_layer(layers, pictures::needs_reference))
+    add("--since", number(degrees(*shown.since)));
+  if (settings.joined_by_neighbours && pictures::shows(layers, pictures::MapKind::clusters))
+    add("--joined", "neighbours");
+  if (pictures::has_bar(layers) && settings.colours)
+    add("--colours", std::string(render::colour_map_name(*settings.colours)));
+  if (const std::optional<pictures::ScaleRange> range = range_of(shown))
     add("--range", fmt::format("{},{}", number(range->low), number(range->high)));
   if (shown.part) add("--crop", crop_text(*shown.part, shown.mean_diameter));
   if (settings.turned) flag("--turned");
@@ -66,4 +72,4 @@ std::string render_command_line(const RenderRequest& shown) {
   return line;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -6,7 +6,7 @@
 
 #include "analysis/failure/last_rise.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 std::size_t nearest_place(std::span<const double> places, double place) {
@@ -35,8 +35,8 @@ std::optional<std::size_t> linked_frame(PlotAxis clock, const RunInstants& shown
                                             at.time - end_of_tilt(shown) + end_of_tilt(other));
   const auto tilts = std::span(other.tilts).first(other.tilt_count);
   if (clock == PlotAxis::angle_left)
-    return nearest_place(magnitudes(tilts, {0, tilts.size()}), std::abs(at.tilt) + ahead);
+    return nearest_place(analysis::magnitudes(tilts, {0, tilts.size()}), std::abs(at.tilt) + ahead);
   return nearest_place(tilts, at.tilt);
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -6,7 +6,7 @@
 
 #include "view/plots.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What two runs are compared by: their frames, those of a flow after failure last.
 struct RunInstants {
@@ -28,4 +28,4 @@ struct Instant {
 std::optional<std::size_t> linked_frame(PlotAxis clock, const RunInstants& shown, const Instant& at,
                                         const RunInstants& other);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -8,23 +8,23 @@
 #include "pictures/bed_view.h"
 #include "pictures/change_map.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-constexpr Colour light_wall{190, 196, 206};
+constexpr render::Colour light_wall{190, 196, 206};
 
-void add_grains(FrameView& view, const FrameView& map) {
+void add_grains(render::FrameView& view, const render::FrameView& map) {
   view.discs.reserve(map.discs.size());
-  for (const Disc& disc : map.discs)
-    if (is_seen(view, disc)) view.discs.push_back(disc);
-  for (const Line& line : map.lines)
-    if (is_seen(view, line)) view.lines.push_back(line);
+  for (const render::Disc& disc : map.discs)
+    if (pictures::is_seen(view, disc)) view.discs.push_back(disc);
+  for (const render::Line& line : map.lines)
+    if (pictures::is_seen(view, line)) view.lines.push_back(line);
 }
 
 /// Side walls, and a smooth floor; light where there is no white behind them.
-void add_boundary(FrameView& view, const BedFrame& bed) {
+void add_boundary(render::FrameView& view, const BedFrame& bed) {
   const RunStatics& statics = bed.statics;
-  const Colour colour = view.transparent ? light_wall : black;
+  const render::Colour colour = view.transparent ? light_wall : render::black;
   const auto add = [&](double x0, double y0, double x1, double y1) {
     view.lines.push_back({static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
                           static_cast<float>(y1), static_cast<float>(0.1 * statics.mean_diameter), colour});
@@ -40,11 +40,12 @@ void add_boundary(FrameView& view, const BedFrame& bed) {
 
 /// What `draw` makes; where it cannot, the grains alone, with the reason as title.
 template <typename Draw>
-FrameView drawn_or_outlined(const PictureSeries& series, const Frame& frame, const Draw& draw) {
+render::FrameView drawn_or_outlined(const pictures::PictureSeries& series, const Frame& frame,
+                                    const Draw& draw) {
   try {
     return draw();
   } catch (const Error& error) {
-    FrameView view = outlined_bed({frame, series.run.statics}, series.extent);
+    render::FrameView view = pictures::outlined_bed({frame, series.run.statics}, series.extent);
     view.furniture = true;
     view.tilt = frame.tilt;
     view.title = error.what();
@@ -53,13 +54,13 @@ FrameView drawn_or_outlined(const PictureSeries& series, const Frame& frame, con
 }
 
 /// Layers of a map; none where it cannot be drawn.
-std::vector<MapLayer> layers_of(const MapSource& source, const RunStatics& statics) {
-  const MapFrame of{{*source.frame, statics}, source.reference.get(), !source.since};
+std::vector<pictures::MapLayer> layers_of(const MapSource& source, const RunStatics& statics) {
+  const pictures::MapFrame of{{*source.frame, statics}, source.reference.get(), !source.since};
   try {
-    if (source.change) return change_layers(of, source.settings, source.extent);
-    std::vector<MapLayer> layers;
+    if (source.change) return pictures::change_layers(of, source.settings, source.extent);
+    std::vector<pictures::MapLayer> layers;
     for (std::size_t k = 0; k < source.settings.layers.size(); ++k)
-      layers.push_back(make_layer(of, source.settings, source.extent, k));
+      layers.push_back(pictures::make_layer(of, source.settings, source.extent, k));
     return layers;
   } catch (const Error&) {
     return {};
@@ -68,46 +69,51 @@ std::vector<MapLayer> layers_of(const MapSource& source, const RunStatics& stati
 
 }  // namespace
 
-bool depends_on_extent(const MapLayers& layers) {
-  return layers.size() > 1 && layers[1] == MapKind::displacement;
+bool depends_on_extent(const pictures::MapLayers& layers) {
+  return layers.size() > 1 && layers[1] == pictures::MapKind::displacement;
 }
 
-MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
+MapSource source_of(const pictures::PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
                     std::shared_ptr<const Frame> reference) {
-  const MapSettings& settings = series.plan.maps[0];
-  const bool coloured = shows(settings.layers, MapKind::clusters);
-  const std::size_t needed = coloured ? k + 1 : shows(settings.layers, MapKind::dyed) ? 1 : 0;
+  const pictures::MapSettings& settings = series.plan.maps[0];
+  const bool coloured = pictures::shows(settings.layers, pictures::MapKind::clusters);
+  const std::size_t needed = coloured                                                    ? k + 1
+                             : pictures::shows(settings.layers, pictures::MapKind::dyed) ? 1
+                                                                                         : 0;
   const std::size_t met = std::min(series.met.instants.size(), needed);
   return {std::move(frame), std::move(reference), settings, series.extent, series.since, met};
 }
 
-FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference) {
-  return drawn_or_outlined(series, frame, [&] { return picture(series, k, frame, reference, 0); });
+render::FrameView draw_map(const pictures::PictureSeries& series, std::size_t k, const Frame& frame,
+                           const Frame* reference) {
+  return drawn_or_outlined(series, frame, [&] { return pictures::picture(series, k, frame, reference, 0); });
 }
 
-FrameView draw_change(const PictureSeries& series, const Frame& frame, const Frame* reference) {
-  const MapFrame of{{frame, series.run.statics}, reference, false};
+render::FrameView draw_change(const pictures::PictureSeries& series, const Frame& frame,
+                              const Frame* reference) {
+  const pictures::MapFrame of{{frame, series.run.statics}, reference, false};
   return drawn_or_outlined(series, frame,
-                           [&] { return make_change_map(of, series.plan.maps[0], series.extent); });
+                           [&] { return pictures::make_change_map(of, series.plan.maps[0], series.extent); });
 }
 
 GrainValues grain_values(const MapSource& source, const RunStatics& statics) {
-  for (const MapLayer& layer : layers_of(source, statics))
+  for (const pictures::MapLayer& layer : layers_of(source, statics))
     if (!layer.values.empty()) return {layer.values, layer.legend.bars.at(0).title};
   return {};
 }
 
-std::optional<ScaleRange> own_range(const MapSource& source, const RunStatics& statics) {
+std::optional<pictures::ScaleRange> own_range(const MapSource& source, const RunStatics& statics) {
   MapSource own = source;
   own.settings.range_low.reset();
   own.settings.range_high.reset();
-  for (const MapLayer& layer : layers_of(own, statics))
-    if (layer.scale) return ScaleRange{layer.scale->low, layer.scale->high};
+  for (const pictures::MapLayer& layer : layers_of(own, statics))
+    if (layer.scale) return pictures::ScaleRange{layer.scale->low, layer.scale->high};
   return std::nullopt;
 }
 
-FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed) {
-  FrameView view = empty_view(part);
+render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
+                            const BedFrame& bed) {
+  render::FrameView view = pictures::empty_view(part);
   view.turn = map.turn;
   view.turn_max = map.turn_max;
   view.tilt = map.tilt;
@@ -118,4 +124,4 @@ FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame&
   return view;
 }
 
-}  // namespace talus
+}  // namespace talus::view

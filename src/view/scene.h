@@ -9,13 +9,13 @@
 #include "pictures/picture_series.h"
 #include "render/frame_view.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What tells the first map of a series at a frame from other maps of the run.
 struct MapSource {
   std::shared_ptr<const Frame> frame, reference;  ///< as in `picture`: the second may be null
-  MapSettings settings;
-  MapExtent extent;
+  pictures::MapSettings settings;
+  pictures::MapExtent extent;
   std::optional<std::size_t> since;
   std::size_t met = 0;  ///< how many frames its colours follow from
   bool change = false;  ///< the frame minus the reference (change_map.h), instead of the frame
@@ -23,7 +23,7 @@ struct MapSource {
 };
 
 /// Of the map at frame k.
-MapSource source_of(const PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
+MapSource source_of(const pictures::PictureSeries& series, std::size_t k, std::shared_ptr<const Frame> frame,
                     std::shared_ptr<const Frame> reference);
 
 /// A number that a map gives each free grain, NaN where it has none.
@@ -36,25 +36,28 @@ struct GrainValues {
 GrainValues grain_values(const MapSource& source, const RunStatics& statics);
 
 /// The ends of the bar of the first layer that has one whose grains have numbers, where none are chosen.
-std::optional<ScaleRange> own_range(const MapSource& source, const RunStatics& statics);
+std::optional<pictures::ScaleRange> own_range(const MapSource& source, const RunStatics& statics);
 
 /// Whether the map depends on how much of the bed it shows: arrows are spread over it.
-bool depends_on_extent(const MapLayers& layers);
+bool depends_on_extent(const pictures::MapLayers& layers);
 
 /// The first map of the series at frame k, as `picture` makes it. One that cannot be drawn, as its scale has
 /// no range, shows the grains alone, with the reason as its title.
-FrameView draw_map(const PictureSeries& series, std::size_t k, const Frame& frame, const Frame* reference);
+render::FrameView draw_map(const pictures::PictureSeries& series, std::size_t k, const Frame& frame,
+                           const Frame* reference);
 
 /// The frame minus the reference, which may be null, as make_change_map has it, by the settings of the first
 /// map of the series; drawn as draw_map where it cannot be. Both are frames of mapped_frame.
-FrameView draw_change(const PictureSeries& series, const Frame& frame, const Frame* reference);
+render::FrameView draw_change(const pictures::PictureSeries& series, const Frame& frame,
+                              const Frame* reference);
 
 /// The part of a map that is shown. Nothing is drawn beyond the extent of the map but side walls and a smooth
 /// floor, as lines.
-FrameView shown_map(const FrameView& map, const MapExtent& part, const BedFrame& bed);
+render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
+                            const BedFrame& bed);
 
 /// Of what is selected, and of where it has been.
-inline constexpr Colour selection_colour{0, 90, 220}, trail_colour{0, 60, 150};
+inline constexpr render::Colour selection_colour{0, 90, 220}, trail_colour{0, 60, 150};
 
 /// What is drawn over the map of a frame.
 struct Overlay {
@@ -71,6 +74,7 @@ struct Overlay {
 /// Diameters for circles of a neighbourhood that has grown to `largest`: round steps, and the largest.
 std::vector<double> growing_diameters(double largest);
 
-void add_overlay(FrameView& view, const BedFrame& bed, const Overlay& overlay, const Clusters& clusters);
+void add_overlay(render::FrameView& view, const BedFrame& bed, const Overlay& overlay,
+                 const analysis::Clusters& clusters);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -7,7 +7,7 @@
 
 #include "analysis/free_grains.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// Whether a ray from the place in the direction of x crosses the line an odd number of times.
@@ -58,7 +58,7 @@ std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most) {
 std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outline) {
   std::vector<Index> grains;
   if (outline.size() < 3) return grains;
-  const double period = period_of(bed.statics);
+  const double period = analysis::period_of(bed.statics);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const double x = bed.frame.x[k], y = bed.frame.y[k];
@@ -71,7 +71,7 @@ std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outl
 
 std::optional<Index> find_contact(const BedFrame& bed, double x, double y, double reach) {
   const FrameContacts& contacts = bed.frame.contacts;
-  const double period = period_of(bed.statics);
+  const double period = analysis::period_of(bed.statics);
   std::optional<Index> nearest;
   double least = reach;
   for (Index c = 0; c < contacts.count(); ++c) {
@@ -105,4 +105,4 @@ std::optional<Index> contact_of_key(const FrameContacts& contacts, const Contact
   return low;
 }
 
-}  // namespace talus
+}  // namespace talus::view

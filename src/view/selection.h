@@ -8,7 +8,7 @@
 
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::view {
 
 /// A contact keeps its key from frame to frame: bodies a < b, where b may be a plane, and b touches a from
 /// x_b + shift * length.
@@ -56,4 +56,4 @@ ContactKey key_of(const FrameContacts& contacts, Index c);
 /// Where a contact with that key is among those of a frame; none where it carries no force there.
 std::optional<Index> contact_of_key(const FrameContacts& contacts, const ContactKey& key);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -8,7 +8,7 @@
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr int histogram_bins = 24;
@@ -19,7 +19,7 @@ double value_of(std::span<const double> values, Index grain) {
 
 PlotSeries stairs_of(const std::string& name, std::span<const Index> grains, std::span<const double> values,
                      double low, double high) {
-  Histogram histogram(low, high, histogram_bins);
+  analysis::Histogram histogram(low, high, histogram_bins);
   for (const Index grain : grains) histogram.add(value_of(values, grain));
   const std::vector<double> density = histogram.density();
   PlotSeries stairs;
@@ -56,12 +56,12 @@ std::vector<Index> sorted_by(std::vector<Index> grains, std::span<const double> 
   return grains;
 }
 
-Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, std::span<const Index> all,
-                  std::span<const double> values) {
+Plot histogram_of(const analysis::GrainNumber& number, std::span<const Index> selected,
+                  std::span<const Index> all, std::span<const double> values) {
   Plot plot;
   plot.name = fmt::format("histogram of {}", number.name);
   plot.title = "Density";
-  const std::string unit = scaled_unit(number.quantity->unit);
+  const std::string unit = analysis::scaled_unit(number.quantity->unit);
   plot.x_title = number.name + (unit == "1" ? "" : " in " + unit);
   std::ranges::replace(plot.x_title, '_', ' ');  // which would set a subscript
   plot.along_run = false;
@@ -76,22 +76,22 @@ Plot histogram_of(const GrainNumber& number, std::span<const Index> selected, st
   return plot;
 }
 
-std::string grains_table(const Frame& frame, std::span<const Index> grains,
-                         std::span<const GrainNumber> numbers,
-                         const std::function<const std::vector<double>&(const GrainNumber&)>& values_of) {
+std::string grains_table(
+    const Frame& frame, std::span<const Index> grains, std::span<const analysis::GrainNumber> numbers,
+    const std::function<const std::vector<double>&(const analysis::GrainNumber&)>& values_of) {
   std::string text = "time (s),tilt (deg)";
-  for (const GrainNumber& number : numbers) text.append(1, ',').append(head_of(number));
+  for (const analysis::GrainNumber& number : numbers) text.append(1, ',').append(head_of(number));
   text += '\n';
   const std::string instant = fmt::format("{},{}", frame.time, degrees(frame.tilt));
   for (const Index grain : grains) {
     text += instant;
-    for (const GrainNumber& number : numbers) {
+    for (const analysis::GrainNumber& number : numbers) {
       text += ',';
-      append_number(text, value_of(values_of(number), grain), number.quantity->number, "");
+      analysis::append_number(text, value_of(values_of(number), grain), number.quantity->number, "");
     }
     text += '\n';
   }
   return text;
 }
 
-}  // namespace talus
+}  // namespace talus::view

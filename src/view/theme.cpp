@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "base/visible_text.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 constexpr std::array all_themes = {Theme::light, Theme::dark, Theme::print};
@@ -40,4 +40,4 @@ Theme next_theme(Theme theme) {
   return all_themes[static_cast<std::size_t>(at + 1) % all_themes.size()];
 }
 
-}  // namespace talus
+}  // namespace talus::view

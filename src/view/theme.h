@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace talus {
+namespace talus::view {
 
 enum class Theme {
   light,
@@ -21,4 +21,4 @@ Theme theme_of(std::string_view name);
 /// The one after it, and the first after the last.
 Theme next_theme(Theme theme);
 
-}  // namespace talus
+}  // namespace talus::view

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "session/command.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 std::vector<double> column_of(std::span<const ObservableRow> rows, Observable field) {
@@ -29,11 +29,11 @@ struct EventList {
   std::vector<TimelineEvent> events;
 
   explicit EventList(const TimelineSource& of) : source(of) {
-    const SeriesPart rise = last_rise(of.tilts);
+    const analysis::SeriesPart rise = analysis::last_rise(of.tilts);
     rise_begins = rise.first;
-    rise_tilts = magnitudes(of.tilts, rise);
-    other_side = is_to_other_side(of.tilts, rise);
-    const std::vector<ObservableRow> rows = rows_of_last_rise(of.rows);
+    rise_tilts = analysis::magnitudes(of.tilts, rise);
+    other_side = analysis::is_to_other_side(of.tilts, rise);
+    const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(of.rows);
     row_tilts = column_of(rows, Observable::tilt);
     row_times = column_of(rows, Observable::time);
   }
@@ -71,49 +71,54 @@ struct EventList {
 
   void add_command(std::size_t k) {
     const Command& command = source.commands[k];
-    const double tilt = tilt_before(command, source.commands, source.command_rows);
-    const double time = time_before(command, source.command_rows);
+    const double tilt = session::tilt_before(command, source.commands, source.command_rows);
+    const double time = session::time_before(command, source.command_rows);
     const bool in_deposition = std::isnan(tilt);  // its place is the beginning of the line
-    add_then(fmt::format("command {}", k), command_text(command), in_deposition ? source.tilts.front() : tilt,
+    add_then(fmt::format("command {}", k), session::command_text(command),
+             in_deposition ? source.tilts.front() : tilt,
              in_deposition && !source.times.empty() ? source.times.front() : time,
              TimelineEvent::Kind::command);
   }
 };
 
 void add_of_rows(EventList& list, double theta_c) {
-  const std::vector<ObservableRow> rows = rows_of_last_rise(list.source.rows);
+  const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(list.source.rows);
   const std::vector<double> tilts = column_of(rows, Observable::tilt);
   const auto onset = [&](Observable strain) {
-    return dilation_onset(tilts, column_of(rows, strain), theta_c, radians(dilation_window)).tilt;
+    return analysis::dilation_onset(tilts, column_of(rows, strain), theta_c,
+                                    radians(analysis::dilation_window))
+        .tilt;
   };
   list.add("dilation", "θ_d", "the volume begins to grow", onset(Observable::volume_strain));
   list.add("centre of mass", "θ_d", "the centre of mass begins to rise",
            onset(Observable::centre_of_mass_strain));
   list.add("first slide", "slide", "the surface layer slides first",
-           first_slide(tilts, column_of(rows, Observable::surface_displacement),
-                       slide_distance * list.source.mean_diameter, radians(slide_window)));
+           analysis::first_slide(tilts, column_of(rows, Observable::surface_displacement),
+                                 analysis::slide_distance * list.source.mean_diameter,
+                                 radians(analysis::slide_window)));
 }
 
 void add_of_frames(EventList& list, double theta_c) {
   const TimelineSource& source = list.source;
-  const auto first = std::ranges::find_if(
-      source.values, [](const FrameRecord& frame) { return frame.thresholds.front().spans_depth != 0; });
+  const auto first = std::ranges::find_if(source.values, [](const analysis::FrameRecord& frame) {
+    return frame.thresholds.front().spans_depth != 0;
+  });
   if (const auto k = static_cast<std::size_t>(first - source.values.begin()); k < source.values.size())
     list.add_at("spans", "spans", "a cluster first spans from floor to surface", first->tilt,
                 static_cast<double>(k), k < source.times.size() ? source.times[k] : not_known,
                 TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
-  const auto [begin, frames, tilts, other_side] = last_rise(source.values);
+  const auto [begin, frames, tilts, other_side] = analysis::last_rise(source.values);
   std::vector<double> lengths;
   std::vector<Index> spans;
-  for (const FrameRecord* frame : frames) {
+  for (const analysis::FrameRecord* frame : frames) {
     lengths.push_back(frame->thresholds.front().lc_max);
     spans.push_back(frame->thresholds.front().spans_depth);
   }
   list.add("length jump", "ℓ_c", "the largest ℓ_c jumps",
-           length_jump(tilts, lengths, theta_c, source.cut).tilt);
+           analysis::length_jump(tilts, lengths, theta_c, source.cut).tilt);
   list.add("percolation", "θ_d", "clusters percolate from here on",
-           percolation_onset(tilts, spans, theta_c).tilt);
+           analysis::percolation_onset(tilts, spans, theta_c).tilt);
 }
 
 /// Decades of energy below the largest rearrangement in which those are told apart, and the size of the rest.
@@ -122,14 +127,15 @@ constexpr double least_size = 0.2;
 
 /// Not the flow that fails the slope, of which theta_c tells.
 void add_rearrangements(EventList& list) {
-  std::vector<EventRecord> chosen(list.source.rearrangements.begin(), list.source.rearrangements.end());
-  std::erase_if(chosen, [](const EventRecord& event) {
-    return event.kind == static_cast<Index>(EventKind::failure) || !std::isfinite(event.begin);
+  std::vector<analysis::EventRecord> chosen(list.source.rearrangements.begin(),
+                                            list.source.rearrangements.end());
+  std::erase_if(chosen, [](const analysis::EventRecord& event) {
+    return event.kind == static_cast<Index>(analysis::EventKind::failure) || !std::isfinite(event.begin);
   });
   double largest = 0.0;
-  for (const EventRecord& event : chosen) largest = std::fmax(largest, event.energy);
+  for (const analysis::EventRecord& event : chosen) largest = std::fmax(largest, event.energy);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    const EventRecord& event = chosen[k];
+    const analysis::EventRecord& event = chosen[k];
     list.add_then(fmt::format("rearrangement {}", k),
                   fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
                               event.energy / list.source.energy_unit, event.grains,
@@ -185,4 +191,4 @@ std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
   return std::move(list.events);
 }
 
-}  // namespace talus
+}  // namespace talus::view

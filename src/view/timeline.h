@@ -12,7 +12,7 @@
 #include "view/bookmarks.h"
 #include "view/frame_values.h"
 
-namespace talus {
+namespace talus::view {
 
 /// Places of a run worth going to.
 enum class Landmark {
@@ -42,19 +42,19 @@ struct TimelineEvent {
 
 /// What the events follow from, as far as it is known.
 struct TimelineSource {
-  std::vector<double> tilts;                    ///< rad, of the frames of the tilt
-  std::vector<double> times;                    ///< s, of the same
-  std::span<const ObservableRow> rows;          ///< of the tilt
-  std::span<const FrameRecord> values;          ///< of the first frames of the tilt, with one threshold
-  std::span<const Command> commands;            ///< in their order
-  std::span<const ObservableRow> command_rows;  ///< rows_up_to of the whole run, by which they have a tilt
-  std::span<const EventRecord> rearrangements;  ///< of a stored analysis, in their order
-  std::span<const Bookmark> bookmarks;          ///< in their order
-  std::vector<double> all_times;                ///< s, of all frames, also of those after failure
-  double energy_unit = 1.0;                     ///< m g D, J/m
-  std::optional<double> theta_c;                ///< rad
-  double mean_diameter = 0.0, cut = 0.0;        ///< m; l_c is searched for up to the second
-  bool may_change = false;                      ///< more frames will come
+  std::vector<double> tilts;                      ///< rad, of the frames of the tilt
+  std::vector<double> times;                      ///< s, of the same
+  std::span<const ObservableRow> rows;            ///< of the tilt
+  std::span<const analysis::FrameRecord> values;  ///< of the first frames of the tilt, with one threshold
+  std::span<const Command> commands;              ///< in their order
+  std::span<const ObservableRow> command_rows;    ///< rows_up_to of the whole run, by which they have a tilt
+  std::span<const analysis::EventRecord> rearrangements;  ///< of a stored analysis, in their order
+  std::span<const Bookmark> bookmarks;                    ///< in their order
+  std::vector<double> all_times;                          ///< s, of all frames, also of those after failure
+  double energy_unit = 1.0;                               ///< m g D, J/m
+  std::optional<double> theta_c;                          ///< rad
+  double mean_diameter = 0.0, cut = 0.0;                  ///< m; l_c is searched for up to the second
+  bool may_change = false;                                ///< more frames will come
 };
 
 /// Where a tilt is among ascending tilts, or a time among times, in frames; not beyond the first and the
@@ -67,4 +67,4 @@ double place_among(std::span<const double> tilts, double tilt);
 /// are no frames. Where the tilt goes up and down, what is found at an angle is of the last rise.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);
 
-}  // namespace talus
+}  // namespace talus::view

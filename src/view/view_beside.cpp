@@ -9,15 +9,15 @@
 #include "view/run_clock.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-const MapLayers& layers_beside(const ViewState& asked) {
+const pictures::MapLayers& layers_beside(const ViewState& asked) {
   return asked.beside.layers.empty() ? asked.map.layers : asked.beside.layers;
 }
 
 /// Holds both, with ends of few digits.
-ScaleRange common_range(const ScaleRange& one, const ScaleRange& two) {
+pictures::ScaleRange common_range(const pictures::ScaleRange& one, const pictures::ScaleRange& two) {
   constexpr double hair = 1e-6;  // of a step: ends that are round stay
   const double low = std::min(one.low, two.low), high = std::max(one.high, two.high);
   const double step = std::pow(10.0, std::floor(std::log10(high - low)) - 1.0);
@@ -95,7 +95,7 @@ void ViewModel::link_ranges() {
     const View view{of, plain, of.map_};
     return own_range({of.frame_, nullptr, view.settings(), of.bed_, std::nullopt, 0, false}, of.statics());
   };
-  const std::optional<ScaleRange> one = range(*this), two = range(*other_);
+  const std::optional<pictures::ScaleRange> one = range(*this), two = range(*other_);
   if (one && two && !(*one == *two)) linked_.range = common_range(*one, *two);
 }
 
@@ -111,7 +111,7 @@ bool ViewModel::follow_beside(double seconds) {
   if (goes) other_->go_to(*k);
   const bool changed = other_->update(seconds) || goes;
   const auto as_high = [](const ViewModel& as, const ViewModel& in) {
-    MapExtent extent = as.bed_;
+    pictures::MapExtent extent = as.bed_;
     const double scale = in.mean_diameter() / as.mean_diameter();
     extent.y_min *= scale;
     extent.y_max *= scale;
@@ -128,7 +128,8 @@ void ViewModel::open_beside(const std::string& path) {
   if (is_live())
     throw Error(ExitCode::usage, path + ": another run can be beside a replay only; " + this->path() +
                                      " is being computed. Show another map of it, or what has changed");
-  if (!is_run(path)) throw Error(ExitCode::usage, path + ": only a run file can be shown beside another run");
+  if (!io::is_run(path))
+    throw Error(ExitCode::usage, path + ": only a run file can be shown beside another run");
   {
     const std::scoped_lock lock(*turn_);
     std::unique_ptr<ViewModel> next(new ViewModel);
@@ -153,4 +154,4 @@ bool ViewModel::has_clock(PlotAxis clock) const {
   return clock != PlotAxis::angle_left || (theta_c_ && other_ && other_->theta_c_known());
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -10,7 +10,7 @@
 #include "session/command.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 
 void ViewModel::find_events() {
   TimelineSource source;
@@ -18,19 +18,20 @@ void ViewModel::find_events() {
   source.times = times_of_tilt();
   source.rows = rows_;
   source.values = series_->values();
-  const std::vector<Command> given = given_commands(commands_);
+  const std::vector<Command> given = session::given_commands(commands_);
   source.commands = given;
   const std::vector<ObservableRow> live_rows =
-      live_ && !given.empty() ? rows_up_to(rows_, newest_->step, newest_->time, newest_->tilt)
+      live_ && !given.empty() ? session::rows_up_to(rows_, newest_->step, newest_->time, newest_->tilt)
                               : std::vector<ObservableRow>();
   source.command_rows = live_ ? live_rows : file_rows_;
   if (analysis_) source.rearrangements = analysis_->events;
   source.bookmarks = bookmarks_;
   source.all_times = frames_->instants().times;
-  source.energy_unit = mean_grain_mass(all_statics_) * all_statics_.gravity * all_statics_.mean_diameter;
+  source.energy_unit =
+      runs::mean_grain_mass(all_statics_) * all_statics_.gravity * all_statics_.mean_diameter;
   source.theta_c = theta_c_;
   source.mean_diameter = statics().mean_diameter;
-  source.cut = length_cut(statics(), series_->rule().l_min);
+  source.cut = analysis::length_cut(statics(), series_->rule().l_min);
   source.may_change = live_ && !live_->status().done;
   events_ = timeline_events(source);
 }
@@ -42,7 +43,7 @@ std::optional<std::size_t> ViewModel::place_of(Landmark landmark) const {
   if (landmark == Landmark::last) return frame_count() - 1;
   if (landmark == Landmark::theta_c) {
     if (!theta_c_ || std::abs(tilts.front()) > *theta_c_) return std::nullopt;
-    return frame_at_repose(tilts, *theta_c_);
+    return pictures::frame_at_repose(tilts, *theta_c_);
   }
   const auto event = std::ranges::find(events_, event_name(landmark), &TimelineEvent::name);
   return event == events_.end() ? std::nullopt : std::optional(event->frame);
@@ -80,7 +81,7 @@ void ViewModel::set_bookmark(const std::optional<std::string>& note) {
   const double time = frames_->instants().times[*frame];
   std::vector<Bookmark> next = bookmarks_;
   if (note)
-    talus::set_bookmark(next, {time, frame_tilts()[*frame], *note});
+    talus::view::set_bookmark(next, {time, frame_tilts()[*frame], *note});
   else if (std::erase_if(next, [time](const Bookmark& other) { return other.time == time; }) == 0)
     return;
   const std::string file = bookmarks_file();
@@ -99,4 +100,4 @@ void ViewModel::set_bookmark(const std::optional<std::string>& note) {
   find_events();
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -25,7 +25,7 @@
 #include "view/timeline.h"
 #include "view/view_state.h"
 
-namespace talus {
+namespace talus::view {
 
 /// Where a live run comes from, and where it is recorded.
 struct Recording {
@@ -46,7 +46,7 @@ struct BranchLine {
 struct MapCache {
   MapSource source;
   bool dark = false;  ///< on_dark_ground
-  FrameView view;
+  render::FrameView view;
   std::optional<GrainValues> values;  ///< of its grains, once asked for
 };
 
@@ -63,29 +63,29 @@ struct View {
   /// The map of the frame shown, for a picture of that aspect (width / height), with the selection, the
   /// growing neighbourhoods and the highlighted cluster drawn into it; without furniture: that is drawn by
   /// widgets.
-  FrameView map(double aspect) const;
+  render::FrameView map(double aspect) const;
   /// Title, caption and legends of the map asked for last; made again only where something has changed.
-  const FrameView& annotated_map() const;
+  const render::FrameView& annotated_map() const;
   /// The map on white whatever the theme, with its legends, its title and its caption, and without what is
   /// beside the bed; of the aspect that map was asked for last. A map that cannot be drawn has the reason as
   /// its title.
-  FrameView furnished_map() const;
+  render::FrameView furnished_map() const;
   /// The numbers that the map gives its free grains; made when they are first asked for of a frame.
   const GrainValues& values() const;
   /// The part of the bed that map(aspect) shows, m.
-  MapExtent part(double aspect) const;
+  pictures::MapExtent part(double aspect) const;
   /// Width over height of a picture in which the whole bed just has room, as it is shown: turned or not.
   double bed_aspect() const;
   /// The settings of the map, with what the run has to say.
-  MapSettings settings() const;
+  pictures::MapSettings settings() const;
   /// The angle (rad) since which motions are shown, where the frame shown comes after it.
   std::optional<double> since() const;
   /// The frame that motions are measured from; null where there is none.
   std::shared_ptr<const Frame> reference() const;
 
  private:
-  const FrameView& whole_map(const MapExtent& shown) const;
-  FrameView picture(const MapExtent& shown) const;
+  const render::FrameView& whole_map(const pictures::MapExtent& shown) const;
+  render::FrameView picture(const pictures::MapExtent& shown) const;
 };
 
 /// A place (m) of one bed in another: the same share of its length, as many D above the floor.
@@ -205,7 +205,7 @@ class ViewModel {
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
   /// Of all grains of the frame shown, by their ids, as the first map has them: measured since the same
   /// frame, over the same length. Made once for a frame and settings.
-  const std::vector<double>& grain_values(const GrainNumber& number);
+  const std::vector<double>& grain_values(const analysis::GrainNumber& number);
 
   /// Of the selected contact in the frame shown; none where none is selected.
   std::optional<ContactInspection> contact_inspection() const;
@@ -226,9 +226,9 @@ class ViewModel {
   std::span<const Plot> plots() const { return plots_; }
   /// Quantities of the table of which this run has a number in each frame, at a threshold or at none, and of
   /// which there is no added plot: all if it has a stored analysis, else those of its rows and of overload.
-  std::vector<const Quantity*> more_quantities() const;
+  std::vector<const analysis::Quantity*> more_quantities() const;
   /// Adds a plot of one of these, the last of plots(); takes it away, by its name.
-  void add_plot(const Quantity& quantity);
+  void add_plot(const analysis::Quantity& quantity);
   void remove_plot(const std::string& name);
   /// What all plots along the run are over; the angle left only where theta_c is known. Another axis takes
   /// back what was zoomed and chosen on the one before; one that the run does not have is ignored.
@@ -276,10 +276,10 @@ class ViewModel {
   /// What there is to say of a live run that has just failed or ended; empty else.
   std::string take_end();
   bool is_falling() const;
-  MapExtent live_extent() const;
+  pictures::MapExtent live_extent() const;
   /// Begins the series of frames anew where `rule` is another, and takes in what it has made; true where
   /// something has changed.
-  bool follow_frames(const OverloadRule& rule);
+  bool follow_frames(const pictures::OverloadRule& rule);
 
   // view_events.cpp: what happened in it.
   void find_events();
@@ -293,20 +293,20 @@ class ViewModel {
   // view_plots.cpp: its curves anew, of what it records, and of its frames.
   void plot_rows();
   void plot_values();
-  void note_thresholds(const OverloadRule& rule);
+  void note_thresholds(const pictures::OverloadRule& rule);
   PlotAbscissa abscissa() const { return {axis_, theta_c_.value_or(not_known)}; }
 
   // view_shown.cpp: what is made of the frame shown.
-  const Clusters& shown_clusters(const MapSettings& settings);
+  const analysis::Clusters& shown_clusters(const pictures::MapSettings& settings);
   const Inspection* inspect_selected(const View& view);
   /// The bed, as high as the higher one of two runs.
-  MapExtent viewed_bed() const;
+  pictures::MapExtent viewed_bed() const;
   /// The frame at a tilt (rad), as maps see it; null where there is none.
   std::shared_ptr<const Frame> reference_at(double tilt);
 
   // view_selection.cpp
   /// What conditions and tables of grains go by; `measured`: with the earlier frame.
-  GrainSource grain_source(bool measured);
+  analysis::GrainSource grain_source(bool measured);
   /// What is selected in the frame shown, beside the grain that is looked at.
   Overlay selection_marks() const;
   /// mu between grains at a step, as commands have set it.
@@ -329,14 +329,14 @@ class ViewModel {
   void link_ranges();
 
   /// Of the run, with the map that is shown, and as much of the bed.
-  PictureSeries pictures_;
+  pictures::PictureSeries pictures_;
   RunStatics all_statics_;
   std::shared_ptr<FrameSource> frames_ = std::make_shared<RecordedFrames>();
-  std::shared_ptr<const Frame> stored_;  ///< the frame that is shown, as it was read or computed
-  std::shared_ptr<const Frame> frame_;   ///< the same with the gamma of neighbourhoods of l_min_
-  double l_min_ = default_l_min;         ///< D
-  std::optional<double> theta_c_;        ///< rad
-  MapExtent bed_;                        ///< as far as its frames are known
+  std::shared_ptr<const Frame> stored_;     ///< the frame that is shown, as it was read or computed
+  std::shared_ptr<const Frame> frame_;      ///< the same with the gamma of neighbourhoods of l_min_
+  double l_min_ = analysis::default_l_min;  ///< D
+  std::optional<double> theta_c_;           ///< rad
+  pictures::MapExtent bed_;                 ///< as far as its frames are known
   std::vector<ObservableRow> rows_;
   std::vector<Plot> plots_ = empty_plots();
   PlotAxis axis_ = PlotAxis::tilt;  ///< of the plots along the run
@@ -347,28 +347,29 @@ class ViewModel {
   std::shared_ptr<ReadingTurn> turn_ = std::make_shared<ReadingTurn>();  ///< of all runs that are open
   std::unique_ptr<ViewModel> other_;                                     ///< another run; null: none
   struct {
-    MapLayers layers;
+    pictures::MapLayers layers;
     double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
-    std::optional<ScaleRange> range;
-  } linked_;                             ///< the range of a map that both runs show
-  std::optional<MapExtent> bed_beside_;  ///< m of this run: how high the other one is, for one scale of both
-  ViewState second_state_;               ///< of a second view of this run, when it was asked for last
+    std::optional<pictures::ScaleRange> range;
+  } linked_;  ///< the range of a map that both runs show
+  std::optional<pictures::MapExtent>
+      bed_beside_;          ///< m of this run: how high the other one is, for one scale of both
+  ViewState second_state_;  ///< of a second view of this run, when it was asked for last
 
   // Of a run that is replayed.
   std::shared_ptr<RunFrames> run_file_;
   std::optional<Replay> replay_;
   std::unique_ptr<FrameAhead> ahead_;
   std::size_t shown_before_ = 0;  ///< the frame shown before the last one: which way it goes
-  std::optional<Analysis> analysis_;
+  std::optional<analysis::Analysis> analysis_;
 
   // Of a run that is computed.
-  Scenario scenario_;
+  scenario::Scenario scenario_;
   std::vector<std::string> scenario_settings_;
   std::string scenario_text_, command_line_;
-  std::string first_output_, output_;     ///< asked for at first; of this run: empty, it is not recorded
-  std::optional<BranchOrigin> origin_;    ///< where it began, if it is a branch
-  std::vector<double> parent_tilts_;      ///< rad, of the frames of the run that it left
-  std::optional<double> parent_theta_c_;  ///< rad; assumed of the branch until it has failed
+  std::string first_output_, output_;       ///< asked for at first; of this run: empty, it is not recorded
+  std::optional<io::BranchOrigin> origin_;  ///< where it began, if it is a branch
+  std::vector<double> parent_tilts_;        ///< rad, of the frames of the run that it left
+  std::optional<double> parent_theta_c_;    ///< rad; assumed of the branch until it has failed
   std::unique_ptr<LiveRun> live_;
   std::shared_ptr<RecordedFrames> recorded_;
   std::shared_ptr<const Frame> newest_;  ///< of the run as it is now
@@ -387,12 +388,12 @@ class ViewModel {
   // What was made last of the frame shown, and what else from.
   struct {
     std::shared_ptr<const Frame> frame;
-    OverloadRule rule;
-    Clusters clusters;
+    pictures::OverloadRule rule;
+    analysis::Clusters clusters;
   } clusters_;
   struct {
     std::shared_ptr<const Frame> frame;
-    OverloadRule rule;
+    pictures::OverloadRule rule;
     double neighbourhood = 0.0;
     Inspection of;
   } inspection_;
@@ -402,10 +403,10 @@ class ViewModel {
   } reference_;  ///< what a frame is shown minus
   struct GrainValuesCache {
     std::shared_ptr<const Frame> frame;
-    OverloadRule rule;
+    pictures::OverloadRule rule;
     std::optional<double> since;
     double length = 0.0;
-    std::optional<FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
+    std::optional<analysis::FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
     std::shared_ptr<const Frame> earlier;
     std::map<std::string_view, std::vector<double>> of;
   } grain_values_;
@@ -415,4 +416,4 @@ class ViewModel {
   double aspect_ = 0.0;                           ///< of the picture asked for last; 0: none was
 };
 
-}  // namespace talus
+}  // namespace talus::view

@@ -8,7 +8,7 @@
 #include "pictures/frame_choice.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 
 void ViewModel::plot_rows() { plot_observables(rows_, statics(), abscissa(), plots_); }
 
@@ -19,21 +19,21 @@ void ViewModel::plot_values() {
   plot_ghost(ghost(), axis_, series_->rule().threshold_factor, plots_);
 }
 
-void ViewModel::note_thresholds(const OverloadRule& rule) {
+void ViewModel::note_thresholds(const pictures::OverloadRule& rule) {
   note_threshold(rule.threshold_factor, theta_c_ ? std::nullopt : std::optional(rule.theta_c), plots_);
 }
 
-std::vector<const Quantity*> ViewModel::more_quantities() const {
-  std::vector<const Quantity*> more;
-  for (const Quantity& quantity : quantities()) {
-    const bool known = analysis_ || quantity.display.observable || needs_threshold(quantity);
+std::vector<const analysis::Quantity*> ViewModel::more_quantities() const {
+  std::vector<const analysis::Quantity*> more;
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    const bool known = analysis_ || quantity.display.observable || analysis::needs_threshold(quantity);
     const bool shown = std::ranges::find(plots_, quantity.name, &Plot::name) != plots_.end();
-    if (known && !shown && is_number_of_frame(quantity)) more.push_back(&quantity);
+    if (known && !shown && analysis::is_number_of_frame(quantity)) more.push_back(&quantity);
   }
   return more;
 }
 
-void ViewModel::add_plot(const Quantity& quantity) {
+void ViewModel::add_plot(const analysis::Quantity& quantity) {
   plots_.push_back(plot_of_quantity(quantity));
   name_axis(axis_, plots_);
   plot_rows();
@@ -79,12 +79,12 @@ PlotMarks ViewModel::plot_marks() const {
 
 void ViewModel::go_to_place(double x) {
   const RunInstants& of = frames_->instants();
-  const auto frame = axis_ == PlotAxis::time ? nearest_frame(of.times, x)
+  const auto frame = axis_ == PlotAxis::time ? pictures::nearest_frame(of.times, x)
                      : axis_ == PlotAxis::angle_left
-                         ? nearest_frame(magnitudes(of.tilts, {0, of.tilts.size()}),
-                                         theta_c_.value_or(not_known) - radians(x))
-                         : nearest_frame(of.tilts, radians(x));
+                         ? pictures::nearest_frame(analysis::magnitudes(of.tilts, {0, of.tilts.size()}),
+                                                   theta_c_.value_or(not_known) - radians(x))
+                         : pictures::nearest_frame(of.tilts, radians(x));
   if (frame) go_to(*frame);
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -16,7 +16,7 @@
 #include "view/camera.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// "slope-2.h5" after "slope.h5", or "slope-branch-1.h5": the first from a number on that is not there yet.
@@ -25,7 +25,7 @@ std::string next_output(const std::string& run, const char* what, int number, co
   for (int k = number;; ++k) {
     const std::string name = fmt::format("{}-{}{}{}", path.stem().string(), what, k, extension);
     std::string next = (path.parent_path() / name).string();
-    if (run_presence(next) == RunPresence::none) return next;
+    if (io::run_presence(next) == io::RunPresence::none) return next;
   }
 }
 
@@ -40,20 +40,20 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
                           const std::string& output, bool overwrite, const std::string& command_line) {
   ViewModel model;
   model.pictures_.path = path;
-  if (is_run(path)) {
+  if (io::is_run(path)) {
     if (!settings.empty() || !output.empty() || overwrite)
       throw Error(ExitCode::usage,
                   path + " is a run, which is only replayed: leave out the settings and the output");
     model.open_replay();
   } else {
-    model.scenario_ = read_scenario(path, settings, &model.scenario_text_);
+    model.scenario_ = scenario::read_scenario(path, settings, &model.scenario_text_);
     model.scenario_settings_ = settings;
     model.command_line_ = command_line;
     model.first_output_ = output;
     model.start_live(output, overwrite);
   }
-  const MapExtent& bed = model.bed_;
-  model.state.map.layers = {MapKind::gamma};
+  const pictures::MapExtent& bed = model.bed_;
+  model.state.map.layers = {pictures::MapKind::gamma};
   model.state.camera = {0.5 * (bed.x_min + bed.x_max), 0.5 * (bed.y_min + bed.y_max), 1.0};
   return model;
 }
@@ -61,7 +61,7 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
 void ViewModel::open_replay() {
   frames_ = run_file_ = std::make_shared<RunFrames>(pictures_.path, turn_);
   replay_.emplace(run_file_);
-  const RunFile& file = run_file_->file();
+  const io::RunFile& file = run_file_->file();
   pictures_.run = file.header();
   pictures_.has_program = file.has_program();
   all_statics_ = statics();
@@ -73,11 +73,11 @@ void ViewModel::open_replay() {
   plot_steps(file.steps(), plots_);
   commands_ = file.commands();
   if (const World& end = file.checkpoint().world; !commands_.empty())
-    file_rows_ = rows_up_to(file.all_observables(), end.step, end.time, end.tilt);
+    file_rows_ = session::rows_up_to(file.all_observables(), end.step, end.time, end.tilt);
   open_bookmarks();
   // The bed is highest at its beginning or at its end.
-  bed_ = bed_extent(statics());
-  extend(bed_, {*frames_->read(frame_count() - 1), statics()});
+  bed_ = pictures::bed_extent(statics());
+  pictures::extend(bed_, {*frames_->read(frame_count() - 1), statics()});
   show(frames_->frame(0));
   begin_series();
   find_events();
@@ -154,16 +154,16 @@ void ViewModel::show_replayed() {
 
 /// Whether grains are above the bed that they will make.
 bool ViewModel::is_falling() const {
-  const DepositionMethod method = scenario_.deposition.method;
+  const scenario::DepositionMethod method = scenario_.deposition.method;
   return live_->status().depositing &&
-         (method == DepositionMethod::pour || method == DepositionMethod::collapse);
+         (method == scenario::DepositionMethod::pour || method == scenario::DepositionMethod::collapse);
 }
 
 /// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from
 /// above, so that it and all around it stay where they are.
-MapExtent ViewModel::live_extent() const {
+pictures::MapExtent ViewModel::live_extent() const {
   constexpr double surplus = 1.05;  // of the depth: what a loose bed and its surface have
-  MapExtent extent = series_ ? series_->extent() : bed_extent(statics());
+  pictures::MapExtent extent = series_ ? series_->extent() : pictures::bed_extent(statics());
   const RunStatics& of = statics();
   extent.y_max = std::max({extent.y_max, surplus * of.depth, of.depth + of.mean_diameter});
   return extent;
@@ -175,14 +175,14 @@ void ViewModel::show(std::shared_ptr<const Frame> next, std::shared_ptr<const Fr
   if (stored_->x.size() != statics().radius.size())
     pictures_.run.statics = arrived_statics(all_statics_, stored_->grain_count());
   if (live_) bed_ = live_extent();
-  extend(bed_, {*stored_, statics()});
+  pictures::extend(bed_, {*stored_, statics()});
   if (live_ && is_falling()) bed_.y_max = live_extent().y_max;
   make_frame(std::move(mapped));
 }
 
 void ViewModel::make_frame(std::shared_ptr<const Frame> mapped) {
-  frame_ =
-      mapped ? std::move(mapped) : std::make_shared<const Frame>(mapped_frame(*stored_, statics(), l_min_));
+  frame_ = mapped ? std::move(mapped)
+                  : std::make_shared<const Frame>(pictures::mapped_frame(*stored_, statics(), l_min_));
   plot_gamma(bed(), plots_);
 }
 
@@ -221,14 +221,15 @@ std::string ViewModel::take_end() {
   return fmt::format("The run ended at {:.2f}°; the slope has not failed.", degrees(status.tilt));
 }
 
-bool ViewModel::follow_frames(const OverloadRule& rule) {
+bool ViewModel::follow_frames(const pictures::OverloadRule& rule) {
   bool changed = !(series_->rule() == rule);
   if (changed) {
     const auto threshold = analysis_ ? find_threshold(*analysis_, rule) : std::nullopt;
-    series_->begin(rule, threshold ? stored_records(*analysis_, *threshold) : std::vector<FrameRecord>{});
+    series_->begin(rule,
+                   threshold ? stored_records(*analysis_, *threshold) : std::vector<analysis::FrameRecord>{});
   }
   if (series_->take_in(pictures_)) {
-    if (replay_) extend(bed_, series_->extent());
+    if (replay_) pictures::extend(bed_, series_->extent());
     if (!series_->error().empty()) error_ = series_->error();
     changed = true;
   }
@@ -258,13 +259,13 @@ void ViewModel::branch() {
   if (is_live()) return;
   const std::size_t k = frame_index();
   end_series();
-  const RunFile& run = run_file_->file();
-  BranchOrigin origin;
-  Scenario of_run;
+  const io::RunFile& run = run_file_->file();
+  io::BranchOrigin origin;
+  scenario::Scenario of_run;
   try {
-    of_run = stored_scenario(run.header(), pictures_.path + ":/parameters");
+    of_run = runs::stored_scenario(run.header(), pictures_.path + ":/parameters");
     origin = {pictures_.path, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)),
-              checkpoint_at_frame(run, k)};
+              session::checkpoint_at_frame(run, k)};
   } catch (const Error&) {
     begin_series();
     throw;
@@ -318,7 +319,7 @@ std::size_t ViewModel::frame_index() const {
 std::size_t ViewModel::frame_at_angle(const std::string& angle) const {
   if (!replay_)
     throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
-  return frames_at(tilts_of_tilt(), {angle}, theta_c_.value_or(not_known)).front();
+  return pictures::frames_at(tilts_of_tilt(), {angle}, theta_c_.value_or(not_known)).front();
 }
 
 void ViewModel::restart(std::uint64_t seed) {
@@ -405,4 +406,4 @@ bool ViewModel::update(double seconds) {
   return changed;
 }
 
-}  // namespace talus
+}  // namespace talus::view

@@ -10,12 +10,12 @@
 #include "view/selection_table.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 
-GrainSource ViewModel::grain_source(bool measured) {
+analysis::GrainSource ViewModel::grain_source(bool measured) {
   const View view = first();
-  const MapSettings settings = view.settings();
-  const OverloadRule& rule = settings;
+  const pictures::MapSettings settings = view.settings();
+  const pictures::OverloadRule& rule = settings;
   GrainValuesCache& cache = grain_values_;
   if (cache.frame != frame_ || !(cache.rule == rule) || cache.since != view.since() ||
       cache.length != settings.length)
@@ -23,21 +23,23 @@ GrainSource ViewModel::grain_source(bool measured) {
   if (!first_frame_ && frame_count() > 0) first_frame_ = frame_at(0);
   if (!cache.judged) {
     const std::vector<double> length =
-        coarse_graining({*frame_, statics()}, coarse_graining_rule(settings, statics())).length;
+        analysis::coarse_graining({*frame_, statics()}, coarse_graining_rule(settings, statics())).length;
     cache.judged = {.lc = {length.begin(), length.end()}, .cluster = shown_clusters(settings).label};
   }
   if (measured) cache.earlier = view.reference();
-  GrainSource source = {{*stored_, statics()}, 0, frame_->gamma, first_frame_.get(), {}, {&*cache.judged, 1}};
+  analysis::GrainSource source = {{*stored_, statics()}, 0,  frame_->gamma,
+                                  first_frame_.get(),    {}, {&*cache.judged, 1}};
   source.earlier = cache.earlier.get();
-  source.degrees = motion_span({source, source.earlier, !cache.since}).degrees;
+  source.degrees = pictures::motion_span({source, source.earlier, !cache.since}).degrees;
   source.length = settings.length * mean_diameter();
   return source;
 }
 
-const std::vector<double>& ViewModel::grain_values(const GrainNumber& number) {
-  const GrainSource source = grain_source(number.quantity->need == FrameNeed::earlier_frame);
+const std::vector<double>& ViewModel::grain_values(const analysis::GrainNumber& number) {
+  const analysis::GrainSource source =
+      grain_source(number.quantity->need == analysis::FrameNeed::earlier_frame);
   const auto [place, fresh] = grain_values_.of.try_emplace(number.name);
-  if (fresh) place->second = values_of(number, source);
+  if (fresh) place->second = analysis::values_of(number, source);
   return place->second;
 }
 
@@ -100,7 +102,7 @@ std::vector<Plot> ViewModel::contact_history() const {
   std::vector<double> friction;
   for (const HistoryInstant& at : instants)
     friction.push_back(at.with_wall ? statics().wall_friction : friction_at(at.step));
-  const double weight = mean_grain_mass(all_statics_) * statics().gravity;
+  const double weight = runs::mean_grain_mass(all_statics_) * statics().gravity;
   return contact_plots(instants, friction, weight, abscissa());
 }
 
@@ -173,14 +175,14 @@ void ViewModel::write_selected(const std::string& path) {
   }
   try {
     output_target(path, {.overwrite = false});
-    const auto values_of = [this](const GrainNumber& number) -> const std::vector<double>& {
+    const auto values_of = [this](const analysis::GrainNumber& number) -> const std::vector<double>& {
       return grain_values(number);
     };
-    write_text(path, grains_table(frame(), grains, grain_numbers(), values_of));
+    io::write_text(path, grains_table(frame(), grains, analysis::grain_numbers(), values_of));
     state.message = fmt::format("written: {}, {} grains", path, grains.size());
   } catch (const Error& failure) {
     state.message = failure.what();
   }
 }
 
-}  // namespace talus
+}  // namespace talus::view

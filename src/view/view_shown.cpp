@@ -11,15 +11,15 @@
 #include "view/render_command.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 
 double ViewModel::theta_c() const {
-  return theta_c_.value_or(parent_theta_c_.value_or(radians(assumed_theta_c)));
+  return theta_c_.value_or(parent_theta_c_.value_or(radians(pictures::assumed_theta_c)));
 }
 
-MapSettings View::settings() const {
-  MapSettings settings = state.map;
-  if (settings.layers.empty()) settings.layers = {MapKind::gamma};
+pictures::MapSettings View::settings() const {
+  pictures::MapSettings settings = state.map;
+  if (settings.layers.empty()) settings.layers = {pictures::MapKind::gamma};
   settings.theta_c = run.theta_c();
   settings.theta_c_assumed = !run.theta_c_known();
   settings.l_min = run.l_min_;
@@ -37,18 +37,18 @@ MapSettings View::settings() const {
   return settings;
 }
 
-const Clusters& ViewModel::shown_clusters(const MapSettings& settings) {
-  const OverloadRule& rule = settings;
+const analysis::Clusters& ViewModel::shown_clusters(const pictures::MapSettings& settings) {
+  const pictures::OverloadRule& rule = settings;
   if (clusters_.frame != frame_ || !(clusters_.rule == rule))
-    clusters_ = {frame_, rule, overloaded_clusters(bed(), settings)};
+    clusters_ = {frame_, rule, pictures::overloaded_clusters(bed(), settings)};
   return clusters_.clusters;
 }
 
 const Inspection* ViewModel::inspect_selected(const View& view) {
   const ViewState& asked = view.state;
   if (!asked.selected || *asked.selected < 0 || *asked.selected >= frame_->grain_count()) return nullptr;
-  const MapSettings by = view.settings();
-  const OverloadRule& rule = by;
+  const pictures::MapSettings by = view.settings();
+  const pictures::OverloadRule& rule = by;
   if (inspection_.frame != frame_ || !(inspection_.rule == rule) ||
       inspection_.neighbourhood != asked.neighbourhood || inspection_.of.grain != *asked.selected) {
     const double widest =
@@ -61,19 +61,19 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
   return &inspection_.of;
 }
 
-MapExtent ViewModel::viewed_bed() const {
-  MapExtent viewed = bed_;
-  if (bed_beside_) extend(viewed, *bed_beside_);
+pictures::MapExtent ViewModel::viewed_bed() const {
+  pictures::MapExtent viewed = bed_;
+  if (bed_beside_) pictures::extend(viewed, *bed_beside_);
   return viewed;
 }
 
 double View::bed_aspect() const {
-  const MapExtent viewed = run.viewed_bed();
+  const pictures::MapExtent viewed = run.viewed_bed();
   return picture_aspect((viewed.y_max - viewed.y_min) / (viewed.x_max - viewed.x_min),
                         std::max(0.0, settings().tilt_max));
 }
 
-MapExtent View::part(double aspect) const {
+pictures::MapExtent View::part(double aspect) const {
   return shown_part(state.camera, run.viewed_bed(), run.mean_diameter(), aspect > 0.0 ? aspect : bed_aspect(),
                     std::max(0.0, settings().tilt_max));
 }
@@ -83,46 +83,46 @@ std::optional<double> View::since() const {
 }
 
 std::shared_ptr<const Frame> ViewModel::reference_at(double tilt) {
-  const auto k = nearest_frame(tilts_of_tilt(), tilt);
+  const auto k = pictures::nearest_frame(tilts_of_tilt(), tilt);
   auto of = k ? frame_at(*k) : nullptr;
   if (!of || of->grain_count() != frame_->grain_count()) return nullptr;  // while a bed is poured
   if (reference_.stored != of || reference_.l_min != l_min_)
-    reference_ = {of, std::make_shared<const Frame>(mapped_frame(*of, statics(), l_min_)), l_min_};
+    reference_ = {of, std::make_shared<const Frame>(pictures::mapped_frame(*of, statics(), l_min_)), l_min_};
   return reference_.mapped;
 }
 
 std::shared_ptr<const Frame> View::reference() const {
-  PictureSeries& pictures = run.pictures_;
+  pictures::PictureSeries& pictures = run.pictures_;
   pictures.since.reset();
   if (const auto from = since()) {
     const std::vector<double> tilts = run.tilts_of_tilt();
-    const auto first = tilts.empty() ? std::nullopt : frame_near(tilts, *from);
-    pictures.since = first ? first : nearest_frame(tilts, *from).value_or(0);
+    const auto first = tilts.empty() ? std::nullopt : pictures::frame_near(tilts, *from);
+    pictures.since = first ? first : pictures::nearest_frame(tilts, *from).value_or(0);
   }
-  const auto from = reference_frame(run.frame_index(), pictures.since);
+  const auto from = pictures::reference_frame(run.frame_index(), pictures.since);
   return from ? run.frame_at(*from) : nullptr;
 }
 
-const FrameView& View::whole_map(const MapExtent& shown) const {
-  PictureSeries& pictures = run.pictures_;
+const render::FrameView& View::whole_map(const pictures::MapExtent& shown) const {
+  pictures::PictureSeries& pictures = run.pictures_;
   pictures.plan.maps = {settings()};
   pictures.extent = depends_on_extent(state.map.layers) ? common_part(shown, run.bed_) : run.bed_;
   const std::size_t k = run.frame_index();
   std::shared_ptr<const Frame> reference;
   pictures.since.reset();
-  if (any_layer(state.map.layers, needs_reference)) reference = this->reference();
+  if (pictures::any_layer(state.map.layers, pictures::needs_reference)) reference = this->reference();
   if (state.minus) reference = run.reference_at(*state.minus);
   MapSource source = source_of(pictures, k, run.frame_, reference);
   source.change = state.minus.has_value();
   const bool dark = state.theme == Theme::dark;
   if (cache.source == source && cache.dark == dark) return cache.view;
-  FrameView view = source.change ? draw_change(pictures, run.frame(), reference.get())
-                                 : draw_map(pictures, k, run.frame(), reference.get());
+  render::FrameView view = source.change ? draw_change(pictures, run.frame(), reference.get())
+                                         : draw_map(pictures, k, run.frame(), reference.get());
   cache = {std::move(source), dark, dark ? on_dark_ground(std::move(view)) : std::move(view), std::nullopt};
   return cache.view;
 }
 
-FrameView View::picture(const MapExtent& shown) const {
+render::FrameView View::picture(const pictures::MapExtent& shown) const {
   Overlay overlay = run.selection_marks();
   if (const Inspection* of = run.inspect_selected(*this)) {
     overlay.selected = of->grain;
@@ -133,26 +133,28 @@ FrameView View::picture(const MapExtent& shown) const {
       overlay.critical_length = of->coarse_graining_length;
     }
   }
-  FrameView view = shown_map(whole_map(shown), shown, run.bed());
+  render::FrameView view = shown_map(whole_map(shown), shown, run.bed());
   add_overlay(view, run.bed(), overlay, run.shown_clusters(settings()));
   return view;
 }
 
-FrameView View::map(double aspect) const {
+render::FrameView View::map(double aspect) const {
   run.aspect_ = aspect;
   return picture(part(aspect));
 }
 
-const FrameView& View::annotated_map() const { return whole_map(common_part(part(run.aspect_), run.bed_)); }
+const render::FrameView& View::annotated_map() const {
+  return whole_map(common_part(part(run.aspect_), run.bed_));
+}
 
-FrameView View::furnished_map() const {
+render::FrameView View::furnished_map() const {
   ViewState on_paper = state;
   on_paper.theme = Theme::light;
   const View of{run, on_paper, cache, second};
-  const MapExtent seen = common_part(of.part(run.aspect_), run.bed_);
-  const FrameView& whole = of.whole_map(seen);
-  FrameView view = of.picture(seen);
-  add_surroundings(view, run.bed());
+  const pictures::MapExtent seen = common_part(of.part(run.aspect_), run.bed_);
+  const render::FrameView& whole = of.whole_map(seen);
+  render::FrameView view = of.picture(seen);
+  pictures::add_surroundings(view, run.bed());
   view.furniture = true;
   view.transparent = whole.transparent;
   view.letters = whole.letters;
@@ -169,9 +171,9 @@ const GrainValues& View::values() const {
 }
 
 bool ViewModel::look(const ViewCamera& camera) {
-  const MapExtent before = first().part(aspect_);
+  const pictures::MapExtent before = first().part(aspect_);
   state.camera = clamped(camera, bed_, mean_diameter());
-  const MapExtent now = first().part(aspect_);
+  const pictures::MapExtent now = first().part(aspect_);
   state.camera = centred(state.camera, now);
   const double least = 1e-6 * mean_diameter();
   return std::abs(now.x_min - before.x_min) > least || std::abs(now.x_max - before.x_max) > least ||
@@ -201,14 +203,14 @@ std::string ViewModel::render_command() {
     if (shown.frame) shown.frame = of.tilt_count - 1;
   }
   if (is_live()) {
-    const auto nearest = nearest_frame(of.tilts, frame().tilt);
+    const auto nearest = pictures::nearest_frame(of.tilts, frame().tilt);
     if (output_.empty() || !nearest) return {};
     shown.run = output_;
     shown.tilt = of.tilts[*nearest];
   }
-  const MapExtent seen = common_part(view.part(aspect_), bed_);
+  const pictures::MapExtent seen = common_part(view.part(aspect_), bed_);
   if (!(seen == bed_)) shown.part = seen;
   return render_command_line(shown);
 }
 
-}  // namespace talus
+}  // namespace talus::view

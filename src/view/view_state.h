@@ -14,7 +14,7 @@
 #include "view/selection.h"
 #include "view/theme.h"
 
-namespace talus {
+namespace talus::view {
 
 /// What part of the bed fills the window.
 struct ViewCamera {
@@ -25,7 +25,7 @@ struct ViewCamera {
 /// What is shown beside the first view.
 struct BesideState {
   bool shown = false;
-  MapLayers layers{};               ///< empty: those of the first view
+  pictures::MapLayers layers{};     ///< empty: those of the first view
   std::optional<double> minus{};    ///< rad: the frame minus that at this tilt, instead of the frame
   std::string path{};               ///< of the run that is asked for next
   PlotAxis clock = PlotAxis::tilt;  ///< by which the frame of another run belongs to that of the first
@@ -61,7 +61,7 @@ struct GrainDrag {
 };
 
 struct ViewState {
-  MapSettings map;  ///< layers, colours, threshold, length, turned, ...
+  pictures::MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   BesideState beside;
   std::optional<double> minus;    ///< rad, of a view that shows a frame minus that at this tilt
@@ -103,4 +103,4 @@ struct ViewState {
   std::string run_path = "talus.h5";  ///< where a run is saved that was not recorded
 };
 
-}  // namespace talus
+}  // namespace talus::view

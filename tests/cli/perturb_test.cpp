@@ -36,7 +36,7 @@ TEST(Perturb, leaves_the_run_as_it_is_without) {
   EXPECT_NE(hash_of("plain.h5", folder), "");
   EXPECT_EQ(hash_of("p/seed-2.h5", folder), hash_of("plain.h5", folder));
   EXPECT_NE(text_of(folder.path("p/seed-2.log")).find("13.000 deg: no avalanche"), std::string::npos);
-  const std::vector<TrialRow> trials = RunFile::open(folder.path("p/seed-2.h5")).trials();
+  const std::vector<TrialRow> trials = io::RunFile::open(folder.path("p/seed-2.h5")).trials();
   for (const double tilt : {8.0, 13.0, 18.0})
     EXPECT_TRUE(std::ranges::any_of(trials, [&](const TrialRow& row) {
       return at(row, TrialField::tilt) == tilt && at(row, TrialField::velocity) == 0.0 &&
@@ -103,8 +103,8 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
         << code << errors_in(folder.path());
   EXPECT_EQ(codes.back(), 0);
   EXPECT_EQ(hash_of("parts/seed-1.h5", folder), hash_of("whole/seed-1.h5", folder));
-  EXPECT_EQ(RunFile::open(folder.path("parts/seed-1.h5")).trials(),
-            RunFile::open(folder.path("whole/seed-1.h5")).trials());
+  EXPECT_EQ(io::RunFile::open(folder.path("parts/seed-1.h5")).trials(),
+            io::RunFile::open(folder.path("whole/seed-1.h5")).trials());
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));

@@ -21,19 +21,19 @@ class Repair : public testing::Test {
  protected:
   Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
 
-  static Scenario bed() { return small_tilted_bed(2.0); }
+  static scenario::Scenario bed() { return small_tilted_bed(2.0); }
 
   /// A run of 5 frames, to its end or left after the third.
   void compute(const std::string& name, bool to_its_end) {
-    Session session(bed());
-    RunStore store =
-        RunStore::create(folder_.path(name), run_header(session, {resolved_toml(bed()), "", "", 1}), false);
+    session::Session session(bed());
+    io::RunStore store = io::RunStore::create(
+        folder_.path(name), session::run_header(session, {scenario::resolved_toml(bed()), "", "", 1}), false);
     std::size_t frames = 0;
     volatile std::sig_atomic_t stop = 0;
-    RunControl control;
+    session::RunControl control;
     control.stop = &stop;
     control.on_frame = [&](const Frame&) { stop = ++frames == 3 && !to_its_end ? 1 : 0; };
-    run_to_end(session, store, control);
+    session::run_to_end(session, store, control);
   }
 
   void cut_in_half(const std::string& path) { fs::resize_file(path, fs::file_size(path) / 2); }
@@ -135,7 +135,8 @@ TEST_F(Repair, of_a_folder_keeps_the_frames_and_its_scenario_computes_the_rest_a
     const Outcome repair = talus({"repair", name, "-o", fixed});
     EXPECT_EQ(repair.exit_code, 0) << repair.err;
     EXPECT_EQ(talus({"check", fixed}).exit_code, 0) << talus({"check", fixed}).out;
-    const RunFile whole = RunFile::open(folder_.path("whole.h5")), run = RunFile::open(folder_.path(fixed));
+    const io::RunFile whole = io::RunFile::open(folder_.path("whole.h5")),
+                      run = io::RunFile::open(folder_.path(fixed));
     EXPECT_GE(run.all_frame_tilts().size(), 2U);
     for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k)
       EXPECT_EQ(run.frame(k).x, whole.frame(k).x);

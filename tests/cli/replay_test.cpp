@@ -29,9 +29,9 @@ class Replay : public testing::Test {
   /// 1.06 deg, between two rows of observables.
   void write_left_run() {
     write_file(folder_, "bed.toml", small_bed);
-    Session session(parse_scenario(small_bed, "bed.toml"));
-    RunStore store =
-        RunStore::create(folder_.path("bed.h5"), run_header(session, {small_bed, "bed.toml", {}, 1}), false);
+    session::Session session(scenario::parse_scenario(small_bed, "bed.toml"));
+    io::RunStore store = io::RunStore::create(
+        folder_.path("bed.h5"), session::run_header(session, {small_bed, "bed.toml", {}, 1}), false);
     for (int k = 0; k < 10; ++k) session.advance();
     session.apply({0, CommandKind::push, 7, 0.25, 0.5});
     while (session.world().tilt < radians(1.05)) session.advance();
@@ -90,13 +90,13 @@ TEST_F(Replay, commands_are_listed) {
 
 /// A run that says another scenario than it was computed from.
 TEST_F(Replay, that_finds_another_end_says_so) {
-  const Scenario scenario = parse_scenario(small_bed, "bed.toml");
-  Session session(scenario);
-  RunHeader header = run_header(session, {small_bed, "bed.toml", {}, 1});
-  Scenario other = scenario;
+  const scenario::Scenario scenario = scenario::parse_scenario(small_bed, "bed.toml");
+  session::Session session(scenario);
+  io::RunHeader header = session::run_header(session, {small_bed, "bed.toml", {}, 1});
+  scenario::Scenario other = scenario;
   other.contact.restitution = 0.5;
-  header.scenario_resolved = resolved_toml(other);
-  RunStore store = RunStore::create(folder_.path("bed.h5"), header, false);
+  header.scenario_resolved = scenario::resolved_toml(other);
+  io::RunStore store = io::RunStore::create(folder_.path("bed.h5"), header, false);
   for (int k = 0; k < 100; ++k) session.advance();
   store.commit(session.segment(), session.checkpoint(0.0));
   const Outcome replay = talus({"replay", "bed.h5", "--quiet"});
@@ -116,10 +116,10 @@ TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {
 
 /// A run whose tilt is held, and that says it took more steps than anybody waits for.
 TEST_F(Replay, stops_when_asked) {
-  Session session(parse_scenario(small_bed, "bed.toml"));
-  RunStore store = RunStore::create(folder_.path("bed.h5"), run_header(session, {}), false);
+  session::Session session(scenario::parse_scenario(small_bed, "bed.toml"));
+  io::RunStore store = io::RunStore::create(folder_.path("bed.h5"), session::run_header(session, {}), false);
   session.apply({0, CommandKind::tilt_rate, -1, 0.0, 0.0});
-  Checkpoint checkpoint = session.checkpoint(0.0);
+  io::Checkpoint checkpoint = session.checkpoint(0.0);
   checkpoint.world.step = 1'000'000'000;
   store.commit(session.segment(), checkpoint);
   const pid_t process = start_talus({"replay", "bed.h5"}, folder_.path());
@@ -132,13 +132,13 @@ TEST_F(Replay, stops_when_asked) {
 TEST_F(Replay, that_was_stopped_is_not_resumed_as_a_run) {
   write_left_run();
   {
-    const RunFile run = RunFile::open(folder_.path("bed.h5"));
-    Session session(parse_scenario(small_bed, "bed.toml"));
-    RunHeader header = run_header(session, {small_bed, "bed.toml", {}, 1});
+    const io::RunFile run = io::RunFile::open(folder_.path("bed.h5"));
+    session::Session session(scenario::parse_scenario(small_bed, "bed.toml"));
+    io::RunHeader header = session::run_header(session, {small_bed, "bed.toml", {}, 1});
     header.provenance.emplace_back("replay_of", "bed.h5");
     header.provenance.emplace_back("replay_steps", std::to_string(run.checkpoint().world.step));
-    RunStore store = RunStore::create(folder_.path("part.h5"), header, false);
-    replay(session, &store, run.commands(), 30, {});
+    io::RunStore store = io::RunStore::create(folder_.path("part.h5"), header, false);
+    session::replay(session, &store, run.commands(), 30, {});
   }
   const Outcome resumed = talus({"run", "bed.toml", "-o", "part.h5", "--resume"});
   EXPECT_EQ(resumed.exit_code, 65);

@@ -12,7 +12,7 @@ namespace {
 
 const std::filesystem::path kept_runs = std::filesystem::path(source_folder()) / "tests/runs";
 
-const std::string kept_name = "schema_" + std::to_string(run_schema_version);
+const std::string kept_name = "schema_" + std::to_string(io::run_schema_version);
 
 std::string kept_run() { return (kept_runs / (kept_name + ".h5")).string(); }
 

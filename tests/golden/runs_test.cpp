@@ -13,35 +13,35 @@ namespace talus {
 namespace {
 
 /// Collapsed, brought nearly to rest and tilted by a twentieth of a degree.
-Scenario bed(double length, double depth) {
-  Scenario scenario;
+scenario::Scenario bed(double length, double depth) {
+  scenario::Scenario scenario;
   scenario.bed.length = length;
   scenario.bed.depth = depth;
-  scenario.deposition.method = DepositionMethod::collapse;
+  scenario.deposition.method = scenario::DepositionMethod::collapse;
   scenario.deposition.rest_velocity = 0.1;
   scenario.tilt.end_angle = 0.05;
   return scenario;
 }
 
-std::string final_hash(const Scenario& scenario, int threads) {
-  Session session(scenario);
+std::string final_hash(const scenario::Scenario& scenario, int threads) {
+  session::Session session(scenario);
   session.use_threads(threads);
-  while (session.phase() != Phase::done) session.advance();
+  while (session.phase() != session::Phase::done) session.advance();
   char text[17];
   std::snprintf(text, sizeof text, "%016" PRIx64, state_hash(session.world()));
   return text;
 }
 
 TEST(GoldenRun, periodic_bed) {
-  const Scenario scenario = bed(60.0, 20.0);  // large enough that two threads have work
+  const scenario::Scenario scenario = bed(60.0, 20.0);  // large enough that two threads have work
   const std::string golden = "18be6dfdce6d13a9";
   EXPECT_EQ(final_hash(scenario, 1), golden);
   EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
 }
 
 TEST(GoldenRun, poured_bed) {
-  Scenario scenario = bed(60.0, 5.0);
-  scenario.deposition.method = DepositionMethod::pour;
+  scenario::Scenario scenario = bed(60.0, 5.0);
+  scenario.deposition.method = scenario::DepositionMethod::pour;
   scenario.deposition.rate = 1.0;
   const std::string golden = "ee0bf7fa864fd8e6";
   EXPECT_EQ(final_hash(scenario, 1), golden);
@@ -49,24 +49,24 @@ TEST(GoldenRun, poured_bed) {
 }
 
 TEST(GoldenRun, poured_bed_between_walls) {
-  Scenario scenario = bed(20.0, 10.0);
-  scenario.bed.boundary = BedBoundary::walls;
-  scenario.deposition.method = DepositionMethod::pour;
+  scenario::Scenario scenario = bed(20.0, 10.0);
+  scenario.bed.boundary = scenario::BedBoundary::walls;
+  scenario.deposition.method = scenario::DepositionMethod::pour;
   scenario.deposition.rate = 1.0;
   scenario.deposition.wall_friction = 0.0;
   EXPECT_EQ(final_hash(scenario, 1), "38c7a745db85af72");
 }
 
 TEST(GoldenRun, walled_bed_with_restitution) {
-  Scenario scenario = bed(20.0, 10.0);
-  scenario.bed.boundary = BedBoundary::walls;
+  scenario::Scenario scenario = bed(20.0, 10.0);
+  scenario.bed.boundary = scenario::BedBoundary::walls;
   scenario.contact.restitution = 0.3;
   EXPECT_EQ(final_hash(scenario, 1), "bb0e37a339c5cffb");
 }
 
 TEST(GoldenRun, gauss_seidel) {
-  Scenario scenario = bed(20.0, 8.0);
-  scenario.solver.method = SolverMethod::gauss_seidel;
+  scenario::Scenario scenario = bed(20.0, 8.0);
+  scenario.solver.method = scenario::SolverMethod::gauss_seidel;
   EXPECT_EQ(final_hash(scenario, 1), "1fde067ee5348c6b");
 }
 

@@ -13,7 +13,7 @@ namespace {
 class Branching : public test::Replay {
  protected:
   bool wait_until(const std::function<bool()>& so) { return test::drawn_until(gui_, so); }
-  LiveStatus status() { return model_.live()->status(); }
+  view::LiveStatus status() { return model_.live()->status(); }
   std::string hash() {
     EXPECT_TRUE(wait_until([&] { return !status().running; }));
     return status().state_hash;
@@ -52,7 +52,7 @@ TEST_F(Branching, N_and_U_are_its_keys) {
   const std::string before = hash();
   model_.state.selected = 3;
   gui_.key('u');
-  gui_.key(key_right);
+  gui_.key(gui::key_right);
   EXPECT_NE(hash(), before);
   gui_.key('U');
   EXPECT_EQ(hash(), before);
@@ -61,7 +61,7 @@ TEST_F(Branching, N_and_U_are_its_keys) {
 }
 
 TEST_F(Branching, the_last_frame_of_a_run_that_has_ended_is_refused) {
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   gui_.click("branch here");
   EXPECT_FALSE(model_.is_live());
   EXPECT_NE(model_.state.message.find("the run ends"), std::string::npos) << model_.state.message;
@@ -92,7 +92,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   const auto [x, y] = share_of(grain);
   const auto shown = model_.first().part(1.0);
   const double before_x = model_.frame().x[grain];
-  const WidgetPlace map = gui_.place("map");
+  const gui::WidgetPlace map = gui_.place("map");
   gui_.take("map", x, y);
   EXPECT_FALSE(status().dragged) << "a click is for a contact";
   gui_.move(map.x0 + x * (map.x1 - map.x0), map.y0 + y * (map.y1 - map.y0) - 6.0f);
@@ -118,7 +118,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   EXPECT_EQ(status().commands_given, 1u);
   const std::string end = hash();
   gui_.key('s');
-  { const ViewModel ended = std::move(model_); }
+  { const view::ViewModel ended = std::move(model_); }
   const test::Outcome replay = test::run_talus({"replay", "bed-branch-1.h5"}, folder_.path());
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_NE(replay.out.find("recomputed  " + end), std::string::npos) << replay.out;
@@ -134,15 +134,15 @@ TEST_F(Branching, ctrl_selects_contacts_and_draws_lassos_too) {
   gui_.take("map", x, y);
   gui_.let_go();
   EXPECT_TRUE(model_.state.selecting.selection.contact);
-  gui_.hold(key_left_shift, true);
+  gui_.hold(gui::key_left_shift, true);
   gui_.take("map", x, y);
   gui_.move(gui_.place("map").x0 + 5.0f, gui_.place("map").y0 + 5.0f);
   EXPECT_EQ(model_.state.selecting.outline.size(), 2u) << "with shift a lasso begins on a grain, too";
   EXPECT_FALSE(model_.state.selecting.outline_is_box);
   gui_.let_go();
-  gui_.hold(key_left_shift, false);
+  gui_.hold(gui::key_left_shift, false);
   gui_.take("map", 0.005f, 0.005f);
-  const WidgetPlace map = gui_.place("map");
+  const gui::WidgetPlace map = gui_.place("map");
   for (const auto& [to_x, to_y] : {std::pair(0.995f, 0.005f), {0.995f, 0.995f}, {0.005f, 0.995f}})
     gui_.move(map.x0 + to_x * (map.x1 - map.x0), map.y0 + to_y * (map.y1 - map.y0));
   gui_.let_go();

@@ -17,7 +17,7 @@ using test::Replay;
 /// That a widget can be seen and used: inside of the column.
 void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float height) {
   ASSERT_TRUE(gui.has(name)) << name;
-  const WidgetPlace place = gui.place(name);
+  const gui::WidgetPlace place = gui.place(name);
   EXPECT_GE(place.y0, 0.0f) << name;
   EXPECT_LE(place.y1, height) << name;
 }
@@ -58,7 +58,7 @@ TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
 }
 
 TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
-  const WidgetPlace first = gui_.place("map kind"), column = gui_.place("group map");
+  const gui::WidgetPlace first = gui_.place("map kind"), column = gui_.place("group map");
   EXPECT_GT(first.x0, column.x0 + 0.3f * (column.x1 - column.x0));
   for (const char* name : {"overlay", "colours", "l_min", "threshold", "length", "speed"}) {
     EXPECT_EQ(gui_.place(name).x0, first.x0) << name;
@@ -67,11 +67,11 @@ TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
 }
 
 /// Widgets that have moved since, by name; those that are no longer there have not.
-std::string moved_since(const std::vector<WidgetPlace>& before, const test::DrivenGui& gui) {
+std::string moved_since(const std::vector<gui::WidgetPlace>& before, const test::DrivenGui& gui) {
   std::string moved;
-  for (const WidgetPlace& was : before) {
+  for (const gui::WidgetPlace& was : before) {
     if (!gui.has(was.name)) continue;
-    const WidgetPlace now = gui.place(was.name);
+    const gui::WidgetPlace now = gui.place(was.name);
     if (now.x0 != was.x0 || now.y0 != was.y0 || now.x1 != was.x1 || now.y1 != was.y1) moved += " " + was.name;
   }
   return moved;
@@ -80,7 +80,7 @@ std::string moved_since(const std::vector<WidgetPlace>& before, const test::Driv
 TEST_F(Live, nothing_moves_while_the_run_goes_on) {
   model_.state.selected = 20;
   gui_.settle();
-  const std::vector<WidgetPlace> before = gui_.places();
+  const std::vector<gui::WidgetPlace> before = gui_.places();
   gui_.click("deposit");
   EXPECT_TRUE(wait_until([&] { return status().step > 20; }));
   EXPECT_EQ(moved_since(before, gui_), "") << "in the deposition";
@@ -100,7 +100,7 @@ Index contacts_of(const Frame& frame, Index grain) {
 }
 
 /// The grain whose number of contacts changes most from frame to frame.
-Index busiest_grain(ViewModel& model) {
+Index busiest_grain(view::ViewModel& model) {
   Index busiest = 0, largest = -1;
   for (Index grain = 0; grain < model.statics().free_count; ++grain) {
     Index low = 100, high = 0;
@@ -121,7 +121,7 @@ TEST_F(Replay, the_inspector_stays_where_it_is_from_frame_to_frame) {
   model_.state.selected = busiest_grain(model_);
   model_.go_to(0);
   gui_.settle();
-  const WidgetPlace circle = gui_.place("mohr circle"), curve = gui_.place("neighbourhood");
+  const gui::WidgetPlace circle = gui_.place("mohr circle"), curve = gui_.place("neighbourhood");
   for (std::size_t frame = 1; frame < model_.frame_count(); ++frame) {
     model_.go_to(frame);
     gui_.settle();

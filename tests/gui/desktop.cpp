@@ -118,7 +118,7 @@ void Desktop::resize(int width, int height) const {
   run("xdotool windowsize --sync " + window_ + " " + at(width, height));
 }
 
-Image Desktop::screenshot(const std::filesystem::path& folder) const {
+render::Image Desktop::screenshot(const std::filesystem::path& folder) const {
   const std::string file = (folder / "screen.png").string();
   run("import -window root -depth 8 PNG24:" + file);
   return read_png(file);

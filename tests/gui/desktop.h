@@ -37,7 +37,7 @@ class Desktop {
   void drag(double x, double y) const;  ///< from where the mouse is
   void key(const std::string& name) const;
   void resize(int width, int height) const;
-  Image screenshot(const std::filesystem::path& folder) const;
+  render::Image screenshot(const std::filesystem::path& folder) const;
 
  private:
   pid_t server_ = -1;

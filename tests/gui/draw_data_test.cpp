@@ -24,17 +24,17 @@ constexpr Pixel white_pixel{255, 255, 255}, red{255, 0, 0}, black_pixel{0, 0, 0}
 /// A context, an ImGui without widgets, and a surface of 40 x 20 px.
 class DrawData : public testing::Test {
  protected:
-  DrawData() : context_(make_context(ContextKind::osmesa)), gl_(load_gl(*context_)) {
-    painter_ = std::make_unique<DrawDataPainter>(gl_);
+  DrawData() : context_(render::make_context(render::ContextKind::osmesa)), gl_(render::load_gl(*context_)) {
+    painter_ = std::make_unique<gui::DrawDataPainter>(gl_);
     imgui_ = ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = {width, height};
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {1.0f, 1.0f, 1.0f, 1.0f};  // the ground
     ImGui::GetIO().Fonts->Build();
     const std::uint8_t full = 255;
-    plain_ = make_texture(gl_, 1, 1, 1, &full, GL_NEAREST);
-    widen(gl_, plain_, OneChannel::alpha);
-    texture_ = make_texture(gl_, 2 * width, 2 * height, 4, nullptr, GL_NEAREST);
+    plain_ = render::make_texture(gl_, 1, 1, 1, &full, GL_NEAREST);
+    gui::widen(gl_, plain_, gui::OneChannel::alpha);
+    texture_ = render::make_texture(gl_, 2 * width, 2 * height, 4, nullptr, GL_NEAREST);
     gl_.GenFramebuffers(1, &surface_.framebuffer);
     gl_.BindFramebuffer(GL_FRAMEBUFFER, surface_.framebuffer);
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
@@ -76,12 +76,12 @@ class DrawData : public testing::Test {
     return {p[0], p[1], p[2]};
   }
 
-  std::unique_ptr<Context> context_;
-  Gl gl_;
-  std::unique_ptr<DrawDataPainter> painter_;
+  std::unique_ptr<render::Context> context_;
+  render::Gl gl_;
+  std::unique_ptr<gui::DrawDataPainter> painter_;
   ImGuiContext* imgui_ = nullptr;
   GLuint plain_ = 0, texture_ = 0;
-  Surface surface_;
+  gui::Surface surface_;
   std::vector<std::uint8_t> pixels_;
 };
 
@@ -129,8 +129,8 @@ TEST_F(DrawData, mixes_by_straight_alpha) {
 
 TEST_F(DrawData, shows_one_channel_as_gray) {
   const std::array<std::uint8_t, 4> rows = {0, 0, 100, 100};  // dark above, lighter below
-  const GLuint picture = make_texture(gl_, 2, 2, 1, rows.data(), GL_NEAREST);
-  widen(gl_, picture, OneChannel::gray);
+  const GLuint picture = render::make_texture(gl_, 2, 2, 1, rows.data(), GL_NEAREST);
+  gui::widen(gl_, picture, gui::OneChannel::gray);
   add_picture(picture, {10, 4}, {14, 8});
   draw();
   EXPECT_EQ(at(11, 5), black_pixel) << "row 0 is the top";
@@ -139,8 +139,8 @@ TEST_F(DrawData, shows_one_channel_as_gray) {
 
 TEST_F(DrawData, shows_one_channel_as_alpha) {
   const std::uint8_t half = 128;
-  const GLuint glyph = make_texture(gl_, 1, 1, 1, &half, GL_NEAREST);
-  widen(gl_, glyph, OneChannel::alpha);
+  const GLuint glyph = render::make_texture(gl_, 1, 1, 1, &half, GL_NEAREST);
+  gui::widen(gl_, glyph, gui::OneChannel::alpha);
   list()->AddImage(id(glyph), {10, 4}, {14, 8}, {0, 0}, {1, 1}, IM_COL32(255, 0, 0, 255));
   draw();
   EXPECT_EQ(at(11, 5), (Pixel{255, 127, 127})) << "red ink, half covered";
@@ -148,7 +148,7 @@ TEST_F(DrawData, shows_one_channel_as_alpha) {
 
 TEST_F(DrawData, shows_a_picture_in_its_colours) {
   const std::array<std::uint8_t, 8> colours = {255, 0, 0, 255, 10, 20, 30, 255};
-  const GLuint picture = make_texture(gl_, 2, 1, 4, colours.data(), GL_NEAREST);
+  const GLuint picture = render::make_texture(gl_, 2, 1, 4, colours.data(), GL_NEAREST);
   add_picture(picture, {10, 4}, {14, 8});
   draw();
   EXPECT_EQ(at(11, 5), red);
@@ -172,13 +172,13 @@ TEST_F(DrawData, a_finer_surface_has_the_same_picture_larger) {
 }
 
 TEST_F(DrawData, shows_a_gray_map_as_gray) {
-  FrameView view;
+  render::FrameView view;
   view.x_max = view.y_max = 1.0;
   view.furniture = false;
-  view.discs.push_back({0.5f, 0.5f, 5.0f, gray(0.6), gray(0.6), 0.0f});
-  MapTexture map(std::move(context_), gl_);
+  view.discs.push_back({0.5f, 0.5f, 5.0f, render::gray(0.6), render::gray(0.6), 0.0f});
+  gui::MapTexture map(std::move(context_), gl_);
   for (const auto& [shade, level] : {std::pair{0.6, 102}, {0.2, 204}, {0.2, 204}}) {
-    view.discs[0].fill = gray(shade);
+    view.discs[0].fill = render::gray(shade);
     add_picture(map.draw(view, 200), {10, 4}, {14, 8});
     draw();
     EXPECT_EQ(at(12, 6), (Pixel{level, level, level}));
@@ -204,20 +204,20 @@ TEST_F(DrawData, draws_more_corners_than_16_bits_count) {
 
 TEST(GuiFont, has_what_pictures_say) {
   ImFontAtlas atlas;
-  add_embedded_font(atlas, 1.0f);
+  gui::add_embedded_font(atlas, 1.0f);
   const ImFont* font = atlas.Fonts[0];
-  EXPECT_EQ(font->FontSize, type_scale[0]);
-  for (const char32_t code : font_code_points())
+  EXPECT_EQ(font->FontSize, gui::type_scale[0]);
+  for (const char32_t code : render::font_code_points())
     EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(code)), nullptr) << std::hex << unsigned{code};
 }
 
 TEST(GuiFont, grows_with_the_display) {
   ImFontAtlas atlas;
-  add_embedded_font(atlas, 2.0f);
+  gui::add_embedded_font(atlas, 2.0f);
   ASSERT_EQ(atlas.Fonts.Size, 3);
-  EXPECT_EQ(atlas.Fonts[0]->FontSize, 2.0f * type_scale[0]);
-  EXPECT_LT(atlas.Fonts[static_cast<int>(TextSize::small)]->FontSize, atlas.Fonts[0]->FontSize);
-  EXPECT_GT(atlas.Fonts[static_cast<int>(TextSize::heading)]->FontSize, atlas.Fonts[0]->FontSize);
+  EXPECT_EQ(atlas.Fonts[0]->FontSize, 2.0f * gui::type_scale[0]);
+  EXPECT_LT(atlas.Fonts[static_cast<int>(gui::TextSize::small)]->FontSize, atlas.Fonts[0]->FontSize);
+  EXPECT_GT(atlas.Fonts[static_cast<int>(gui::TextSize::heading)]->FontSize, atlas.Fonts[0]->FontSize);
 }
 
 }  // namespace

@@ -14,30 +14,32 @@ float between(float low, float high, float share) { return low + share * (high -
 }  // namespace
 
 bool DrivenGui::has(std::string_view name) const {
-  return std::ranges::any_of(places(), [name](const WidgetPlace& place) { return place.name == name; });
+  return std::ranges::any_of(places(), [name](const gui::WidgetPlace& place) { return place.name == name; });
 }
 
-WidgetPlace DrivenGui::place(std::string_view name) const {
-  for (const WidgetPlace& place : places())
+gui::WidgetPlace DrivenGui::place(std::string_view name) const {
+  for (const gui::WidgetPlace& place : places())
     if (place.name == name) return place;
   std::string known;
-  for (const WidgetPlace& place : places()) known += (known.empty() ? "" : ", ") + place.name;
+  for (const gui::WidgetPlace& place : places()) known += (known.empty() ? "" : ", ") + place.name;
   throw Error(ExitCode::internal, fmt::format("no widget \"{}\" in the window; there are: {}", name, known));
 }
 
 void DrivenGui::move(float x, float y) {
-  input().add({InputEvent::Kind::position, x, y, 0, false});
+  input().add({gui::InputEvent::Kind::position, x, y, 0, false});
   settle();
 }
 
 void DrivenGui::press(int button, bool down) {
-  input().add({InputEvent::Kind::button, 0.0f, 0.0f, button, down});
+  input().add({gui::InputEvent::Kind::button, 0.0f, 0.0f, button, down});
 }
 
-void DrivenGui::press_key(int key, bool down) { input().add({InputEvent::Kind::key, 0.0f, 0.0f, key, down}); }
+void DrivenGui::press_key(int key, bool down) {
+  input().add({gui::InputEvent::Kind::key, 0.0f, 0.0f, key, down});
+}
 
 void DrivenGui::click(std::string_view name, float share_x, float share_y) {
-  const WidgetPlace at = place(name);
+  const gui::WidgetPlace at = place(name);
   move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
   press(0, true);
   press(0, false);
@@ -45,14 +47,14 @@ void DrivenGui::click(std::string_view name, float share_x, float share_y) {
 }
 
 void DrivenGui::double_click(std::string_view name, float share_x, float share_y) {
-  const WidgetPlace at = place(name);
+  const gui::WidgetPlace at = place(name);
   move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
   for (const bool down : {true, false, true, false}) press(0, down);
   settle();
 }
 
 void DrivenGui::drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button) {
-  const WidgetPlace at = place(name);
+  const gui::WidgetPlace at = place(name);
   move(between(at.x0, at.x1, from_x), between(at.y0, at.y1, from_y));
   press(button, true);
   settle();
@@ -67,35 +69,35 @@ void DrivenGui::drag(std::string_view name, float from_x, float from_y, float to
 }
 
 void DrivenGui::take(std::string_view name, float share_x, float share_y) {
-  const WidgetPlace at = place(name);
+  const gui::WidgetPlace at = place(name);
   move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
-  press_key(key_left_control, true);
+  press_key(gui::key_left_control, true);
   press(0, true);
   settle();
 }
 
 void DrivenGui::let_go() {
   press(0, false);
-  press_key(key_left_control, false);
+  press_key(gui::key_left_control, false);
   settle();
 }
 
 void DrivenGui::scroll(std::string_view name, float steps, float share_x, float share_y) {
-  const WidgetPlace at = place(name);
+  const gui::WidgetPlace at = place(name);
   move(between(at.x0, at.x1, share_x), between(at.y0, at.y1, share_y));
-  input().add({InputEvent::Kind::wheel, 0.0f, steps, 0, false});
+  input().add({gui::InputEvent::Kind::wheel, 0.0f, steps, 0, false});
   settle();
 }
 
 void DrivenGui::key(int code, bool control) {
-  const bool printable = code > key_space && code < 127;
+  const bool printable = code > gui::key_space && code < 127;
   const int number = printable ? std::toupper(code) : code;
-  if (control) press_key(key_left_control, true);
+  if (control) press_key(gui::key_left_control, true);
   press_key(number, true);
-  if ((printable || code == key_space) && !control)
-    input().add({InputEvent::Kind::character, 0.0f, 0.0f, code, false});
+  if ((printable || code == gui::key_space) && !control)
+    input().add({gui::InputEvent::Kind::character, 0.0f, 0.0f, code, false});
   press_key(number, false);
-  if (control) press_key(key_left_control, false);
+  if (control) press_key(gui::key_left_control, false);
   settle();
 }
 

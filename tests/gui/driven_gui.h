@@ -8,13 +8,13 @@
 
 namespace talus::test {
 
-class DrivenGui : public OffscreenGui {
+class DrivenGui : public gui::OffscreenGui {
  public:
-  using OffscreenGui::OffscreenGui;
+  using gui::OffscreenGui::OffscreenGui;
 
   bool has(std::string_view name) const;
   /// The place of a widget. Throws Error(internal) if none has that name.
-  WidgetPlace place(std::string_view name) const;
+  gui::WidgetPlace place(std::string_view name) const;
 
   // Actions of a user; each settles. A place inside a widget is given as shares of its width and height.
   void move(float x, float y);

@@ -7,7 +7,7 @@
 namespace talus {
 namespace {
 
-using Kind = InputEvent::Kind;
+using Kind = gui::InputEvent::Kind;
 
 class Input : public testing::Test {
  protected:
@@ -16,7 +16,7 @@ class Input : public testing::Test {
     io.IniFilename = nullptr;
     io.DisplaySize = {100, 100};
     io.Fonts->Build();
-    name_keys(io);
+    gui::name_keys(io);
   }
   ~Input() override { ImGui::DestroyContext(imgui_); }
 
@@ -38,7 +38,7 @@ class Input : public testing::Test {
   }
 
   ImGuiContext* imgui_;
-  InputQueue queue_;
+  gui::InputQueue queue_;
   int clicks_ = 0, enters_ = 0;
   std::string typed_;
 };
@@ -51,7 +51,7 @@ TEST_F(Input, two_clicks_between_two_pictures_are_two_clicks) {
 }
 
 TEST_F(Input, a_key_that_is_up_again_was_down) {
-  for (const bool down : {true, false, true, false}) key(key_enter, down);
+  for (const bool down : {true, false, true, false}) key(gui::key_enter, down);
   pictures(6);
   EXPECT_EQ(enters_, 2);
 }
@@ -69,11 +69,11 @@ TEST_F(Input, a_click_is_where_the_mouse_was) {
 }
 
 TEST_F(Input, a_character_comes_with_its_key) {
-  key(key_left_shift, true);
+  key(gui::key_left_shift, true);
   key('/', true);
   queue_.add({Kind::character, 0.0f, 0.0f, '?', false});
   key('/', false);
-  key(key_left_shift, false);
+  key(gui::key_left_shift, false);
   picture();
   EXPECT_TRUE(ImGui::GetIO().KeyShift);
   EXPECT_EQ(typed_, "");

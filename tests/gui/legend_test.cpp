@@ -11,7 +11,7 @@ namespace {
 using test::Replay;
 
 TEST_F(Replay, the_ends_of_the_legend_set_the_range) {
-  const Bar before = model_.first().annotated_map().legends[0].bars[0];
+  const render::Bar before = model_.first().annotated_map().legends[0].bars[0];
   gui_.drag("legend bar", 1.0f, 0.5f, 1.5f, 0.5f);
   ASSERT_TRUE(model_.state.map.range_high.has_value());
   EXPECT_NEAR(*model_.state.map.range_high, before.high + 0.5 * (before.high - before.low), 0.01);
@@ -31,15 +31,15 @@ TEST_F(Replay, a_click_on_the_legend_changes_nothing) {
 }
 
 TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
-  model_.state.map.layers = {MapKind::clusters, MapKind::forces};
+  model_.state.map.layers = {pictures::MapKind::clusters, pictures::MapKind::forces};
   for (const int width : {1280, 1400, 1500, 1700}) {
     gui_.resize(width, 900);
     gui_.frame();
-    const WidgetPlace gravity = gui_.place("gravity"), below = gui_.place("border");
+    const gui::WidgetPlace gravity = gui_.place("gravity"), below = gui_.place("border");
     int swatches = 0;
-    for (const Legend& legend : model_.first().annotated_map().legends)
-      for (const Swatch& swatch : legend.swatches) {
-        const WidgetPlace at = gui_.place("swatch " + swatch.label);
+    for (const render::Legend& legend : model_.first().annotated_map().legends)
+      for (const render::Swatch& swatch : legend.swatches) {
+        const gui::WidgetPlace at = gui_.place("swatch " + swatch.label);
         EXPECT_LE(at.y1, below.y0) << swatch.label << " at " << width;
         EXPECT_TRUE(at.x1 <= gravity.x0 || at.y0 >= gravity.y1) << swatch.label << " at " << width;
         ++swatches;
@@ -50,21 +50,23 @@ TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
 
 TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
   model_.go_to(2);
-  const auto told = [&](MapKind kind) {
+  const auto told = [&](pictures::MapKind kind) {
     model_.state.map.layers = {kind};
     gui_.frame();
-    return grain_text(model_.first(), 7);
+    return gui::grain_text(model_.first(), 7);
   };
-  EXPECT_NE(told(MapKind::speed).find("speed = "), std::string::npos);
-  EXPECT_TRUE(told(MapKind::speed).ends_with(" √(gD)")) << told(MapKind::speed);
-  EXPECT_TRUE(told(MapKind::pressure).ends_with(" ρgD")) << told(MapKind::pressure);
-  EXPECT_TRUE(told(MapKind::rotation).ends_with("° per degree")) << told(MapKind::rotation);
-  EXPECT_TRUE(told(MapKind::displacement).ends_with(" D per degree")) << told(MapKind::displacement);
-  EXPECT_NE(told(MapKind::overloaded).find("γ = "), std::string::npos);
-  EXPECT_EQ(told(MapKind::forces), "grain 7");
-  for (const MapKind kind : map_kinds()) {
-    if (!has_bar({kind})) continue;
-    EXPECT_NE(told(kind).find(" = "), std::string::npos) << map_name(kind);
+  EXPECT_NE(told(pictures::MapKind::speed).find("speed = "), std::string::npos);
+  EXPECT_TRUE(told(pictures::MapKind::speed).ends_with(" √(gD)")) << told(pictures::MapKind::speed);
+  EXPECT_TRUE(told(pictures::MapKind::pressure).ends_with(" ρgD")) << told(pictures::MapKind::pressure);
+  EXPECT_TRUE(told(pictures::MapKind::rotation).ends_with("° per degree"))
+      << told(pictures::MapKind::rotation);
+  EXPECT_TRUE(told(pictures::MapKind::displacement).ends_with(" D per degree"))
+      << told(pictures::MapKind::displacement);
+  EXPECT_NE(told(pictures::MapKind::overloaded).find("γ = "), std::string::npos);
+  EXPECT_EQ(told(pictures::MapKind::forces), "grain 7");
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
+    if (!pictures::has_bar({kind})) continue;
+    EXPECT_NE(told(kind).find(" = "), std::string::npos) << pictures::map_name(kind);
   }
 }
 

@@ -26,11 +26,13 @@ class Replay : public testing::Test {
  protected:
   Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
 
-  ViewModel open_run() { return ViewModel::open(take_run(folder_, "bed.h5", small_bed), {}, "", false, ""); }
+  view::ViewModel open_run() {
+    return view::ViewModel::open(take_run(folder_, "bed.h5", small_bed), {}, "", false, "");
+  }
 
   /// Where a grain is in the map: shares of its width and height.
   std::pair<float, float> share_of(Index grain) {
-    const WidgetPlace map = gui_.place("map");
+    const gui::WidgetPlace map = gui_.place("map");
     const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
     const auto [x_min, x_max, y_min, y_max] = model_.first().part(aspect);
     const auto k = static_cast<std::size_t>(grain);
@@ -38,12 +40,12 @@ class Replay : public testing::Test {
             static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
   }
 
-  const Plot& plot_called(const std::string& name) const {
-    return *std::ranges::find(model_.plots(), name, &Plot::name);
+  const view::Plot& plot_called(const std::string& name) const {
+    return *std::ranges::find(model_.plots(), name, &view::Plot::name);
   }
 
   TemporaryFolder folder_;
-  ViewModel model_;
+  view::ViewModel model_;
   DrivenGui gui_;
 };
 
@@ -60,7 +62,7 @@ inline bool drawn_until(DrivenGui& gui, const std::function<bool()>& so) {
 /// A bed that is computed, in a window of 1200 x 800 px.
 class Live : public testing::Test {
  protected:
-  Live() : model_(ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}
+  Live() : model_(view::ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}
 
   std::string scenario() {
     write_file(folder_, "bed.toml", small_bed);
@@ -68,10 +70,10 @@ class Live : public testing::Test {
   }
 
   bool wait_until(const std::function<bool()>& so) { return drawn_until(gui_, so); }
-  LiveStatus status() { return model_.live()->status(); }
+  view::LiveStatus status() { return model_.live()->status(); }
 
   TemporaryFolder folder_;
-  ViewModel model_;
+  view::ViewModel model_;
   DrivenGui gui_;
 };
 

@@ -20,7 +20,7 @@ using test::small_bed;
 using test::TemporaryFolder;
 
 /// The share of the pixels of a place that differ.
-double difference(const Image& a, const Image& b, const WidgetPlace& place) {
+double difference(const render::Image& a, const render::Image& b, const gui::WidgetPlace& place) {
   int differing = 0, all = 0;
   for (int y = std::max(0, static_cast<int>(place.y0)); y < std::min(a.height, static_cast<int>(place.y1));
        ++y)
@@ -48,7 +48,7 @@ TEST_F(Replay, plays_and_pauses) {
 }
 
 TEST_F(Replay, scrubs_with_the_mouse) {
-  const Image before = gui_.frame();
+  const render::Image before = gui_.frame();
   gui_.click("frame", 0.98f);
   EXPECT_EQ(model_.frame_index(), 4u);
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.001);
@@ -57,36 +57,36 @@ TEST_F(Replay, scrubs_with_the_mouse) {
 }
 
 TEST_F(Replay, moves_by_keys) {
-  gui_.key(key_right);
-  gui_.key(key_right);
+  gui_.key(gui::key_right);
+  gui_.key(gui::key_right);
   EXPECT_EQ(model_.frame_index(), 2u);
-  gui_.key(key_left);
+  gui_.key(gui::key_left);
   EXPECT_EQ(model_.frame_index(), 1u);
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   EXPECT_EQ(model_.frame_index(), 4u);
-  gui_.key(key_home);
+  gui_.key(gui::key_home);
   EXPECT_EQ(model_.frame_index(), 0u);
 }
 
 TEST_F(Replay, overlays_by_keys_are_each_map_but_the_one_below) {
-  const MapLayers& layers = model_.state.map.layers;
-  model_.state.map.layers = {map_kinds()[1]};
-  std::vector<MapKind> seen;
+  const pictures::MapLayers& layers = model_.state.map.layers;
+  model_.state.map.layers = {pictures::map_kinds()[1]};
+  std::vector<pictures::MapKind> seen;
   for (gui_.key('o'); layers.size() > 1; gui_.key('o')) seen.push_back(layers[1]);
-  std::vector<MapKind> others(map_kinds().begin(), map_kinds().end());
+  std::vector<pictures::MapKind> others(pictures::map_kinds().begin(), pictures::map_kinds().end());
   std::erase(others, layers[0]);
   EXPECT_EQ(seen, others);
 }
 
 TEST_F(Replay, a_map_is_chosen_in_the_list) {
-  const Image before = gui_.frame();
+  const render::Image before = gui_.frame();
   gui_.key('M');
   gui_.click("map kind");
   gui_.click("map kind: pressure");
-  ASSERT_EQ(model_.state.map.layers, (MapLayers{MapKind::pressure}));
+  ASSERT_EQ(model_.state.map.layers, (pictures::MapLayers{pictures::MapKind::pressure}));
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.1);
   gui_.key('1');
-  EXPECT_EQ(model_.state.map.layers, (MapLayers{MapKind::gamma}));
+  EXPECT_EQ(model_.state.map.layers, (pictures::MapLayers{pictures::MapKind::gamma}));
 }
 
 TEST_F(Replay, escape_closes_a_list_before_it_selects_no_grain) {
@@ -94,10 +94,10 @@ TEST_F(Replay, escape_closes_a_list_before_it_selects_no_grain) {
   gui_.key('M');
   gui_.click("map kind");
   ASSERT_TRUE(gui_.has("map kind: pressure"));
-  gui_.key(key_escape);
+  gui_.key(gui::key_escape);
   EXPECT_FALSE(gui_.has("map kind: pressure"));
   EXPECT_EQ(model_.state.selected, std::optional<Index>(7));
-  gui_.key(key_escape);
+  gui_.key(gui::key_escape);
   EXPECT_FALSE(model_.state.selected);
 }
 
@@ -111,27 +111,27 @@ TEST_F(Replay, escape_closes_whatever_is_open_and_leaves_the_selection) {
                                       {"bookmark", "note"}}) {
     gui_.click(opens);
     ASSERT_TRUE(gui_.has(inside)) << opens;
-    gui_.key(key_escape);
+    gui_.key(gui::key_escape);
     EXPECT_FALSE(gui_.has(inside)) << opens;
     EXPECT_EQ(model_.state.selected, std::optional<Index>(7)) << opens;
   }
 }
 
 TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
-  model_.state.map.layers = {MapKind::displacement};
+  model_.state.map.layers = {pictures::MapKind::displacement};
   model_.state.map.range_low = 1e-9;  // the bed is small, and creeps
   model_.state.map.range_high = 1e-2;
-  gui_.key(key_right);
-  gui_.key(key_right);
-  const Image per_degree = gui_.frame();
-  gui_.key(key_end);
+  gui_.key(gui::key_right);
+  gui_.key(gui::key_right);
+  const render::Image per_degree = gui_.frame();
+  gui_.key(gui::key_end);
   gui_.key('v');
   EXPECT_EQ(model_.state.since, std::optional(model_.frame().tilt));
   EXPECT_NE(model_.first().annotated_map().title.find("per degree"), std::string::npos)
       << "nothing has moved since";
-  gui_.key(key_home);
-  gui_.key(key_right);
-  gui_.key(key_right);
+  gui_.key(gui::key_home);
+  gui_.key(gui::key_right);
+  gui_.key(gui::key_right);
   EXPECT_EQ(model_.first().annotated_map().title.find("since"), std::string::npos)
       << model_.first().annotated_map().title;
   EXPECT_EQ(difference(per_degree, gui_.frame(), gui_.place("map")), 0.0);
@@ -139,13 +139,13 @@ TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   gui_.key('v');
   EXPECT_FALSE(model_.state.since) << "per degree again";
   gui_.key('v');
-  gui_.key(key_right);
+  gui_.key(gui::key_right);
   EXPECT_NE(model_.first().annotated_map().title.find("since 0.50°"), std::string::npos)
       << model_.first().annotated_map().title;
 }
 
 TEST_F(Replay, motion_is_per_degree_before_the_angle_since_which_it_is_asked_for) {
-  model_.state.map.layers = {MapKind::displacement};
+  model_.state.map.layers = {pictures::MapKind::displacement};
   model_.go_to(1);
   gui_.frame();
   const std::string per_degree = model_.first().annotated_map().title;
@@ -165,17 +165,17 @@ TEST_F(Replay, a_grain_is_selected_where_it_is_clicked) {
     ASSERT_TRUE(model_.state.selected.has_value());
     EXPECT_EQ(*model_.state.selected, grain);
   }
-  gui_.key(key_escape);
+  gui_.key(gui::key_escape);
   EXPECT_FALSE(model_.state.selected.has_value());
 }
 
 TEST_F(Replay, the_first_click_moves_nothing) {
-  const std::vector<WidgetPlace> before = gui_.places();
+  const std::vector<gui::WidgetPlace> before = gui_.places();
   const auto [x, y] = share_of(7);
   gui_.click("map", x, y);
   ASSERT_EQ(model_.state.selected, std::optional<Index>(7));
-  for (const WidgetPlace& place : before) {
-    const WidgetPlace now = gui_.place(place.name);
+  for (const gui::WidgetPlace& place : before) {
+    const gui::WidgetPlace now = gui_.place(place.name);
     EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
         << place.name;
   }
@@ -202,12 +202,12 @@ TEST_F(Replay, a_drag_moves_the_picture_and_selects_nothing) {
 }
 
 TEST_F(Replay, a_question_mark_lists_the_keys) {
-  const Image before = gui_.frame();
+  const render::Image before = gui_.frame();
   EXPECT_FALSE(gui_.has("help"));
   gui_.key('?');
   EXPECT_TRUE(model_.state.show_help);
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("help")), 0.05);
-  gui_.key(key_escape);
+  gui_.key(gui::key_escape);
   EXPECT_FALSE(gui_.has("help"));
   EXPECT_EQ(gui_.frame().pixels, before.pixels) << "all is as it was";
 }
@@ -216,7 +216,8 @@ TEST_F(Replay, the_same_state_is_the_same_picture) { EXPECT_EQ(gui_.frame().pixe
 
 /// How many pixels of the map differ from those of the same view drawn alone, right of and below the arrow of
 /// gravity.
-int differing_from_render(const Image& window, const WidgetPlace& map, const Image& alone) {
+int differing_from_render(const render::Image& window, const gui::WidgetPlace& map,
+                          const render::Image& alone) {
   int differing = 0;
   for (int y = 60; y < alone.height - 1; ++y)
     for (int x = 60; x < alone.width; ++x) {
@@ -233,12 +234,13 @@ int differing_from_render(const Image& window, const WidgetPlace& map, const Ima
 }
 
 TEST_F(Replay, the_map_is_the_one_of_talus_render) {
-  const WidgetPlace map = gui_.place("map");
+  const gui::WidgetPlace map = gui_.place("map");
   const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
   for (const char key : {'1', '3'}) {  // gamma, all gray, and clusters in colour
     gui_.key(key);
-    const Image window = gui_.frame();
-    const Image alone = gui_.draw_image(model_.first().map(aspect), static_cast<int>(map.x1 - map.x0));
+    const render::Image window = gui_.frame();
+    const render::Image alone =
+        gui_.draw_image(model_.first().map(aspect), static_cast<int>(map.x1 - map.x0));
     ASSERT_GT(alone.width * alone.height, 100000);
     EXPECT_LT(differing_from_render(window, map, alone), alone.width * alone.height / 1000);
   }
@@ -256,25 +258,25 @@ TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
 
 TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
   gui_.key('F');
-  EXPECT_EQ(model_.first().furnished_map().letters, FrameView().letters);
+  EXPECT_EQ(model_.first().furnished_map().letters, render::FrameView().letters);
   gui_.click("printed");
   gui_.key('a', true);
   gui_.type("8.6");
-  gui_.key(key_enter);
+  gui_.key(gui::key_enter);
   EXPECT_NEAR(model_.first().furnished_map().letters, 8.6 / 2.54 * 72.0 / 8.0, 1e-6);
   EXPECT_NE(model_.render_command().find("--printed 8.6"), std::string::npos) << model_.render_command();
   gui_.click("printed");
   gui_.key('a', true);
   gui_.type("1");
-  gui_.key(key_enter);
-  EXPECT_EQ(model_.first().furnished_map().letters, FrameView().letters) << "nobody prints that";
+  gui_.key(gui::key_enter);
+  EXPECT_EQ(model_.first().furnished_map().letters, render::FrameView().letters) << "nobody prints that";
 }
 
 /// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always
 /// there.
 void expect_inside(const test::DrivenGui& gui, float width, float height) {
   for (const char* name : {"play", "frame", "map", "group run"}) {
-    const WidgetPlace place = gui.place(name);
+    const gui::WidgetPlace place = gui.place(name);
     EXPECT_GE(place.x0, 0.0f) << name;
     EXPECT_GE(place.y0, 0.0f) << name;
     EXPECT_LE(place.x1, width) << name;
@@ -287,7 +289,7 @@ void expect_inside(const test::DrivenGui& gui, float width, float height) {
 TEST_F(Replay, titles_of_plots_have_room) {
   for (const float scale : {1.0f, 1.5f, 2.0f}) {
     const test::DrivenGui gui(model_, 2400, 1600, scale);
-    const WidgetPlace plot = gui.place("plot overloaded"), button = gui.place("play");
+    const gui::WidgetPlace plot = gui.place("plot overloaded"), button = gui.place("play");
     const float em = (button.y1 - button.y0) / 1.53f;  // as high as a line with its frame
     EXPECT_GT(plot.x1 - plot.x0, 16.5f * em) << scale;
   }
@@ -299,7 +301,7 @@ TEST_F(Replay, a_small_window_has_what_is_needed) {
   gui_.click("frame", 0.98f);
   EXPECT_EQ(model_.frame_index(), 4u);
   gui_.key('?');
-  const WidgetPlace help = gui_.place("help");
+  const gui::WidgetPlace help = gui_.place("help");
   EXPECT_GE(help.x0, 0.0f);
   EXPECT_GE(help.y0, 0.0f);
   EXPECT_LE(help.x1, 640.0f);
@@ -315,7 +317,7 @@ TEST_F(Replay, panels_open_by_keys) {
 
 TEST_F(Replay, the_bar_goes_where_it_is_told_to) {
   gui_.key('M');
-  const Image before = gui_.frame();
+  const render::Image before = gui_.frame();
   gui_.click("range");
   ASSERT_TRUE(model_.state.map.range_high.has_value());
   gui_.move(700.0f, 895.0f);  // hints hide nothing of the map
@@ -342,7 +344,7 @@ TEST_F(Replay, the_border_of_the_plots_is_moved) {
 TEST_F(Replay, places_that_a_run_does_not_have_cannot_be_gone_to) {
   gui_.key('R');
   EXPECT_TRUE(gui_.has("theta_c"));
-  EXPECT_FALSE(model_.has(Landmark::theta_c)) << "at 1 deg nothing fails";
+  EXPECT_FALSE(model_.has(view::Landmark::theta_c)) << "at 1 deg nothing fails";
   gui_.click("last");
   gui_.click("theta_c");
   EXPECT_EQ(model_.frame_index() + 1, model_.frame_count());
@@ -357,15 +359,15 @@ TEST_F(Replay, ends_on_request) {
 TEST(Scale, two_doubles_text_and_widgets) {
   TemporaryFolder folder;
   test::write_file(folder, "bed.toml", small_bed);
-  ViewModel model = ViewModel::open(folder.path("bed.toml"), {}, "", false, "");
+  view::ViewModel model = view::ViewModel::open(folder.path("bed.toml"), {}, "", false, "");
   float height = 0.0f;
   {
     const test::DrivenGui plain(model, 1400, 900);
-    const WidgetPlace play = plain.place("play");
+    const gui::WidgetPlace play = plain.place("play");
     height = play.y1 - play.y0;
   }
   test::DrivenGui large(model, 1400, 900, 2.0f);
-  const WidgetPlace play = large.place("play");
+  const gui::WidgetPlace play = large.place("play");
   EXPECT_NEAR(play.y1 - play.y0, 2.0f * height, 2.0f);
   EXPECT_LE(large.place("map").x1, 1400.0f);
 }
@@ -380,7 +382,7 @@ TEST_F(Live, steps_are_counted) {
 }
 
 TEST_F(Live, plays_pauses_and_begins_anew) {
-  const Image before = gui_.frame();
+  const render::Image before = gui_.frame();
   gui_.click("play");
   EXPECT_TRUE(wait_until([&] { return model_.frame().step > 50; }));
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("map")), 0.005);
@@ -436,12 +438,12 @@ TEST_F(Live, friction_and_pushes_are_commands) {
 }
 
 /// Keys and clicks anywhere, from a fixed seed; what would leave the window or write files is left out.
-void use_at_random(test::DrivenGui& gui, ViewModel& model, int events) {
+void use_at_random(test::DrivenGui& gui, view::ViewModel& model, int events) {
   std::mt19937_64 random(7);
   const auto below = [&random](std::uint64_t count) { return random() % count; };
   const std::string keys = " djpc<>1234567890omv[],.;'tf+-waxzniygbrukRMASFGTLhl?";
   for (int k = 0; k < events; ++k) {
-    const std::vector<WidgetPlace> places = gui.places();
+    const std::vector<gui::WidgetPlace> places = gui.places();
     const std::string name = places.empty() ? "" : places[below(places.size())].name;
     const float x = 0.01f * static_cast<float>(below(100)), y = 0.01f * static_cast<float>(below(100));
     const bool writes = name.starts_with("file ") || name.starts_with("save") || name == "write table";

@@ -12,7 +12,7 @@ using test::Live;
 using test::Replay;
 
 /// The share of its pixels that are not white or gray.
-double coloured_share(const Image& image, const WidgetPlace& place) {
+double coloured_share(const render::Image& image, const gui::WidgetPlace& place) {
   int coloured = 0, all = 0;
   for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y1); ++y)
     for (int x = static_cast<int>(place.x0); x < static_cast<int>(place.x1); ++x) {
@@ -27,8 +27,8 @@ TEST_F(Replay, a_key_shows_another_map_beside_and_takes_it_away) {
   EXPECT_FALSE(gui_.has("map beside"));
   gui_.key('P');
   ASSERT_TRUE(gui_.has("map beside"));
-  EXPECT_EQ(model_.state.beside.layers, (MapLayers{MapKind::displacement}));
-  const Image both = gui_.frame();
+  EXPECT_EQ(model_.state.beside.layers, (pictures::MapLayers{pictures::MapKind::displacement}));
+  const render::Image both = gui_.frame();
   EXPECT_EQ(coloured_share(both, gui_.place("map")), 0.0) << "gray";
   EXPECT_GT(coloured_share(both, gui_.place("map beside")), 0.1) << "in its own texture";
   gui_.key('P');
@@ -36,12 +36,12 @@ TEST_F(Replay, a_key_shows_another_map_beside_and_takes_it_away) {
 }
 
 TEST_F(Replay, a_key_shows_what_changes_from_here_on) {
-  gui_.key(key_right);
+  gui_.key(gui::key_right);
   const double here = model_.frame().tilt;
   gui_.key('D');
   ASSERT_TRUE(gui_.has("map beside"));
   EXPECT_EQ(model_.state.beside.minus, std::optional(here));
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   EXPECT_NE(model_.second().annotated_map().title.find("1.00° minus 0.25°"), std::string::npos)
       << model_.second().annotated_map().title;
   EXPECT_EQ(model_.second().annotated_map().caption, model_.first().annotated_map().caption);
@@ -59,7 +59,7 @@ TEST_F(Replay, the_mouse_on_either_view_moves_both) {
 
 TEST_F(Replay, a_grain_is_selected_in_either_view) {
   gui_.key('P');
-  const WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
+  const gui::WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
   EXPECT_EQ(map.x1 - map.x0, beside.x1 - beside.x0);
   EXPECT_EQ(map.y1 - map.y0, beside.y1 - beside.y0);
   const auto [x, y] = share_of(31);
@@ -70,8 +70,8 @@ TEST_F(Replay, a_grain_is_selected_in_either_view) {
 TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
   gui_.key('D');
   const auto [x, y] = share_of(31);
-  const WidgetPlace at = gui_.place("map beside");
-  const Image before = gui_.frame();
+  const gui::WidgetPlace at = gui_.place("map beside");
+  const render::Image before = gui_.frame();
   gui_.move(at.x0 + x * (at.x1 - at.x0), at.y0 + y * (at.y1 - at.y0));
   EXPECT_NE(gui_.frame().pixels, before.pixels);
   EXPECT_EQ(model_.second().values().values.size(), static_cast<std::size_t>(model_.statics().free_count));
@@ -88,11 +88,11 @@ TEST_F(Replay, another_run_is_opened_beside_from_the_panel) {
   model_.state.beside.path = folder_.path("bed.h5");
   gui_.click("open beside");
   ASSERT_NE(model_.run_beside(), nullptr);
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   EXPECT_EQ(model_.run_beside()->frame_index(), model_.frame_index());
   gui_.click("beside clock");
   gui_.click("beside clock: t");
-  EXPECT_EQ(model_.state.beside.clock, PlotAxis::time);
+  EXPECT_EQ(model_.state.beside.clock, view::PlotAxis::time);
   gui_.click("close beside");
   EXPECT_EQ(model_.run_beside(), nullptr);
 }
@@ -102,7 +102,7 @@ TEST_F(Replay, two_views_have_room_or_it_is_said) {
   for (const auto& [width, height] : {std::pair(640, 480), {2400, 500}, {900, 1400}, {3000, 2000}}) {
     gui_.resize(width, height);
     ASSERT_TRUE(gui_.has("map beside")) << width;
-    const WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
+    const gui::WidgetPlace map = gui_.place("map"), beside = gui_.place("map beside");
     EXPECT_TRUE(beside.x0 >= map.x1 || beside.y0 >= map.y1) << width << ": one hides the other";
     EXPECT_LE(beside.x1, static_cast<float>(width));
     EXPECT_LE(beside.y1, static_cast<float>(height));

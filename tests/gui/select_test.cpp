@@ -20,27 +20,27 @@ TEST_F(Replay, shift_selects_more_grains) {
     gui_.click("map", x, y);
   };
   click(7);
-  gui_.hold(key_left_shift, true);
+  gui_.hold(gui::key_left_shift, true);
   click(31);
   click(12);
   EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12, 31}));
   click(31);
   EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12})) << "the second click takes it away";
-  gui_.hold(key_left_shift, false);
+  gui_.hold(gui::key_left_shift, false);
   click(31);
   EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{31})) << "a plain click is for one";
 }
 
 TEST_F(Replay, a_box_selects_and_moves_nothing) {
   gui_.scroll("map", 2.0f);  // where dragging would move the picture
-  const std::vector<WidgetPlace> before = gui_.places();
-  const ViewCamera camera = model_.state.camera;
-  gui_.hold(key_left_shift, true);
+  const std::vector<gui::WidgetPlace> before = gui_.places();
+  const view::ViewCamera camera = model_.state.camera;
+  gui_.hold(gui::key_left_shift, true);
   gui_.drag("map", 0.0f, 0.0f, 0.5f, 1.0f);
-  gui_.hold(key_left_shift, false);
+  gui_.hold(gui::key_left_shift, false);
   std::vector<Index> selected = model_.selected_grains();
   std::vector<Index> left;
-  const WidgetPlace map = gui_.place("map");
+  const gui::WidgetPlace map = gui_.place("map");
   const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
   const auto [x_min, x_max, y_min, y_max] = model_.first().part(aspect);
   for (Index i = 0; i < model_.statics().free_count; ++i) {
@@ -55,25 +55,25 @@ TEST_F(Replay, a_box_selects_and_moves_nothing) {
   EXPECT_GT(left.size(), 2u);
   EXPECT_EQ(selected, left);
   EXPECT_EQ(model_.state.camera.centre_x, camera.centre_x);
-  for (const WidgetPlace& place : before) {
-    const WidgetPlace now = gui_.place(place.name);
+  for (const gui::WidgetPlace& place : before) {
+    const gui::WidgetPlace now = gui_.place(place.name);
     EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
         << place.name;
   }
 }
 
 TEST_F(Replay, ctrl_draws_a_lasso_and_picks_contacts) {
-  gui_.hold(key_left_control, true);
+  gui_.hold(gui::key_left_control, true);
   gui_.drag("map", 0.2f, 0.2f, 0.8f, 0.8f);
   EXPECT_TRUE(model_.selected_grains().empty()) << "a straight line holds nothing";
   const auto [x, y] = share_of(7);
   gui_.click("map", x, y);
-  gui_.hold(key_left_control, false);
+  gui_.hold(gui::key_left_control, false);
   const auto contact = model_.state.selecting.selection.contact;
   ASSERT_TRUE(contact);
   EXPECT_TRUE(contact->a == 7 || contact->b == 7);
   EXPECT_FALSE(model_.state.selected);
-  gui_.key(key_escape);
+  gui_.key(gui::key_escape);
   EXPECT_FALSE(model_.state.selecting.selection.contact);
 }
 
@@ -81,7 +81,7 @@ TEST_F(Replay, a_condition_is_written) {
   gui_.key('S');
   gui_.click("condition");
   gui_.type("y > 1 && id < 20");
-  gui_.key(key_enter);
+  gui_.key(gui::key_enter);
   EXPECT_GT(model_.selected_grains().size(), 1u);
   for (const Index grain : model_.selected_grains()) EXPECT_LT(grain, 20);
   gui_.click("condition");
@@ -116,7 +116,7 @@ TEST_F(Replay, selected_grains_are_a_table) {
 TEST_F(Replay, contacts_and_grains_lead_to_each_other) {
   model_.select(std::optional<Index>(12));
   gui_.settle();
-  const std::vector<GrainContact> contacts = model_.inspection()->contacts;
+  const std::vector<view::GrainContact> contacts = model_.inspection()->contacts;
   ASSERT_FALSE(contacts.empty());
   gui_.click("contact with " + contacts[0].other_name);
   ASSERT_EQ(model_.state.selecting.selection.contact, std::optional(contacts[0].key));

@@ -14,8 +14,8 @@ namespace {
 /// The window, the model behind it, and what has been requested: enough to tell whether an action did
 /// anything.
 struct Seen {
-  Image picture;
-  GuiRequests requests;
+  render::Image picture;
+  gui::GuiRequests requests;
   bool operator==(const Seen& other) const {
     return picture.pixels == other.picture.pixels && requests.quit == other.requests.quit &&
            requests.save_png_path == other.requests.save_png_path &&
@@ -38,29 +38,32 @@ void come_to_rest(test::DrivenGui& gui) {
 
 /// All that can be typed, and the keys with a name that the window uses.
 std::vector<int> all_keys() {
-  std::vector<int> keys = {key_space, key_right, key_left, key_home, key_end, key_escape};
-  for (int key = key_space + 1; key < 127; ++key) keys.push_back(key);
+  std::vector<int> keys = {gui::key_space, gui::key_right, gui::key_left,
+                           gui::key_home,  gui::key_end,   gui::key_escape};
+  for (int key = gui::key_space + 1; key < 127; ++key) keys.push_back(key);
   return keys;
 }
 
 /// The keys of the list that the window shows.
 std::vector<int> listed_keys() {
-  std::vector<int> keys = {key_space, key_right, key_left, key_home, key_end, key_escape};
+  std::vector<int> keys = {gui::key_space, gui::key_right, gui::key_left,
+                           gui::key_home,  gui::key_end,   gui::key_escape};
   for (const char key : std::string("djpc<>123456789 0omv[],.;'t+-=wzaxfnTLiyBPDgbrseukNURMASFGhlC?q"))
     keys.push_back(key);
   return keys;
 }
 
 std::string name_of_key(int key) {
-  return key > key_space && key < 127 ? std::string(1, static_cast<char>(key)) : fmt::format("key {}", key);
+  return key > gui::key_space && key < 127 ? std::string(1, static_cast<char>(key))
+                                           : fmt::format("key {}", key);
 }
 
 /// A run that is looked at in one of the states in which keys are pressed.
 struct OpenWindow {
-  ViewModel model;
+  view::ViewModel model;
   test::DrivenGui gui;
-  explicit OpenWindow(ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
-  LiveStatus status() { return model.live()->status(); }
+  explicit OpenWindow(view::ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
+  view::LiveStatus status() { return model.live()->status(); }
   bool runs() { return model.is_live() ? status().running : model.playing(); }
 };
 
@@ -69,7 +72,7 @@ using OpenAgain = std::function<std::unique_ptr<OpenWindow>()>;
 /// Presses each key in the same state, and expects that something is seen of it.
 void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = listed_keys()) {
   std::unique_ptr<OpenWindow> window;
-  ViewState begin;
+  view::ViewState begin;
   for (const int key : keys) {
     if (!window) {
       window = make();
@@ -77,7 +80,7 @@ void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = 
       window->model.state.message.clear();
       begin = window->model.state;
     }
-    ViewModel& model = window->model;
+    view::ViewModel& model = window->model;
     const Seen before = seen(window->gui);
     const std::string run = model.is_live() ? window->status().state_hash : "replay";
     const std::size_t commands = model.is_live() ? window->status().commands_given : 0;
@@ -101,7 +104,8 @@ class SilentReplay : public testing::Test {
   SilentReplay() { test::take_run(folder_, "bed.h5", test::small_bed); }
   OpenAgain at_frame(std::size_t frame) {
     return [this, frame] {
-      auto window = std::make_unique<OpenWindow>(ViewModel::open(folder_.path("bed.h5"), {}, "", false, ""));
+      auto window =
+          std::make_unique<OpenWindow>(view::ViewModel::open(folder_.path("bed.h5"), {}, "", false, ""));
       window->model.go_to(frame);
       return window;
     };
@@ -144,35 +148,35 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   expect_told("The bed ends there");
   gui.click("map", 0.003f, 0.003f);
   expect_told("No grain is there");
-  gui.hold(key_left_shift, true);
+  gui.hold(gui::key_left_shift, true);
   gui.click("map", 0.003f, 0.003f);
   expect_told("No grain is there");
   gui.drag("map", 0.0f, 0.0f, 1.0f, 1.0f);
   expect_told("; selected: ");
-  gui.hold(key_left_shift, false);
-  gui.hold(key_left_control, true);
+  gui.hold(gui::key_left_shift, false);
+  gui.hold(gui::key_left_control, true);
   gui.click("map", 0.003f, 0.003f);
   expect_told("No contact");
-  gui.hold(key_left_control, false);
+  gui.hold(gui::key_left_control, false);
 }
 
 class SilentLive : public testing::Test {
  protected:
   SilentLive() { test::write_file(folder_, "bed.toml", test::small_bed); }
   std::unique_ptr<OpenWindow> begun() {
-    return std::make_unique<OpenWindow>(ViewModel::open(folder_.path("bed.toml"), {}, "", false, ""));
+    return std::make_unique<OpenWindow>(view::ViewModel::open(folder_.path("bed.toml"), {}, "", false, ""));
   }
-  std::unique_ptr<OpenWindow> after(const std::function<void(LiveRun&)>& play) {
+  std::unique_ptr<OpenWindow> after(const std::function<void(view::LiveRun&)>& play) {
     auto window = begun();
     play(*window->model.live());
     EXPECT_TRUE(test::drawn_until(window->gui, [&] { return !window->runs(); }));
     return window;
   }
   std::unique_ptr<OpenWindow> tilting() {
-    return after([](LiveRun& run) { run.run_to(radians(0.5)); });
+    return after([](view::LiveRun& run) { run.run_to(radians(0.5)); });
   }
   std::unique_ptr<OpenWindow> ended() {
-    return after([](LiveRun& run) { run.play(); });
+    return after([](view::LiveRun& run) { run.play(); });
   }
   test::TemporaryFolder folder_;
 };
@@ -196,12 +200,12 @@ TEST_F(SilentLive, keys_of_an_earlier_frame) {
 
 TEST_F(SilentLive, no_grain_is_pulled_after_the_end_and_what_is_selected_stays) {
   const auto window = ended();
-  ViewModel& model = window->model;
+  view::ViewModel& model = window->model;
   test::DrivenGui& gui = window->gui;
   gui.settle();
   model.select(std::vector<Index>{3, 7, 12});
-  const ViewCamera camera = model.state.camera;
-  const WidgetPlace map = gui.place("map");
+  const view::ViewCamera camera = model.state.camera;
+  const gui::WidgetPlace map = gui.place("map");
   const double width = map.x1 - map.x0, height = map.y1 - map.y0;
   const auto [x_min, x_max, y_min, y_max] = model.first().part(width / height);
   const double x = (model.frame().x[30] - x_min) / (x_max - x_min),
@@ -219,7 +223,7 @@ TEST_F(SilentLive, no_grain_is_pulled_after_the_end_and_what_is_selected_stays) 
 
 TEST_F(SilentLive, a_tilt_that_is_reached_is_offered_no_more_and_a_bed_that_rests_is_not_deposited_again) {
   const auto window = begun();
-  ViewModel& model = window->model;
+  view::ViewModel& model = window->model;
   model.state.run_to_tilt = 0.5;
   window->gui.key('g');
   ASSERT_TRUE(test::drawn_until(window->gui, [&] { return !window->runs(); }));
@@ -238,7 +242,7 @@ TEST_F(SilentLive, a_tilt_that_is_reached_is_offered_no_more_and_a_bed_that_rest
 
 TEST_F(SilentLive, a_command_is_told_with_what_it_did_and_the_step_that_info_lists) {
   const auto window = tilting();
-  ViewModel& model = window->model;
+  view::ViewModel& model = window->model;
   model.state.selected = 3;
   const std::int64_t step = window->status().step;
   window->gui.key('u');

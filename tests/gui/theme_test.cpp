@@ -26,11 +26,11 @@ using test::Replay;
 /// Text, and what it stands on.
 struct TextPair {
   std::string_view name;
-  Colour text, ground;
+  render::Colour text, ground;
 };
 
 /// All pairs of text and ground that the window has in a theme.
-std::vector<TextPair> text_pairs(const Palette& of) {
+std::vector<TextPair> text_pairs(const gui::Palette& of) {
   return {{"text", of.ink, of.ground},
           {"text in columns", of.ink, of.panel},
           {"buttons", of.ink, of.raised},
@@ -57,31 +57,32 @@ double linear(std::uint8_t channel) {
   return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-double luminance(const Colour& colour) {
+double luminance(const render::Colour& colour) {
   return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
 }
 
 /// Contrast of two opaque colours, 1 ... 21 (WCAG 2.1, relative luminance).
-double contrast(const Colour& a, const Colour& b) {
+double contrast(const render::Colour& a, const render::Colour& b) {
   const double one = luminance(a), other = luminance(b);
   return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
 }
 
 TEST(Contrast, is_that_of_the_standard) {
-  EXPECT_NEAR(contrast(black, white), 21.0, 1e-9);
-  EXPECT_NEAR(contrast({119, 119, 119}, white), 4.48, 0.005) << "the usual example that just fails";
+  EXPECT_NEAR(contrast(render::black, render::white), 21.0, 1e-9);
+  EXPECT_NEAR(contrast({119, 119, 119}, render::white), 4.48, 0.005) << "the usual example that just fails";
   EXPECT_DOUBLE_EQ(contrast({10, 20, 30}, {10, 20, 30}), 1.0);
 }
 
 TEST(Contrast, of_all_text_is_enough) {
-  for (const Theme theme : themes())
-    for (const TextPair& pair : text_pairs(palette_of(theme)))
-      EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << theme_name(theme) << ": " << pair.name;
+  for (const view::Theme theme : view::themes())
+    for (const TextPair& pair : text_pairs(gui::palette_of(theme)))
+      EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << view::theme_name(theme) << ": " << pair.name;
 }
 
 /// The largest contrast of what is drawn between the middle of a disc and its edge to its fill.
-double rim_contrast(Renderer& renderer, const FrameView& view, const Colour& fill, const Colour& ground) {
-  const Image image = renderer.draw(view, 200);
+double rim_contrast(render::Renderer& renderer, const render::FrameView& view, const render::Colour& fill,
+                    const render::Colour& ground) {
+  const render::Image image = renderer.draw(view, 200);
   const int middle = 200 * (image.height / 2) + 100;
   double largest = 1.0;
   for (int x = 0; 2 * x < 200; ++x) {
@@ -99,31 +100,31 @@ double rim_contrast(Renderer& renderer, const FrameView& view, const Colour& fil
 }
 
 TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
-  Renderer renderer(make_context(ContextKind::osmesa));
-  std::vector<Colour> fills = cluster_palette();
-  fills.push_back(gray(0.4));  // of clusters without a colour
-  for (const Theme theme : themes())
-    for (const Colour& fill : fills)
+  render::Renderer renderer(render::make_context(render::ContextKind::osmesa));
+  std::vector<render::Colour> fills = pictures::cluster_palette();
+  fills.push_back(render::gray(0.4));  // of clusters without a colour
+  for (const view::Theme theme : view::themes())
+    for (const render::Colour& fill : fills)
       for (const double radius : {8.0, 30.0}) {
-        FrameView view;
+        render::FrameView view;
         view.furniture = false;
         view.coloured = view.transparent = true;
         view.x_max = 200.0;
         view.y_max = 100.0;
-        view.discs.push_back({100.5f, 49.5f, static_cast<float>(radius), fill, black, 0.0f});
-        if (theme == Theme::dark) view = on_dark_ground(view);
-        const Colour shown = view.discs[0].fill;
-        EXPECT_GE(rim_contrast(renderer, view, shown, palette_of(theme).ground), 3.0)
-            << theme_name(theme) << ", " << int{fill.red} << " " << int{fill.green} << " " << int{fill.blue}
-            << ", radius " << radius << " px";
+        view.discs.push_back({100.5f, 49.5f, static_cast<float>(radius), fill, render::black, 0.0f});
+        if (theme == view::Theme::dark) view = view::on_dark_ground(view);
+        const render::Colour shown = view.discs[0].fill;
+        EXPECT_GE(rim_contrast(renderer, view, shown, gui::palette_of(theme).ground), 3.0)
+            << view::theme_name(theme) << ", " << int{fill.red} << " " << int{fill.green} << " "
+            << int{fill.blue} << ", radius " << radius << " px";
       }
 }
 
 TEST(Print, fills_nothing_with_gray) {
-  const Palette& of = palette_of(Theme::print);
-  for (const Colour& fill : {of.ground, of.panel, of.raised, of.field, of.track, of.alarm})
-    EXPECT_EQ(fill, white);
-  for (const Colour& text : {of.ink, of.soft, of.line}) EXPECT_EQ(text, black);
+  const gui::Palette& of = gui::palette_of(view::Theme::print);
+  for (const render::Colour& fill : {of.ground, of.panel, of.raised, of.field, of.track, of.alarm})
+    EXPECT_EQ(fill, render::white);
+  for (const render::Colour& text : {of.ink, of.soft, of.line}) EXPECT_EQ(text, render::black);
 }
 
 /// A literal of a colour in a source: IM_COL32(1, 2, 3, 4), ImVec4(0.1f ...), Colour{1, 2, 3}.
@@ -151,28 +152,28 @@ TEST(Theme, is_the_only_place_of_colours) {
 }
 
 /// The share of the pixels of a picture that are as dark as that.
-double share_below(const Image& image, double limit) {
+double share_below(const render::Image& image, double limit) {
   int dark = 0;
   for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
-    dark += luma({image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]}) < limit ? 1 : 0;
+    dark += render::luma({image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]}) < limit ? 1 : 0;
   return 3.0 * dark / static_cast<double>(image.pixels.size());
 }
 
 TEST_F(Replay, all_of_the_window_follows_the_theme) {
   EXPECT_LT(share_below(gui_.frame(), 80.0), 0.2);
   gui_.key('C');
-  EXPECT_EQ(model_.state.theme, Theme::dark);
+  EXPECT_EQ(model_.state.theme, view::Theme::dark);
   EXPECT_GT(share_below(gui_.frame(), 80.0), 0.7);
-  const Image saved = gui_.draw_image(model_.first().furnished_map(), 800);
+  const render::Image saved = gui_.draw_image(model_.first().furnished_map(), 800);
   EXPECT_GT(saved.pixels[0], 250) << "a picture that is saved is that of talus render";
   gui_.key('C');
-  const Image print = gui_.frame();
-  const WidgetPlace play = gui_.place("play");
+  const render::Image print = gui_.frame();
+  const gui::WidgetPlace play = gui_.place("play");
   const auto x = static_cast<std::size_t>(play.x0 + 3.0f),
              y = static_cast<std::size_t>(0.5f * (play.y0 + play.y1));
   EXPECT_EQ(print.pixels[3 * (y * 1400 + x)], 255) << "a button";
   gui_.key('C');
-  EXPECT_EQ(model_.state.theme, Theme::light);
+  EXPECT_EQ(model_.state.theme, view::Theme::light);
 }
 
 /// Names of widgets that are always there, and of which none lies over another.
@@ -181,12 +182,12 @@ const char* const apart[] = {"play", "frame", "map", "time line", "bookmark"};
 void expect_apart(const test::DrivenGui& gui, float width, float height, const std::string& at) {
   for (const char* one : apart) {
     if (!gui.has(one)) continue;
-    const WidgetPlace a = gui.place(one);
+    const gui::WidgetPlace a = gui.place(one);
     EXPECT_TRUE(a.x0 >= 0.0f && a.y0 >= 0.0f && a.x1 <= width && a.y1 <= height) << one << " " << at;
     EXPECT_GT(a.x1 - a.x0, 8.0f) << one << " " << at;
     for (const char* other : apart) {
       if (one == other || !gui.has(other)) continue;
-      const WidgetPlace b = gui.place(other);
+      const gui::WidgetPlace b = gui.place(other);
       const bool clear = a.x1 <= b.x0 || b.x1 <= a.x0 || a.y1 <= b.y0 || b.y1 <= a.y0;
       EXPECT_TRUE(clear) << one << " and " << other << " " << at;
     }
@@ -204,12 +205,12 @@ TEST_F(Replay, nothing_overlaps_from_small_windows_to_large_ones) {
 }
 
 TEST_F(Replay, playing_moves_nothing) {
-  const std::vector<WidgetPlace> before = gui_.places();
-  const Image still = gui_.frame();
+  const std::vector<gui::WidgetPlace> before = gui_.places();
+  const render::Image still = gui_.frame();
   gui_.click("play");
   ASSERT_TRUE(model_.playing());
-  for (const WidgetPlace& place : before) {
-    const WidgetPlace now = gui_.place(place.name);
+  for (const gui::WidgetPlace& place : before) {
+    const gui::WidgetPlace now = gui_.place(place.name);
     EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
         << place.name;
   }
@@ -217,7 +218,7 @@ TEST_F(Replay, playing_moves_nothing) {
 }
 
 TEST_F(Replay, text_is_no_larger_than_a_small_window_has_room_for) {
-  const WidgetPlace usual = gui_.place("play");
+  const gui::WidgetPlace usual = gui_.place("play");
   gui_.resize(640, 480);
   model_.state.scale = 3.0;
   gui_.settle();

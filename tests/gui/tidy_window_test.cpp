@@ -99,11 +99,11 @@ TEST_F(TidyWindow, at_every_size_and_scale) {
       model_.state.scale = scale;
       gui_.resize(width, height);
       for (const char* map : {"gamma", "clusters+forces", "coarse+forces", "dyed", "displacement", "cells"}) {
-        model_.state.map.layers = map_layers(map);
+        model_.state.map.layers = pictures::map_layers(map);
         expect_tidy(fmt::format("{}, {} x {} at scale {}", map, width, height, scale));
         EXPECT_TRUE(gui_.has("time line")) << width << " at " << scale;
-        for (const Legend& legend : model_.first().annotated_map().legends)
-          for (const Swatch& swatch : legend.swatches)
+        for (const render::Legend& legend : model_.first().annotated_map().legends)
+          for (const render::Swatch& swatch : legend.swatches)
             EXPECT_LE(gui_.place("swatch " + swatch.label).y1, below()) << swatch.label;
       }
     }
@@ -119,7 +119,7 @@ TEST_F(TidyWindow, with_two_views) {
       for (const bool minus : {false, true})
         for (const char* map : {"coarse+forces", "clusters+displacement"}) {
           model_.state.beside.minus = minus ? std::optional(0.005) : std::nullopt;
-          model_.state.map.layers = map_layers(map);
+          model_.state.map.layers = pictures::map_layers(map);
           expect_tidy(fmt::format("{}, {} x {} at scale {}", map, width, height, scale));
         }
     }

@@ -15,15 +15,15 @@ using test::Live;
 using test::Replay;
 
 TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
-  const WidgetPlace line = gui_.place("time line");
+  const gui::WidgetPlace line = gui_.place("time line");
   EXPECT_GT(line.x1 - line.x0, 1200.0f);
   gui_.click("time line", 0.76f);
   EXPECT_EQ(model_.frame_index(), 3u);
   gui_.drag("time line", 0.76f, 0.5f, 0.01f, 0.5f);
   EXPECT_EQ(model_.frame_index(), 0u);
-  const std::vector<TimelineEvent> events(model_.events().begin(), model_.events().end());
+  const std::vector<view::TimelineEvent> events(model_.events().begin(), model_.events().end());
   ASSERT_FALSE(events.empty());
-  for (const TimelineEvent& event : events) {
+  for (const view::TimelineEvent& event : events) {
     model_.go_to(event.frame == 0 ? 2 : 0);
     gui_.click("event " + event.name);
     EXPECT_EQ(model_.frame_index(), event.frame) << event.name;
@@ -34,7 +34,7 @@ TEST_F(Replay, a_frame_gets_a_bookmark_with_a_note) {
   model_.go_to(2);
   gui_.click("bookmark");
   gui_.type("q: slides, f_n grows");
-  gui_.key(key_enter);
+  gui_.key(gui::key_enter);
   ASSERT_NE(model_.bookmark(), nullptr);
   EXPECT_EQ(model_.bookmark()->note, "q: slides, f_n grows");
   EXPECT_FALSE(gui_.requests().quit) << "keys of the window are letters of the note";
@@ -85,9 +85,9 @@ TEST_F(Replay, a_plot_answers) {
 
 /// How many pixels of the upper left part of a plot have the colour in which its threshold is written.
 int note_pixels(test::DrivenGui& gui, const std::string& plot) {
-  const Image window = gui.frame();
-  const WidgetPlace place = gui.place("plot " + plot);
-  const Colour soft = palette_of(Theme::light).soft;
+  const render::Image window = gui.frame();
+  const gui::WidgetPlace place = gui.place("plot " + plot);
+  const render::Colour soft = gui::palette_of(view::Theme::light).soft;
   int count = 0;
   for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y0 + 0.4f * (place.y1 - place.y0)); ++y)
     for (int x = static_cast<int>(place.x0); x < static_cast<int>(0.5f * (place.x0 + place.x1)); ++x) {
@@ -114,7 +114,7 @@ TEST_F(Replay, plots_of_overloaded_grains_say_their_threshold) {
 TEST_F(Replay, plots_answer_over_time_as_well) {
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
   gui_.click("over time");
-  EXPECT_EQ(model_.plot_axis(), PlotAxis::time);
+  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time);
   EXPECT_FALSE(model_.state.plot_looks["stress"].chosen.has_value()) << "it was chosen in degrees";
   const double begin = *model_.plot_marks().shown;
   gui_.click("plot stress", 0.86f);
@@ -127,9 +127,9 @@ TEST_F(Replay, plots_answer_over_time_as_well) {
   gui_.scroll("plot stress", 3.0f);
   EXPECT_TRUE(model_.state.plot_looks["stress"].zoomed.has_value());
   gui_.click("over angle left");
-  EXPECT_EQ(model_.plot_axis(), PlotAxis::time) << "theta_c is not known";
+  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time) << "theta_c is not known";
   gui_.click("over tilt");
-  EXPECT_EQ(model_.plot_axis(), PlotAxis::tilt);
+  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::tilt);
 }
 
 TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
@@ -154,11 +154,11 @@ TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
   EXPECT_EQ(gui_.requests().behind_path, "ensemble.h5");
   EXPECT_FALSE(gui_.has("behind path")) << "the question is gone";
   EXPECT_FALSE(gui_.has("nothing behind"));
-  const Image alone = gui_.frame();
-  GhostRun run;
+  const render::Image alone = gui_.frame();
+  view::GhostRun run;
   for (const double tilt : {0.0, 0.01}) run.frames.push_back({.tilt = tilt, .volume_strain = -0.001});
   run.mean_diameter = 1.0;
-  model_.set_ghost(Ghost{"other.h5", {run}});
+  model_.set_ghost(view::Ghost{"other.h5", {run}});
   gui_.settle();
   EXPECT_NE(gui_.frame().pixels, alone.pixels);
   gui_.click("over time");
@@ -179,11 +179,11 @@ TEST_F(Replay, plots_are_asked_for_as_figures) {
 }
 
 TEST_F(Replay, failure_is_at_the_right_of_what_is_left_to_it) {
-  Plot plot = empty_plots()[0];
-  std::vector<Plot> plots = {plot};
-  name_axis(PlotAxis::angle_left, plots);
+  view::Plot plot = view::empty_plots()[0];
+  std::vector<view::Plot> plots = {plot};
+  view::name_axis(view::PlotAxis::angle_left, plots);
   EXPECT_TRUE(plots[0].falling_x);
-  name_axis(PlotAxis::time, plots);
+  view::name_axis(view::PlotAxis::time, plots);
   EXPECT_FALSE(plots[0].falling_x);
 }
 
@@ -205,13 +205,13 @@ TEST_F(Live, is_looked_back_at_while_it_goes_on) {
   gui_.click("time line", 0.02f);
   EXPECT_TRUE(model_.looks_back());
   EXPECT_EQ(model_.frame_index(), 0u);
-  gui_.key(key_right);
+  gui_.key(gui::key_right);
   EXPECT_EQ(model_.frame_index(), 1u);
   EXPECT_TRUE(model_.looks_back());
   gui_.click("follow");
   EXPECT_FALSE(model_.looks_back());
   gui_.click("time line", 0.02f);
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   EXPECT_FALSE(model_.looks_back());
 }
 

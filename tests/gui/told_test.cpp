@@ -16,9 +16,9 @@ using test::Live;
 using test::Replay;
 
 TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
-  const auto slider = [this] { return frame_counter(model_.frame_index(), model_.frame_count()); };
+  const auto slider = [this] { return gui::frame_counter(model_.frame_index(), model_.frame_count()); };
   EXPECT_EQ(slider(), "frame 0 (0 to 4)");
-  gui_.key(key_end);
+  gui_.key(gui::key_end);
   EXPECT_EQ(slider(), "frame 4 (0 to 4)");
   model_.go_to(model_.frame_at_angle("frame3"));
   EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "as talus render --at frame3";
@@ -26,20 +26,21 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
 
 /// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how
 /// many times a grain that carries nothing was told.
-int expect_told_by_maps(test::DrivenGui& gui, ViewModel& model) {
+int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
   int idle = 0;
   model.state.map.l_min = 0.0;
-  for (const MapKind kind : map_kinds()) {
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
     model.state.map.layers = {kind};
     gui.frame();
     for (Index grain = 0; grain < model.statics().free_count; ++grain) {
-      const std::string told = grain_text(model.first(), grain);
+      const std::string told = gui::grain_text(model.first(), grain);
       const bool loaded = !std::isnan(model.frame().gamma[static_cast<std::size_t>(grain)]);
       idle += loaded ? 0 : 1;
       EXPECT_EQ(told.find("nan"), std::string::npos) << told;
-      EXPECT_EQ(told.find("γ = ") != std::string::npos, shows_gamma(kind) && loaded)
-          << map_name(kind) << ": " << told;
-      EXPECT_EQ(told.find("carries nothing") != std::string::npos, shows_gamma(kind) && !loaded) << told;
+      EXPECT_EQ(told.find("γ = ") != std::string::npos, pictures::shows_gamma(kind) && loaded)
+          << pictures::map_name(kind) << ": " << told;
+      EXPECT_EQ(told.find("carries nothing") != std::string::npos, pictures::shows_gamma(kind) && !loaded)
+          << told;
     }
   }
   return idle;
@@ -56,12 +57,12 @@ TEST_F(Live, grains_that_carry_nothing_have_no_number_that_is_none) {
 }
 
 TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
-  const std::string gamma = grain_text(model_.first(), 7);
+  const std::string gamma = gui::grain_text(model_.first(), 7);
   EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
-  model_.state.map.layers = {MapKind::forces};
-  EXPECT_EQ(grain_text(model_.first(), 7), "grain 7");
-  model_.state.map.layers = {MapKind::displacement, MapKind::gamma};
-  EXPECT_EQ(grain_text(model_.first(), model_.statics().free_count),
+  model_.state.map.layers = {pictures::MapKind::forces};
+  EXPECT_EQ(gui::grain_text(model_.first(), 7), "grain 7");
+  model_.state.map.layers = {pictures::MapKind::displacement, pictures::MapKind::gamma};
+  EXPECT_EQ(gui::grain_text(model_.first(), model_.statics().free_count),
             fmt::format("floor grain {}", model_.statics().free_count));
 }
 
@@ -75,7 +76,7 @@ TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
     return top;
   };
   const auto shown_to = [this] {
-    const WidgetPlace map = gui_.place("map");
+    const gui::WidgetPlace map = gui_.place("map");
     return model_.first()
         .part(static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0))
         .y_max;
@@ -88,7 +89,7 @@ TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
   EXPECT_GE(shown_to(), highest()) << "what has been lifted is in the picture";
   EXPECT_EQ(model_.state.message,
             fmt::format("Applied after step {}: {}.", model_.live()->commands().back().step,
-                        command_text(model_.live()->commands().back())));
+                        session::command_text(model_.live()->commands().back())));
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ TEST(View, refuses_sizes_that_are_none) {
 }
 
 /// How many colours there are in a picture.
-std::size_t colours_of(const Image& image) {
+std::size_t colours_of(const render::Image& image) {
   std::set<std::array<std::uint8_t, 3>> colours;
   for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
     colours.insert({image.pixels[k], image.pixels[k + 1], image.pixels[k + 2]});
@@ -153,13 +153,13 @@ TEST_F(Window, replays_a_run) {
   move_to("map");  // the window under the mouse has the keys
   desktop_->key("Right");
   EXPECT_TRUE(desktop_->wait_for_title("0.25°")) << desktop_->title();
-  const Image before = desktop_->screenshot(folder_.path());
+  const render::Image before = desktop_->screenshot(folder_.path());
   EXPECT_GT(colours_of(before), 50u) << "grains and text with soft edges";
   desktop_->key("End");
   EXPECT_TRUE(desktop_->wait_for_title("1.00°")) << desktop_->title();
   click("back");
   EXPECT_TRUE(desktop_->wait_for_title("0.75°")) << desktop_->title();
-  const Image after = desktop_->screenshot(folder_.path());
+  const render::Image after = desktop_->screenshot(folder_.path());
   EXPECT_NE(before.pixels, after.pixels);
   click("first");
   EXPECT_TRUE(desktop_->wait_for_title("0.00°")) << desktop_->title();

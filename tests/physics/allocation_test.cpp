@@ -68,27 +68,29 @@ bool ends_without(long k, const Do& what) {
 }
 
 /// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns their allocations.
-long allocations_of_steps(World& world, const StepSettings& settings, StepWorkspace& workspace, int steps) {
+long allocations_of_steps(World& world, const dynamics::StepSettings& settings,
+                          dynamics::StepWorkspace& workspace, int steps) {
   const long before = allocations;
   for (int k = 0; k < steps; ++k) {
     if (k % 5 == 0) workspace.neighbours.reach = -1.0;
     world.tilt += radians(1e-3);
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
   }
   return allocations - before;
 }
 
 /// On a busy machine one thread may take all of the first steps. Goes on, up to a limit, until each thread
 /// has made its part of a neighbour list, and so has the memory for it.
-void let_every_thread_work(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+void let_every_thread_work(World& world, const dynamics::StepSettings& settings,
+                           dynamics::StepWorkspace& workspace) {
   const auto threads = static_cast<std::size_t>(settings.solver.threads);
   for (int k = 0; k < 500 && workspace.neighbours.found.size() < threads; ++k) {
     workspace.neighbours.reach = -1.0;
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
   }
 }
 
-class Allocation : public testing::TestWithParam<SolverKind> {};
+class Allocation : public testing::TestWithParam<solver::SolverKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Allocation, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
@@ -96,19 +98,20 @@ INSTANTIATE_TEST_SUITE_P(Solvers, Allocation, testing::ValuesIn(test::both_solve
 // Large enough that two threads have work: a solver may leave threads idle on small problems. The first steps
 // see more contacts than the others, so that all arrays have room for what comes.
 TEST_P(Allocation, a_steady_step_allocates_nothing) {
-  StepSettings settings = test::bed_step(1e-3);
+  dynamics::StepSettings settings = test::bed_step(1e-3);
   const World settled = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
   settings.solver.kind = GetParam();
   settings.solver.max_iterations = 50;
-  StepSettings wider = settings;
+  dynamics::StepSettings wider = settings;
   wider.margin *= 3.0;
   for (int threads : {1, 2}) {
     SCOPED_TRACE(threads);
     settings.solver.threads = wider.solver.threads = threads;
     World world = settled;
-    StepWorkspace workspace;
+    dynamics::StepWorkspace workspace;
     EXPECT_GT(allocations_of_steps(world, wider, workspace, 6), 0) << "nothing is counted";
-    if (settings.solver.kind == SolverKind::accelerated) let_every_thread_work(world, wider, workspace);
+    if (settings.solver.kind == solver::SolverKind::accelerated)
+      let_every_thread_work(world, wider, workspace);
     allocations_of_steps(world, settings, workspace, 6);  // with more cells than the wider steps
     ASSERT_GT(world.contacts.count(), 2500);
     const std::int64_t rebuilds = workspace.neighbours.rebuilds;
@@ -123,15 +126,15 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
 
 // Beside other processes a solve goes on with its team or without, as time tells; here in turn.
 TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_turn) {
-  const StepSettings settings = test::bed_step(1e-3);
+  const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
   ThreadTeam two(2);
-  NeighbourList list;
+  contact::NeighbourList list;
   Contacts contacts;
   const auto detect = [&](ThreadTeam* team) {
     const long before = allocations;
     list.reach = -1.0;
-    detect_contacts(list, world.grains, world.boundary, settings.margin, contacts, team);
+    contact::detect_contacts(list, world.grains, world.boundary, settings.margin, contacts, team);
     return allocations - before;
   };
   EXPECT_GT(detect(&two), 0) << "nothing is counted";
@@ -143,22 +146,22 @@ TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_tur
 }
 
 /// Moves every fortieth grain to and fro by more than half the skin of a list.
-void shake(World& world, const NeighbourList& list, int round) {
+void shake(World& world, const contact::NeighbourList& list, int round) {
   for (Index i = 0; i < world.grains.free_count; i += 40)
     world.grains.y[i] += (round % 2 == 0 ? 0.6 : -0.6) * list.skin;
 }
 
 TEST(DetectionAllocation, of_the_pairs_of_a_few_grains_is_none) {
-  const StepSettings settings = test::bed_step(1e-3);
+  const dynamics::StepSettings settings = test::bed_step(1e-3);
   World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
-  NeighbourList list;
+  contact::NeighbourList list;
   Contacts contacts;
-  detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
+  contact::detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
   contacts.resize(2 * list.pairs.count());  // room for more candidates than there are
   const long before = allocations;
   for (int round = 0; round < 20; ++round) {
     shake(world, list, round);
-    detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
+    contact::detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
   }
   EXPECT_EQ(allocations - before, 0);
   EXPECT_EQ(list.renewals, 20);
@@ -169,13 +172,13 @@ TEST(DetectionAllocation, of_the_pairs_of_a_few_grains_is_none) {
 /// those of a renewal.
 struct OldList {
   World world;
-  NeighbourList list;
+  contact::NeighbourList list;
 
   explicit OldList(const World& bed) : world(bed) {
     Contacts contacts;
     Grains& grains = world.grains;
     const double reach = 0.01 * test::radius;
-    detect_contacts(list, grains, world.boundary, reach, contacts);
+    contact::detect_contacts(list, grains, world.boundary, reach, contacts);
     for (auto* field : {&list.x, &list.y}) field->shrink_to_fit();
     shake(world, list, 0);
     const auto insert = [&grains](auto& to) {
@@ -193,20 +196,20 @@ struct OldList {
 
 // Whichever allocation of a renewal fails, the list finds what it should the next time.
 TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
-  const StepSettings settings = test::bed_step(1e-3);
+  const dynamics::StepSettings settings = test::bed_step(1e-3);
   const OldList old(test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200));
   const double reach = 0.01 * test::radius;
   Contacts expected;
-  NeighbourList fresh;
-  detect_contacts(fresh, old.world.grains, old.world.boundary, reach, expected);
+  contact::NeighbourList fresh;
+  contact::detect_contacts(fresh, old.world.grains, old.world.boundary, reach, expected);
   int failed = 0;
   for (long k = 1; k < 1000; ++k) {
     SCOPED_TRACE(k);
-    NeighbourList list = old.list;
-    const bool ended =
-        ends_without(k, [&] { update_neighbour_list(list, old.world.grains, old.world.boundary, reach); });
+    contact::NeighbourList list = old.list;
+    const bool ended = ends_without(
+        k, [&] { contact::update_neighbour_list(list, old.world.grains, old.world.boundary, reach); });
     Contacts found;
-    detect_contacts(list, old.world.grains, old.world.boundary, reach, found);
+    contact::detect_contacts(list, old.world.grains, old.world.boundary, reach, found);
     EXPECT_EQ(list.rebuilds, 1) << "renewed";
     EXPECT_EQ(found.a, expected.a);
     EXPECT_EQ(found.b, expected.b);
@@ -219,26 +222,26 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
 
 // Whichever allocation of a solve fails, both threads come back, and the workspace can be used again.
 TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_usable) {
-  const StepSettings settings = test::bed_step(1e-3);
+  const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
   const test::FrozenStep frozen = test::next_problem(world, settings);
-  const ContactProblem& problem = frozen.problem;
+  const solver::ContactProblem& problem = frozen.problem;
   ASSERT_GT(problem.contact_count(), 2500);
-  SolverSettings solver;
+  solver::SolverSettings solver;
   solver.threads = 2;
   solver.tolerance = 1e-9;
   solver.max_iterations = 20;
-  SolverWorkspace fresh;
-  ContactSolution expected = frozen.guess;
-  solve(problem, solver, fresh, expected);
+  solver::SolverWorkspace fresh;
+  solver::ContactSolution expected = frozen.guess;
+  solver::solve(problem, solver, fresh, expected);
   int failed = 0;
   for (long k = 1; k < 1000; ++k) {
     SCOPED_TRACE(k);
-    SolverWorkspace workspace;
-    ContactSolution solution = frozen.guess;
-    const bool ended = ends_without(k, [&] { solve(problem, solver, workspace, solution); });
-    ContactSolution again = frozen.guess;
-    solve(problem, solver, workspace, again);
+    solver::SolverWorkspace workspace;
+    solver::ContactSolution solution = frozen.guess;
+    const bool ended = ends_without(k, [&] { solver::solve(problem, solver, workspace, solution); });
+    solver::ContactSolution again = frozen.guess;
+    solver::solve(problem, solver, workspace, again);
     EXPECT_EQ(again.pn, expected.pn);
     if (ended) break;
     ++failed;
@@ -249,27 +252,27 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
 // Arrays may have taken the sizes of a problem whose solve then failed: what the one before left in them is
 // not used.
 TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
-  const StepSettings settings = test::bed_step(1e-3);
+  const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200);
   const auto [contacts, problem, guess] = test::next_problem(world, settings);
-  ContactProblem smaller = problem;
+  solver::ContactProblem smaller = problem;
   const std::size_t count = problem.a.size() / 2;
   for (auto* field : {&smaller.a, &smaller.b}) field->resize(count);
   for (auto* field : {&smaller.nx, &smaller.ny, &smaller.cn, &smaller.ct, &smaller.mu}) field->resize(count);
   smaller.rolling_friction.assign(count, 0.1);
-  ContactSolution guess_of_smaller = guess;
+  solver::ContactSolution guess_of_smaller = guess;
   for (auto* field : {&guess_of_smaller.pn, &guess_of_smaller.pt, &guess_of_smaller.pr}) field->resize(count);
-  SolverSettings solver;
+  solver::SolverSettings solver;
   solver.tolerance = 1e-9;
   solver.max_iterations = 20;
   int failed = 0;
   for (long k = 1; k < 1000; ++k) {
     SCOPED_TRACE(k);
-    SolverWorkspace workspace;
-    ContactSolution expected = guess, of_smaller = guess_of_smaller, again = guess;
-    const double eta = solve(problem, solver, workspace, expected).residual.eta;
-    const bool ended = ends_without(k, [&] { solve(smaller, solver, workspace, of_smaller); });
-    EXPECT_EQ(solve(problem, solver, workspace, again).residual.eta, eta);
+    solver::SolverWorkspace workspace;
+    solver::ContactSolution expected = guess, of_smaller = guess_of_smaller, again = guess;
+    const double eta = solver::solve(problem, solver, workspace, expected).residual.eta;
+    const bool ended = ends_without(k, [&] { solver::solve(smaller, solver, workspace, of_smaller); });
+    EXPECT_EQ(solver::solve(problem, solver, workspace, again).residual.eta, eta);
     EXPECT_EQ(again.pn, expected.pn);
     if (ended) break;
     ++failed;

@@ -14,8 +14,8 @@ namespace talus {
 namespace {
 
 /// A small bed that is tilted fast, and fails within a second of its time.
-Scenario bed(AfterFailure after_failure, BedBoundary boundary) {
-  Scenario scenario;
+scenario::Scenario bed(scenario::AfterFailure after_failure, scenario::BedBoundary boundary) {
+  scenario::Scenario scenario;
   scenario.bed.length = 20.0;
   scenario.bed.depth = 6.0;
   scenario.bed.boundary = boundary;
@@ -29,34 +29,36 @@ Scenario bed(AfterFailure after_failure, BedBoundary boundary) {
   return scenario;
 }
 
-void advance_to_end(Session& session) {
-  while (session.phase() != Phase::done) session.advance();
+void advance_to_end(session::Session& session) {
+  while (session.phase() != session::Phase::done) session.advance();
 }
 
-Session to_failure(const Scenario& scenario) {
-  Session session(scenario);
-  while (session.phase() == Phase::deposition || session.phase() == Phase::tilt) session.advance();
+session::Session to_failure(const scenario::Scenario& scenario) {
+  session::Session session(scenario);
+  while (session.phase() == session::Phase::deposition || session.phase() == session::Phase::tilt)
+    session.advance();
   return session;
 }
 
-bool at_rest(const Session& session) {
-  const Scenario& scenario = session.scenario();
+bool at_rest(const session::Session& session) {
+  const scenario::Scenario& scenario = session.scenario();
   return rms_velocity(session.world().grains) <=
-         scenario.deposition.rest_velocity * session.world().gravity * time_step(scenario);
+         scenario.deposition.rest_velocity * session.world().gravity * scenario::time_step(scenario);
 }
 
 TEST(Avalanche, failure_ends_the_run_unless_told) {
-  const Session session = to_failure(bed(AfterFailure::stop, BedBoundary::periodic));
-  EXPECT_EQ(session.phase(), Phase::done);
+  const session::Session session =
+      to_failure(bed(scenario::AfterFailure::stop, scenario::BedBoundary::periodic));
+  EXPECT_EQ(session.phase(), session::Phase::done);
   EXPECT_TRUE(session.angle_of_repose());
   EXPECT_FALSE(session.angle_at_rest());
 }
 
 TEST(Avalanche, stops_when_the_tilt_is_lowered) {
-  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
   scenario.tilt.end_angle = 60.0;  // failure comes first
-  Session session = to_failure(scenario);
-  ASSERT_EQ(session.phase(), Phase::flow);
+  session::Session session = to_failure(scenario);
+  ASSERT_EQ(session.phase(), session::Phase::flow);
   const double highest = session.world().tilt;
   EXPECT_FALSE(at_rest(session));
   EXPECT_FALSE(session.angle_at_rest());
@@ -72,10 +74,10 @@ TEST(Avalanche, stops_when_the_tilt_is_lowered) {
 
 // The same failure, lowered more slowly: the flow has more time to follow the tilt.
 TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
-  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
-  Session fast = to_failure(scenario);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  session::Session fast = to_failure(scenario);
   scenario.tilt.lowering_rate = 5.0;
-  Session slow = to_failure(scenario);
+  session::Session slow = to_failure(scenario);
   EXPECT_EQ(state_hash(fast.world()), state_hash(slow.world()));
   advance_to_end(fast);
   advance_to_end(slow);
@@ -84,21 +86,21 @@ TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
 }
 
 TEST(Avalanche, that_has_not_stopped_at_0_deg_has_no_angle_at_rest) {
-  Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
   scenario.tilt.lowering_rate = 100.0;
   scenario.deposition.rest_velocity = 1e-9;
-  Session session = to_failure(bed(AfterFailure::lower, BedBoundary::periodic));
-  Session impatient(scenario, session.checkpoint(0.0));
+  session::Session session = to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
+  session::Session impatient(scenario, session.checkpoint(0.0));
   advance_to_end(impatient);
   EXPECT_EQ(impatient.world().tilt, 0.0);
   EXPECT_FALSE(impatient.angle_at_rest());
 }
 
 TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
-  Scenario scenario = bed(AfterFailure::hold, BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic);
   scenario.deposition.max_time = 0.5;
-  Session before = to_failure(bed(AfterFailure::hold, BedBoundary::periodic));
-  Session session(scenario, before.checkpoint(0.0));
+  session::Session before = to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic));
+  session::Session session(scenario, before.checkpoint(0.0));
   const double failed_at = session.world().time;
   const double tilt = session.world().tilt;
   advance_to_end(session);
@@ -108,25 +110,25 @@ TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
 }
 
 TEST(Avalanche, relaxes_its_surface_between_walls) {
-  Session session = to_failure(bed(AfterFailure::hold, BedBoundary::walls));
-  ASSERT_EQ(session.phase(), Phase::flow);
+  session::Session session = to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::walls));
+  ASSERT_EQ(session.phase(), session::Phase::flow);
   const double tilt = session.world().tilt;
   advance_to_end(session);
   EXPECT_EQ(session.world().tilt, tilt);
   ASSERT_TRUE(session.angle_at_rest());
-  const double inclination = surface_inclination(session.world().grains, session.world().boundary);
+  const double inclination = stress::surface_inclination(session.world().grains, session.world().boundary);
   EXPECT_GT(inclination, 0.0) << "what flowed down lies higher there";
   EXPECT_EQ(*session.angle_at_rest(), tilt - inclination);
 }
 
 TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
-  Session session = to_failure(bed(AfterFailure::lower, BedBoundary::periodic));
+  session::Session session = to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
   session.clear_segment();
   const double highest = session.world().tilt;
   const std::int64_t failed_at = session.world().step;
   advance_to_end(session);
   const auto steps = session.world().step - failed_at;
-  const Segment& segment = session.segment();
+  const io::Segment& segment = session.segment();
   EXPECT_EQ(segment.steps.size(), static_cast<std::size_t>(steps));
   EXPECT_NEAR(static_cast<double>(segment.observables.size()), static_cast<double>(steps) / 10.0, 2.0);
   EXPECT_NEAR(static_cast<double>(segment.frames.size()), static_cast<double>(steps) / 50.0, 2.0);
@@ -137,24 +139,24 @@ TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
 }
 
 TEST(Avalanche, is_resumed_to_the_same_bits) {
-  const Scenario scenario = bed(AfterFailure::lower, BedBoundary::periodic);
-  Session whole = to_failure(scenario);
-  std::optional<Session> parts;
+  const scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  session::Session whole = to_failure(scenario);
+  std::optional<session::Session> parts;
   parts.emplace(scenario, whole.checkpoint(0.0));
-  for (int k = 1; whole.phase() != Phase::done; ++k) {
+  for (int k = 1; whole.phase() != session::Phase::done; ++k) {
     whole.advance();
     parts->advance();
     if (k % 17 == 0) {
-      const Checkpoint checkpoint = parts->checkpoint(0.0);
+      const io::Checkpoint checkpoint = parts->checkpoint(0.0);
       parts.emplace(scenario, checkpoint);
     }
   }
-  EXPECT_EQ(parts->phase(), Phase::done);
+  EXPECT_EQ(parts->phase(), session::Phase::done);
   EXPECT_EQ(state_hash(parts->world()), state_hash(whole.world()));
   EXPECT_EQ(parts->angle_at_rest(), whole.angle_at_rest());
   EXPECT_EQ(parts->schedule().record.unconverged_flow, whole.schedule().record.unconverged_flow);
   // Of the end too.
-  const Session again(scenario, whole.checkpoint(0.0));
+  const session::Session again(scenario, whole.checkpoint(0.0));
   EXPECT_EQ(again.angle_at_rest(), whole.angle_at_rest());
 }
 

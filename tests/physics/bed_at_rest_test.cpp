@@ -83,15 +83,16 @@ Tensor2 moment_of_outer_forces(const World& world, const Grains& grains) {
 
 Tensor2 bed_moment(const World& world) {
   std::vector<Tensor2> moments;
-  internal_moments(world.grains, world.contacts, moments);
-  return sum_of_moments(moments, 0, world.grains.free_count);
+  stress::internal_moments(world.grains, world.contacts, moments);
+  return stress::sum_of_moments(moments, 0, world.grains.free_count);
 }
 
 /// Tilts a bed at 0.04 degrees a step and lets it rest there.
-void tilt_to(World& world, double angle, const StepSettings& settings, StepWorkspace& workspace) {
+void tilt_to(World& world, double angle, const dynamics::StepSettings& settings,
+             dynamics::StepWorkspace& workspace) {
   while (world.tilt < angle) {
     world.tilt = std::min(angle, world.tilt + radians(0.04));
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
   }
   test::come_to_rest(world, settings, workspace);
 }
@@ -104,11 +105,11 @@ INSTANTIATE_TEST_SUITE_P(Beds, BedAtRest, testing::Values(true, false),
 // m (v+ - v-) / h = sum f + m g for each grain is an identity of the step and holds to round-off; at rest the
 // left side is what the solver leaves. The boundary carries the whole weight.
 TEST_P(BedAtRest, balances) {
-  const StepSettings settings = test::bed_step(tolerance);
+  const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(GetParam());
   const Grains before = world.grains;
-  StepWorkspace workspace;
-  const StepReport report = step(world, settings, workspace);
+  dynamics::StepWorkspace workspace;
+  const dynamics::StepReport report = dynamics::step(world, settings, workspace);
   EXPECT_TRUE(report.solver.converged);
 
   const Vec2 g = gravity_vector(world);
@@ -136,15 +137,15 @@ TEST_P(BedAtRest, balances) {
 // grains. Across the periodic edge that holds for the y row only, whose levers do not jump there. What is
 // left over is the solver's unbalance and the closed gaps.
 TEST_P(BedAtRest, grain_stresses_add_up_to_the_moment_of_the_outer_forces) {
-  const StepSettings settings = test::bed_step(tolerance);
+  const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(GetParam());
   Grains midpoint = world.grains;
   for (Index i = 0; i < midpoint.free_count; ++i) {
     midpoint.x[i] += 0.5 * settings.h * midpoint.vx[i];
     midpoint.y[i] += 0.5 * settings.h * midpoint.vy[i];
   }
-  StepWorkspace workspace;
-  step(world, settings, workspace);
+  dynamics::StepWorkspace workspace;
+  dynamics::step(world, settings, workspace);
   const Tensor2 sum = bed_moment(world);
   const Tensor2 outer = moment_of_outer_forces(world, midpoint);
   const double scale = sum.yy;
@@ -165,9 +166,9 @@ TEST_P(BedAtRest, grain_stresses_add_up_to_the_moment_of_the_outer_forces) {
 // sums have it too, but for the lower half of the lowest layer. M_yx is negative: our y points out of the
 // bed.
 TEST(PeriodicBed, shear_over_normal_stress_is_the_tangent_of_the_tilt) {
-  const StepSettings settings = test::bed_step(tolerance);
+  const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(true);
-  StepWorkspace workspace;
+  dynamics::StepWorkspace workspace;
   for (double angle : {1.0, 2.0, 4.0}) {
     tilt_to(world, radians(angle), settings, workspace);
     const double weight = test::weight(world);

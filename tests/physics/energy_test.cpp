@@ -31,17 +31,17 @@ INSTANTIATE_TEST_SUITE_P(Beds, Energy, testing::Values(true, false),
                          [](const auto& parameter) { return parameter.param ? "periodic" : "walled"; });
 
 TEST_P(Energy, never_grows_while_a_bed_falls_and_comes_to_rest) {
-  const StepSettings settings = test::bed_step(1e-8);
-  World world = make_loose_bed(test::bed_plan(GetParam(), 120, 12, 3), 0.4);
+  const dynamics::StepSettings settings = test::bed_step(1e-8);
+  World world = dynamics::make_loose_bed(test::bed_plan(GetParam(), 120, 12, 3), 0.4);
   world.tilt = 0.1;
   const double start = test::mechanical_energy(world);
   const double quantum = test::weight(world) * world.gravity * settings.h * settings.h / 8.0;
-  const double solver_error = 1e-9 * test::weight(world) * BedPlan{}.mean_diameter;
-  StepWorkspace workspace;
+  const double solver_error = 1e-9 * test::weight(world) * dynamics::BedPlan{}.mean_diameter;
+  dynamics::StepWorkspace workspace;
   double energy = start, largest_gain = 0.0;
   for (int k = 0; k < 500; ++k) {
     const double before = free_energy(world, settings.h);
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
     EXPECT_LE(kinetic_energy(world.grains), before + solver_error) << k;
     const double now = test::mechanical_energy(world);
     largest_gain = std::max(largest_gain, now - energy);
@@ -49,26 +49,26 @@ TEST_P(Energy, never_grows_while_a_bed_falls_and_comes_to_rest) {
     EXPECT_LE(now, start + solver_error) << k;
     energy = now;
   }
-  EXPECT_LT(energy, start - 0.2 * test::weight(world) * BedPlan{}.mean_diameter) << "nothing fell";
+  EXPECT_LT(energy, start - 0.2 * test::weight(world) * dynamics::BedPlan{}.mean_diameter) << "nothing fell";
   RecordProperty("largest_gain_over_quantum", std::to_string(largest_gain / quantum));
 }
 
 TEST_P(Energy, never_grows_with_restitution) {
-  StepSettings settings = test::bed_step(1e-8);
+  dynamics::StepSettings settings = test::bed_step(1e-8);
   settings.law.restitution = 0.5;
-  World world = make_loose_bed(test::bed_plan(GetParam(), 120, 12, 4), 0.4);
+  World world = dynamics::make_loose_bed(test::bed_plan(GetParam(), 120, 12, 4), 0.4);
   const double start = test::mechanical_energy(world);
   const double quantum = test::weight(world) * world.gravity * settings.h * settings.h / 8.0;
-  StepWorkspace workspace;
+  dynamics::StepWorkspace workspace;
   double energy = start, largest_gain = 0.0;
   for (int k = 0; k < 400; ++k) {
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
     const double now = test::mechanical_energy(world);
     largest_gain = std::max(largest_gain, now - energy);
     EXPECT_LE(now, energy + quantum) << k;
     energy = now;
   }
-  EXPECT_LT(energy, start - 0.2 * test::weight(world) * BedPlan{}.mean_diameter) << "nothing fell";
+  EXPECT_LT(energy, start - 0.2 * test::weight(world) * dynamics::BedPlan{}.mean_diameter) << "nothing fell";
   RecordProperty("largest_gain_over_quantum", std::to_string(largest_gain / quantum));
 }
 

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Beds, EventEnergy, testing::Values(true, false),
                          [](const auto& parameter) { return parameter.param ? "periodic" : "walled"; });
 
 TEST_P(EventEnergy, is_what_contacts_dissipate_and_motion_keeps) {
-  const StepSettings settings = test::bed_step(1e-8);
+  const dynamics::StepSettings settings = test::bed_step(1e-8);
   World world = test::fallen_bed(test::bed_plan(GetParam(), 120, 12, 5), settings, 40);
   world.tilt = 0.5;
   RunStatics statics;
@@ -51,22 +51,23 @@ TEST_P(EventEnergy, is_what_contacts_dissipate_and_motion_keeps) {
   statics.periodic = world.boundary.periodic;
   statics.length = world.boundary.length;
   statics.gravity = world.gravity;
-  StepWorkspace workspace;
+  dynamics::StepWorkspace workspace;
   double released = 0.0, dissipated = 0.0;
   const double motion = kinetic_energy(world.grains);
   Frame before = frame_of(world);
   for (int k = 1; k <= 200; ++k) {
     const Grains old = world.grains;
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
     dissipated -=
         0.5 * settings.h * (contact_power(old, world.contacts) + contact_power(world.grains, world.contacts));
     if (k % 20 != 0) continue;  // a frame
     const Frame after = frame_of(world);
-    released += gravity_work(statics, mean_displacement(before, after, statics), world.tilt);
+    released +=
+        analysis::gravity_work(statics, analysis::mean_displacement(before, after, statics), world.tilt);
     before = after;
   }
   const double kept = kinetic_energy(world.grains) - motion;
-  EXPECT_GT(dissipated, 0.2 * test::weight(world) * BedPlan{}.mean_diameter) << "nothing happened";
+  EXPECT_GT(dissipated, 0.2 * test::weight(world) * dynamics::BedPlan{}.mean_diameter) << "nothing happened";
   EXPECT_NEAR(released, dissipated + kept, 1e-9 * released);
 }
 

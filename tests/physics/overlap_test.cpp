@@ -14,7 +14,7 @@ namespace {
 // gap shrinks by no more than h times that, as the distance of two disks is convex. With the share alpha of
 // what is beyond ten allowed overlaps taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never
 // passes h W_nn eta ||P|| / alpha above ten allowed overlaps.
-double overlap_bound(const World& world, const StepSettings& settings, double eta, double impulse) {
+double overlap_bound(const World& world, const dynamics::StepSettings& settings, double eta, double impulse) {
   const Grains& g = world.grains;
   const double lightest = *std::max_element(g.inverse_mass.begin(), g.inverse_mass.end());
   return 10.0 * settings.law.allowed_overlap +
@@ -37,17 +37,17 @@ struct LongRun {
 /// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for so many steps.
 /// Overlaps that the fall of the grains has left, by residuals that are not looked at, are gone by then.
 LongRun rock_a_heap(double tolerance, double allowed_overlap, int steps) {
-  StepSettings settings = test::bed_step(tolerance);
+  dynamics::StepSettings settings = test::bed_step(tolerance);
   settings.law.allowed_overlap = allowed_overlap;
   World world = test::settled_bed(test::bed_plan(false, 14, 6, 2), settings);
-  StepWorkspace workspace;
-  for (int k = 0; k < 200; ++k) step(world, settings, workspace);
+  dynamics::StepWorkspace workspace;
+  for (int k = 0; k < 200; ++k) dynamics::step(world, settings, workspace);
   LongRun run;
   double eta = 0.0, impulse = 0.0;
   for (int k = 0; k < steps; ++k) {
     const int phase = k % 6000;
     world.tilt = radians(1e-3 * (phase < 3000 ? phase : 6000 - phase));
-    const StepReport report = step(world, settings, workspace);
+    const dynamics::StepReport report = dynamics::step(world, settings, workspace);
     eta = std::max(eta, report.solver.residual.eta);
     impulse = std::max(impulse, impulse_norm(world, settings.h));
     run.largest_overlap = std::max(run.largest_overlap, report.largest_overlap);
@@ -57,7 +57,8 @@ LongRun rock_a_heap(double tolerance, double allowed_overlap, int steps) {
 }
 
 void record(const char* name, double overlap) {
-  testing::Test::RecordProperty(name, std::to_string(overlap / BedPlan{}.mean_diameter * 1e12) + "e-12");
+  testing::Test::RecordProperty(name,
+                                std::to_string(overlap / dynamics::BedPlan{}.mean_diameter * 1e12) + "e-12");
 }
 
 TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
@@ -65,11 +66,11 @@ TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);
-  EXPECT_LT(run.largest_overlap, 1e-5 * BedPlan{}.mean_diameter);
+  EXPECT_LT(run.largest_overlap, 1e-5 * dynamics::BedPlan{}.mean_diameter);
 }
 
 TEST(Overlap, stays_near_what_is_allowed_over_100_000_steps) {
-  const double allowed = 1e-6 * BedPlan{}.mean_diameter;
+  const double allowed = 1e-6 * dynamics::BedPlan{}.mean_diameter;
   const LongRun run = rock_a_heap(1e-6, allowed, 100000);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
@@ -84,19 +85,19 @@ TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);
-  EXPECT_LT(run.largest_overlap, 1e-9 * BedPlan{}.mean_diameter);
+  EXPECT_LT(run.largest_overlap, 1e-9 * dynamics::BedPlan{}.mean_diameter);
 }
 
 // Ten times round-off of a position: neither overlap nor creep.
 TEST(Overlap, a_column_does_not_sink) {
   World world = test::column(3);
   const Grains start = world.grains;
-  StepSettings settings = test::exact_step(SolverKind::gauss_seidel);
+  dynamics::StepSettings settings = test::exact_step(solver::SolverKind::gauss_seidel);
   settings.solver.tolerance = 1e-13;
-  StepWorkspace workspace;
+  dynamics::StepWorkspace workspace;
   double overlap = 0.0;
   for (int k = 0; k < 100000; ++k)
-    overlap = std::max(overlap, step(world, settings, workspace).largest_overlap);
+    overlap = std::max(overlap, dynamics::step(world, settings, workspace).largest_overlap);
   EXPECT_LT(overlap, 1e-14);
 
   for (Index i = 0; i < 3; ++i) EXPECT_NEAR(world.grains.y[i], start.y[i], 1e-14);

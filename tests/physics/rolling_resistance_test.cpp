@@ -10,8 +10,8 @@
 namespace talus {
 namespace {
 
-StepSettings settings_with(double rolling_friction, double tolerance) {
-  StepSettings settings = test::bed_step(tolerance);
+dynamics::StepSettings settings_with(double rolling_friction, double tolerance) {
+  dynamics::StepSettings settings = test::bed_step(tolerance);
   settings.law.rolling_friction = rolling_friction;
   return settings;
 }
@@ -29,28 +29,28 @@ double free_energy(const World& world, double h) {
 
 // As in energy_test.cpp: P_r U_r <= 0 too.
 TEST(RollingBed, energy_never_grows) {
-  const StepSettings settings = settings_with(0.2, 1e-8);
-  World world = make_loose_bed(test::bed_plan(true, 120, 12, 3), 0.4);
+  const dynamics::StepSettings settings = settings_with(0.2, 1e-8);
+  World world = dynamics::make_loose_bed(test::bed_plan(true, 120, 12, 3), 0.4);
   world.tilt = 0.1;
   const double start = test::mechanical_energy(world);
   const double quantum = test::weight(world) * world.gravity * settings.h * settings.h / 8.0;
-  const double solver_error = 1e-9 * test::weight(world) * BedPlan{}.mean_diameter;
-  StepWorkspace workspace;
+  const double solver_error = 1e-9 * test::weight(world) * dynamics::BedPlan{}.mean_diameter;
+  dynamics::StepWorkspace workspace;
   double energy = start;
   for (int k = 0; k < 400; ++k) {
     const double before = free_energy(world, settings.h);
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
     EXPECT_LE(kinetic_energy(world.grains), before + solver_error) << k;
     const double now = test::mechanical_energy(world);
     EXPECT_LE(now, energy + quantum + solver_error) << k;
     energy = now;
   }
-  EXPECT_LT(energy, start - 0.2 * test::weight(world) * BedPlan{}.mean_diameter) << "nothing fell";
+  EXPECT_LT(energy, start - 0.2 * test::weight(world) * dynamics::BedPlan{}.mean_diameter) << "nothing fell";
 }
 
 // At rest each grain is in balance: the torques of the tangential forces are those of the moments.
 TEST(RollingBed, grains_at_rest_are_in_balance_with_their_moments) {
-  const StepSettings settings = settings_with(0.2, 1e-9);
+  const dynamics::StepSettings settings = settings_with(0.2, 1e-9);
   World world = test::settled_bed(test::bed_plan(true, 60, 10, 4), settings);
   const Grains& grains = world.grains;
   const Contacts& contacts = world.contacts;
@@ -64,7 +64,7 @@ TEST(RollingBed, grains_at_rest_are_in_balance_with_their_moments) {
       torque[body] -= grains.radius[body] * contacts.ft[c];
       torque[body] += (second ? 1.0 : -1.0) * contacts.moment[c];
     }
-  const double unit = test::weight(world) / grains.free_count * BedPlan{}.mean_diameter;
+  const double unit = test::weight(world) / grains.free_count * dynamics::BedPlan{}.mean_diameter;
   double largest = 0.0, largest_of_forces = 0.0;
   for (Index i = 0; i < grains.free_count; ++i) {
     largest = std::max(largest, std::abs(torque[i]));
@@ -75,7 +75,7 @@ TEST(RollingBed, grains_at_rest_are_in_balance_with_their_moments) {
 }
 
 TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {
-  StepSettings settings = settings_with(0.1, 1e-4);
+  dynamics::StepSettings settings = settings_with(0.1, 1e-4);
   settings.solver.max_iterations = 100;
   const World world = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
   ASSERT_GT(world.contacts.count(), 3200);
@@ -83,10 +83,10 @@ TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {
   for (const int threads : {1, 2, 4}) {
     settings.solver.threads = threads;
     World together = world;
-    StepWorkspace workspace;
+    dynamics::StepWorkspace workspace;
     for (int k = 0; k < 5; ++k) {
       workspace.solver.accelerated.choice = {};  // all of them, whether they are worth it or not
-      step(together, settings, workspace);
+      dynamics::step(together, settings, workspace);
     }
     if (threads == 1)
       alone = state_hash(together);
@@ -97,15 +97,15 @@ TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {
 
 // The moments are part of the state: without them the next step is another one, and the hash tells.
 TEST(RollingBed, remembers_its_moments) {
-  const StepSettings settings = settings_with(0.2, 1e-6);
+  const dynamics::StepSettings settings = settings_with(0.2, 1e-6);
   World world = test::settled_bed(test::bed_plan(true, 60, 10, 4), settings);
   World copy = world, without = world;
   std::ranges::fill(without.contacts.moment, 0.0);
   EXPECT_NE(state_hash(without), state_hash(world));
-  StepWorkspace first, second, third;
-  const int iterations = step(world, settings, first).solver.iterations;
-  step(copy, settings, second);
-  const int more = step(without, settings, third).solver.iterations;
+  dynamics::StepWorkspace first, second, third;
+  const int iterations = dynamics::step(world, settings, first).solver.iterations;
+  dynamics::step(copy, settings, second);
+  const int more = dynamics::step(without, settings, third).solver.iterations;
   EXPECT_EQ(state_hash(copy), state_hash(world));
   EXPECT_LT(iterations, more);
 }

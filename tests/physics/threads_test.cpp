@@ -9,7 +9,7 @@ namespace talus {
 namespace {
 
 struct FallenBed {
-  StepSettings settings = test::bed_step(1e-4);
+  dynamics::StepSettings settings = test::bed_step(1e-4);
   // Large enough that three threads have work: a solver may leave threads idle on small problems.
   World world = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
 
@@ -20,15 +20,15 @@ TEST(Threads, any_number_of_them_gives_the_same_bits) {
   FallenBed bed;
   ASSERT_GT(bed.world.contacts.count(), 3200);
   World alone = bed.world;
-  StepWorkspace workspace;
-  for (int k = 0; k < 5; ++k) step(alone, bed.settings, workspace);
+  dynamics::StepWorkspace workspace;
+  for (int k = 0; k < 5; ++k) dynamics::step(alone, bed.settings, workspace);
   for (int threads : {2, 3}) {
     bed.settings.solver.threads = threads;
     World together = bed.world;
-    StepWorkspace fresh;
+    dynamics::StepWorkspace fresh;
     for (int k = 0; k < 5; ++k) {
       fresh.solver.accelerated.choice = {};  // all of them, whether they are worth it or not
-      step(together, bed.settings, fresh);
+      dynamics::step(together, bed.settings, fresh);
     }
     EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
   }
@@ -38,23 +38,23 @@ TEST(Threads, a_team_whose_step_fails_leaves_the_world_alone) {
   FallenBed bed;
   bed.settings.solver.threads = 2;
   World world = bed.world;
-  StepWorkspace workspace;
-  step(world, bed.settings, workspace);
+  dynamics::StepWorkspace workspace;
+  dynamics::step(world, bed.settings, workspace);
   world.grains.vx[7] = std::numeric_limits<double>::quiet_NaN();
   const World before = world;
-  EXPECT_THROW(step(world, bed.settings, workspace), Error);
+  EXPECT_THROW(dynamics::step(world, bed.settings, workspace), Error);
   EXPECT_EQ(state_hash(world), state_hash(before));
 }
 
 TEST(Threads, one_that_goes_on_alone_gives_the_same_bits) {
   FallenBed bed;
   World alone = bed.world, left = bed.world;
-  StepWorkspace workspace, of_team;
-  for (int k = 0; k < 4; ++k) step(alone, bed.settings, workspace);
+  dynamics::StepWorkspace workspace, of_team;
+  for (int k = 0; k < 4; ++k) dynamics::step(alone, bed.settings, workspace);
   bed.settings.solver.threads = 2;
-  TeamChoice& choice = of_team.solver.accelerated.choice;
+  solver::TeamChoice& choice = of_team.solver.accelerated.choice;
   for (int k = 0; k < 4; ++k) {
-    step(left, bed.settings, of_team);
+    dynamics::step(left, bed.settings, of_team);
     choice = {};
     if (k == 1) choice.add(1.0, 1.0);  // the team was slow: alone is tried
     EXPECT_EQ(choice.in_team(), k != 1);

@@ -11,8 +11,8 @@
 namespace talus {
 namespace {
 
-Scenario lowered_bed(std::vector<std::string> program) {
-  Scenario scenario;
+scenario::Scenario lowered_bed(std::vector<std::string> program) {
+  scenario::Scenario scenario;
   scenario.bed.length = 20.0;
   scenario.bed.depth = 8.0;
   scenario.deposition.rate = 1.0;
@@ -36,11 +36,11 @@ double violation(const World& world, double friction) {
 }
 
 TEST(TiltProgram, a_bed_that_is_lowered_keeps_the_contact_law_and_its_stress_follows_the_tilt) {
-  const Scenario scenario = lowered_bed({"to 8", "to -8", "to 0"});
-  Session session(scenario);
-  while (session.phase() != Phase::done) {
+  const scenario::Scenario scenario = lowered_bed({"to 8", "to -8", "to 0"});
+  session::Session session(scenario);
+  while (session.phase() != session::Phase::done) {
     session.advance();
-    if (session.phase() != Phase::tilt) continue;
+    if (session.phase() != session::Phase::tilt) continue;
     ASSERT_LT(violation(session.world(), scenario.contact.friction), 1e-9) << degrees(session.world().tilt);
   }
   EXPECT_EQ(session.angle_of_repose(), std::nullopt);
@@ -64,19 +64,19 @@ TEST(TiltProgram, a_bed_that_is_lowered_keeps_the_contact_law_and_its_stress_fol
 }
 
 TEST(TiltProgram, a_bed_that_is_held_comes_to_rest) {
-  const Scenario scenario = lowered_bed({"to 6", "hold 2", "to 2", "hold 2"});
-  Session session(scenario);
+  const scenario::Scenario scenario = lowered_bed({"to 6", "hold 2", "to 2", "hold 2"});
+  session::Session session(scenario);
   double energy = 0.0;
-  while (session.phase() != Phase::done) {
+  while (session.phase() != session::Phase::done) {
     session.advance();
     const std::int64_t steps = session.schedule().tilt_steps;
-    if (session.phase() == Phase::deposition || steps == 0) continue;
+    if (session.phase() == session::Phase::deposition || steps == 0) continue;
     if (!session.program().turns_at(steps) || session.program().segment_of(steps).step != 0.0) continue;
     energy = kinetic_energy(session.world().grains);
     EXPECT_EQ(at(session.segment().observables.back(), Observable::at_rest), 1.0)
         << "at the end of the hold at " << degrees(session.world().tilt);
     EXPECT_LT(rms_velocity(session.world().grains),
-              scenario.deposition.rest_velocity * session.world().gravity * time_step(scenario));
+              scenario.deposition.rest_velocity * session.world().gravity * scenario::time_step(scenario));
   }
   EXPECT_GT(energy, 0.0);
 }

@@ -23,28 +23,28 @@ void expect_same_bits(const std::vector<Value>& one, const std::vector<Value>& o
 
 /// A solve on its way, and the sums of what is swept.
 struct Swept {
-  Linearisation at;
-  std::vector<SweepSums> sums;
+  solver::Linearisation at;
+  std::vector<solver::SweepSums> sums;
 
-  explicit Swept(const Linearisation& from)
-      : at(from), sums(static_cast<std::size_t>(sums_of_part * from.order.part_count())) {}
+  explicit Swept(const solver::Linearisation& from)
+      : at(from), sums(static_cast<std::size_t>(solver::sums_of_part * from.order.part_count())) {}
 };
 
 class Wave : public testing::Test {
  protected:
   void begin(Index columns, bool rolls) {
-    ContactProblem problem = test::columns_problem(3, columns, 60);
+    solver::ContactProblem problem = test::columns_problem(3, columns, 60);
     if (rolls) problem.rolling_friction.assign(problem.a.size(), 0.1);
-    ContactSolution solution = test::no_guess(problem);
-    solve_accelerated(problem, 1e-300, 5, 1, workspace_, solution);
+    solver::ContactSolution solution = test::no_guess(problem);
+    solver::solve_accelerated(problem, 1e-300, 5, 1, workspace_, solution);
     ASSERT_TRUE(workspace_.linearisation.order.is_ring());
   }
   Swept swept(int size, bool in_wave, std::size_t sweeps) const {
     Swept swept(workspace_.linearisation);
     ThreadTeam team(size);
     team.run([&](int member) {
-      const Sweeper sweeper{swept.at, swept.sums, &team, member, size, sweep_kernels()};
-      (in_wave ? sweep_in_wave : sweep_by_phases)(sweeper, std::span(beta).first(sweeps));
+      const solver::Sweeper sweeper{swept.at, swept.sums, &team, member, size, solver::sweep_kernels()};
+      (in_wave ? solver::sweep_in_wave : solver::sweep_by_phases)(sweeper, std::span(beta).first(sweeps));
     });
     return swept;
   }
@@ -57,7 +57,7 @@ class Wave : public testing::Test {
     expect_same_bits(one.sums, other.sums, "sums");
   }
 
-  AcceleratedWorkspace workspace_;
+  solver::AcceleratedWorkspace workspace_;
 };
 
 // With 20 domains there is room for one wave of four sweeps, two of two, and five of one.
@@ -67,7 +67,7 @@ TEST_F(Wave, has_the_bits_of_sweeps_one_after_another) {
     ASSERT_EQ(workspace_.linearisation.order.domain_count(), 20);
     for (const auto& [size, sweeps] : {std::pair(1, 4), std::pair(2, 2), std::pair(1, 3), std::pair(5, 1)}) {
       const auto count = static_cast<std::size_t>(sweeps);
-      ASSERT_TRUE(fits_wave(workspace_.linearisation.order, sweeps, size));
+      ASSERT_TRUE(solver::fits_wave(workspace_.linearisation.order, sweeps, size));
       expect_the_same(swept(size, true, count), swept(1, false, count));
     }
   }
@@ -75,30 +75,30 @@ TEST_F(Wave, has_the_bits_of_sweeps_one_after_another) {
 
 TEST_F(Wave, is_for_beds_that_do_not_stay_in_the_caches) {
   begin(400, false);
-  EXPECT_EQ(sweeps_in_a_row(workspace_.linearisation.order), 1);
-  SweepOrder order = workspace_.linearisation.order;
+  EXPECT_EQ(solver::sweeps_in_a_row(workspace_.linearisation.order), 1);
+  solver::SweepOrder order = workspace_.linearisation.order;
   order.phase_begin = {0, 32, 64, 65};
   order.part_begin.assign(66, 0);
-  EXPECT_EQ(sweeps_in_a_row(order), most_sweeps_in_a_row);
-  EXPECT_TRUE(fits_wave(order, most_sweeps_in_a_row, 4));
-  EXPECT_FALSE(fits_wave(order, most_sweeps_in_a_row, 5));
+  EXPECT_EQ(solver::sweeps_in_a_row(order), solver::most_sweeps_in_a_row);
+  EXPECT_TRUE(solver::fits_wave(order, solver::most_sweeps_in_a_row, 4));
+  EXPECT_FALSE(solver::fits_wave(order, solver::most_sweeps_in_a_row, 5));
   order.by_columns = false;
-  EXPECT_EQ(sweeps_in_a_row(order), 1);
-  EXPECT_FALSE(fits_wave(order, 1, 1));
+  EXPECT_EQ(solver::sweeps_in_a_row(order), 1);
+  EXPECT_FALSE(solver::fits_wave(order, 1, 1));
 }
 
 // The momentum of a sweep is that which the ones before it leave, where none of them makes it begin anew.
 TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   begin(400, false);
   Swept together(workspace_.linearisation), apart(workspace_.linearisation);
-  Momentum one, other;
+  solver::Momentum one, other;
   one.theta = other.theta = 0.1;
-  const SweepKernels kernels = sweep_kernels();
-  Sweeper of_together{together.at, together.sums, nullptr, 0, 1, kernels};
-  Sweeper of_apart{apart.at, apart.sums, nullptr, 0, 1, kernels};
-  const double change = sweep(of_together, 4, one);
+  const solver::SweepKernels kernels = solver::sweep_kernels();
+  solver::Sweeper of_together{together.at, together.sums, nullptr, 0, 1, kernels};
+  solver::Sweeper of_apart{apart.at, apart.sums, nullptr, 0, 1, kernels};
+  const double change = solver::sweep(of_together, 4, one);
   double last = 0.0;
-  for (int k = 0; k < 4; ++k) last = sweep(of_apart, 1, other);
+  for (int k = 0; k < 4; ++k) last = solver::sweep(of_apart, 1, other);
   EXPECT_EQ(change, last);
   EXPECT_EQ(one.theta, other.theta);
   EXPECT_EQ(one.beta, other.beta);
@@ -114,9 +114,9 @@ TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
     Swept swept(workspace_.linearisation);
     ThreadTeam team(size);
     team.run([&](int member) {
-      Sweeper sweeper{swept.at, swept.sums, &team, member, size, sweep_kernels()};
-      Momentum momentum;
-      for (const int count : {1, 1, 4, 1, 2, 4, 4, 1, 1, 1}) sweep(sweeper, count, momentum);
+      solver::Sweeper sweeper{swept.at, swept.sums, &team, member, size, solver::sweep_kernels()};
+      solver::Momentum momentum;
+      for (const int count : {1, 1, 4, 1, 2, 4, 4, 1, 1, 1}) solver::sweep(sweeper, count, momentum);
     });
     return swept;
   };
@@ -127,33 +127,33 @@ TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
 TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
   begin(400, false);
   Swept swept(workspace_.linearisation);
-  Sweeper sweeper{swept.at, swept.sums, nullptr, 0, 1, sweep_kernels()};
-  Momentum momentum;
+  solver::Sweeper sweeper{swept.at, swept.sums, nullptr, 0, 1, solver::sweep_kernels()};
+  solver::Momentum momentum;
   const auto half = static_cast<std::ptrdiff_t>(swept.sums.size() / 2);
   const auto changes = [&swept](std::ptrdiff_t first, std::ptrdiff_t last) {
     double sum = 0.0;
     for (auto k = swept.sums.begin() + first; k < swept.sums.begin() + last; ++k) sum += k->change;
     return sum;
   };
-  sweep(sweeper, most_sweeps_in_a_row, momentum);
+  solver::sweep(sweeper, solver::most_sweeps_in_a_row, momentum);
   const double first = changes(0, half);
   EXPECT_GT(first, 0.0);
   EXPECT_EQ(changes(half, 2 * half), 0.0);
-  sweep(sweeper, most_sweeps_in_a_row, momentum);
+  solver::sweep(sweeper, solver::most_sweeps_in_a_row, momentum);
   EXPECT_EQ(changes(0, half), first);
   EXPECT_GT(changes(half, 2 * half), 0.0);
 }
 
 /// Sweeps as T16 has them: all bodies are extrapolated, then all contacts swept, part by part.
-Swept plainly_swept(const Linearisation& from, std::size_t sweeps) {
+Swept plainly_swept(const solver::Linearisation& from, std::size_t sweeps) {
   Swept swept(from);
-  const SweepOrder& order = swept.at.order;
-  const SweepKernels kernels = sweep_kernels();
+  const solver::SweepOrder& order = swept.at.order;
+  const solver::SweepKernels kernels = solver::sweep_kernels();
   for (std::size_t s = 0; s < sweeps; ++s) {
-    kernels.bodies(body_arrays(swept.at), 0, order.row_count, beta[s]);
+    kernels.bodies(solver::body_arrays(swept.at), 0, order.row_count, beta[s]);
     for (Index part = 0; part < order.part_count(); ++part)
       kernels.contacts(
-          contact_arrays(swept.at), order.part_begin[part], order.part_begin[part + 1], beta[s],
+          solver::contact_arrays(swept.at), order.part_begin[part], order.part_begin[part + 1], beta[s],
           swept.sums[s * static_cast<std::size_t>(order.part_count()) + static_cast<std::size_t>(part)]);
   }
   return swept;
@@ -161,8 +161,8 @@ Swept plainly_swept(const Linearisation& from, std::size_t sweeps) {
 
 /// Contacts from the first half of the bodies to the second: most domains have none of their own, and most
 /// contacts are left to the last phase.
-ContactProblem problem_of_far_contacts() {
-  ContactProblem problem;
+solver::ContactProblem problem_of_far_contacts() {
+  solver::ContactProblem problem;
   const Index bodies = 2000;
   for (Index i = 0; i < bodies; ++i) test::add_body(problem, 1.0 + 0.001 * i, 0.1, 0.01 * (i % 7), -1.0, 0.1);
   for (Index a = 0; a < bodies; ++a)
@@ -173,20 +173,20 @@ ContactProblem problem_of_far_contacts() {
 
 // Parts extrapolate the bodies that they change: each once, and before its first contact.
 TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
-  ContactProblem of_layers = test::columns_problem(3, 30, 40);
+  solver::ContactProblem of_layers = test::columns_problem(3, 30, 40);
   of_layers.columns = 0;
   of_layers.column.clear();
-  const ContactProblem problems[] = {test::columns_problem(3, 10, 6), of_layers, problem_of_far_contacts(),
-                                     test::columns_problem(3, 400, 60)};
+  const solver::ContactProblem problems[] = {test::columns_problem(3, 10, 6), of_layers,
+                                             problem_of_far_contacts(), test::columns_problem(3, 400, 60)};
   std::vector<Index> domains, left;
-  for (const ContactProblem& problem : problems) {
-    SolverWorkspace workspace;
-    SolverSettings settings;
+  for (const solver::ContactProblem& problem : problems) {
+    solver::SolverWorkspace workspace;
+    solver::SolverSettings settings;
     settings.tolerance = 1e-300;
     settings.max_iterations = 5;
-    ContactSolution solution = test::no_guess(problem);
-    solve(problem, settings, workspace, solution);
-    const Linearisation& from = workspace.accelerated.linearisation;
+    solver::ContactSolution solution = test::no_guess(problem);
+    solver::solve(problem, settings, workspace, solution);
+    const solver::Linearisation& from = workspace.accelerated.linearisation;
     domains.push_back(from.order.domain_count());
     left.push_back(from.order.part_begin.back() - *(from.order.part_begin.end() - 2));
     const Swept plain = plainly_swept(from, beta.size());
@@ -194,7 +194,7 @@ TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
       Swept swept(from);
       ThreadTeam team(size);
       team.run([&](int member) {
-        sweep_by_phases({swept.at, swept.sums, &team, member, size, sweep_kernels()}, beta);
+        solver::sweep_by_phases({swept.at, swept.sums, &team, member, size, solver::sweep_kernels()}, beta);
       });
       expect_same_bits(swept.at.increment, plain.at.increment, "impulses");
       expect_same_bits(swept.at.velocity, plain.at.velocity, "velocities");
@@ -210,18 +210,19 @@ TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
 
 // 66 domains: room for waves of four sweeps by up to four members; more of them sweep phase by phase.
 TEST(Waves, do_not_change_a_bit_of_a_solve) {
-  const ContactProblem problem = test::columns_problem(4, 1300, 60);
+  const solver::ContactProblem problem = test::columns_problem(4, 1300, 60);
   const auto solve = [&problem](int threads) {
-    AcceleratedWorkspace workspace;
-    ContactSolution solution = test::no_guess(problem);
-    const AcceleratedOutcome outcome = solve_accelerated(problem, 1e-300, 9, threads, workspace, solution);
+    solver::AcceleratedWorkspace workspace;
+    solver::ContactSolution solution = test::no_guess(problem);
+    const solver::AcceleratedOutcome outcome =
+        solver::solve_accelerated(problem, 1e-300, 9, threads, workspace, solution);
     EXPECT_EQ(outcome.iterations, 9);
-    EXPECT_EQ(sweeps_in_a_row(workspace.linearisation.order), most_sweeps_in_a_row);
+    EXPECT_EQ(solver::sweeps_in_a_row(workspace.linearisation.order), solver::most_sweeps_in_a_row);
     return solution;
   };
-  const ContactSolution alone = solve(1);
+  const solver::ContactSolution alone = solve(1);
   for (const int threads : {3, 5}) {
-    const ContactSolution in_team = solve(threads);
+    const solver::ContactSolution in_team = solve(threads);
     expect_same_bits(in_team.pn, alone.pn, "normal impulses");
     expect_same_bits(in_team.pt, alone.pt, "tangential impulses");
     expect_same_bits(in_team.omega, alone.omega, "spins");

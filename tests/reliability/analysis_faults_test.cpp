@@ -28,7 +28,7 @@ int store_under(const faults::Fault& fault, const std::string& path) {
     int code = defect;
     try {
       faults::arm(fault);
-      store_analysis(path, example::analysis(2, 2), example::analysed_state());
+      io::store_analysis(path, example::analysis(2, 2), example::analysed_state());
       code = faults::calls() < calls_at_most ? done : defect;
     } catch (const Error& error) {
       code = static_cast<int>(error.code());
@@ -46,7 +46,7 @@ void strike_every_call(faults::Fault fault, const std::vector<int>& allowed_code
   const example::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
   example::store_with_commits(path, example::analysis_commits).pack();
-  store_analysis(path, example::analysis(2, 1), example::analysed_state());
+  io::store_analysis(path, example::analysis(2, 1), example::analysed_state());
   const std::string before = example::file_text(path);
   ASSERT_EQ(store_under({}, path), done);
   const std::string after = example::file_text(path);

@@ -18,65 +18,65 @@ namespace {
 constexpr std::int64_t to_the_end = 1'000'000;
 constexpr std::size_t left_at = 2;  ///< the frame
 
-Scenario bed() {
-  Scenario scenario = test::small_tilted_bed(3.0);
-  scenario.bed.boundary = BedBoundary::walls;
+scenario::Scenario bed() {
+  scenario::Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.bed.boundary = scenario::BedBoundary::walls;
   scenario.bed.depth = 2.0;
   return scenario;
 }
 
 void make_parent(const std::string& path) {
-  Session probe(bed());
-  while (probe.phase() == Phase::deposition) probe.advance();
+  session::Session probe(bed());
+  while (probe.phase() == session::Phase::deposition) probe.advance();
   const std::int64_t step = probe.world().step;
   const Grains& grains = probe.world().grains;
   const std::vector<Command> commands = {{0, CommandKind::friction, -1, 0.6},
                                          {step + 2, CommandKind::tilt_rate, -1, 15.0},
                                          {step + 5, CommandKind::drag, 7, grains.x[7], grains.y[7]}};
-  Session session(bed());
-  RunStore store = RunStore::create(path, run_header(session, {}), false);
-  replay(session, &store, commands, to_the_end, {});
+  session::Session session(bed());
+  io::RunStore store = io::RunStore::create(path, session::run_header(session, {}), false);
+  session::replay(session, &store, commands, to_the_end, {});
 }
 
 }  // namespace
 
 void make_branch(const std::string& parent, const std::string& branch, bool complete) {
   if (!std::filesystem::exists(parent)) make_parent(parent);
-  const RunFile run = RunFile::open(parent);
-  const BranchOrigin origin = {parent, static_cast<std::int64_t>(left_at),
-                               hash_text(state_hash(run.checkpoint().world)),
-                               checkpoint_at_frame(run, left_at)};
-  Session session(bed(), origin.start);
+  const io::RunFile run = io::RunFile::open(parent);
+  const io::BranchOrigin origin = {parent, static_cast<std::int64_t>(left_at),
+                                   hash_text(state_hash(run.checkpoint().world)),
+                                   session::checkpoint_at_frame(run, left_at)};
+  session::Session session(bed(), origin.start);
   session.record_start();
-  RunOrigin of_run;
+  session::RunOrigin of_run;
   of_run.branch = origin;
-  RunStore store = RunStore::create(branch, run_header(session, of_run), false);
+  io::RunStore store = io::RunStore::create(branch, session::run_header(session, of_run), false);
   const std::int64_t begin = origin.start.world.step;
   const std::vector<Command> commands = {{begin + 3, CommandKind::push, 4, 0.1, 0.1}};
-  replay(session, &store, commands, complete ? to_the_end : begin + 60, {});
+  session::replay(session, &store, commands, complete ? to_the_end : begin + 60, {});
 }
 
 void store_with_start(const std::string& branch, const std::string& path,
-                      const std::function<void(BranchOrigin&)>& change) {
-  const RunFile run = RunFile::open(branch);
-  RunHeader header = run.header();
+                      const std::function<void(io::BranchOrigin&)>& change) {
+  const io::RunFile run = io::RunFile::open(branch);
+  io::RunHeader header = run.header();
   change(*header.branch);
-  Segment segment;
+  io::Segment segment;
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) segment.frames.push_back(run.frame(k));
   segment.observables = run.all_observables();
   segment.steps = run.steps();
   segment.commands = run.commands();
-  std::filesystem::remove_all(run_folder(path));
+  std::filesystem::remove_all(io::run_folder(path));
   std::filesystem::remove(path);
-  RunStore::create(path, header, false).commit(segment, run.checkpoint());
+  io::RunStore::create(path, header, false).commit(segment, run.checkpoint());
 }
 
 void use_branch(const std::string& path) {
-  const RunFile run = RunFile::open(path);
-  Session session = session_at_start(run.header(), path);
+  const io::RunFile run = io::RunFile::open(path);
+  session::Session session = session::session_at_start(run.header(), path);
   session.advance();
   use_run(run, path);
-  checkpoint_at_frame(run, 0);
+  session::checkpoint_at_frame(run, 0);
 }
 
 }  // namespace talus::hostile

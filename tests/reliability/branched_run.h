@@ -16,7 +16,7 @@ void make_branch(const std::string& parent, const std::string& branch, bool comp
 /// The run at `branch` again as the folder `path`, of which the start has been changed, with the hashes that
 /// it then has.
 void store_with_start(const std::string& branch, const std::string& path,
-                      const std::function<void(BranchOrigin&)>& change);
+                      const std::function<void(io::BranchOrigin&)>& change);
 
 /// Reads all that a branch holds, begins it again from its own start, and takes a step; then all that is done
 /// with any run (hostile_run.h), and the start of another branch. Throws as these do.

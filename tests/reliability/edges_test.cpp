@@ -154,19 +154,19 @@ TEST_F(Edges, programs_that_were_started_end_with_the_command) {
 TEST_F(Edges, a_run_that_is_packed_while_it_is_checked_is_whole) {
   const std::string path = folder->path("left.h5");
   hostile::make_folder_of_run(path, 0.7);
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   const std::size_t frames = run.all_frame_tilts().size(), steps = run.steps().size();
   ASSERT_GT(frames, 1u);
   ASSERT_EQ(talus({"run", "--resume", "left.h5", "-q"}).exit_code, 0);
   ASSERT_FALSE(fs::exists(path + ".run"));
-  const RunCheck check = check_run(run, {});
+  const session::RunCheck check = session::check_run(run, {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();
   EXPECT_EQ(check.frames, frames);
   EXPECT_EQ(check.steps, steps);
 }
 
 std::string told_by(const std::string& path) try {
-  const RunCheck check = check_run(RunFile::open(path), {});
+  const session::RunCheck check = session::check_run(io::RunFile::open(path), {});
   return check.faults.empty() ? "" : check.faults.front();
 } catch (const Error& error) {
   return error.what();
@@ -246,12 +246,12 @@ TEST_F(Edges, no_text_of_a_file_reaches_the_terminal_raw) {
   const std::string attack =
       "\x1b]0;owned\a\x1b[2J\xc2\x9b"
       "31m\r\x7f";
-  Session session(parse_scenario(tiny_bed, "tiny.toml"));
-  RunHeader header = run_header(session, {});
+  session::Session session(scenario::parse_scenario(tiny_bed, "tiny.toml"));
+  io::RunHeader header = session::run_header(session, {});
   for (auto& [name, value] : header.provenance) value = attack;
-  Checkpoint checkpoint = session.checkpoint(0.0);
+  io::Checkpoint checkpoint = session.checkpoint(0.0);
   checkpoint.results.emplace_back("bad\x1b[31mname", 1.0);
-  RunStore::create(folder->path("attack.h5"), header, false).commit({}, checkpoint);
+  io::RunStore::create(folder->path("attack.h5"), header, false).commit({}, checkpoint);
   for (const Words& words : {Words{"info", "attack.h5"},
                              {"info", "attack.h5", "--json"},
                              {"check", "attack.h5"},

@@ -20,30 +20,31 @@ namespace talus::hostile {
 namespace {
 
 void make_good(const test::TemporaryFolder& folder) {
-  std::vector<MemberResult> members;
+  std::vector<ensemble::MemberResult> members;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    MemberResult member{seed, {"0123456789abcdef", "0.1.0", 1.0, {{"theta_c", "deg", 2.5}}}, {}};
+    ensemble::MemberResult member{seed, {"0123456789abcdef", "0.1.0", 1.0, {{"theta_c", "deg", 2.5}}}, {}};
     member.series = {{0.0, 1.0, 2.0}, {{"contacts/coordination_number", "1", {4.0, 3.5, 3.0}}}};
     members.push_back(member);
   }
-  write_averages(folder.path("good.h5"), {{"", resolved_toml({}), averages_of(members, 1.0)}}, "0.1.0");
+  ensemble::write_averages(folder.path("good.h5"),
+                           {{"", scenario::resolved_toml({}), ensemble::averages_of(members, 1.0)}}, "0.1.0");
 }
 
 using HostileAverages = HostileFile<make_good>;
 
 void use(const std::string& path) {
-  for (const StoredVariant& variant : read_averages(path)) {
-    const Scenario scenario = parse_scenario(variant.scenario, path);
+  for (const ensemble::StoredVariant& variant : ensemble::read_averages(path)) {
+    const scenario::Scenario scenario = scenario::parse_scenario(variant.scenario, path);
     for (std::size_t m = 0; m < variant.seeds.size(); ++m)
-      analysis_of(member_of(variant, m), scenario.grains.mean_diameter);
+      ensemble::analysis_of(ensemble::member_of(variant, m), scenario.grains.mean_diameter);
   }
 }
 
 /// In a process of its own: HDF5 may crash on what is malformed and sealed again.
 void use_apart(const std::string& path) {
-  in_child_process(path, std::filesystem::file_size(path), [&path] {
+  io::in_child_process(path, std::filesystem::file_size(path), [&path] {
     use(path);
-    return Parcels();
+    return io::Parcels();
   });
 }
 
@@ -66,10 +67,10 @@ TEST_F(HostileAverages, with_a_byte_flipped_and_sealed_again_are_refused_or_harm
   Random random(71);
   for (int k = 0; k < tries(100); ++k) {
     Bytes bytes = good;
-    const auto at = seal_size + random.below(static_cast<std::uint32_t>(bytes.size() - seal_size));
+    const auto at = io::seal_size + random.below(static_cast<std::uint32_t>(bytes.size() - io::seal_size));
     bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
     SCOPED_TRACE("byte " + std::to_string(at));
-    refusal(bad(sealed(bytes, averages_seal)), use_apart);
+    refusal(bad(sealed(bytes, io::averages_seal)), use_apart);
   }
 }
 
@@ -93,7 +94,7 @@ TEST_F(HostileAverages, cut_at_any_length_are_refused) {
 }
 
 TEST_F(HostileAverages, of_an_earlier_version_are_refused) {
-  const Bytes bytes(good.begin() + static_cast<std::ptrdiff_t>(seal_size), good.end());
+  const Bytes bytes(good.begin() + static_cast<std::ptrdiff_t>(io::seal_size), good.end());
   const std::optional<std::string> said = refusal(bad(bytes), use);
   ASSERT_TRUE(said);
   EXPECT_NE(said->find("make it again with: talus ensemble average"), std::string::npos) << *said;
@@ -104,13 +105,13 @@ TEST_F(HostileAverages, with_a_link_are_refused) {
   for (const bool external : {false, true}) {
     const std::string path = bad(good);
     {
-      const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+      const io::hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
       ASSERT_GE(external ? H5Lcreate_external(folder->path("good.h5").c_str(), "/variants/0", file.get(),
                                               "/variants/1", H5P_DEFAULT, H5P_DEFAULT)
                          : H5Lcreate_soft("/variants/0", file.get(), "/variants/1", H5P_DEFAULT, H5P_DEFAULT),
                 0);
     }
-    const std::optional<std::string> said = refusal(bad(sealed(read_bytes(path), averages_seal)), use);
+    const std::optional<std::string> said = refusal(bad(sealed(read_bytes(path), io::averages_seal)), use);
     ASSERT_TRUE(said) << external;
     EXPECT_NE(said->find("/variants/1 is a link to another place"), std::string::npos) << *said;
   }

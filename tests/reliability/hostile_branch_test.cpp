@@ -38,7 +38,7 @@ class HostileBranch : public HostileFile<make_good> {
   static test::Outcome talus(const Words& words) { return test::run_talus(words, folder->path()); }
 
   /// The stopped branch with another start.
-  static std::string with_start(const std::function<void(BranchOrigin&)>& change) {
+  static std::string with_start(const std::function<void(io::BranchOrigin&)>& change) {
     const std::string path = folder->path("changed.h5");
     store_with_start(folder->path("stopped.h5"), path, change);
     return path;
@@ -47,11 +47,11 @@ class HostileBranch : public HostileFile<make_good> {
 
 /// In a process of its own, which may take no longer than a file of that size needs.
 void use_apart(const std::string& path) {
-  const std::string folder = run_folder(path);
+  const std::string folder = io::run_folder(path);
   const std::string read = fs::exists(path) ? path : test::path_beginning(folder, "header_");
-  in_child_process(path, fs::file_size(read), [&path] {
+  io::in_child_process(path, fs::file_size(read), [&path] {
     use_branch(path);
-    return Parcels();
+    return io::Parcels();
   });
 }
 
@@ -68,16 +68,16 @@ std::vector<std::string> data_sets_of_branch(const Bytes& file) {
 TEST_F(HostileBranch, is_the_good_one_to_begin_with) {
   EXPECT_EQ(refusal(bad(good)), std::nullopt);
   EXPECT_EQ(refusal(bad(spoilt(good, {}))), std::nullopt);
-  EXPECT_EQ(refusal(with_start([](BranchOrigin&) {})), std::nullopt);
+  EXPECT_EQ(refusal(with_start([](io::BranchOrigin&) {})), std::nullopt);
   EXPECT_EQ(refusal(folder->path("stopped.h5")), std::nullopt);
-  const RunCheck check = check_run(RunFile::open(folder->path("good.h5")), {});
+  const session::RunCheck check = session::check_run(io::RunFile::open(folder->path("good.h5")), {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();
   EXPECT_GT(check.largest_mobilisation, 0.5 / 0.6) << "the friction that a command had set is in force";
   EXPECT_EQ(talus({"replay", "good.h5", "-q"}).exit_code, done);
 }
 
 TEST_F(HostileBranch, that_was_stopped_goes_on_to_the_end_of_one_that_was_not) {
-  fs::copy(run_folder(folder->path("stopped.h5")), run_folder(folder->path("again.h5")));
+  fs::copy(io::run_folder(folder->path("stopped.h5")), io::run_folder(folder->path("again.h5")));
   const test::Outcome resumed = talus({"run", "--resume", "again.h5", "-q"});
   EXPECT_EQ(resumed.exit_code, done) << resumed.err;
   const auto hash = [](const std::string& name) {
@@ -118,8 +118,9 @@ TEST_F(HostileBranch, each_data_set_of_another_make_is_refused_by_name) {
 
 TEST_F(HostileBranch, one_value_less_is_told_by_check) {
   for (const char* path : {"/branch/reals/friction", "/branch/integers/drag_grain"}) {
-    const RunFile run = RunFile::open(bad(spoilt(good, std::vector<Spoil>{{path, Harm::missing, 0, 0, {}}})));
-    const RunCheck check = check_run(run, {});
+    const io::RunFile run =
+        io::RunFile::open(bad(spoilt(good, std::vector<Spoil>{{path, Harm::missing, 0, 0, {}}})));
+    const session::RunCheck check = session::check_run(run, {});
     EXPECT_TRUE(std::ranges::any_of(check.faults, [&path](const std::string& fault) {
       return fault.starts_with(path);
     })) << path;
@@ -143,7 +144,7 @@ TEST_F(HostileBranch, sizes_and_values_of_chance_are_refused_or_harmless) {
 /// A start that no run of this scenario has, with the hashes that belong to it.
 struct WrongStart {
   const char* named;  ///< what the message names
-  std::function<void(BranchOrigin&)> change;
+  std::function<void(io::BranchOrigin&)> change;
 };
 
 void set(std::vector<std::pair<std::string, double>>& values, const std::string& name, double to) {
@@ -156,29 +157,29 @@ void set(std::vector<std::pair<std::string, std::int64_t>>& values, const std::s
 }
 
 WrongStart with_integer(const char* named, const std::string& name, std::int64_t to) {
-  return {named, [=](BranchOrigin& branch) { set(branch.start.integers, name, to); }};
+  return {named, [=](io::BranchOrigin& branch) { set(branch.start.integers, name, to); }};
 }
 
 WrongStart with_real(const char* named, const std::string& name, double to) {
-  return {named, [=](BranchOrigin& branch) { set(branch.start.reals, name, to); }};
+  return {named, [=](io::BranchOrigin& branch) { set(branch.start.reals, name, to); }};
 }
 
 WrongStart with_grain(const char* named, std::vector<double> Grains::*member, double to) {
-  return {named, [=](BranchOrigin& branch) { (branch.start.world.grains.*member)[3] = to; }};
+  return {named, [=](io::BranchOrigin& branch) { (branch.start.world.grains.*member)[3] = to; }};
 }
 
 template <typename Value>
 WrongStart with_world(const char* named, Value World::*member, Value to) {
-  return {named, [=](BranchOrigin& branch) { branch.start.world.*member = to; }};
+  return {named, [=](io::BranchOrigin& branch) { branch.start.world.*member = to; }};
 }
 
 std::vector<WrongStart> wrong_starts() {
   constexpr std::int64_t huge = std::int64_t{1} << 62;
   return {
-      {"/branch/frame", [](BranchOrigin& branch) { branch.frame = -1; }},
-      {"/branch/frame", [](BranchOrigin& branch) { branch.frame = huge; }},
-      {"/branch/run_hash", [](BranchOrigin& branch) { branch.run_hash = "no hash"; }},
-      {"/branch/run_hash", [](BranchOrigin& branch) { branch.run_hash.replace(0, 4, "\x1b[2J"); }},
+      {"/branch/frame", [](io::BranchOrigin& branch) { branch.frame = -1; }},
+      {"/branch/frame", [](io::BranchOrigin& branch) { branch.frame = huge; }},
+      {"/branch/run_hash", [](io::BranchOrigin& branch) { branch.run_hash = "no hash"; }},
+      {"/branch/run_hash", [](io::BranchOrigin& branch) { branch.run_hash.replace(0, 4, "\x1b[2J"); }},
       with_world("/branch/step", &World::step, std::int64_t{-1}),
       with_world("/branch/step", &World::step, huge),
       with_world("/branch/integers/tilt_steps", &World::step, std::int64_t{10}),
@@ -201,10 +202,10 @@ std::vector<WrongStart> wrong_starts() {
       with_grain("/branch/inverse_mass", &Grains::inverse_mass, 1e300),
       with_grain("/branch/inverse_inertia", &Grains::inverse_inertia, 0.0),
       with_grain("/branch/inverse_inertia", &Grains::inertia, 0.0),
-      {"/branch/free_count", [](BranchOrigin& branch) { --branch.start.world.grains.free_count; }},
-      {"/branch/free_count", [](BranchOrigin& branch) { branch.start.world.grains.free_count = -1; }},
+      {"/branch/free_count", [](io::BranchOrigin& branch) { --branch.start.world.grains.free_count; }},
+      {"/branch/free_count", [](io::BranchOrigin& branch) { branch.start.world.grains.free_count = -1; }},
       {"/branch/radius",
-       [](BranchOrigin& branch) {
+       [](io::BranchOrigin& branch) {
          Grains& grains = branch.start.world.grains;
          for (auto member : {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::omega,
                              &Grains::radius, &Grains::inverse_mass, &Grains::inverse_inertia, &Grains::mass,
@@ -213,28 +214,28 @@ std::vector<WrongStart> wrong_starts() {
          grains.image.pop_back();
          branch.start.world.contacts.resize(0);
        }},
-      {"/branch/periodic", [](BranchOrigin& branch) { branch.start.world.boundary.periodic = true; }},
-      {"/branch/length", [](BranchOrigin& branch) { branch.start.world.boundary.length *= 2.0; }},
+      {"/branch/periodic", [](io::BranchOrigin& branch) { branch.start.world.boundary.periodic = true; }},
+      {"/branch/length", [](io::BranchOrigin& branch) { branch.start.world.boundary.length *= 2.0; }},
       {"/branch/plane_normal",
-       [](BranchOrigin& branch) {
+       [](io::BranchOrigin& branch) {
          branch.start.world.boundary.planes.pop_back();
          branch.start.world.contacts.resize(0);
        }},
       {"/branch/plane_normal",
-       [](BranchOrigin& branch) { branch.start.world.boundary.planes[0].normal.x = 0.0; }},
+       [](io::BranchOrigin& branch) { branch.start.world.boundary.planes[0].normal.x = 0.0; }},
       {"/branch/plane_normal",
-       [](BranchOrigin& branch) { branch.start.world.boundary.planes[0].offset = 0.05; }},
-      {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.a[0] = -1; }},
-      {"/branch/contact_pair", [](BranchOrigin& branch) { branch.start.world.contacts.b[0] = 1000; }},
+       [](io::BranchOrigin& branch) { branch.start.world.boundary.planes[0].offset = 0.05; }},
+      {"/branch/contact_pair", [](io::BranchOrigin& branch) { branch.start.world.contacts.a[0] = -1; }},
+      {"/branch/contact_pair", [](io::BranchOrigin& branch) { branch.start.world.contacts.b[0] = 1000; }},
       {"/branch/contact_pair",
-       [](BranchOrigin& branch) {
+       [](io::BranchOrigin& branch) {
          Contacts& contacts = branch.start.world.contacts;
          std::ranges::reverse(contacts.a);
          std::ranges::reverse(contacts.b);
        }},
-      {"/branch/contact_shift", [](BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 100; }},
-      {"/branch/contact_normal", [](BranchOrigin& branch) { branch.start.world.contacts.nx[0] = 1e300; }},
-      {"/branch/contact_force", [](BranchOrigin& branch) { branch.start.world.contacts.fn[0] = nan; }},
+      {"/branch/contact_shift", [](io::BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 100; }},
+      {"/branch/contact_normal", [](io::BranchOrigin& branch) { branch.start.world.contacts.nx[0] = 1e300; }},
+      {"/branch/contact_force", [](io::BranchOrigin& branch) { branch.start.world.contacts.fn[0] = nan; }},
       with_integer("/branch/integers/phase", "phase", 0),
       with_integer("/branch/integers/phase", "phase", 2),
       with_integer("/branch/integers/phase", "phase", 3),
@@ -246,10 +247,10 @@ std::vector<WrongStart> wrong_starts() {
       with_integer("/branch/integers/tilt_since", "tilt_since", huge / 1024),
       with_integer("/branch/integers/drag_grain", "drag_grain", 1000),
       with_integer("/branch/integers/drag_grain", "drag_grain", -1),
-      {"/branch/integers/phase", [](BranchOrigin& branch) { branch.start.integers.clear(); }},
-      {"/branch/reals/", [](BranchOrigin& branch) { branch.start.reals.clear(); }},
+      {"/branch/integers/phase", [](io::BranchOrigin& branch) { branch.start.integers.clear(); }},
+      {"/branch/reals/", [](io::BranchOrigin& branch) { branch.start.reals.clear(); }},
       {"/branch/integers/last_tilt_step",
-       [](BranchOrigin& branch) { branch.start.integers.emplace_back("last_tilt_step", 3); }},
+       [](io::BranchOrigin& branch) { branch.start.integers.emplace_back("last_tilt_step", 3); }},
       with_real("/branch/reals/friction", "friction", nan),
       with_real("/branch/reals/friction", "friction", -1.0),
       with_real("/branch/reals/friction", "friction", 1e300),
@@ -288,7 +289,7 @@ void expect_told(const test::Outcome& outcome, bool refused) {
 /// Of what cannot be read every command tells; of what can be read and is no state of the scenario those tell
 /// that use it.
 TEST_F(HostileBranch, is_told_by_every_command) {
-  const auto in = [](const char* named, bool read, const std::function<void(BranchOrigin&)>& change) {
+  const auto in = [](const char* named, bool read, const std::function<void(io::BranchOrigin&)>& change) {
     SCOPED_TRACE(named);
     with_start(change);
     fs::remove(folder->path("view.png"));
@@ -306,19 +307,19 @@ TEST_F(HostileBranch, is_told_by_every_command) {
     EXPECT_FALSE(fs::exists(folder->path("repaired.h5")));
     expect_told(talus({"run", "--resume", "changed.h5", "-q"}), !read);
   };
-  in("a bed of other grains", false, [](BranchOrigin& of) { of.start.world.grains.radius[3] *= 1.1; });
-  in("a frame out of range", false, [](BranchOrigin& of) { of.frame = std::int64_t{1} << 40; });
-  in("a tilt that is none", false, [](BranchOrigin& of) { of.start.world.tilt = nan; });
-  in("another tilt", true, [](BranchOrigin& of) { of.start.world.tilt = 0.3; });
-  in("a friction that is none", true, [](BranchOrigin& of) { set(of.start.reals, "friction", nan); });
-  in("no phase", true, [](BranchOrigin& of) { of.start.integers.clear(); });
+  in("a bed of other grains", false, [](io::BranchOrigin& of) { of.start.world.grains.radius[3] *= 1.1; });
+  in("a frame out of range", false, [](io::BranchOrigin& of) { of.frame = std::int64_t{1} << 40; });
+  in("a tilt that is none", false, [](io::BranchOrigin& of) { of.start.world.tilt = nan; });
+  in("another tilt", true, [](io::BranchOrigin& of) { of.start.world.tilt = 0.3; });
+  in("a friction that is none", true, [](io::BranchOrigin& of) { set(of.start.reals, "friction", nan); });
+  in("no phase", true, [](io::BranchOrigin& of) { of.start.integers.clear(); });
 }
 
 TEST_F(HostileBranch, names_reach_no_terminal_raw) {
   const std::string attack =
       "\x1b]0;owned\a\x1b[2J\xc2\x9b"
       "31m\r\xff\x7f";
-  const std::string path = with_start([&attack](BranchOrigin& branch) {
+  const std::string path = with_start([&attack](io::BranchOrigin& branch) {
     branch.run = attack;
     branch.start.integers.emplace_back(attack, 1);
     branch.start.reals.emplace_back(attack, nan);
@@ -341,9 +342,9 @@ TEST_F(HostileBranch, names_reach_no_terminal_raw) {
 }
 
 TEST_F(HostileBranch, of_another_run_is_told_by_check_and_by_replay) {
-  const RunFile parent = RunFile::open(folder->path("parent.h5"));
-  const Checkpoint elsewhere = checkpoint_at_frame(parent, 3);
-  with_start([&elsewhere](BranchOrigin& branch) { branch.start = elsewhere; });
+  const io::RunFile parent = io::RunFile::open(folder->path("parent.h5"));
+  const io::Checkpoint elsewhere = session::checkpoint_at_frame(parent, 3);
+  with_start([&elsewhere](io::BranchOrigin& branch) { branch.start = elsewhere; });
   const test::Outcome check = talus({"check", "changed.h5"});
   EXPECT_EQ(check.exit_code, bad_data);
   EXPECT_NE(check.out.find("/branch: is not the state of the first frame"), std::string::npos) << check.out;
@@ -360,7 +361,8 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   const test::Outcome repair = talus({"repair", "bad.h5", "-o", "kept.h5"});
   EXPECT_EQ(repair.exit_code, done) << repair.err;
   EXPECT_NE((repair.out + repair.err).find("all of /branch is left out"), std::string::npos) << repair.out;
-  const RunFile kept = RunFile::open(folder->path("kept.h5")), whole = RunFile::open(folder->path("good.h5"));
+  const io::RunFile kept = io::RunFile::open(folder->path("kept.h5")),
+                    whole = io::RunFile::open(folder->path("good.h5"));
   EXPECT_FALSE(kept.header().branch);
   EXPECT_EQ(kept.all_frame_tilts(), whole.all_frame_tilts());
   EXPECT_EQ(talus({"info", "kept.h5"}).exit_code, done);
@@ -369,7 +371,8 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   const test::Outcome replay = talus({"replay", "kept.h5"});
   EXPECT_EQ(replay.exit_code, bad_data);
   EXPECT_NE(replay.err.find("the state that it began from is lost"), std::string::npos) << replay.err;
-  EXPECT_THROW(checkpoint_at_frame(kept, 1), Error) << "what had been set before is not known any more";
+  EXPECT_THROW(session::checkpoint_at_frame(kept, 1), Error)
+      << "what had been set before is not known any more";
 }
 
 /// A byte flipped, up to 4 KiB of zeros, or a cut.
@@ -385,8 +388,8 @@ Bytes damaged(Bytes bytes, int kind, Random& random) {
 
 /// What is kept is what was written, and passes every check; another branch either begins with all that was
 /// in force, or does not begin.
-void expect_kept(const RunFile& kept, const RunFile& whole) {
-  const RunCheck check = check_run(kept, {});
+void expect_kept(const io::RunFile& kept, const io::RunFile& whole) {
+  const session::RunCheck check = session::check_run(kept, {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();
   for (std::size_t k = 0; k < kept.all_frame_tilts().size(); ++k) {
     const Frame frame = kept.frame(k);
@@ -396,7 +399,8 @@ void expect_kept(const RunFile& kept, const RunFile& whole) {
     EXPECT_EQ(frame.x, whole.frame(same).x);
     EXPECT_EQ(frame.contacts.fn, whole.frame(same).contacts.fn);
     try {
-      const Checkpoint start = checkpoint_at_frame(kept, k), expected = checkpoint_at_frame(whole, same);
+      const io::Checkpoint start = session::checkpoint_at_frame(kept, k),
+                           expected = session::checkpoint_at_frame(whole, same);
       EXPECT_EQ(start.integers, expected.integers) << kept.lost();
       EXPECT_EQ(start.reals, expected.reals) << kept.lost();
     } catch (const Error& error) {
@@ -406,7 +410,7 @@ void expect_kept(const RunFile& kept, const RunFile& whole) {
 }
 
 TEST_F(HostileBranch, with_damage_of_chance_is_repaired_to_what_was_written) {
-  const RunFile whole = RunFile::open(folder->path("good.h5"));
+  const io::RunFile whole = io::RunFile::open(folder->path("good.h5"));
   const std::string out = folder->path("out.h5");
   Random random(62);
   int repaired = 0, without_start = 0, refused = 0;
@@ -414,13 +418,13 @@ TEST_F(HostileBranch, with_damage_of_chance_is_repaired_to_what_was_written) {
     SCOPED_TRACE("try " + std::to_string(k));
     const std::string path = bad(damaged(good, k % 3, random));
     try {
-      if (repair_run({path, out, true}).was_whole) continue;
+      if (io::repair_run({path, out, true}).was_whole) continue;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
       ++refused;
       continue;
     }
-    const RunFile kept = RunFile::open(out);
+    const io::RunFile kept = io::RunFile::open(out);
     ++repaired;
     without_start += kept.header().branch ? 0 : 1;
     expect_kept(kept, whole);
@@ -430,7 +434,7 @@ TEST_F(HostileBranch, with_damage_of_chance_is_repaired_to_what_was_written) {
 }
 
 TEST_F(HostileBranch, with_a_byte_flipped_in_its_header_is_refused_as_a_folder) {
-  const fs::path header = test::path_beginning(run_folder(folder->path("stopped.h5")), "header_");
+  const fs::path header = test::path_beginning(io::run_folder(folder->path("stopped.h5")), "header_");
   const Bytes whole = read_bytes(header);
   Random random(61);
   for (int k = 0; k < tries(60); ++k) {

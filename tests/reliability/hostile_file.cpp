@@ -15,7 +15,7 @@
 namespace talus::hostile {
 namespace {
 
-using hdf5::Handle;
+using io::hdf5::Handle;
 
 constexpr hsize_t huge_size = hsize_t{1} << 40;
 
@@ -165,8 +165,8 @@ void spoil_one(hid_t file, const Spoil& spoil) {
 
 /// The kind of seal that a file has; empty where it has none.
 std::string_view kind_of_seal(const Bytes& file) {
-  for (const std::string_view kind : {run_seal, averages_seal})
-    if (file.size() > seal_size && std::memcmp(file.data(), kind.data(), kind.size()) == 0) return kind;
+  for (const std::string_view kind : {io::run_seal, io::averages_seal})
+    if (file.size() > io::seal_size && std::memcmp(file.data(), kind.data(), kind.size()) == 0) return kind;
   return {};
 }
 
@@ -191,7 +191,7 @@ std::string name_of(Harm harm) { return names.at(static_cast<std::size_t>(harm))
 
 std::vector<std::string> data_sets(const Bytes& file) {
   Bytes bytes = file;
-  const Handle open = hdf5::open_image(bytes, "listed", H5F_ACC_RDONLY);
+  const Handle open = io::hdf5::open_image(bytes, "listed", H5F_ACC_RDONLY);
   std::vector<std::string> found;
   H5Ovisit(open.get(), H5_INDEX_NAME, H5_ITER_INC, note_data_set, &found);
   return found;
@@ -199,7 +199,7 @@ std::vector<std::string> data_sets(const Bytes& file) {
 
 std::uint64_t values_hash(const Bytes& file) {
   Bytes bytes = file;
-  const Handle open = hdf5::open_image(bytes, "hashed", H5F_ACC_RDONLY);
+  const Handle open = io::hdf5::open_image(bytes, "hashed", H5F_ACC_RDONLY);
   Hasher hasher;
   for (const std::string& path : data_sets(file)) {
     const Handle set(H5Dopen2(open.get(), path.c_str(), H5P_DEFAULT), H5Dclose);
@@ -224,14 +224,14 @@ std::vector<Spoil> spoils_of_chance(Random& random, std::span<const std::string>
 
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils) {
   Bytes bytes = file;
-  const Handle open = hdf5::open_image(bytes, "spoilt", H5F_ACC_RDWR);
+  const Handle open = io::hdf5::open_image(bytes, "spoilt", H5F_ACC_RDWR);
   for (const Spoil& spoil : spoils) spoil_one(open.get(), spoil);
   const std::string_view kind = kind_of_seal(file);
-  return kind.empty() ? image_of(open.get(), 0) : sealed(image_of(open.get(), seal_size), kind);
+  return kind.empty() ? image_of(open.get(), 0) : sealed(image_of(open.get(), io::seal_size), kind);
 }
 
 Bytes sealed(Bytes file, std::string_view kind) {
-  seal(file, kind);
+  io::seal(file, kind);
   return file;
 }
 

@@ -60,7 +60,7 @@ std::uint64_t values_hash(const Bytes& file);
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils);
 
 /// The bytes with a seal over them.
-Bytes sealed(Bytes file, std::string_view kind = run_seal);
+Bytes sealed(Bytes file, std::string_view kind = io::run_seal);
 
 Bytes read_bytes(const std::string& path);
 void write_bytes(const std::string& path, std::span<const std::byte> bytes);

@@ -92,7 +92,7 @@ TEST_F(HostileProblem, a_solution_is_added_to_a_flipped_file_or_not) {
     bytes[random.below(static_cast<std::uint32_t>(bytes.size()))] ^= std::byte{0x41};
     const std::string path = bad(bytes), to = folder->path("solved.h5");
     try {
-      write_fclib_solution(path, to, {1.0, 2.0}, {3.0, 4.0});
+      problems::write_fclib_solution(path, to, {1.0, 2.0}, {3.0, 4.0});
       EXPECT_TRUE(std::filesystem::exists(to));
     } catch (const Error&) {
       EXPECT_FALSE(std::filesystem::exists(to));

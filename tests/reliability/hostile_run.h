@@ -21,10 +21,10 @@ void make_problem(const std::string& run, const std::string& path);
 /// frame. Throws as these do.
 void use_run(const std::string& path);
 /// The same of one that is open, at the path where its analysis is.
-void use_run(const RunFile& run, const std::string& path);
+void use_run(const io::RunFile& run, const std::string& path);
 
 /// Solves a problem, in a few passes.
-void use_problem(const StoredProblem& stored);
+void use_problem(const problems::StoredProblem& stored);
 /// The same of the one at `path`.
 void use_problem(const std::string& path);
 

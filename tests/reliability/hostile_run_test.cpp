@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void open_run(const std::string& path) { RunFile::open(path); }
+void open_run(const std::string& path) { io::RunFile::open(path); }
 
 /// In a process of its own: HDF5 may crash on what is malformed and sealed again, and the program then says
 /// so (src/app/program_end.cpp). A time that no file can need is a failure as well.
 void use_apart(const std::string& path) {
-  in_child_process(path, fs::file_size(path), [&path] {
+  io::in_child_process(path, fs::file_size(path), [&path] {
     use_run(path);
-    return Parcels();
+    return io::Parcels();
   });
 }
 
@@ -227,7 +227,7 @@ TEST_F(HostileRun, a_byte_flipped_or_a_cut_in_a_folder_is_refused) {
   const std::string run = folder->path("stopped.h5");
   make_folder_of_run(run);
   Random random(30);
-  for (const auto& entry : fs::directory_iterator(run_folder(run))) {
+  for (const auto& entry : fs::directory_iterator(io::run_folder(run))) {
     if (entry.path().filename() == "lock") continue;
     const Bytes whole = read_bytes(entry.path());
     for (int k = 0; k < tries(400) / 4; ++k) {

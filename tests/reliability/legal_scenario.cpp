@@ -18,7 +18,7 @@ std::uint32_t whole(std::size_t count) { return static_cast<std::uint32_t>(count
 
 /// One in three is the lower end or next to it, one in three the upper end; others lie between, by their
 /// logarithm where the range spans decades.
-double number_in(const NumberRange& range, Random& random) {
+double number_in(const scenario::NumberRange& range, Random& random) {
   const double low = range.low_included ? range.low : std::max(1e-300, 1e-9 * std::min(range.high, 1.0));
   const double high = std::isinf(range.high) ? 1e300 : range.high;
   switch (random.below(6)) {
@@ -36,24 +36,24 @@ double number_in(const NumberRange& range, Random& random) {
   return random.uniform(low, high);
 }
 
-KeyValue value_in(const NumberRange& range, Random& random) {
+scenario::KeyValue value_in(const scenario::NumberRange& range, Random& random) {
   if (!range.word.empty() && random.below(3) == 0) return range.word;
   return std::clamp(number_in(range, random), range.low, range.high);
 }
 
-KeyValue value_in(const IntegerRange& range, Random& random) {
+scenario::KeyValue value_in(const scenario::IntegerRange& range, Random& random) {
   if (random.below(3) == 0) return range.low;
   if (random.below(3) == 0) return range.high;
   const double spread = std::pow(static_cast<double>(range.high - range.low), random.uniform());
   return std::min(range.high, range.low + static_cast<std::int64_t>(spread));
 }
 
-KeyValue value_in(const Choices& choices, Random& random) {
+scenario::KeyValue value_in(const scenario::Choices& choices, Random& random) {
   return choices.names[random.below(whole(choices.names.size()))];
 }
 
-KeyValue value_in(const TextRange&, Random&) { return std::string(); }
-KeyValue value_in(const PhraseList&, Random& random) {
+scenario::KeyValue value_in(const scenario::TextRange&, Random&) { return std::string(); }
+scenario::KeyValue value_in(const scenario::PhraseList&, Random& random) {
   std::vector<std::string> phrases;
   const std::uint32_t count = 1 + random.below(4);
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -66,12 +66,12 @@ KeyValue value_in(const PhraseList&, Random& random) {
   if (random.below(3) == 0) phrases.emplace_back("to repose");
   return phrases;
 }
-KeyValue value_in(const NumberList& list, Random& random) {
+scenario::KeyValue value_in(const scenario::NumberList& list, Random& random) {
   return std::vector{random.uniform() * list.high};
 }
 
-Scenario small_bed(Random& random) {
-  Scenario scenario;
+scenario::Scenario small_bed(Random& random) {
+  scenario::Scenario scenario;
   scenario.seed = random.next();
   scenario.bed.length = 10.0 + random.below(11);
   scenario.bed.depth = random.uniform(1.0, 10.0);
@@ -84,26 +84,26 @@ Scenario small_bed(Random& random) {
 }
 
 /// What decides how large the bed is.
-bool is_size(const ScenarioKey& key) {
-  return full_name(key) == "bed.length" || full_name(key) == "bed.depth";
+bool is_size(const scenario::ScenarioKey& key) {
+  return scenario::full_name(key) == "bed.length" || scenario::full_name(key) == "bed.depth";
 }
 
 }  // namespace
 
-Scenario legal_scenario(Random& random, double seconds, const std::vector<std::string>& beds) {
+scenario::Scenario legal_scenario(Random& random, double seconds, const std::vector<std::string>& beds) {
   for (;;) {
-    Scenario scenario = small_bed(random);
+    scenario::Scenario scenario = small_bed(random);
     const std::uint32_t one_in = 2 + random.below(20);
-    for (const ScenarioKey& key : scenario_keys())
+    for (const scenario::ScenarioKey& key : scenario::scenario_keys())
       if (!is_size(key) && random.below(one_in) == 0)
-        if (const auto value = admitted(
+        if (const auto value = scenario::admitted(
                 key, std::visit([&](const auto& range) { return value_in(range, random); }, key.range)))
           key.set(scenario, *value);
     scenario.deposition.frame = 0;
-    if (scenario.deposition.method == DepositionMethod::file)
+    if (scenario.deposition.method == scenario::DepositionMethod::file)
       scenario.deposition.file = beds[random.below(whole(beds.size()))];
-    if (!broken_rules(scenario).empty()) continue;
-    if (estimate(scenario).seconds <= seconds) return scenario;
+    if (!scenario::broken_rules(scenario).empty()) continue;
+    if (session::estimate(scenario).seconds <= seconds) return scenario;
   }
 }
 

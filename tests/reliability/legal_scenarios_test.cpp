@@ -76,9 +76,9 @@ TEST_F(LegalScenarios, end_in_a_sound_run_or_in_a_documented_refusal) {
   std::map<int, int> codes;
   double slowest = 0.0;
   for (int k = 0; k < count; ++k) {
-    const Scenario scenario = legal_scenario(random, 1.0, {folder.path("bed.csv")});
-    const double expected = estimate(scenario).seconds;
-    write_file(folder, "legal.toml", resolved_toml(scenario));
+    const scenario::Scenario scenario = legal_scenario(random, 1.0, {folder.path("bed.csv")});
+    const double expected = session::estimate(scenario).seconds;
+    write_file(folder, "legal.toml", scenario::resolved_toml(scenario));
     const auto begin = Clock::now();
     const int code = run("legal.toml", 5.0 + 20.0 * expected);
     slowest = std::max(slowest, seconds_since(begin) / (1.0 + expected));
@@ -96,7 +96,7 @@ TEST_F(LegalScenarios, end_in_a_sound_run_or_in_a_documented_refusal) {
       const Outcome outcome = look();
       ++checked;
       EXPECT_EQ(outcome.exit_code, 0)
-          << "scenario " << k << ": " << outcome.out << outcome.err << resolved_toml(scenario);
+          << "scenario " << k << ": " << outcome.out << outcome.err << scenario::resolved_toml(scenario);
     }
     std::filesystem::remove_all(folder.path("run.h5.run"));
     std::filesystem::remove(folder.path("run.h5"));

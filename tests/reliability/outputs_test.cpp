@@ -266,11 +266,11 @@ TEST_F(Outputs, a_run_that_is_overwritten_stays_until_the_new_one_is_whole) {
   wait_for(process);
   ASSERT_TRUE(fs::exists(path("f.h5.run/manifest"))) << "too late: nothing was tested";
   EXPECT_TRUE(content(path("f.h5")) == before);
-  EXPECT_EQ(run_presence(path("f.h5")), RunPresence::folder);
+  EXPECT_EQ(io::run_presence(path("f.h5")), io::RunPresence::folder);
   const Outcome resumed = talus({"run", "--resume", "f.h5", "-q"});
   EXPECT_EQ(resumed.exit_code, done) << resumed.err;
   EXPECT_FALSE(fs::exists(path("f.h5.run")));
-  EXPECT_EQ(RunFile::open(path("f.h5")).header().seed, 77u);
+  EXPECT_EQ(io::RunFile::open(path("f.h5")).header().seed, 77u);
 }
 
 TEST_F(Outputs, a_full_disk_takes_no_run_away_that_is_overwritten) {

@@ -110,7 +110,7 @@ TEST(PowerCut, loses_no_committed_frame) {
     ASSERT_TRUE(disk.attach());
     EXPECT_GE(committed_frames(run), durable);
     durable_seen += durable;
-    if (run_presence(run) != RunPresence::packed) continue;
+    if (io::run_presence(run) != io::RunPresence::packed) continue;
     EXPECT_EQ(run_talus(resume, folder.path()).exit_code, 0);
     EXPECT_EQ(digest(run), whole);
     fs::remove(run);

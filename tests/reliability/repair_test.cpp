@@ -54,7 +54,7 @@ class RepairOfChance : public testing::Test {
     folder = new test::TemporaryFolder;
     make_run(folder->path("good.h5"));
     make_folder_of_run(folder->path("left.h5"), 0.7);
-    const RunFile run = RunFile::open(folder->path("good.h5"));
+    const io::RunFile run = io::RunFile::open(folder->path("good.h5"));
     for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k)
       frame_of.emplace(run.frame(k).step, test::frame_digest(run.frame(k)));
   }
@@ -67,9 +67,9 @@ class RepairOfChance : public testing::Test {
   static void try_to_repair(const std::string& path, std::size_t frames, Count& count) {
     const std::string out = folder->path("out.h5");
     count.frames += frames;
-    RepairReport report;
+    io::RepairReport report;
     try {
-      report = repair_run({path, out, true});
+      report = io::repair_run({path, out, true});
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::bad_data) << error.what();
       ++count.refused;
@@ -77,15 +77,15 @@ class RepairOfChance : public testing::Test {
     }
     count.harmless += report.was_whole ? 1 : 0;
     count.repaired += report.was_whole ? 0 : 1;
-    const RunFile run = RunFile::open(report.was_whole ? path : out);
+    const io::RunFile run = io::RunFile::open(report.was_whole ? path : out);
     for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) {
       const Frame frame = run.frame(k);
       EXPECT_EQ(frame_of.at(frame.step), test::frame_digest(frame)) << "frame " << k;
       ++count.kept;
     }
-    const RunCheck check = check_run(run, {});
+    const session::RunCheck check = session::check_run(run, {});
     EXPECT_TRUE(check.faults.empty()) << check.faults.front();
-    EXPECT_TRUE(damaged_pieces(report.was_whole ? path : out).empty());
+    EXPECT_TRUE(io::damaged_pieces(report.was_whole ? path : out).empty());
   }
 
   static inline test::TemporaryFolder* folder = nullptr;
@@ -113,9 +113,9 @@ TEST_F(RepairOfChance, of_a_packed_file) {
 
 TEST_F(RepairOfChance, of_each_file_of_a_folder) {
   const std::string run = folder->path("left.h5");
-  const std::size_t frames = RunFile::open(run).all_frame_tilts().size();
+  const std::size_t frames = io::RunFile::open(run).all_frame_tilts().size();
   Random random(50);
-  for (const auto& entry : fs::directory_iterator(run_folder(run))) {
+  for (const auto& entry : fs::directory_iterator(io::run_folder(run))) {
     if (entry.path().filename() == "lock") continue;
     const Bytes whole = read_bytes(entry.path());
     Count count;

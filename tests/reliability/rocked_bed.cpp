@@ -36,8 +36,8 @@ RockedBed bed(const char* name, Index grains, Index columns, bool periodic, std:
   return bed;
 }
 
-StepSettings settings_of(const RockedBed& bed, int threads) {
-  StepSettings settings;
+dynamics::StepSettings settings_of(const RockedBed& bed, int threads) {
+  dynamics::StepSettings settings;
   settings.h = 1e-3;
   settings.margin = 0.002 * bed.plan.mean_diameter;
   settings.law.restitution = bed.restitution;
@@ -59,23 +59,23 @@ std::vector<RockedBed> rocked_beds() {
   RockedBed walls = bed("walls", 30, 10, false, 100'000);
   walls.restitution = 0.3;
   RockedBed gauss_seidel = bed("gauss-seidel", 30, 10, true, 10'000);
-  gauss_seidel.solver = SolverKind::gauss_seidel;
+  gauss_seidel.solver = solver::SolverKind::gauss_seidel;
   gauss_seidel.plan.rough_floor = false;
   return {bed("periodic", 30, 10, true, 100'000), walls, gauss_seidel, bed("large", 20000, 500, true, 300)};
 }
 
 RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
                const std::function<void(const World&)>& watch, int alone_every) {
-  StepSettings settings = settings_of(bed, threads);
-  World world = make_loose_bed(bed.plan);
-  StepWorkspace workspace;
+  dynamics::StepSettings settings = settings_of(bed, threads);
+  World world = dynamics::make_loose_bed(bed.plan);
+  dynamics::StepWorkspace workspace;
   RockedRun run;
   Contacts before;
   for (std::int64_t k = 0; k < steps; ++k) {
     world.tilt = radians(tilt_after(k));
     workspace.solver.accelerated.choice = {};  // all threads, whether they are worth it or not
     settings.solver.threads = alone_every > 0 && k % alone_every == 0 ? 1 : threads;
-    step(world, settings, workspace);
+    dynamics::step(world, settings, workspace);
     run.changes += !same_pairs(world.contacts, before);
     before = world.contacts;
     if (const auto& team = workspace.solver.accelerated.team) run.team = std::max(run.team, team->size());
@@ -86,13 +86,13 @@ RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
 
 std::uint64_t hash_of(const World& world) {
   std::vector<Tensor2> moments;
-  internal_moments(world.grains, world.contacts, moments);
+  stress::internal_moments(world.grains, world.contacts, moments);
   Hasher hash;
   hash.add(state_hash(world));
-  for (const Tensor2& moment : moments) hash.add(stress_state(moment).ratio);
-  for (const SurfaceArc& arc : free_surface(world.grains, world.boundary)) hash.add(arc.end);
-  hash.add(bed_volume(world.grains, world.boundary));
-  hash.add(surface_inclination(world.grains, world.boundary));
+  for (const Tensor2& moment : moments) hash.add(stress::stress_state(moment).ratio);
+  for (const stress::SurfaceArc& arc : stress::free_surface(world.grains, world.boundary)) hash.add(arc.end);
+  hash.add(stress::bed_volume(world.grains, world.boundary));
+  hash.add(stress::surface_inclination(world.grains, world.boundary));
   return hash.value();
 }
 

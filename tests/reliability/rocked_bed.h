@@ -14,8 +14,8 @@ namespace talus::test {
 
 struct RockedBed {
   std::string name;
-  BedPlan plan;
-  SolverKind solver = SolverKind::accelerated;
+  dynamics::BedPlan plan;
+  solver::SolverKind solver = solver::SolverKind::accelerated;
   double restitution = 0.0;
   std::int64_t steps = 0;  ///< of a whole run
 };

@@ -55,7 +55,8 @@ class RunStops : public testing::Test {
   /// Brings the run to its end by its name alone, if there is one, and takes it away.
   void finish() {
     std::vector<std::string> command = {"run", "--resume", "run.h5", "--threads", "1"};
-    if (run_presence(run_) == RunPresence::none) command = {"run", "bed.toml", "-o", "run.h5", "--resume"};
+    if (io::run_presence(run_) == io::RunPresence::none)
+      command = {"run", "bed.toml", "-o", "run.h5", "--resume"};
     const Outcome outcome = run_talus(command, folder_.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(digest(run_), whole_);
@@ -79,7 +80,7 @@ TEST_F(RunStops, ended_one_to_five_times_it_has_the_same_bits) {
     for (int end = 0; end < most; ++end) {
       const pid_t process = start_or_resume();
       if (end == 0)  // once at least it has something to resume, however slow the machine
-        EXPECT_TRUE(comes_true([this] { return run_presence(run_) != RunPresence::none; }));
+        EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       else
         pause(dice_.below(milliseconds_ / 2));
       kill(process, signals[dice_.below(3)]);
@@ -100,14 +101,15 @@ TEST_F(RunStops, killed_at_a_random_time_it_loses_no_frame) {
     SCOPED_TRACE("kill " + std::to_string(k));
     const pid_t process = start_or_resume();
     pause(dice_.below(milliseconds_));  // what is longer than a checkpoint brings the run forward
-    const std::size_t committed =
-        run_presence(run_) == RunPresence::none ? 0 : RunFile::open(run_).all_frame_tilts().size();
+    const std::size_t committed = io::run_presence(run_) == io::RunPresence::none
+                                      ? 0
+                                      : io::RunFile::open(run_).all_frame_tilts().size();
     kill(process, SIGKILL);
     wait_for(process);
     const int found = committed_frames(run_);
     EXPECT_GE(found, static_cast<int>(committed));
     frames_seen += found;
-    if (run_presence(run_) != RunPresence::packed) continue;
+    if (io::run_presence(run_) != io::RunPresence::packed) continue;
     finish();
     ++whole_runs;
   }
@@ -126,7 +128,8 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
     // It listens before it takes its lock, which tells whose it is.
     const std::string holder = "process " + std::to_string(process) + " ";
     EXPECT_TRUE(comes_true([&] {
-      return text_of(run_ + ".run/lock").starts_with(holder) || run_presence(run_) == RunPresence::packed;
+      return text_of(run_ + ".run/lock").starts_with(holder) ||
+             io::run_presence(run_) == io::RunPresence::packed;
     }));
     pause(k == 0 ? 0 : dice_.below(milliseconds_ / 4));
     const Clock::time_point start = Clock::now();
@@ -136,7 +139,7 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
     EXPECT_TRUE(code == 75 || code == 0) << code;
     stopped += code == 75;
     committed_frames(run_);
-    if (run_presence(run_) == RunPresence::packed) finish();
+    if (io::run_presence(run_) == io::RunPresence::packed) finish();
   }
   EXPECT_GT(stopped, 0);
   std::printf("%d stops: %d left with 75, the others had come to their end; the longest took %.3f s\n", stops,
@@ -190,11 +193,11 @@ TEST_F(LongRun, takes_a_checkpoint_when_asked_and_goes_on) {
   const pid_t process = start(long_deposition);
   pause(100);
   const std::string before = text_of(manifest_);
-  ASSERT_EQ(RunFile::open(run_).checkpoint().world.step, 0);
+  ASSERT_EQ(io::RunFile::open(run_).checkpoint().world.step, 0);
   kill(process, SIGUSR1);
   EXPECT_TRUE(comes_true([&] { return text_of(manifest_) != before; }));
   EXPECT_TRUE(is_running(process));
-  const RunFile run = RunFile::open(run_);
+  const io::RunFile run = io::RunFile::open(run_);
   EXPECT_GT(run.checkpoint().world.step, 0);
   EXPECT_EQ(run.all_frame_tilts().size(), 0u) << "a frame was the cause";
   end(process);
@@ -209,7 +212,7 @@ TEST_F(LongRun, ends_with_a_checkpoint_before_its_time_is_over) {
   EXPECT_EQ(outcome.exit_code, 75);
   EXPECT_NE(outcome.err.find("for --max-wall; talus run --resume run.h5 goes on.\n"), std::string::npos)
       << outcome.err;
-  EXPECT_GT(RunFile::open(run_).checkpoint().world.step, 0);
+  EXPECT_GT(io::RunFile::open(run_).checkpoint().world.step, 0);
 }
 
 TEST_F(LongRun, says_that_its_folder_is_gone) {
@@ -224,7 +227,7 @@ TEST_F(LongRun, says_that_its_folder_is_gone) {
   EXPECT_NE(outcome.err.find("run.h5.run"), std::string::npos) << outcome.err;
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   EXPECT_FALSE(fs::exists(run_ + ".run"));
-  EXPECT_GE(RunFile::open(folder_.path("run.h5.moved")).checkpoint().world.step, 0);
+  EXPECT_GE(io::RunFile::open(folder_.path("run.h5.moved")).checkpoint().world.step, 0);
 }
 
 TEST_F(RunStops, of_two_writers_one_runs) {
@@ -235,7 +238,7 @@ TEST_F(RunStops, of_two_writers_one_runs) {
     std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1"};
     if (k % 2 == 1) {  // for a run that was killed, and has left its lock
       const pid_t killed = start_talus(command, folder_.path());
-      EXPECT_TRUE(comes_true([this] { return run_presence(run_) != RunPresence::none; }));
+      EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       kill(killed, SIGKILL);
       wait_for(killed);
       command.emplace_back("--resume");

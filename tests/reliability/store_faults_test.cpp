@@ -50,8 +50,8 @@ void persist(const Action& action) {
 /// The whole run in one go, in place of what has its name; `again` repeats each call that throws once.
 void compute(const std::string& path, bool again, Told& told) {
   const auto attempt = [again](const auto& action) { again ? persist(action) : action(); };
-  std::optional<RunStore> store;
-  attempt([&] { store = RunStore::create(path, example::header(), true); });
+  std::optional<io::RunStore> store;
+  attempt([&] { store = io::RunStore::create(path, example::header(), true); });
   for (int k = 0; k < commits; ++k) {
     attempt([&] { store->commit(example::segment(k), example::checkpoint(k)); });
     told.committed = k + 1;
@@ -85,8 +85,8 @@ int compute_under(const faults::Fault& fault, bool again, const std::string& pat
 
 /// Opens what a fault left, and returns how many commits it holds, all of them whole.
 int commits_in(const std::string& path) {
-  if (run_presence(path) == RunPresence::none) return 0;
-  const RunFile run = RunFile::open(path);
+  if (io::run_presence(path) == io::RunPresence::none) return 0;
+  const io::RunFile run = io::RunFile::open(path);
   const int found = static_cast<int>(run.steps().size() / 5);
   EXPECT_EQ(run.checkpoint().world.step, example::checkpoint(found - 1).world.step);
   EXPECT_EQ(state_hash(run.checkpoint().world), state_hash(example::checkpoint(found - 1).world));
@@ -100,15 +100,15 @@ int commits_in(const std::string& path) {
 
 /// Brings what a fault left to its end, as `talus run --resume` does.
 void bring_to_end(const std::string& path, int found) {
-  if (run_presence(path) == RunPresence::packed) return;
-  RunHeader header;
-  Checkpoint checkpoint;
-  RunStore store = run_presence(path) == RunPresence::folder
-                       ? RunStore::resume(path, header, checkpoint)
-                       : RunStore::create(path, example::header(), true);
+  if (io::run_presence(path) == io::RunPresence::packed) return;
+  io::RunHeader header;
+  io::Checkpoint checkpoint;
+  io::RunStore store = io::run_presence(path) == io::RunPresence::folder
+                           ? io::RunStore::resume(path, header, checkpoint)
+                           : io::RunStore::create(path, example::header(), true);
   for (int k = found; k < commits; ++k) store.commit(example::segment(k), example::checkpoint(k));
   store.pack();
-  EXPECT_FALSE(std::filesystem::exists(run_folder(path))) << "leftovers";
+  EXPECT_FALSE(std::filesystem::exists(io::run_folder(path))) << "leftovers";
 }
 
 /// Strikes every call of a run in turn.
@@ -147,9 +147,9 @@ class StoreFaults : public testing::Test {
 
 /// A run of another seed, whole or left after its first commit.
 void begin_old_run(const std::string& path, bool is_whole) {
-  RunHeader header = example::header();
+  io::RunHeader header = example::header();
   ++header.seed;
-  RunStore old = RunStore::create(path, header, false);
+  io::RunStore old = io::RunStore::create(path, header, false);
   old.commit(example::segment(0), example::checkpoint(0));
   if (is_whole) old.pack();
 }
@@ -157,14 +157,15 @@ void begin_old_run(const std::string& path, bool is_whole) {
 /// What a kill has left of a run that replaces another: one of them is found, and the new one as soon as its
 /// file has the name. Returns whether it is the new one.
 bool is_new_run_found(const std::string& path, const std::string& old, const std::string& reference) {
-  EXPECT_NE(run_presence(path), RunPresence::none) << "neither is found";
-  if (run_presence(path) == RunPresence::none) return false;
+  EXPECT_NE(io::run_presence(path), io::RunPresence::none) << "neither is found";
+  if (io::run_presence(path) == io::RunPresence::none) return false;
   const std::string file = std::filesystem::exists(path) ? example::file_text(path) : "";
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   EXPECT_TRUE(file == old || file == reference);
-  EXPECT_EQ(run.complete(), file == reference || (!old.empty() && run_presence(path) == RunPresence::packed));
+  EXPECT_EQ(run.complete(),
+            file == reference || (!old.empty() && io::run_presence(path) == io::RunPresence::packed));
   if (file != reference) return run.header().seed == example::header().seed;
-  EXPECT_EQ(run_presence(path), RunPresence::packed) << "the finished run is hidden by its folder";
+  EXPECT_EQ(io::run_presence(path), io::RunPresence::packed) << "the finished run is hidden by its folder";
   EXPECT_EQ(run.header().seed, example::header().seed);
   return true;
 }
@@ -182,15 +183,15 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
 
   void put_old_run_back() const {
     namespace fs = std::filesystem;
-    fs::remove_all(run_folder(path_));
+    fs::remove_all(io::run_folder(path_));
     fs::remove(path_);
-    fs::copy(is_whole_ ? old_path_ : run_folder(old_path_), is_whole_ ? path_ : run_folder(path_));
+    fs::copy(is_whole_ ? old_path_ : io::run_folder(old_path_), is_whole_ ? path_ : io::run_folder(path_));
   }
 
   /// A kill after the rename has left the folder: the file stays what is found, also when it is analysed.
   void expect_found_when_analysed() const {
-    store_analysis(path_, example::analysis(2, 1), example::analysed_state());
-    EXPECT_EQ(run_presence(path_), RunPresence::packed) << "hidden once it is analysed";
+    io::store_analysis(path_, example::analysis(2, 1), example::analysed_state());
+    EXPECT_EQ(io::run_presence(path_), io::RunPresence::packed) << "hidden once it is analysed";
   }
 
   void bring_the_new_one_to_its_end(bool is_begun) const {
@@ -217,12 +218,12 @@ TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
               faults::killed);
     const bool is_new = is_new_run_found(path_, old_, reference_);
     EXPECT_TRUE(is_new || shared_.told->committed == 0) << "lost";
-    const bool is_ended = is_new && run_presence(path_) == RunPresence::packed;
-    if (is_ended && std::filesystem::exists(run_folder(path_)) && ++left_folders > 0)
+    const bool is_ended = is_new && io::run_presence(path_) == io::RunPresence::packed;
+    if (is_ended && std::filesystem::exists(io::run_folder(path_)) && ++left_folders > 0)
       expect_found_when_analysed();
     else
       bring_the_new_one_to_its_end(is_new);
-    EXPECT_FALSE(std::filesystem::exists(run_folder(path_))) << "leftovers";
+    EXPECT_FALSE(std::filesystem::exists(io::run_folder(path_))) << "leftovers";
   }
   EXPECT_GT(left_folders, 2);
   std::printf("%d of %d calls\n", all_.calls - all_.ending + all_.begun, all_.calls);
@@ -255,20 +256,20 @@ class TakenOver : public testing::Test {
   TakenOver() { replaces_ = false; }
 
   static bool is_complete() {
-    return run_presence(path_) == RunPresence::packed &&
-           RunFile::open(path_).header().seed == example::header().seed;
+    return io::run_presence(path_) == io::RunPresence::packed &&
+           io::RunFile::open(path_).header().seed == example::header().seed;
   }
 
   /// The successor commits once, and goes on when the other has woken.
   static void take_over() {
     visited_ = true;
     if (is_complete()) return;
-    std::filesystem::remove(run_folder(path_) + "/lock");
-    RunHeader header;
-    Checkpoint checkpoint;
-    const bool is_begun = run_presence(path_) == RunPresence::folder;
-    successor_ = is_begun ? RunStore::resume(path_, header, checkpoint)
-                          : RunStore::create(path_, example::header(), true);
+    std::filesystem::remove(io::run_folder(path_) + "/lock");
+    io::RunHeader header;
+    io::Checkpoint checkpoint;
+    const bool is_begun = io::run_presence(path_) == io::RunPresence::folder;
+    successor_ = is_begun ? io::RunStore::resume(path_, header, checkpoint)
+                          : io::RunStore::create(path_, example::header(), true);
     done_ = is_begun ? commits_at(checkpoint) : 0;
     marked_ = 0;
     commit_next();
@@ -277,27 +278,27 @@ class TakenOver : public testing::Test {
   static constexpr double mark = 777.0;  ///< in what the successor commits, which has other bytes by it
 
   static void commit_next() {
-    Segment segment = example::segment(done_);
-    Checkpoint checkpoint = example::checkpoint(done_);
+    io::Segment segment = example::segment(done_);
+    io::Checkpoint checkpoint = example::checkpoint(done_);
     segment.observables[0][0] = checkpoint.timing[0].second = mark;
     successor_->commit(segment, checkpoint);
     ++done_;
     ++marked_;
   }
 
-  static int commits_at(const Checkpoint& checkpoint) {
+  static int commits_at(const io::Checkpoint& checkpoint) {
     return static_cast<int>(checkpoint.world.step - example::checkpoint(0).world.step) + 1;
   }
 
   /// `prepare` makes a store; `action` is visited at each of its calls in turn.
-  void visit_every_call(const std::function<std::optional<RunStore>()>& prepare,
-                        const std::function<void(std::optional<RunStore>&)>& action) {
+  void visit_every_call(const std::function<std::optional<io::RunStore>()>& prepare,
+                        const std::function<void(std::optional<io::RunStore>&)>& action) {
     int calls = 0, ousted = 0;
     for (visited_ = true; visited_; ++calls) {
       SCOPED_TRACE("call " + std::to_string(calls + 1));
       path_ = folder_.path("run" + std::to_string(calls) + ".h5");
       if (replaces_) std::filesystem::copy(old_path_, path_);
-      std::optional<RunStore> store = prepare();
+      std::optional<io::RunStore> store = prepare();
       visited_ = false;
       faults::arm({.kind = faults::Kind::visit, .call = calls + 1, .visit = &TakenOver::take_over});
       try {
@@ -314,14 +315,14 @@ class TakenOver : public testing::Test {
       faults::arm({});
       if (successor_) finish(store, calls % 8 == 0);
       store.reset();
-      std::filesystem::remove_all(run_folder(path_));
+      std::filesystem::remove_all(io::run_folder(path_));
       std::filesystem::remove(path_);
     }
     EXPECT_GT(ousted, 5) << "of " << calls;
   }
 
   /// Of two, the last one that took the lock goes on; the other is refused, and leaves what is there.
-  void finish(std::optional<RunStore>& store, bool packs) {
+  void finish(std::optional<io::RunStore>& store, bool packs) {
     try {
       commit_next();
       EXPECT_FALSE(is_complete()) << "by the one that was ousted";
@@ -332,7 +333,7 @@ class TakenOver : public testing::Test {
       return;
     }
     EXPECT_EQ(commits_in(path_), done_);
-    const RunFile run = RunFile::open(path_);
+    const io::RunFile run = io::RunFile::open(path_);
     EXPECT_EQ(run.checkpoint().timing[0].second, mark);
     EXPECT_EQ(
         std::ranges::count(run.all_observables(), mark, [](const ObservableRow& row) { return row[0]; }),
@@ -341,13 +342,13 @@ class TakenOver : public testing::Test {
     if (packs) {  // which takes longer than all else
       successor_->pack();
       EXPECT_EQ(commits_in(path_), done_);
-      EXPECT_FALSE(std::filesystem::exists(run_folder(path_))) << "leftovers";
+      EXPECT_FALSE(std::filesystem::exists(io::run_folder(path_))) << "leftovers";
     }
     successor_.reset();
   }
 
-  static std::optional<RunStore> begun(int count) {
-    RunStore store = RunStore::create(path_, example::header(), true);
+  static std::optional<io::RunStore> begun(int count) {
+    io::RunStore store = io::RunStore::create(path_, example::header(), true);
     for (int k = 0; k < count; ++k) store.commit(example::segment(k), example::checkpoint(k));
     return store;
   }
@@ -355,15 +356,15 @@ class TakenOver : public testing::Test {
   example::TemporaryFolder folder_;
   std::string old_path_ = folder_.path("old.h5");
   static inline std::string path_;
-  static inline std::optional<RunStore> successor_;
+  static inline std::optional<io::RunStore> successor_;
   static inline int done_ = 0, marked_ = 0;
   static inline bool visited_ = false, replaces_ = false;
 };
 
 TEST_F(TakenOver, when_it_begins_a_run_it_leaves_that_of_its_successor_whole) {
   visit_every_call([] { return std::nullopt; },
-                   [](std::optional<RunStore>& store) {
-                     store = RunStore::create(path_, example::header(), true);
+                   [](std::optional<io::RunStore>& store) {
+                     store = io::RunStore::create(path_, example::header(), true);
                      store->commit(example::segment(0), example::checkpoint(0));
                    });
 }
@@ -371,7 +372,7 @@ TEST_F(TakenOver, when_it_begins_a_run_it_leaves_that_of_its_successor_whole) {
 TEST_F(TakenOver, within_a_commit_it_leaves_the_run_of_its_successor_whole) {
   visit_every_call(
       [] { return begun(1); },
-      [](std::optional<RunStore>& store) { store->commit(example::segment(1), example::checkpoint(1)); });
+      [](std::optional<io::RunStore>& store) { store->commit(example::segment(1), example::checkpoint(1)); });
 }
 
 TEST_F(TakenOver, when_it_resumes_it_leaves_the_run_of_its_successor_whole) {
@@ -380,10 +381,10 @@ TEST_F(TakenOver, when_it_resumes_it_leaves_the_run_of_its_successor_whole) {
         begun(2);
         return std::nullopt;
       },
-      [](std::optional<RunStore>& store) {
-        RunHeader header;
-        Checkpoint checkpoint;
-        store = RunStore::resume(path_, header, checkpoint);
+      [](std::optional<io::RunStore>& store) {
+        io::RunHeader header;
+        io::Checkpoint checkpoint;
+        store = io::RunStore::resume(path_, header, checkpoint);
         if (const int next = commits_at(checkpoint); next < commits)
           store->commit(example::segment(next), example::checkpoint(next));
       });
@@ -393,7 +394,7 @@ TEST_F(TakenOver, when_it_resumes_it_leaves_the_run_of_its_successor_whole) {
 TEST_F(TakenOver, when_it_packs_it_leaves_the_run_of_its_successor_whole) {
   begin_old_run(old_path_, true);
   replaces_ = true;
-  visit_every_call([] { return begun(1); }, [](std::optional<RunStore>& store) { store->pack(); });
+  visit_every_call([] { return begun(1); }, [](std::optional<io::RunStore>& store) { store->pack(); });
 }
 
 }  // namespace

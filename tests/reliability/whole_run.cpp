@@ -54,14 +54,14 @@ const char* const small_bed =
     "checkpoint_every = 0.05\n";
 
 std::string digest(const std::string& path) {
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   Hasher hasher;
   hasher.add_array(run.header().scenario_resolved);
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) add(hasher, run.frame(k));
   hasher.add_array(run.all_observables());
   hasher.add_array(run.steps());
   hasher.add(static_cast<std::uint64_t>(run.commands().size()));
-  const Checkpoint& checkpoint = run.checkpoint();
+  const io::Checkpoint& checkpoint = run.checkpoint();
   for (const auto& [name, value] : checkpoint.integers) hasher.add(value);
   for (const auto& [name, value] : checkpoint.reals) hasher.add(value);
   for (const auto& [name, value] : checkpoint.results) hasher.add(value);
@@ -76,8 +76,8 @@ std::string frame_digest(const Frame& frame) {
 }
 
 int committed_frames(const std::string& path) {
-  if (run_presence(path) == RunPresence::none) return 0;
-  const RunFile run = RunFile::open(path);
+  if (io::run_presence(path) == io::RunPresence::none) return 0;
+  const io::RunFile run = io::RunFile::open(path);
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) run.frame(k);
   return static_cast<int>(run.all_frame_tilts().size());
 }

@@ -14,10 +14,10 @@
 namespace talus::test {
 
 /// Compares with tests/golden/NAME.png, and leaves the picture beside the tests.
-inline void expect_golden(const Image& image, const std::string& name) {
+inline void expect_golden(const render::Image& image, const std::string& name) {
   const std::string drawn = std::string(test::build_folder() + "/").append(name).append(".png");
-  write_png(drawn, image);
-  const Image golden =
+  render::write_png(drawn, image);
+  const render::Image golden =
       read_png(std::string(test::source_folder() + "/tests/golden/").append(name).append(".png"));
   ASSERT_EQ(image.width, golden.width) << "see " << drawn;
   ASSERT_EQ(image.height, golden.height) << "see " << drawn;

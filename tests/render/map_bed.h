@@ -35,10 +35,10 @@ inline Packing row_of_grains(const std::vector<double>& gamma, bool periodic = f
 }
 
 /// Gamma_c = sin 30 deg = 0.5; gamma is that of single grains.
-inline MapSettings settings_of(const std::string& layers) {
-  MapSettings settings;
+inline pictures::MapSettings settings_of(const std::string& layers) {
+  pictures::MapSettings settings;
   settings.l_min = 0.0;
-  settings.layers = map_layers(layers);
+  settings.layers = pictures::map_layers(layers);
   settings.theta_c = radians(30.0);
   return settings;
 }
@@ -49,19 +49,19 @@ inline double gamma_shade(double gamma, double gamma_c) {
   return std::isnan(gamma) ? 0.0 : std::clamp((gamma - 0.05) / (2.0 * gamma_c - 0.05), 0.0, 1.0);
 }
 
-inline MapExtent extent_of(const Packing& packing) {
-  MapExtent extent = bed_extent(packing.statics);
-  extend(extent, {packing.frame, packing.statics});
+inline pictures::MapExtent extent_of(const Packing& packing) {
+  pictures::MapExtent extent = pictures::bed_extent(packing.statics);
+  pictures::extend(extent, {packing.frame, packing.statics});
   return extent;
 }
 
-inline FrameView map_of(const Packing& packing, const MapSettings& settings, const Frame* reference = nullptr,
-                        bool per_degree = true) {
-  return make_map({{packing.frame, packing.statics}, reference, per_degree, {}}, settings,
-                  extent_of(packing));
+inline render::FrameView map_of(const Packing& packing, const pictures::MapSettings& settings,
+                                const Frame* reference = nullptr, bool per_degree = true) {
+  return pictures::make_map({{packing.frame, packing.statics}, reference, per_degree, {}}, settings,
+                            extent_of(packing));
 }
 
-inline FrameView map_of(const Packing& packing, const std::string& layers) {
+inline render::FrameView map_of(const Packing& packing, const std::string& layers) {
   return map_of(packing, settings_of(layers));
 }
 

@@ -10,8 +10,9 @@
 
 int main(int argc, char** argv) {
   try {
-    talus::Renderer renderer(talus::make_context(talus::context_kind(argc > 1 ? argv[1] : "auto")));
-    const talus::Image image = renderer.draw(talus::test::full_view(), 800);
+    talus::render::Renderer renderer(
+        talus::render::make_context(talus::render::context_kind(argc > 1 ? argv[1] : "auto")));
+    const talus::render::Image image = renderer.draw(talus::test::full_view(), 800);
     std::printf("%s\n", talus::hash_text(talus::hash_bytes(std::as_bytes(std::span(image.pixels)))).c_str());
     return 0;
   } catch (const talus::Error& error) {

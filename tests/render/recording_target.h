@@ -9,19 +9,19 @@ namespace talus::test {
 
 struct Recording {
   int width = 0, height = 0, begun = 0, ended = 0;
-  PixelFormat format = PixelFormat::gray;
-  std::vector<std::vector<Disc>> discs;  ///< of each draw, in order
-  std::vector<std::vector<Line>> lines;
-  std::vector<Window> disc_windows, line_windows;
-  std::vector<std::vector<FurnitureVertex>> triangles;
+  render::PixelFormat format = render::PixelFormat::gray;
+  std::vector<std::vector<render::Disc>> discs;  ///< of each draw, in order
+  std::vector<std::vector<render::Line>> lines;
+  std::vector<render::Window> disc_windows, line_windows;
+  std::vector<std::vector<render::FurnitureVertex>> triangles;
 };
 
 /// Fills the recording of its owner. Pictures come out blank.
-class RecordingTarget final : public Target {
+class RecordingTarget final : public render::Target {
  public:
   explicit RecordingTarget(Recording& recording) : recording_(recording) {}
 
-  void begin(int width, int height, PixelFormat format) override {
+  void begin(int width, int height, render::PixelFormat format) override {
     const int begun = recording_.begun + 1, ended = recording_.ended;
     recording_ = {};
     recording_.width = width;
@@ -30,23 +30,24 @@ class RecordingTarget final : public Target {
     recording_.begun = begun;
     recording_.ended = ended;
   }
-  void draw_discs(std::span<const Disc> discs, const Window& window) override {
+  void draw_discs(std::span<const render::Disc> discs, const render::Window& window) override {
     recording_.discs.emplace_back(discs.begin(), discs.end());
     recording_.disc_windows.push_back(window);
   }
-  void draw_lines(std::span<const Line> lines, const Window& window) override {
+  void draw_lines(std::span<const render::Line> lines, const render::Window& window) override {
     recording_.lines.emplace_back(lines.begin(), lines.end());
     recording_.line_windows.push_back(window);
   }
-  void draw_triangles(std::span<const FurnitureVertex> triangles, const GlyphAtlas&) override {
+  void draw_triangles(std::span<const render::FurnitureVertex> triangles,
+                      const render::GlyphAtlas&) override {
     recording_.triangles.emplace_back(triangles.begin(), triangles.end());
   }
-  Image end() override {
+  render::Image end() override {
     ++recording_.ended;
-    const int channels = recording_.format == PixelFormat::gray     ? 1
-                         : recording_.format == PixelFormat::colour ? 3
-                                                                    : 4;
-    Image image{recording_.width, recording_.height, channels, {}};
+    const int channels = recording_.format == render::PixelFormat::gray     ? 1
+                         : recording_.format == render::PixelFormat::colour ? 3
+                                                                            : 4;
+    render::Image image{recording_.width, recording_.height, channels, {}};
     image.pixels.assign(image.row_bytes() * static_cast<std::size_t>(image.height), 255);
     return image;
   }

@@ -9,20 +9,21 @@
 namespace talus::test {
 
 /// A colour bar with three ticks.
-inline Bar sample_bar(ColourMap map) {
-  return {"γ = q/p", colour_ramp(map), {{0.0, "0.05"}, {0.46, "Γ_c = 0.34"}, {1.0, "2Γ_c = 0.69"}}};
+inline render::Bar sample_bar(render::ColourMap map) {
+  return {"γ = q/p", render::colour_ramp(map), {{0.0, "0.05"}, {0.46, "Γ_c = 0.34"}, {1.0, "2Γ_c = 0.69"}}};
 }
 
 /// Discs of 1 cm on a square lattice, in the colours of a map, with the furniture of a map of a bed.
-inline FrameView sample_view(int columns = 40, int rows = 10, ColourMap map = ColourMap::gray) {
-  FrameView view;
+inline render::FrameView sample_view(int columns = 40, int rows = 10,
+                                     render::ColourMap map = render::ColourMap::gray) {
+  render::FrameView view;
   view.x_max = 0.01 * columns;
   view.y_max = 0.01 * rows;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       const double share = 0.5 + 0.5 * std::sin(0.3 * column) * std::cos(0.5 * row);
       view.discs.push_back({static_cast<float>(0.01 * (column + 0.5)), static_cast<float>(0.01 * (row + 0.5)),
-                            0.0048f, colour_at(map, share), gray(0.6), 0.0f});
+                            0.0048f, render::colour_at(map, share), render::gray(0.6), 0.0f});
     }
   view.tilt = 0.2;
   view.title = "Stress ratio γ of each grain";
@@ -34,8 +35,8 @@ inline FrameView sample_view(int columns = 40, int rows = 10, ColourMap map = Co
 }
 
 /// A curve that ends at an event.
-inline Trace sample_trace(const std::string& title) {
-  Trace trace;
+inline render::Trace sample_trace(const std::string& title) {
+  render::Trace trace;
   trace.title = title;
   for (int k = 0; k <= 80; ++k) {
     trace.x.push_back(0.25 * k);
@@ -53,21 +54,22 @@ inline Trace sample_trace(const std::string& title) {
 }
 
 /// Two layers with their legends, lines, a hatched floor, a wall, two traces.
-inline FrameView full_view(int columns = 40, int rows = 10) {
-  FrameView view = sample_view(columns, rows, ColourMap::viridis);
+inline render::FrameView full_view(int columns = 40, int rows = 10) {
+  render::FrameView view = sample_view(columns, rows, render::ColourMap::viridis);
   view.title = "Stress ratio γ of each grain, and its force chains";
-  view.legends.push_back({{},
-                          {{Swatch::Kind::line, black, black, 0.4, "f_n > ⟨f_n⟩"},
-                           {Swatch::Kind::line, gray(0.4), black, 0.1, "f_n ≤ ⟨f_n⟩"},
-                           {Swatch::Kind::disc, white, gray(0.45), 0.0, "spans floor to surface"}}});
+  view.legends.push_back(
+      {{},
+       {{render::Swatch::Kind::line, render::black, render::black, 0.4, "f_n > ⟨f_n⟩"},
+        {render::Swatch::Kind::line, render::gray(0.4), render::black, 0.1, "f_n ≤ ⟨f_n⟩"},
+        {render::Swatch::Kind::disc, render::white, render::gray(0.45), 0.0, "spans floor to surface"}}});
   for (int k = 0; k + 3 < columns; k += 3) {
     const auto x = static_cast<float>(0.01 * (k + 0.5));
     const auto top = static_cast<float>(view.y_max) - 0.005f;
-    view.lines.push_back({x, 0.005f, x + 0.02f, top, 0.0002f * static_cast<float>(k % 7), gray(0.9)});
+    view.lines.push_back({x, 0.005f, x + 0.02f, top, 0.0002f * static_cast<float>(k % 7), render::gray(0.9)});
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(columns); ++k) {
     view.discs[k].hatched = 1.0f;
-    view.discs[k].fill = white;
+    view.discs[k].fill = render::white;
   }
   view.left_wall = view.right_wall = true;
   view.traces = {sample_trace("p_o, overloaded grains"), sample_trace("ΔV/V, volume strain")};

@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "render/arrange.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 TEST(Arrange, images_stand_beside_each_other_on_white_ground) {
@@ -27,4 +27,4 @@ TEST(Arrange, ground_is_clear_where_images_are) {
 TEST(Arrange, channels_must_agree) { EXPECT_THROW(beside({{1, 1, 1, {0}}, {1, 1, 3, {0, 0, 0}}}), Error); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -7,7 +7,7 @@
 #include "pictures/change_map.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::extent_of, test::Packing, test::row_of_grains, test::settings_of;
@@ -21,15 +21,15 @@ struct Changed {
     now.frame.tilt = radians(7.0);
     before.frame.tilt = radians(5.0);
   }
-  MapFrame frame() const { return {{now.frame, now.statics}, &before.frame, false}; }
+  pictures::MapFrame frame() const { return {{now.frame, now.statics}, &before.frame, false}; }
   FrameView map(const std::string& layers) const {
-    return make_change_map(frame(), settings_of(layers), extent_of(now));
+    return pictures::make_change_map(frame(), settings_of(layers), extent_of(now));
   }
 };
 
 TEST(ChangeMap, IsTheDifferenceOnAScaleAboutZero) {
   const Changed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
-  const auto layers = change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
   ASSERT_EQ(layers.size(), 2u);
   ASSERT_EQ(layers[0].values.size(), 3u);
   EXPECT_NEAR(layers[0].values[0], 0.2, 1e-12);
@@ -55,11 +55,11 @@ TEST(ChangeMap, GrainsThatHaveNoValueInOneFrameAreOutlines) {
 
 TEST(ChangeMap, ARangeThatIsChosenForTheMapIsNotThatOfItsChange) {
   const Changed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
-  MapSettings settings = settings_of("gamma");
+  pictures::MapSettings settings = settings_of("gamma");
   settings.range_low = 0.0;
   settings.range_high = 0.1;
   settings.colours = ColourMap::viridis;
-  EXPECT_EQ(make_change_map(changed.frame(), settings, extent_of(changed.now)).discs[0].fill,
+  EXPECT_EQ(pictures::make_change_map(changed.frame(), settings, extent_of(changed.now)).discs[0].fill,
             changed.map("gamma").discs[0].fill);
 }
 
@@ -67,7 +67,7 @@ TEST(ChangeMap, OfALogarithmicMapIsInPowersOfTen) {
   Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   changed.before.frame.vx = {0.01, 0.01, 0.0};
   changed.now.frame.vx = {1.0, 0.001, 1.0};
-  const auto layers = change_layers(changed.frame(), settings_of("speed"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("speed"), extent_of(changed.now));
   EXPECT_NEAR(layers[0].values[0], 2.0, 1e-12);
   EXPECT_NEAR(layers[0].values[1], -1.0, 1e-12);
   EXPECT_TRUE(std::isnan(layers[0].values[2])) << "from rest";
@@ -75,14 +75,14 @@ TEST(ChangeMap, OfALogarithmicMapIsInPowersOfTen) {
 }
 
 TEST(ChangeMap, WhereAMapGivesNoNumbersGrainsHaveMoved) {
-  EXPECT_EQ(changing_kind(map_layers("gamma+forces")), MapKind::gamma);
-  EXPECT_EQ(changing_kind(map_layers("forces+coarse")), MapKind::coarse);
-  EXPECT_EQ(changing_kind(map_layers("clusters")), MapKind::gamma);
-  EXPECT_EQ(changing_kind(map_layers("forces")), MapKind::displacement);
-  EXPECT_EQ(changing_kind(map_layers("rotation")), MapKind::rotation);
+  EXPECT_EQ(pictures::changing_kind(pictures::map_layers("gamma+forces")), pictures::MapKind::gamma);
+  EXPECT_EQ(pictures::changing_kind(pictures::map_layers("forces+coarse")), pictures::MapKind::coarse);
+  EXPECT_EQ(pictures::changing_kind(pictures::map_layers("clusters")), pictures::MapKind::gamma);
+  EXPECT_EQ(pictures::changing_kind(pictures::map_layers("forces")), pictures::MapKind::displacement);
+  EXPECT_EQ(pictures::changing_kind(pictures::map_layers("rotation")), pictures::MapKind::rotation);
   Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   changed.now.frame.x[1] += 0.25;
-  const auto layers = change_layers(changed.frame(), settings_of("forces"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("forces"), extent_of(changed.now));
   EXPECT_EQ(layers[0].values, (std::vector<double>{0.0, 0.25, 0.0})) << "in all, not per degree";
 }
 
@@ -92,11 +92,11 @@ TEST(ChangeMap, EveryMapHasAChange) {
     packing->frame.internal_moment.assign(3, {1.0, 0.0, 0.0, 1.0});
     packing->statics.depth = 1.0;
   }
-  for (const MapKind kind : map_kinds()) {
-    MapSettings settings = settings_of(std::string(map_name(kind)));
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
+    pictures::MapSettings settings = settings_of(std::string(pictures::map_name(kind)));
     settings.length = 2.0;
-    const auto layers = change_layers(changed.frame(), settings, extent_of(changed.now));
-    EXPECT_EQ(layers[0].values.size(), 3u) << map_name(kind);
+    const auto layers = pictures::change_layers(changed.frame(), settings, extent_of(changed.now));
+    EXPECT_EQ(layers[0].values.size(), 3u) << pictures::map_name(kind);
   }
 }
 
@@ -105,7 +105,7 @@ TEST(ChangeMap, GainedContactsAreWholeLinesAndLostOnesStubs) {
   test::add_contact(changed.before, 0, 1, 1.0);
   test::add_contact(changed.now, 1, 2, 1.0);
   changed.now.frame.x[0] -= 0.25;
-  const auto layers = change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
   const std::vector<Line>& lines = layers[1].lines;
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_FLOAT_EQ(lines[0].x0, 0.25f);
@@ -128,7 +128,7 @@ TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
   changed.now.frame.x[0] = 2.9;                           // out on the left: now it is seen on the right
   changed.now.frame.image[0] = -1;
   changed.now.frame.x[2] = 2.0;
-  const auto layers = change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
   ASSERT_EQ(layers[1].lines.size(), 2u);
   EXPECT_FLOAT_EQ(layers[1].lines[0].x0, 2.9f);
   EXPECT_FLOAT_EQ(layers[1].lines[0].x1, 2.4f);
@@ -140,7 +140,7 @@ TEST(ChangeMap, ALostContactPointsThroughTheEdgeThatItsGrainHasLeftThrough) {
   changed.now.frame.x[0] = 2.9;                  // out on the left
   changed.now.frame.image[0] = -1;
   changed.now.frame.x[2] = 2.0;
-  const auto layers = change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
+  const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
   ASSERT_EQ(layers[1].lines.size(), 2u);
   EXPECT_FLOAT_EQ(layers[1].lines[0].x0, 2.9f);
   EXPECT_FLOAT_EQ(layers[1].lines[0].x1, 3.4f);
@@ -149,10 +149,10 @@ TEST(ChangeMap, ALostContactPointsThroughTheEdgeThatItsGrainHasLeftThrough) {
 TEST(ChangeMap, NothingHasChangedWithoutAReference) {
   const Packing packing = row_of_grains({0.1, 0.2, 0.3});
   const auto layers =
-      change_layers({{packing.frame, packing.statics}}, settings_of("gamma"), extent_of(packing));
+      pictures::change_layers({{packing.frame, packing.statics}}, settings_of("gamma"), extent_of(packing));
   EXPECT_EQ(layers[0].values, (std::vector<double>(3, 0.0)));
   EXPECT_TRUE(layers[1].lines.empty());
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

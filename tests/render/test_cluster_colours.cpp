@@ -8,7 +8,7 @@
 #include "pictures/overload_rule.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::map_of;
@@ -16,12 +16,12 @@ using test::Packing;
 using test::settings_of;
 
 /// Grains in a row, one letter each; grains with the same letter are a cluster, a dot is in none.
-Clusters clusters_of(const std::string& letters) {
+analysis::Clusters clusters_of(const std::string& letters) {
   std::vector<std::pair<Index, char>> sizes;
   for (const char letter : std::set<char>(letters.begin(), letters.end()))
     if (letter != '.') sizes.emplace_back(-static_cast<Index>(std::ranges::count(letters, letter)), letter);
   std::ranges::sort(sizes);
-  Clusters clusters;
+  analysis::Clusters clusters;
   std::map<char, Index> label = {{'.', -1}};
   for (const auto& [size, letter] : sizes) {
     label[letter] = clusters.count();
@@ -35,7 +35,7 @@ Clusters clusters_of(const std::string& letters) {
 std::string times(int count, char letter) { return std::string(static_cast<std::size_t>(count), letter); }
 
 TEST(ClusterColours, KeepTheirsWhileClustersGrowAndShrink) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   const auto first = colours.next(clusters_of(times(20, 'a') + times(15, 'b') + times(15, '.')));
   ASSERT_EQ(first.size(), 2u);
   EXPECT_NE(first[0].palette_index, first[1].palette_index);
@@ -48,7 +48,7 @@ TEST(ClusterColours, KeepTheirsWhileClustersGrowAndShrink) {
 }
 
 TEST(ClusterColours, AMergerTakesTheColourOfTheLarger) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   const auto parts = colours.next(clusters_of(times(15, 'a') + "." + times(20, 'b')));
   const auto whole = colours.next(clusters_of(times(36, 'c')));
   EXPECT_EQ(whole[0].track, parts[0].track);
@@ -56,7 +56,7 @@ TEST(ClusterColours, AMergerTakesTheColourOfTheLarger) {
 }
 
 TEST(ClusterColours, TheLargestPieceOfASplitKeepsTheColour) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   const auto whole = colours.next(clusters_of(times(40, 'a')));
   // The second piece is the larger cluster now, but it has less of the old one.
   const auto pieces = colours.next(clusters_of(times(22, 'a') + "." + times(17, 'b') + times(20, 'b')));
@@ -67,7 +67,7 @@ TEST(ClusterColours, TheLargestPieceOfASplitKeepsTheColour) {
 }
 
 TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   const auto small = colours.next(clusters_of(times(9, 'a')));
   EXPECT_EQ(small[0].palette_index, -1);
   EXPECT_EQ(small[0].track, 0);
@@ -81,13 +81,13 @@ TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
 }
 
 TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   std::string letters;
-  const auto palette = static_cast<int>(cluster_palette().size());
+  const auto palette = static_cast<int>(pictures::cluster_palette().size());
   for (int k = 0; k < palette; ++k) letters += times(10 + k, static_cast<char>('a' + k));
   const auto first = colours.next(clusters_of(letters));
   std::set<int> used;
-  for (const ClusterColour& colour : first) used.insert(colour.palette_index);
+  for (const pictures::ClusterColour& colour : first) used.insert(colour.palette_index);
   EXPECT_EQ(used.size(), static_cast<std::size_t>(palette)) << "all colours before any twice";
   const int least = first.back().palette_index;  // of the smallest cluster
   const auto second = colours.next(clusters_of(letters + times(10, 'z')));
@@ -95,14 +95,14 @@ TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
 }
 
 TEST(ClusterColours, AVanishedClusterDoesNotComeBack) {
-  ClusterColours colours;
+  pictures::ClusterColours colours;
   const auto before = colours.next(clusters_of(times(12, 'a')));
   EXPECT_TRUE(colours.next(clusters_of(times(12, '.'))).empty());
   EXPECT_NE(colours.next(clusters_of(times(12, 'a')))[0].track, before[0].track);
 }
 
 TEST(ClusterPalette, IsDarkerThanWhiteAndOfDifferentColours) {
-  const std::vector<Colour> palette = cluster_palette();
+  const std::vector<Colour> palette = pictures::cluster_palette();
   EXPECT_GE(palette.size(), 12u);
   for (std::size_t k = 0; k < palette.size(); ++k) {
     EXPECT_LT(luma(palette[k]), 205.0);
@@ -136,7 +136,7 @@ TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
   packing.frame.gamma.resize(packing.frame.x.size(), 0.1);
   test::complete(packing);
   const FrameView view = map_of(packing, "clusters");
-  const std::vector<Colour> palette = cluster_palette();
+  const std::vector<Colour> palette = pictures::cluster_palette();
   EXPECT_EQ(view.discs[0].fill, palette[0]);
   EXPECT_NE(view.discs[0].rim, black);
   EXPECT_EQ(view.discs[12].fill, gray(0.4)) << "three grains have no colour";
@@ -158,24 +158,25 @@ TEST(ClustersMap, SaysNothingOfSpanningWhereNoClusterSpans) {
 
 TEST(ClustersMap, TakesTheColoursThatAreGiven) {
   const Packing packing = bed_with_clusters();
-  const std::vector<ClusterColour> colours = {{7, 5}, {8, -1}};
-  const FrameView view = make_map({{packing.frame, packing.statics}, nullptr, true, colours},
-                                  settings_of("clusters"), test::extent_of(packing));
-  EXPECT_EQ(view.discs[0].fill, cluster_palette()[5]);
+  const std::vector<pictures::ClusterColour> colours = {{7, 5}, {8, -1}};
+  const FrameView view = pictures::make_map({{packing.frame, packing.statics}, nullptr, true, colours},
+                                            settings_of("clusters"), test::extent_of(packing));
+  EXPECT_EQ(view.discs[0].fill, pictures::cluster_palette()[5]);
   EXPECT_EQ(view.discs[12].fill, gray(0.4));
 }
 
 TEST(OverloadedClusters, AreJoinedByForcesOrByNeighbours) {
   Packing packing = test::row_of_grains({0.9, 0.9, 0.4, 0.9});
-  MapSettings settings = settings_of("clusters");
-  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 3) << "no force";
+  pictures::MapSettings settings = settings_of("clusters");
+  EXPECT_EQ(pictures::overloaded_clusters({packing.frame, packing.statics}, settings).count(), 3)
+      << "no force";
   settings.joined_by_neighbours = true;
-  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 2);
+  EXPECT_EQ(pictures::overloaded_clusters({packing.frame, packing.statics}, settings).count(), 2);
   settings.threshold_factor = 0.5;
-  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 1);
+  EXPECT_EQ(pictures::overloaded_clusters({packing.frame, packing.statics}, settings).count(), 1);
   settings.threshold_factor = 2.0;
-  EXPECT_EQ(overloaded_clusters({packing.frame, packing.statics}, settings).count(), 0);
+  EXPECT_EQ(pictures::overloaded_clusters({packing.frame, packing.statics}, settings).count(), 0);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "render/colour_map.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 std::string text_of(const Colour& c) {
@@ -89,4 +89,4 @@ TEST(ColourMap, IsFoundByItsName) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -10,7 +10,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 struct Outcome {
@@ -196,4 +196,4 @@ TEST(Context, KindsHaveNames) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -3,7 +3,7 @@
 #include "base/errors.h"
 #include "render/font.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 TEST(Font, HasEveryListedCodePoint) {
@@ -57,4 +57,4 @@ TEST(Font, NumbersKeepTheirUnitsWhenALineIsBroken) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

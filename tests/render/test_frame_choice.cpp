@@ -6,7 +6,7 @@
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -20,29 +20,30 @@ std::vector<double> run_tilts() {
 }
 
 TEST(FrameChoice, TakesTheNearestFrames) {
-  const FrameChoice choice = frames_at(run_tilts(), {"5", "0", "10.1", "repose", "5.0"}, radians(16.9));
-  EXPECT_EQ(choice, (FrameChoice{0, 20, 40, 67}));
-  EXPECT_EQ(frames_at(run_tilts(), {"0.125"}, nan), FrameChoice{0});
+  const pictures::FrameChoice choice =
+      pictures::frames_at(run_tilts(), {"5", "0", "10.1", "repose", "5.0"}, radians(16.9));
+  EXPECT_EQ(choice, (pictures::FrameChoice{0, 20, 40, 67}));
+  EXPECT_EQ(pictures::frames_at(run_tilts(), {"0.125"}, nan), pictures::FrameChoice{0});
 }
 
 TEST(FrameChoice, NearIsWithinHalfTheSpacing) {
-  EXPECT_EQ(frame_near(run_tilts(), radians(5.1)), 20u);
-  EXPECT_EQ(frame_near(run_tilts(), radians(17.37)), 70u);
-  EXPECT_FALSE(frame_near(run_tilts(), radians(17.4)).has_value());
-  EXPECT_FALSE(frame_near({radians(7.0), radians(7.5)}, 0.0).has_value());
+  EXPECT_EQ(pictures::frame_near(run_tilts(), radians(5.1)), 20u);
+  EXPECT_EQ(pictures::frame_near(run_tilts(), radians(17.37)), 70u);
+  EXPECT_FALSE(pictures::frame_near(run_tilts(), radians(17.4)).has_value());
+  EXPECT_FALSE(pictures::frame_near({radians(7.0), radians(7.5)}, 0.0).has_value());
 }
 
 TEST(FrameChoice, TheNearestIsByTilt) {
-  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
-  EXPECT_EQ(nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);
-  EXPECT_FALSE(nearest_frame({0.0, 1.0}, std::nan("")).has_value());
-  EXPECT_FALSE(nearest_frame({}, 1.0).has_value());
+  EXPECT_EQ(pictures::nearest_frame({0.0, 1.0, 2.0}, 1.6), 2u);
+  EXPECT_EQ(pictures::nearest_frame({0.0, 1.0, 2.0}, -3.0), 0u);
+  EXPECT_FALSE(pictures::nearest_frame({0.0, 1.0}, std::nan("")).has_value());
+  EXPECT_FALSE(pictures::nearest_frame({}, 1.0).has_value());
 }
 
 TEST(FrameChoice, RefusesWhatIsNotThere) {
   const auto code = [](const std::string& entry, double theta_c) {
     try {
-      frames_at(run_tilts(), {entry}, theta_c);
+      pictures::frames_at(run_tilts(), {entry}, theta_c);
     } catch (const Error& error) {
       return error.code();
     }
@@ -57,16 +58,16 @@ TEST(FrameChoice, RefusesWhatIsNotThere) {
 }
 
 TEST(FrameChoice, TakesFramesByTheirNumbers) {
-  EXPECT_EQ(frames_listed({"7", "2-4", "3"}, 8), (FrameChoice{2, 3, 4, 7}));
-  EXPECT_EQ(frames_listed({"0"}, 1), FrameChoice{0});
+  EXPECT_EQ(pictures::frames_listed({"7", "2-4", "3"}, 8), (pictures::FrameChoice{2, 3, 4, 7}));
+  EXPECT_EQ(pictures::frames_listed({"0"}, 1), pictures::FrameChoice{0});
   for (const char* entry : {"", "-1", "1-", "4-2", "1.5", "1-2-3", " 1", "a", "99999999999999999999"}) try {
-      frames_listed({entry}, 8);
+      pictures::frames_listed({entry}, 8);
       ADD_FAILURE() << entry;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage) << entry;
     }
   try {
-    frames_listed({"6-8"}, 8);
+    pictures::frames_listed({"6-8"}, 8);
     ADD_FAILURE() << "there is no frame 8";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
@@ -75,28 +76,29 @@ TEST(FrameChoice, TakesFramesByTheirNumbers) {
 }
 
 TEST(FrameChoice, ReposeIsTheLastFrameNotAboveThetaC) {
-  EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.0)), 68u);
-  EXPECT_EQ(frame_at_repose(run_tilts(), radians(17.24)), 68u);
-  EXPECT_EQ(frame_at_repose(run_tilts(), radians(60.0)), 70u);
+  EXPECT_EQ(pictures::frame_at_repose(run_tilts(), radians(17.0)), 68u);
+  EXPECT_EQ(pictures::frame_at_repose(run_tilts(), radians(17.24)), 68u);
+  EXPECT_EQ(pictures::frame_at_repose(run_tilts(), radians(60.0)), 70u);
 }
 
 TEST(FrameChoice, TakesOneFrameEveryStep) {
-  const FrameChoice choice = frames_every(run_tilts(), 1.0);
+  const pictures::FrameChoice choice = pictures::frames_every(run_tilts(), 1.0);
   ASSERT_EQ(choice.size(), 18u);
   for (std::size_t k = 0; k < choice.size(); ++k) EXPECT_EQ(choice[k], 4 * k);
-  EXPECT_EQ(frames_every(run_tilts(), 0.25).size(), 70u);
-  EXPECT_EQ(frames_every(run_tilts(), 0.0).size(), 71u);
-  EXPECT_EQ(frames_every({0.0}, 1.0), FrameChoice{0});
+  EXPECT_EQ(pictures::frames_every(run_tilts(), 0.25).size(), 70u);
+  EXPECT_EQ(pictures::frames_every(run_tilts(), 0.0).size(), 71u);
+  EXPECT_EQ(pictures::frames_every({0.0}, 1.0), pictures::FrameChoice{0});
 }
 
 TEST(FrameChoice, NamesSortAndTellFramesApart) {
   const std::vector<double> tilts = run_tilts();
-  EXPECT_EQ(angle_decimals(tilts, {0, 48}), 2);
-  EXPECT_EQ(angle_name(tilts[48], 2), "012.00");
-  EXPECT_EQ(angle_decimals(tilts, {69, 70}), 3);
-  EXPECT_EQ(angle_name(tilts[70], 3), "017.253");
-  EXPECT_EQ(angle_decimals(tilts, {69, 71, 72}), 2) << "frames of a flow have names of another kind";
-  EXPECT_THROW(angle_decimals({0.1, 0.1}, {0, 1}), Error);
+  EXPECT_EQ(pictures::angle_decimals(tilts, {0, 48}), 2);
+  EXPECT_EQ(pictures::angle_name(tilts[48], 2), "012.00");
+  EXPECT_EQ(pictures::angle_decimals(tilts, {69, 70}), 3);
+  EXPECT_EQ(pictures::angle_name(tilts[70], 3), "017.253");
+  EXPECT_EQ(pictures::angle_decimals(tilts, {69, 71, 72}), 2)
+      << "frames of a flow have names of another kind";
+  EXPECT_THROW(pictures::angle_decimals({0.1, 0.1}, {0, 1}), Error);
 }
 
 /// Up to 2 deg, held, down to -1 deg, and up to 3 deg, by 0.5 deg a frame.
@@ -109,24 +111,26 @@ std::vector<double> cycled_tilts() {
 }
 
 TEST(FrameChoice, WhereTheTiltGoesUpAndDownTheFirstFrameAtAnAngleCounts) {
-  EXPECT_EQ(frames_at(cycled_tilts(), {"1"}, nan), FrameChoice{2});
-  EXPECT_EQ(frames_at(cycled_tilts(), {"2"}, nan), FrameChoice{4}) << "where the hold begins";
-  EXPECT_EQ(frames_at(cycled_tilts(), {"-0.9"}, nan), FrameChoice{12});
-  EXPECT_EQ(frames_at(cycled_tilts(), {"3"}, nan), FrameChoice{20});
-  EXPECT_EQ(frames_at(cycled_tilts(), {"0.7"}, nan), FrameChoice{1});
-  EXPECT_FALSE(frame_near(cycled_tilts(), radians(3.3)).has_value());
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"1"}, nan), pictures::FrameChoice{2});
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"2"}, nan), pictures::FrameChoice{4})
+      << "where the hold begins";
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"-0.9"}, nan), pictures::FrameChoice{12});
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"3"}, nan), pictures::FrameChoice{20});
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"0.7"}, nan), pictures::FrameChoice{1});
+  EXPECT_FALSE(pictures::frame_near(cycled_tilts(), radians(3.3)).has_value());
 }
 
 TEST(FrameChoice, AFrameMayBeTakenByItsNumber) {
-  EXPECT_EQ(frames_at(cycled_tilts(), {"frame16", "1", "frame0"}, nan), (FrameChoice{0, 2, 16}));
+  EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"frame16", "1", "frame0"}, nan),
+            (pictures::FrameChoice{0, 2, 16}));
   for (const char* entry : {"frame", "frame-1", "frame1.5", "Frame1", "frame 1"}) try {
-      frames_at(cycled_tilts(), {entry}, nan);
+      pictures::frames_at(cycled_tilts(), {entry}, nan);
       ADD_FAILURE() << entry;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage) << entry;
     }
   try {
-    frames_at(cycled_tilts(), {"frame21"}, nan);
+    pictures::frames_at(cycled_tilts(), {"frame21"}, nan);
     ADD_FAILURE() << "there is none";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
@@ -135,27 +139,28 @@ TEST(FrameChoice, AFrameMayBeTakenByItsNumber) {
 }
 
 TEST(FrameChoice, ReposeIsInTheLastRise) {
-  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(1.6)), 17u);
-  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(2.0)), 18u);
-  EXPECT_EQ(frame_at_repose(cycled_tilts(), radians(9.0)), 20u);
+  EXPECT_EQ(pictures::frame_at_repose(cycled_tilts(), radians(1.6)), 17u);
+  EXPECT_EQ(pictures::frame_at_repose(cycled_tilts(), radians(2.0)), 18u);
+  EXPECT_EQ(pictures::frame_at_repose(cycled_tilts(), radians(9.0)), 20u);
   std::vector<double> mirrored = cycled_tilts();
   for (double& tilt : mirrored) tilt = -tilt;
-  EXPECT_EQ(frame_at_repose(mirrored, radians(1.6)), 17u) << "of the magnitude";
+  EXPECT_EQ(pictures::frame_at_repose(mirrored, radians(1.6)), 17u) << "of the magnitude";
 }
 
 TEST(FrameChoice, TakesOneFrameEveryStepOfEachWay) {
-  EXPECT_EQ(frames_every(cycled_tilts(), 1.0), (FrameChoice{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20}))
+  EXPECT_EQ(pictures::frames_every(cycled_tilts(), 1.0),
+            (pictures::FrameChoice{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20}))
       << "and where the tilt turns";
-  EXPECT_EQ(frames_every(cycled_tilts(), 0.1).size(), 21u);
+  EXPECT_EQ(pictures::frames_every(cycled_tilts(), 0.1).size(), 21u);
 }
 
 TEST(FrameChoice, MotionIsMeasuredFromAnEarlierFrame) {
-  EXPECT_EQ(reference_frame(3, {}), 2u);
-  EXPECT_EQ(reference_frame(3, 1), 1u);
-  EXPECT_FALSE(reference_frame(0, {}).has_value());
-  EXPECT_FALSE(reference_frame(1, 1).has_value()) << "it is where it is measured from";
-  EXPECT_FALSE(reference_frame(0, 1).has_value());
+  EXPECT_EQ(pictures::reference_frame(3, {}), 2u);
+  EXPECT_EQ(pictures::reference_frame(3, 1), 1u);
+  EXPECT_FALSE(pictures::reference_frame(0, {}).has_value());
+  EXPECT_FALSE(pictures::reference_frame(1, 1).has_value()) << "it is where it is measured from";
+  EXPECT_FALSE(pictures::reference_frame(0, 1).has_value());
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

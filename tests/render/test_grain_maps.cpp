@@ -9,7 +9,7 @@
 #include "base/errors.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::map_of;
@@ -17,8 +17,8 @@ using test::Packing;
 using test::row_of_grains;
 using test::settings_of;
 
-MapSettings in_gray(const std::string& layers, double low, double high) {
-  MapSettings settings = settings_of(layers);
+pictures::MapSettings in_gray(const std::string& layers, double low, double high) {
+  pictures::MapSettings settings = settings_of(layers);
   settings.colours = ColourMap::gray;
   settings.range_low = low;
   settings.range_high = high;
@@ -85,12 +85,12 @@ TEST(DyedMap, GrainsKeepTheColoursOfTheirLayerAndColumn) {
   EXPECT_LT(luma(before.discs[24].fill), luma(before.discs[0].fill)) << "the second column is darker";
   std::swap(packing.frame.y[0], packing.frame.y[23]);
   packing.frame.x[0] = 35.0;
-  MapFrame now{{packing.frame, packing.statics}};
+  pictures::MapFrame now{{packing.frame, packing.statics}};
   now.dyed_at = begin;
-  const FrameView after = make_map(now, settings_of("dyed"), test::extent_of(packing));
+  const FrameView after = pictures::make_map(now, settings_of("dyed"), test::extent_of(packing));
   for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(after.discs[i].fill, before.discs[i].fill) << i;
   now.dyed_at = std::span(begin).first(47);
-  EXPECT_EQ(make_map(now, settings_of("dyed"), test::extent_of(packing)).discs[47].fill,
+  EXPECT_EQ(pictures::make_map(now, settings_of("dyed"), test::extent_of(packing)).discs[47].fill,
             before.discs[47].fill)
       << "a grain that came later is where it is now";
 }
@@ -151,7 +151,7 @@ struct Sheared {
     now.frame.tilt = radians(7.0);
     now.frame.step = 100;
   }
-  FrameView map(const MapSettings& settings, bool per_degree) const {
+  FrameView map(const pictures::MapSettings& settings, bool per_degree) const {
     return map_of(now, settings, &before, per_degree);
   }
   Packing now;
@@ -175,7 +175,7 @@ TEST(StrainMaps, ShowTheDeformationOfNeighbourhoods) {
 TEST(StrainMaps, NonaffineIsTheRootOfTheMeanSquareThatIsLeft) {
   Sheared sheared;
   sheared.now.frame.x[40] += 0.3;  // in the bulk: for itself, all of its neighbours have moved
-  const MapSettings settings = in_gray("nonaffine", 0.03, 3.0);
+  const pictures::MapSettings settings = in_gray("nonaffine", 0.03, 3.0);
   const FrameView view = sheared.map(settings, false);
   EXPECT_TRUE(is_shade(fill_of(view, sheared.now, 40), 0.5));
   EXPECT_LT(luma(fill_of(view, sheared.now, 40)), luma(fill_of(view, sheared.now, 41)));
@@ -196,7 +196,7 @@ TEST(FieldMaps, AreCoarseGrainedOverTheLengthAsked) {
     packing.frame.vx[i] = 0.2 * std::sqrt(10.0) * packing.frame.y[i];
   const auto middle = static_cast<std::size_t>(20 * 8 + 10);
   const auto shade = [&](const std::string& map, double low, double high) {
-    MapSettings settings = in_gray(map, low, high);
+    pictures::MapSettings settings = in_gray(map, low, high);
     settings.length = 6.0;
     return luma(fill_of(map_of(packing, settings), packing, middle)) / 255.0;
   };
@@ -204,7 +204,7 @@ TEST(FieldMaps, AreCoarseGrainedOverTheLengthAsked) {
   EXPECT_NEAR(shade("shear_rate", 0.02, 2.0), 0.5, 0.02) << "0.2 sqrt(g / D)";
   EXPECT_EQ(shade("temperature", 1e-8, 1.0), 1.0) << "none in a uniform shear";
   EXPECT_EQ(map_of(packing, "stress").title, "Pressure, coarse-grained over 10 D");
-  MapSettings wide = settings_of("density");
+  pictures::MapSettings wide = settings_of("density");
   wide.length = 21.0;
   EXPECT_THROW(map_of(packing, wide), Error) << "wider than the bed";
 }
@@ -218,10 +218,10 @@ TEST(FieldMaps, PressureIsInRhoGD) {
   for (Index i = 0; i < 400; ++i)
     test::add_contact(packing, std::min(i, i % 20 < 19 ? i + 1 : i - 19),
                       std::max(i, i % 20 < 19 ? i + 1 : i - 19), 20.0, 0.0, i % 20 < 19 ? 0 : -1);
-  MapSettings settings = in_gray("stress", 0.0, 2.0);
+  pictures::MapSettings settings = in_gray("stress", 0.0, 2.0);
   settings.length = 8.0;
   EXPECT_NEAR(luma(fill_of(map_of(packing, settings), packing, 210)), 127.5, 3.0) << "20 Pa of 2 * 10 * 1";
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -3,7 +3,7 @@
 #include "base/errors.h"
 #include "render/image.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 TEST(Image, StacksFromTopToBottom) {
@@ -30,4 +30,4 @@ TEST(Image, StacksOnlyWhatFits) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

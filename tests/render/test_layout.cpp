@@ -8,7 +8,7 @@
 #include "render/sample_view.h"
 #include "render/tidy_layout.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::all_boxes;
@@ -220,4 +220,4 @@ TEST(Layout, GravityArrowPointsAlongGravity) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -8,26 +8,26 @@
 #include "pictures/traces.h"
 #include "support/exit_code.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 TEST(MapKinds, HaveNamesOfTheirOwnThatAreFoundAgain) {
   std::set<std::string_view> names;
-  for (const MapKind kind : map_kinds()) {
-    names.insert(map_name(kind));
-    EXPECT_EQ(map_layers(map_name(kind)), MapLayers{kind});
-    EXPECT_FALSE(map_help(kind).empty());
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
+    names.insert(pictures::map_name(kind));
+    EXPECT_EQ(pictures::map_layers(pictures::map_name(kind)), pictures::MapLayers{kind});
+    EXPECT_FALSE(pictures::map_help(kind).empty());
   }
   EXPECT_EQ(names.size(), 24u);
-  EXPECT_EQ(map_name(MapKind::forces), "forces");
+  EXPECT_EQ(pictures::map_name(pictures::MapKind::forces), "forces");
 }
 
 TEST(MapKinds, SayWhatTheyNeed) {
   std::string scaled, measured, averaged;
-  for (const MapKind kind : map_kinds()) {
-    if (needs_theta_c(kind)) scaled.append(" ").append(map_name(kind));
-    if (is_coarse(kind)) averaged.append(" ").append(map_name(kind));
-    if (needs_reference(kind)) measured.append(" ").append(map_name(kind));
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
+    if (pictures::needs_theta_c(kind)) scaled.append(" ").append(pictures::map_name(kind));
+    if (pictures::is_coarse(kind)) averaged.append(" ").append(pictures::map_name(kind));
+    if (pictures::needs_reference(kind)) measured.append(" ").append(pictures::map_name(kind));
   }
   EXPECT_EQ(scaled, " gamma overloaded clusters coarse");
   EXPECT_EQ(measured, " displacement rotation nonaffine shear dilation vorticity");
@@ -35,36 +35,39 @@ TEST(MapKinds, SayWhatTheyNeed) {
 }
 
 TEST(MapLayers, AreOneOrTwoDifferentMaps) {
-  EXPECT_EQ(map_layers("gamma+forces"), (MapLayers{MapKind::gamma, MapKind::forces}));
-  EXPECT_EQ(layers_name({MapKind::pressure, MapKind::critical}), "pressure+critical");
+  EXPECT_EQ(pictures::map_layers("gamma+forces"),
+            (pictures::MapLayers{pictures::MapKind::gamma, pictures::MapKind::forces}));
+  EXPECT_EQ(pictures::layers_name({pictures::MapKind::pressure, pictures::MapKind::critical}),
+            "pressure+critical");
   for (const char* name :
        {"", "Gamma", "gamma+", "+gamma", "gamma+forces+critical", "forces+forces", "gamma,forces"})
-    EXPECT_EQ(test::exit_code_of([&] { map_layers(name); }), ExitCode::usage) << name;
+    EXPECT_EQ(test::exit_code_of([&] { pictures::map_layers(name); }), ExitCode::usage) << name;
 }
 
 TEST(MapLayers, UnknownNamesAreAnsweredWithThoseThereAre) {
   try {
-    map_layers("gama");
+    pictures::map_layers("gama");
     FAIL();
   } catch (const Error& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("'gama'"), std::string::npos) << message;
-    for (const MapKind kind : map_kinds())
-      EXPECT_NE(message.find(map_name(kind)), std::string::npos) << message;
+    for (const pictures::MapKind kind : pictures::map_kinds())
+      EXPECT_NE(message.find(pictures::map_name(kind)), std::string::npos) << message;
   }
 }
 
 TEST(TraceKinds, HaveNamesThatAreFoundAgain) {
-  for (const TraceKind kind : trace_kinds()) {
-    EXPECT_EQ(trace_kinds(trace_name(kind)), std::vector<TraceKind>{kind});
-    EXPECT_FALSE(trace_quantity(kind).display.title.empty());
+  for (const pictures::TraceKind kind : pictures::trace_kinds()) {
+    EXPECT_EQ(pictures::trace_kinds(pictures::trace_name(kind)), std::vector<pictures::TraceKind>{kind});
+    EXPECT_FALSE(pictures::trace_quantity(kind).display.title.empty());
   }
-  EXPECT_EQ(trace_kinds("stress_ratio,overloaded"),
-            (std::vector<TraceKind>{TraceKind::stress_ratio, TraceKind::overloaded}));
-  EXPECT_EQ(trace_kinds("overloaded+volume_strain").size(), 2u);
+  EXPECT_EQ(
+      pictures::trace_kinds("stress_ratio,overloaded"),
+      (std::vector<pictures::TraceKind>{pictures::TraceKind::stress_ratio, pictures::TraceKind::overloaded}));
+  EXPECT_EQ(pictures::trace_kinds("overloaded+volume_strain").size(), 2u);
   for (const char* name : {"", "p_o", "overloaded,", "overloaded,overloaded"})
-    EXPECT_EQ(test::exit_code_of([&] { trace_kinds(name); }), ExitCode::usage) << name;
+    EXPECT_EQ(test::exit_code_of([&] { pictures::trace_kinds(name); }), ExitCode::usage) << name;
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

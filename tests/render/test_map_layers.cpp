@@ -8,7 +8,7 @@
 #include "base/errors.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::map_of;
@@ -18,8 +18,8 @@ using test::settings_of;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-MapSettings with_range(const std::string& layers, double low, double high) {
-  MapSettings settings = settings_of(layers);
+pictures::MapSettings with_range(const std::string& layers, double low, double high) {
+  pictures::MapSettings settings = settings_of(layers);
   settings.colours = ColourMap::gray;
   settings.range_low = low;
   settings.range_high = high;
@@ -48,7 +48,7 @@ TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
   Packing packing = row_of_grains({1.0, 1.0, 1.0, 0.0, 0.0});
   // Two grains that are loaded across cancel their deviators; the third is alone within 1 D.
   packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
-  MapSettings settings = with_range("coarse", 0.0, 1.0);
+  pictures::MapSettings settings = with_range("coarse", 0.0, 1.0);
   settings.length = 2.5;
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, white);
@@ -64,7 +64,7 @@ TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
 TEST(CoarseMap, IsWhiteAtZeroAndBlackAtOneAndAHalfGammaC) {
   Packing packing = row_of_grains({0.1, 0.1});
   packing.frame.internal_moment = {{0.75, 0, 0, 0.25}, {0.875, 0, 0, 0.125}};  // ratios 0.5, 0.75
-  MapSettings settings = settings_of("coarse");
+  pictures::MapSettings settings = settings_of("coarse");
   settings.length = 1.0;
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, gray(0.5 / 0.75)) << "Gamma_c";
@@ -107,7 +107,7 @@ std::vector<Colour> fills_of(const FrameView& view) {
 
 TEST(DisplacementMap, IsUnrolledOverThePeriodAndLogarithmic) {
   const Moved moved = moved_grains();
-  const MapSettings settings = with_range("displacement", 0.1, 10.0);
+  const pictures::MapSettings settings = with_range("displacement", 0.1, 10.0);
   const FrameView since = map_of(moved.now, settings, &moved.before.frame, false);
   const auto shade = [](double value) { return gray(0.5 * std::log10(value / 0.1)); };
   EXPECT_EQ(fills_of(since), (std::vector<Colour>{shade(0.8), shade(0.5)}));
@@ -137,8 +137,8 @@ TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
   moved.now.frame.image[0] = 0;
   moved.now.frame.x[0] = moved.before.frame.x[0] = 0.4;
   moved.now.frame.y[0] = moved.before.frame.y[0] - 0.15;
-  const FrameView view = make_map({moved.now.frame, moved.now.statics, &moved.before.frame, false},
-                                  settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
+  const FrameView view = pictures::make_map({moved.now.frame, moved.now.statics, &moved.before.frame, false},
+                                            settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
   ASSERT_EQ(view.lines.size(), 12u) << "each with a border below all";
   const auto length = [](const Line& line) { return std::hypot(line.x1 - line.x0, line.y1 - line.y0); };
   const Line& down = view.lines[6];
@@ -153,8 +153,8 @@ TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
   EXPECT_FLOAT_EQ(view.lines[10].x0, up.x1) << "the head is at the tip";
   EXPECT_FLOAT_EQ(view.lines[11].y0, up.y1);
   EXPECT_EQ(view.legends[1].swatches[0].label, "arrow = 2 × displacement, at most 2 D");
-  const FrameView rate = make_map({moved.now.frame, moved.now.statics, &moved.before.frame, true},
-                                  settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
+  const FrameView rate = pictures::make_map({moved.now.frame, moved.now.statics, &moved.before.frame, true},
+                                            settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
   EXPECT_EQ(rate.legends[1].swatches[0].label, "arrow = 5 × displacement per degree, at most 2 D");
   EXPECT_NEAR(length(rate.lines.back()), 0.41 * 5.0 * 0.5 / 2.0, 0.01) << "the head, of over two degrees";
 }
@@ -164,8 +164,8 @@ TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
   Packing packing = row_of_grains(std::vector<double>(200, 0.1));
   Frame before = packing.frame;
   for (std::size_t i = 0; i < before.y.size(); ++i) before.y[i] -= i == 7 ? 3.0 : 0.00035 * (i + 1.0);
-  const FrameView view = make_map({packing.frame, packing.statics, &before, false},
-                                  settings_of("gamma+displacement"), {0.0, 50.0, -5.0, 5.0});
+  const FrameView view = pictures::make_map({packing.frame, packing.statics, &before, false},
+                                            settings_of("gamma+displacement"), {0.0, 50.0, -5.0, 5.0});
   const auto length_at = [&view](double x) {
     for (auto line = view.lines.rbegin(); line != view.lines.rend(); ++line)
       if (std::abs(line->x0 - x) < 1e-3 && std::abs(line->x1 - x) < 1e-6) return line->y1 - line->y0;
@@ -181,10 +181,11 @@ TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
 TEST(DisplacementArrows, OfOneRangeCanBeCompared) {
   Moved moved = moved_grains();
   moved.now.frame.image[0] = 0;
-  MapSettings settings = settings_of("gamma+displacement");
-  settings.motion.fitting[MapKind::displacement] = {ScaleRange{0.01, 3.0}, ScaleRange{0.01, 3.0}};
-  const FrameView view = make_map({moved.now.frame, moved.now.statics, &moved.before.frame, false}, settings,
-                                  {0.0, 2.0, -2.0, 3.0});
+  pictures::MapSettings settings = settings_of("gamma+displacement");
+  settings.motion.fitting[pictures::MapKind::displacement] = {pictures::ScaleRange{0.01, 3.0},
+                                                              pictures::ScaleRange{0.01, 3.0}};
+  const FrameView view = pictures::make_map({moved.now.frame, moved.now.statics, &moved.before.frame, false},
+                                            settings, {0.0, 2.0, -2.0, 3.0});
   EXPECT_EQ(view.legends[1].swatches[0].label, "arrow = 0.5 × displacement, at most 2 D");
 }
 
@@ -194,14 +195,14 @@ TEST(DisplacementArrows, AreSpreadOverALongBed) {
   for (double& x : before.x) x -= 0.1;
   const FrameView whole = map_of(packing, settings_of("gamma+displacement"), &before, false);
   EXPECT_NEAR(static_cast<double>(whole.lines.size()), 2.0 * 3.0 * 60.0, 12.0);
-  const FrameView part = make_map({packing.frame, packing.statics, &before, false},
-                                  settings_of("gamma+displacement"), {100.0, 140.0, 0.0, 2.0});
+  const FrameView part = pictures::make_map({packing.frame, packing.statics, &before, false},
+                                            settings_of("gamma+displacement"), {100.0, 140.0, 0.0, 2.0});
   EXPECT_GE(part.lines.size(), 2u * 3u * 40u) << "of each grain in a part of it";
 }
 
 TEST(RotationMap, IsWhiteAtZeroAndCounterClockwisePositive) {
   const Moved moved = moved_grains();
-  MapSettings settings = settings_of("rotation");
+  pictures::MapSettings settings = settings_of("rotation");
   settings.range_low = -40.0;
   settings.range_high = 40.0;
   const FrameView view = map_of(moved.now, settings, &moved.before.frame, false);
@@ -318,10 +319,10 @@ TEST(CriticalMap, MarksContactsThatSlideAlongTheirSurfaces) {
 TEST(Lines, OutsideOfTheExtentAreLeftOut) {
   const Packing packing = chain();
   const FrameView view =
-      make_map({packing.frame, packing.statics}, settings_of("forces"), {1.8, 3.0, 0.0, 1.0});
+      pictures::make_map({packing.frame, packing.statics}, settings_of("forces"), {1.8, 3.0, 0.0, 1.0});
   ASSERT_EQ(view.lines.size(), 1u);
   EXPECT_FLOAT_EQ(view.lines[0].x0, 1.5f);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

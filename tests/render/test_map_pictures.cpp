@@ -11,7 +11,7 @@
 #include "render/renderer.h"
 #include "render/tidy_layout.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// A lattice of 30 x 8 grains above a row of floor grains, with forces, spins and displacements that vary in
@@ -87,11 +87,11 @@ TEST(MapPictures, LookAsBefore) {
                            "gamma+forces",
                            "pressure+overloaded",
                            "clusters+displacement"}) {
-    MapSettings settings = test::settings_of(name);
+    pictures::MapSettings settings = test::settings_of(name);
     settings.length = 5.0;
-    settings.l_min = default_l_min;
+    settings.l_min = analysis::default_l_min;
     test::Packing packing = scene.packing;
-    packing.frame = mapped_frame(packing.frame, packing.statics, settings.l_min);
+    packing.frame = pictures::mapped_frame(packing.frame, packing.statics, settings.l_min);
     const FrameView view = test::map_of(packing, settings, &scene.before);
     test::expect_golden(renderer.draw(view, 500), std::string("map_").append(name));
   }
@@ -101,20 +101,21 @@ TEST(MapPictures, HaveRoomForAllTheirTexts) {
   const Scene scene = make_scene();
   const Font font = embedded_font();
   const std::vector<double> tilts = {0.0, 0.1, 0.2, 0.3}, values = {0.31, 0.352, 0.4, 0.6};
-  for (const MapKind lower : map_kinds())
-    for (const MapKind upper : map_kinds()) {
-      const std::string name(map_name(lower)), both = name + "+" + std::string(map_name(upper));
-      MapSettings settings = test::settings_of(lower == upper ? name : both);
+  for (const pictures::MapKind lower : pictures::map_kinds())
+    for (const pictures::MapKind upper : pictures::map_kinds()) {
+      const std::string name(pictures::map_name(lower)),
+          both = name + "+" + std::string(pictures::map_name(upper));
+      pictures::MapSettings settings = test::settings_of(lower == upper ? name : both);
       settings.length = 5.0;
       settings.theta_c_assumed = true;  // the longest caption
       settings.l_min = 2.25;            // and the longest titles
       FrameView view = test::map_of(scene.packing, settings, &scene.before);
-      for (const TraceKind trace : trace_kinds())
-        view.traces.push_back(make_trace(trace, tilts, values, settings, 0.2));
+      for (const pictures::TraceKind trace : pictures::trace_kinds())
+        view.traces.push_back(pictures::make_trace(trace, tilts, values, settings, 0.2));
       for (const int width : {400, 1600, 8000})
         test::expect_tidy(lay_out(view, width, font), both + " at " + std::to_string(width) + " px");
     }
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -7,7 +7,7 @@
 #include "render/map_bed.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::gamma_shade;
@@ -27,8 +27,9 @@ Packing one_grain(double x) {
   return packing;
 }
 
-FrameView part_of(const Packing& packing, const MapExtent& extent, const std::string& layers = "gamma") {
-  return make_map({{packing.frame, packing.statics}}, settings_of(layers), extent);
+FrameView part_of(const Packing& packing, const pictures::MapExtent& extent,
+                  const std::string& layers = "gamma") {
+  return pictures::make_map({{packing.frame, packing.statics}}, settings_of(layers), extent);
 }
 
 TEST(GammaMap, IsWhiteBelowTheRangeBlackAboveAndLinearBetween) {
@@ -60,9 +61,9 @@ TEST(GammaMap, BarSaysWhatTheShadesMean) {
 TEST(GammaMap, TakesGrainsWithTheirNeighboursAndSaysSo) {
   Packing packing = row_of_grains({1.0, 1.0, nan, nan, 0.4});
   packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
-  MapSettings settings = settings_of("gamma+overloaded");
+  pictures::MapSettings settings = settings_of("gamma+overloaded");
   settings.l_min = 2.5;
-  packing.frame = mapped_frame(packing.frame, packing.statics, settings.l_min);
+  packing.frame = pictures::mapped_frame(packing.frame, packing.statics, settings.l_min);
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, white) << "two grains that are loaded across cancel their deviators";
   EXPECT_EQ(view.discs[2].fill, white) << "carries nothing, whatever its neighbour carries";
@@ -73,7 +74,7 @@ TEST(GammaMap, TakesGrainsWithTheirNeighboursAndSaysSo) {
 }
 
 TEST(GammaMap, TakesOtherColoursAndAnotherRange) {
-  MapSettings settings = settings_of("gamma");
+  pictures::MapSettings settings = settings_of("gamma");
   settings.colours = ColourMap::viridis;
   settings.range_low = 0.2;
   settings.range_high = 0.8;
@@ -97,7 +98,7 @@ TEST(OverloadedMap, IsBlackFromTheThresholdOn) {
   EXPECT_EQ(view.legends[0].swatches[0].label, "γ ≥ Γ_c = sin θ_c = 0.50");
   EXPECT_EQ(view.legends[0].swatches[1].label, "γ < Γ_c");
 
-  MapSettings settings = settings_of("overloaded");
+  pictures::MapSettings settings = settings_of("overloaded");
   settings.threshold_factor = 1.5;
   const FrameView higher = map_of(row_of_grains(gamma), settings);
   EXPECT_EQ(higher.discs[0].fill, white);
@@ -108,7 +109,7 @@ TEST(OverloadedMap, IsBlackFromTheThresholdOn) {
 TEST(OutlinedBed, HasOutlinesAndNoFurniture) {
   Packing packing = row_of_grains({0.1, 0.1, 0.1});
   test::add_floor_grain(packing, 0.5, -0.5);
-  const FrameView view = outlined_bed({packing.frame, packing.statics}, {0.0, 3.0, -1.0, 2.0});
+  const FrameView view = pictures::outlined_bed({packing.frame, packing.statics}, {0.0, 3.0, -1.0, 2.0});
   ASSERT_EQ(view.discs.size(), 4u);
   EXPECT_EQ(view.discs[0].fill, white);
   EXPECT_EQ(view.discs[0].rim, gray(0.25));
@@ -182,7 +183,7 @@ TEST(Map, HatchesTheFloorAndShowsItWhole) {
 TEST(Map, RefusesAnAngleOfReposeThatGivesNoScale) {
   for (const std::string layers : {"gamma", "overloaded", "clusters", "coarse", "forces+gamma"})
     for (const double angle : {nan, 0.0, -0.3, 1.6}) {
-      MapSettings settings = settings_of(layers);
+      pictures::MapSettings settings = settings_of(layers);
       settings.theta_c = angle;
       EXPECT_THROW(map_of(row_of_grains({0.1, 0.2}), settings), Error) << layers << " " << angle;
     }
@@ -190,7 +191,7 @@ TEST(Map, RefusesAnAngleOfReposeThatGivesNoScale) {
 
 TEST(Map, CaptionSaysWhereThetaCIsAssumedAndNothingWhereThereIsNone) {
   const Packing packing = row_of_grains({0.1, 0.2});
-  MapSettings settings = settings_of("gamma");
+  pictures::MapSettings settings = settings_of("gamma");
   settings.theta_c_assumed = true;
   EXPECT_EQ(map_of(packing, settings).caption, "θ = 0.00°, θ_c = 30.00° (assumed)");
   settings = settings_of("pressure");
@@ -199,7 +200,7 @@ TEST(Map, CaptionSaysWhereThetaCIsAssumedAndNothingWhereThereIsNone) {
 }
 
 TEST(Map, LettersHaveEightPointsInPrint) {
-  MapSettings settings = settings_of("gamma");
+  pictures::MapSettings settings = settings_of("gamma");
   EXPECT_EQ(map_of(row_of_grains({0.1, 0.2}), settings).letters, FrameView().letters);
   settings.printed = 8.6;
   const double width = 8.6 / 2.54 * 72.0;  // points
@@ -209,7 +210,7 @@ TEST(Map, LettersHaveEightPointsInPrint) {
 TEST(Map, IsTurnedToItsSlopeWhereAsked) {
   Packing packing = row_of_grains({0.1, 0.2});
   packing.frame.tilt = 0.2;
-  MapSettings settings = settings_of("gamma");
+  pictures::MapSettings settings = settings_of("gamma");
   settings.tilt_max = 0.4;
   EXPECT_EQ(map_of(packing, settings).turn, 0.0);
   EXPECT_EQ(map_of(packing, settings).turn_max, 0.0);
@@ -250,16 +251,16 @@ TEST(TwoLayers, LinesAreDrawnOverFillsInEitherOrder) {
 }
 
 TEST(TwoLayers, ColoursAndRangeAreThoseOfTheFirstBar) {
-  MapSettings settings = settings_of("overloaded+pressure");
+  pictures::MapSettings settings = settings_of("overloaded+pressure");
   settings.colours = ColourMap::cividis;
   settings.range_high = 7.0;
   FrameView view = map_of(row_of_grains({0.2, 0.7}), settings);
   EXPECT_EQ(view.legends[1].bars[0].colours, colour_ramp(ColourMap::cividis));
-  settings.layers = map_layers("pressure+rotation");
+  settings.layers = pictures::map_layers("pressure+rotation");
   view = map_of(row_of_grains({0.2, 0.7}), settings);
   EXPECT_EQ(view.legends[0].bars[0].colours, colour_ramp(ColourMap::cividis));
   EXPECT_EQ(view.legends[1].bars[0].colours, colour_ramp(ColourMap::diverging));
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -5,7 +5,7 @@
 #include "pictures/motion.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::Packing;
@@ -22,14 +22,16 @@ struct Moved {
     now.frame.tilt = radians(2.0);
     now.frame.step = before.step + 10;
   }
-  MapFrame frame(bool per_degree) const { return {{now.frame, now.statics}, &before, per_degree, {}}; }
+  pictures::MapFrame frame(bool per_degree) const {
+    return {{now.frame, now.statics}, &before, per_degree, {}};
+  }
 
   Packing now;
   Frame before;
 };
 
 TEST(LogHistogram, FindsQuantilesToTwoPercent) {
-  LogHistogram histogram;
+  pictures::LogHistogram histogram;
   EXPECT_EQ(histogram.quantile(0.5), 0.0) << "of nothing";
   for (int k = 1; k <= 1000; ++k) histogram.add(1e-5 * k);
   for (const double share : {0.05, 0.5, 0.99}) {
@@ -45,58 +47,62 @@ TEST(LogHistogram, FindsQuantilesToTwoPercent) {
 
 TEST(MotionSample, RangesLeaveOutFewGrains) {
   const Moved moved;
-  MotionSample sample({MapKind::displacement, MapKind::rotation});
+  pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(false));
-  const MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(MapKind::displacement, false) && ranges.of(MapKind::rotation, false));
-  EXPECT_NEAR(ranges.of(MapKind::displacement, false)->low, 0.005, 0.0002);
-  EXPECT_NEAR(ranges.of(MapKind::displacement, false)->high, 0.099, 0.002);
-  EXPECT_NEAR(ranges.of(MapKind::rotation, false)->high, 95.0, 2.5);
-  EXPECT_EQ(ranges.of(MapKind::rotation, false)->low, -ranges.of(MapKind::rotation, false)->high);
-  EXPECT_FALSE(ranges.of(MapKind::displacement, true) || ranges.of(MapKind::rotation, true))
+  const pictures::MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.of(pictures::MapKind::displacement, false) &&
+              ranges.of(pictures::MapKind::rotation, false));
+  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, false)->low, 0.005, 0.0002);
+  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, false)->high, 0.099, 0.002);
+  EXPECT_NEAR(ranges.of(pictures::MapKind::rotation, false)->high, 95.0, 2.5);
+  EXPECT_EQ(ranges.of(pictures::MapKind::rotation, false)->low,
+            -ranges.of(pictures::MapKind::rotation, false)->high);
+  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, true) ||
+               ranges.of(pictures::MapKind::rotation, true))
       << "nothing was measured per degree";
 }
 
 TEST(MotionSample, PerDegreeIsApart) {
   const Moved moved;
-  MotionSample sample({MapKind::displacement, MapKind::rotation});
+  pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(true));
-  const MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(MapKind::displacement, true).has_value());
-  EXPECT_NEAR(ranges.of(MapKind::displacement, true)->high, 0.0495, 0.001) << "over two degrees";
-  EXPECT_FALSE(ranges.of(MapKind::displacement, false).has_value());
+  const pictures::MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.of(pictures::MapKind::displacement, true).has_value());
+  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, true)->high, 0.0495, 0.001) << "over two degrees";
+  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, false).has_value());
 }
 
 TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
   Moved moved;
-  MotionSample still({MapKind::displacement, MapKind::rotation});
+  pictures::MotionSample still({pictures::MapKind::displacement, pictures::MapKind::rotation});
   still.add({moved.now.frame, moved.now.statics, nullptr, false, {}});
   still.add({moved.before, moved.now.statics, &moved.before, false, {}});
-  EXPECT_FALSE(still.ranges().of(MapKind::displacement, false) ||
-               still.ranges().of(MapKind::rotation, false));
+  EXPECT_FALSE(still.ranges().of(pictures::MapKind::displacement, false) ||
+               still.ranges().of(pictures::MapKind::rotation, false));
   for (Index i = 0; i < 100; ++i) moved.now.frame.x[i] = moved.before.x[i] + 0.4;
-  MotionSample alike({MapKind::displacement});
+  pictures::MotionSample alike({pictures::MapKind::displacement});
   alike.add(moved.frame(false));
-  EXPECT_NEAR(alike.ranges().of(MapKind::displacement, false)->high, 0.4, 0.015);
-  EXPECT_NEAR(alike.ranges().of(MapKind::displacement, false)->low, 0.2, 0.01);
+  EXPECT_NEAR(alike.ranges().of(pictures::MapKind::displacement, false)->high, 0.4, 0.015);
+  EXPECT_NEAR(alike.ranges().of(pictures::MapKind::displacement, false)->low, 0.2, 0.01);
 }
 
 TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
   Moved moved;
   for (Index i = 0; i < 100; ++i) moved.now.frame.vx[i] = std::pow(10.0, -6.0 + 0.04 * i) * std::sqrt(10.0);
-  MotionSample sample({MapKind::speed, MapKind::displacement});
+  pictures::MotionSample sample({pictures::MapKind::speed, pictures::MapKind::displacement});
   sample.add({{moved.now.frame, moved.now.statics}, nullptr, true});
-  const MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(MapKind::speed, false).has_value());
-  EXPECT_NEAR(std::log10(ranges.of(MapKind::speed, false)->low), -5.8, 0.05) << "in sqrt(g D)";
-  EXPECT_NEAR(std::log10(ranges.of(MapKind::speed, false)->high), -2.08, 0.05);
-  EXPECT_FALSE(ranges.of(MapKind::displacement, false) || ranges.of(MapKind::displacement, true));
-  MapSettings settings = test::settings_of("speed");
+  const pictures::MotionRanges ranges = sample.ranges();
+  ASSERT_TRUE(ranges.of(pictures::MapKind::speed, false).has_value());
+  EXPECT_NEAR(std::log10(ranges.of(pictures::MapKind::speed, false)->low), -5.8, 0.05) << "in sqrt(g D)";
+  EXPECT_NEAR(std::log10(ranges.of(pictures::MapKind::speed, false)->high), -2.08, 0.05);
+  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, false) ||
+               ranges.of(pictures::MapKind::displacement, true));
+  pictures::MapSettings settings = test::settings_of("speed");
   EXPECT_EQ(test::map_of(moved.now, settings).legends[0].bars[0].title, "in √(gD)");
   settings.motion = ranges;
   const Bar bar = test::map_of(moved.now, settings).legends[0].bars[0];
   EXPECT_EQ(bar.title, "in √(gD), 5 to 99 % of grains");
-  EXPECT_EQ(bar.high, ranges.of(MapKind::speed, false)->high);
+  EXPECT_EQ(bar.high, ranges.of(pictures::MapKind::speed, false)->high);
 }
 
 TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
@@ -104,14 +110,14 @@ TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
   test::complete(bed);
   for (std::size_t i = 0; i < bed.frame.x.size(); ++i)
     bed.frame.vx[i] = 1e-6 * std::sin(37.0 * static_cast<double>(i));
-  MapSettings settings = test::settings_of("temperature");
+  pictures::MapSettings settings = test::settings_of("temperature");
   settings.length = 6.0;
-  for (const MapKind kind : {MapKind::temperature, MapKind::shear_rate}) {
-    MotionSample sample({kind}, settings);
+  for (const pictures::MapKind kind : {pictures::MapKind::temperature, pictures::MapKind::shear_rate}) {
+    pictures::MotionSample sample({kind}, settings);
     sample.add({{bed.frame, bed.statics}});
-    const std::optional<ScaleRange> range = sample.ranges().of(kind, false);
+    const std::optional<pictures::ScaleRange> range = sample.ranges().of(kind, false);
     ASSERT_TRUE(range.has_value());
-    EXPECT_LT(range->high, fixed_motion_range(kind, false).low) << "slower than the fixed range";
+    EXPECT_LT(range->high, pictures::fixed_motion_range(kind, false).low) << "slower than the fixed range";
     settings.layers = {kind};
     settings.motion = sample.ranges();
     EXPECT_EQ(test::map_of(bed, settings).legends[0].bars[0].high, range->high);
@@ -121,10 +127,10 @@ TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
 
 TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
   const Moved moved;
-  MotionSample sample({MapKind::displacement, MapKind::rotation});
+  pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(false));
   const auto title = [&](const char* map, bool fitted, bool chosen) {
-    MapSettings settings = test::settings_of(map);
+    pictures::MapSettings settings = test::settings_of(map);
     if (fitted) settings.motion = sample.ranges();
     if (chosen) settings.range_low = 0.1, settings.range_high = 1.0;
     return test::map_of(moved.now, settings, &moved.before, false).legends[0].bars[0].title;
@@ -137,4 +143,4 @@ TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

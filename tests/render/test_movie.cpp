@@ -7,7 +7,7 @@
 #include "render/movie.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// One colour, that gets lighter.
@@ -154,4 +154,4 @@ TEST(Movie, IsNotTransparent) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -14,7 +14,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 /// Runs of equal pixels, and pixels that all differ.
@@ -180,4 +180,4 @@ TEST(Png, KeepsTheOldFileWhereWritingFails) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -10,7 +10,7 @@
 #include "render/renderer.h"
 #include "render/sample_view.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::full_view;
@@ -397,4 +397,4 @@ TEST(GlObjects, SayWhichShaderDoesNotCompile) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -6,12 +6,12 @@
 #include "pictures/scale.h"
 #include "pictures/texts.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 std::vector<std::string> labels_between(double low, double high, int most) {
   std::vector<std::string> labels;
-  for (const RoundTick& tick : round_ticks(low, high, most)) labels.push_back(tick.label);
+  for (const pictures::RoundTick& tick : pictures::round_ticks(low, high, most)) labels.push_back(tick.label);
   return labels;
 }
 
@@ -27,7 +27,7 @@ TEST(RoundTicks, AreMultiplesOfOneTwoOrFive) {
 
 TEST(RoundTicks, StepIsTheSmallestOfWhichSoManyFit) {
   for (const double width : {0.013, 0.7, 1.0, 3.0, 42.0, 999.0}) {
-    const double step = round_step(width, 5);
+    const double step = pictures::round_step(width, 5);
     EXPECT_LE(width / step, 5.0 + 1e-6);
     EXPECT_GT(width / step, 1.9) << width;
     const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
@@ -38,77 +38,78 @@ TEST(RoundTicks, StepIsTheSmallestOfWhichSoManyFit) {
 }
 
 TEST(Scale, IsLinearOrLogarithmic) {
-  const Scale linear{ColourMap::gray, 2.0, 6.0};
-  EXPECT_DOUBLE_EQ(share_of(linear, 3.0), 0.25);
-  const Scale decades{ColourMap::gray, 0.01, 100.0, true};
-  EXPECT_NEAR(share_of(decades, 0.1), 0.25, 1e-12);
-  EXPECT_NEAR(share_of(decades, 100.0), 1.0, 1e-12);
+  const pictures::Scale linear{ColourMap::gray, 2.0, 6.0};
+  EXPECT_DOUBLE_EQ(pictures::share_of(linear, 3.0), 0.25);
+  const pictures::Scale decades{ColourMap::gray, 0.01, 100.0, true};
+  EXPECT_NEAR(pictures::share_of(decades, 0.1), 0.25, 1e-12);
+  EXPECT_NEAR(pictures::share_of(decades, 100.0), 1.0, 1e-12);
 }
 
 TEST(Scale, BeyondItsEndsAsAtThem) {
-  const Scale scale{ColourMap::viridis, 2.0, 6.0};
-  EXPECT_EQ(look_of(scale, 1.0).fill, colour_at(ColourMap::viridis, 0.0));
-  EXPECT_EQ(look_of(scale, 9.0).fill, colour_at(ColourMap::viridis, 1.0));
-  const Scale decades{ColourMap::viridis, 0.01, 100.0, true};
-  EXPECT_EQ(look_of(decades, 0.0).fill, colour_at(ColourMap::viridis, 0.0));
+  const pictures::Scale scale{ColourMap::viridis, 2.0, 6.0};
+  EXPECT_EQ(pictures::look_of(scale, 1.0).fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_EQ(pictures::look_of(scale, 9.0).fill, colour_at(ColourMap::viridis, 1.0));
+  const pictures::Scale decades{ColourMap::viridis, 0.01, 100.0, true};
+  EXPECT_EQ(pictures::look_of(decades, 0.0).fill, colour_at(ColourMap::viridis, 0.0));
 }
 
 TEST(Scale, GrainsWithoutValueLookAsTheLowerEndAndAreNotMarked) {
-  const GrainLook look = look_of({ColourMap::viridis, 0.0, 1.0}, std::nan(""));
+  const pictures::GrainLook look = pictures::look_of({ColourMap::viridis, 0.0, 1.0}, std::nan(""));
   EXPECT_EQ(look.fill, colour_at(ColourMap::viridis, 0.0));
   EXPECT_FALSE(look.marked);
-  EXPECT_TRUE(look_of({ColourMap::viridis, 0.0, 1.0}, 0.0).marked);
+  EXPECT_TRUE(pictures::look_of({ColourMap::viridis, 0.0, 1.0}, 0.0).marked);
 }
 
 TEST(Rim, ShowsAWhiteGrainAndIsDarkerThanAColour) {
-  EXPECT_EQ(rim_of(white), gray(0.45));
-  EXPECT_EQ(rim_of(gray(0.3)), gray(0.45));
-  EXPECT_EQ(rim_of(gray(0.8)), gray(0.8));
+  EXPECT_EQ(pictures::rim_of(white), gray(0.45));
+  EXPECT_EQ(pictures::rim_of(gray(0.3)), gray(0.45));
+  EXPECT_EQ(pictures::rim_of(gray(0.8)), gray(0.8));
   const Colour yellow{240, 230, 40};
-  EXPECT_LT(luma(rim_of(yellow)), 0.7 * luma(yellow));
+  EXPECT_LT(luma(pictures::rim_of(yellow)), 0.7 * luma(yellow));
 }
 
 TEST(Scale, TakesWhatWasChosen) {
-  const Scale scale = chosen({ColourMap::gray, 0.0, 1.0}, {ColourMap::cividis, std::nullopt, 2.0});
+  const pictures::Scale scale =
+      pictures::chosen({ColourMap::gray, 0.0, 1.0}, {ColourMap::cividis, std::nullopt, 2.0});
   EXPECT_EQ(scale.colours, ColourMap::cividis);
   EXPECT_EQ(scale.low, 0.0);
   EXPECT_EQ(scale.high, 2.0);
-  EXPECT_THROW(chosen(scale, {{}, 2.0, {}}), Error);
-  EXPECT_THROW(chosen(scale, {{}, 3.0, {}}), Error);
-  EXPECT_THROW(chosen(scale, {{}, {}, std::nan("")}), Error);
-  EXPECT_THROW(chosen({ColourMap::gray, 0.1, 1.0, true}, {{}, 0.0, {}}), Error);
+  EXPECT_THROW(pictures::chosen(scale, {{}, 2.0, {}}), Error);
+  EXPECT_THROW(pictures::chosen(scale, {{}, 3.0, {}}), Error);
+  EXPECT_THROW(pictures::chosen(scale, {{}, {}, std::nan("")}), Error);
+  EXPECT_THROW(pictures::chosen({ColourMap::gray, 0.1, 1.0, true}, {{}, 0.0, {}}), Error);
 }
 
 TEST(Bar, OfAScaleHasRoundNumbersOrDecadesWhereTheyAre) {
-  const Bar bar = bar_of({ColourMap::gray, -10.0, 10.0}, "turned");
+  const Bar bar = pictures::bar_of({ColourMap::gray, -10.0, 10.0}, "turned");
   EXPECT_EQ(bar.title, "turned");
   EXPECT_EQ(bar.colours, colour_ramp(ColourMap::gray));
   ASSERT_EQ(bar.ticks.size(), 5u);
   EXPECT_EQ(bar.ticks[1].label, "−5");
   EXPECT_DOUBLE_EQ(bar.ticks[1].share, 0.25);
-  const Bar decades = bar_of({ColourMap::gray, 1e-3, 10.0, true}, "");
+  const Bar decades = pictures::bar_of({ColourMap::gray, 1e-3, 10.0, true}, "");
   ASSERT_EQ(decades.ticks.size(), 5u);
   EXPECT_EQ(decades.ticks[0].label, "0.001");
   EXPECT_EQ(decades.ticks[4].label, "10");
   EXPECT_NEAR(decades.ticks[1].share, 0.25, 1e-12);
-  const Bar few = bar_of({ColourMap::gray, 0.03, 1.0, true}, "");
+  const Bar few = pictures::bar_of({ColourMap::gray, 0.03, 1.0, true}, "");
   ASSERT_EQ(few.ticks.size(), 5u) << "two decades say too little";
   EXPECT_EQ(few.ticks[0].label, "0.05");
   EXPECT_EQ(few.ticks[4].label, "1");
-  const Bar many = bar_of({ColourMap::gray, 1e-12, 1e12, true}, "");
+  const Bar many = pictures::bar_of({ColourMap::gray, 1e-12, 1e12, true}, "");
   ASSERT_EQ(many.ticks.size(), 9u) << "every third decade";
   EXPECT_EQ(many.ticks[0].label, "10⁻¹²");
   EXPECT_EQ(many.ticks[4].label, "10⁰") << "as the others";
-  EXPECT_EQ(bar_of({ColourMap::gray, 2e-5, 1.1e-4, true}, "").ticks[0].label, "2·10⁻⁵");
-  const Bar huge = bar_of({ColourMap::gray, -1e12, 1e12}, "");
+  EXPECT_EQ(pictures::bar_of({ColourMap::gray, 2e-5, 1.1e-4, true}, "").ticks[0].label, "2·10⁻⁵");
+  const Bar huge = pictures::bar_of({ColourMap::gray, -1e12, 1e12}, "");
   EXPECT_EQ(huge.ticks[0].label, "−1.0·10¹²");
   EXPECT_EQ(huge.ticks[1].label, "−0.5·10¹²");
   EXPECT_EQ(huge.ticks[2].label, "0");
-  const Bar within = bar_of({ColourMap::gray, 2.0, 8.0, true}, "");
+  const Bar within = pictures::bar_of({ColourMap::gray, 2.0, 8.0, true}, "");
   EXPECT_GE(within.ticks.size(), 3u) << "no decade in it";
   for (const BarTick& tick : within.ticks)
     EXPECT_NEAR(tick.share, std::log(std::stod(tick.label) / 2.0) / std::log(4.0), 1e-9);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -12,7 +12,7 @@
 #include "render/renderer.h"
 #include "render/tidy_layout.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::untidy;
@@ -22,7 +22,7 @@ using test::untidy;
 struct Bed {
   test::Packing packing;
   Frame before;
-  MapExtent extent;
+  pictures::MapExtent extent;
 };
 
 Bed bed_of(double length, double depth, Index pairs = 6) {
@@ -45,13 +45,14 @@ Bed bed_of(double length, double depth, Index pairs = 6) {
   return bed;
 }
 
-FrameView view_of(const Bed& bed, const MapSettings& settings) {
-  return make_map({{bed.packing.frame, bed.packing.statics}, &bed.before, true, {}}, settings, bed.extent);
+FrameView view_of(const Bed& bed, const pictures::MapSettings& settings) {
+  return pictures::make_map({{bed.packing.frame, bed.packing.statics}, &bed.before, true, {}}, settings,
+                            bed.extent);
 }
 
 /// With the longest titles and captions that there are.
-MapSettings longest_settings(const std::string& layers) {
-  MapSettings settings = test::settings_of(layers);
+pictures::MapSettings longest_settings(const std::string& layers) {
+  pictures::MapSettings settings = test::settings_of(layers);
   settings.theta_c_assumed = true;
   settings.l_min = 2.25;
   settings.length = 5.5;
@@ -60,15 +61,16 @@ MapSettings longest_settings(const std::string& layers) {
 
 /// The pictures that options make of a map: as it is, turned, with traces, for print, as the upper part of a
 /// panel.
-std::vector<std::pair<std::string, FrameView>> variants(const FrameView& plain, const MapSettings& settings) {
+std::vector<std::pair<std::string, FrameView>> variants(const FrameView& plain,
+                                                        const pictures::MapSettings& settings) {
   std::vector<std::pair<std::string, FrameView>> all = {{"plain", plain}};
   FrameView& turned = all.emplace_back("turned", plain).second;
   turned.turn = 0.36;
   turned.turn_max = 0.5;
   FrameView& traced = all.emplace_back("traced", plain).second;
   const std::vector<double> tilts = {-0.1, 0.1, 0.2, 0.36}, values = {0.31, -0.3521, 0.4, 0.6};
-  for (const TraceKind trace : trace_kinds())
-    traced.traces.push_back(make_trace(trace, tilts, values, settings, 0.36));
+  for (const pictures::TraceKind trace : pictures::trace_kinds())
+    traced.traces.push_back(pictures::make_trace(trace, tilts, values, settings, 0.36));
   FrameView& printed = all.emplace_back("printed", traced).second;
   printed.letters = 8.6 / 2.54 * 72.0 / 8.0;
   FrameView& part = all.emplace_back("part", plain).second;
@@ -93,24 +95,24 @@ TEST(TidyPictures, of_every_map_of_every_bed_at_every_width) {
   for (const auto& [length, depth] :
        {std::pair{10.0, 3.0}, {10.0, 60.0}, {60.0, 30.0}, {200.0, 40.0}, {2500.0, 3.0}, {2500.0, 60.0}}) {
     const Bed bed = bed_of(length, depth);
-    for (const MapKind kind : map_kinds()) {
-      const MapSettings settings = longest_settings(std::string(map_name(kind)));
+    for (const pictures::MapKind kind : pictures::map_kinds()) {
+      const pictures::MapSettings settings = longest_settings(std::string(pictures::map_name(kind)));
       for (const auto& [name, view] : variants(view_of(bed, settings), settings))
         for (const int width : {200, 300, 455, 1000, 1600, 16384})
           expect_readable(
               view, width,
-              fmt::format("{} x {} D, {}, {}, {} px", length, depth, map_name(kind), name, width));
+              fmt::format("{} x {} D, {}, {}, {} px", length, depth, pictures::map_name(kind), name, width));
     }
   }
 }
 
 TEST(TidyPictures, of_every_overlay) {
   const Bed bed = bed_of(200.0, 40.0);
-  for (const MapKind lower : map_kinds())
-    for (const MapKind upper : map_kinds()) {
+  for (const pictures::MapKind lower : pictures::map_kinds())
+    for (const pictures::MapKind upper : pictures::map_kinds()) {
       if (lower == upper) continue;
-      const std::string layers = fmt::format("{}+{}", map_name(lower), map_name(upper));
-      const MapSettings settings = longest_settings(layers);
+      const std::string layers = fmt::format("{}+{}", pictures::map_name(lower), pictures::map_name(upper));
+      const pictures::MapSettings settings = longest_settings(layers);
       const FrameView view = view_of(bed, settings);
       for (const int width : {200, 400, 1600})
         expect_readable(view, width, fmt::format("{}, {} px", layers, width));
@@ -119,9 +121,9 @@ TEST(TidyPictures, of_every_overlay) {
 
 TEST(TidyPictures, at_every_range_of_a_scale) {
   const Bed bed = bed_of(60.0, 20.0);
-  for (const MapKind kind : map_kinds()) {
-    if (!has_bar({kind})) continue;
-    const std::string name(map_name(kind));
+  for (const pictures::MapKind kind : pictures::map_kinds()) {
+    if (!pictures::has_bar({kind})) continue;
+    const std::string name(pictures::map_name(kind));
     const bool logarithmic = view_of(bed, longest_settings(name)).legends[0].bars[0].logarithmic;
     for (const auto& [low, high] : {std::pair{1e-12, 1e12},
                                     {1e-12, 1e-11},
@@ -132,7 +134,7 @@ TEST(TidyPictures, at_every_range_of_a_scale) {
                                     {-1e12, 1e12},
                                     {-2e-12, 1e-12}}) {
       if (logarithmic && low < 0.0) continue;
-      MapSettings settings = longest_settings(name);
+      pictures::MapSettings settings = longest_settings(name);
       settings.range_low = low;
       settings.range_high = high;
       const FrameView view = view_of(bed, settings);
@@ -148,7 +150,7 @@ TEST(TidyPictures, of_parts_of_a_bed) {
   for (const auto& [length, depth] :
        {std::pair{0.1, 0.1}, {0.7, 3.0}, {2.0, 0.01}, {45.0, 16.0}, {2500.0, 1.0}}) {
     bed.extent = {1200.0, std::min(2500.0, 1200.0 + length), 0.0, depth};
-    const MapSettings settings = longest_settings("coarse+forces");
+    const pictures::MapSettings settings = longest_settings("coarse+forces");
     for (const auto& [name, view] : variants(view_of(bed, settings), settings))
       for (const int width : {200, 400, 1600})
         expect_readable(view, width, fmt::format("{} x {} D, {}, {} px", length, depth, name, width));
@@ -174,7 +176,7 @@ std::vector<std::vector<FrameView>> panel_of(const Bed& bed, const std::vector<s
     at.packing.frame.tilt = tilt;
     std::vector<FrameView>& row = rows.emplace_back();
     for (const std::string& name : maps) {
-      MapSettings settings = longest_settings(name);
+      pictures::MapSettings settings = longest_settings(name);
       settings.turned = turned;
       settings.tilt_max = 0.36;
       FrameView& view = row.emplace_back(view_of(at, settings));
@@ -198,7 +200,7 @@ TEST(TidyPictures, of_panels_whose_rows_are_level) {
         for (const bool traced : {false, true})
           for (const int width : {200, 400, 550, 800, 1600}) {
             std::vector<std::vector<FrameView>> rows = panel_of(bed_of(length, depth), maps, turned, traced);
-            const std::vector<LayoutLimits> limits = level_rows(rows, width, font);
+            const std::vector<LayoutLimits> limits = pictures::level_rows(rows, width, font);
             for (std::size_t r = 0; r < rows.size(); ++r) {
               const Layout first = lay_out(rows[r][0], width, font, limits[r]);
               for (const FrameView& view : rows[r]) {
@@ -221,15 +223,15 @@ TEST(TidyPictures, of_panels_whose_rows_are_level) {
 TEST(TidyPictures, letters_under_a_limit_have_the_size_of_the_limit) {
   const Font font = embedded_font();
   const Bed bed = bed_of(50.0, 20.0);
-  for (const MapKind kind : map_kinds())
+  for (const pictures::MapKind kind : pictures::map_kinds())
     for (int width = 300; width < 1000; width += 50) {
-      FrameView view = view_of(bed, longest_settings(std::string(map_name(kind))));
+      FrameView view = view_of(bed, longest_settings(std::string(pictures::map_name(kind))));
       view.letters /= 2.0;
       LayoutLimits limits;
       for (const double less : {0.0, 1.0, 2.0}) {
         limits.largest_em = lay_out(view, width, font).em - less;
         EXPECT_EQ(lay_out(view, width, font, limits).em, limits.largest_em)
-            << map_name(kind) << ", " << width << " px";
+            << pictures::map_name(kind) << ", " << width << " px";
       }
     }
 }
@@ -238,14 +240,14 @@ TEST(TidyPictures, panels_have_letters_that_go_by_the_width_of_all_columns) {
   const Font font = embedded_font();
   std::vector<std::vector<FrameView>> rows =
       panel_of(bed_of(60.0, 30.0), {"gamma", "displacement"}, false, false);
-  const std::vector<LayoutLimits> limits = level_rows(rows, 1600, font);
+  const std::vector<LayoutLimits> limits = pictures::level_rows(rows, 1600, font);
   EXPECT_EQ(lay_out(rows[0][0], 1600, font, limits[0]).em, 36.0) << "3200 px over 90";
 }
 
 TEST(TidyPictures, rows_of_a_turned_panel_are_as_high_as_their_turn) {
   const Font font = embedded_font();
   std::vector<std::vector<FrameView>> rows = panel_of(bed_of(200.0, 40.0), {"gamma"}, true, false);
-  const std::vector<LayoutLimits> limits = level_rows(rows, 1600, font);
+  const std::vector<LayoutLimits> limits = pictures::level_rows(rows, 1600, font);
   const Window flat = lay_out(rows[0][0], 1600, font, limits[0]).bed;
   const Window steep = lay_out(rows[2][0], 1600, font, limits[2]).bed;
   EXPECT_EQ(flat.camera.scale, steep.camera.scale);
@@ -299,7 +301,7 @@ TEST(TidyPictures, the_ink_is_where_the_boxes_are) {
   Renderer renderer(make_context(ContextKind::osmesa));
   for (const auto& [length, depth] : {std::pair{10.0, 5.0}, {200.0, 40.0}})
     for (const char* layers : {"gamma+forces", "clusters+displacement", "dyed", "temperature"}) {
-      const MapSettings settings = longest_settings(layers);
+      const pictures::MapSettings settings = longest_settings(layers);
       for (const auto& [name, view] : variants(view_of(bed_of(length, depth), settings), settings))
         for (const int width : {200, 700}) {
           const Ink ink = ink_of(renderer.draw(view, width), lay_out(view, width, renderer.font()));
@@ -310,4 +312,4 @@ TEST(TidyPictures, the_ink_is_where_the_boxes_are) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

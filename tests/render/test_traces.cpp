@@ -7,7 +7,7 @@
 #include "pictures/traces.h"
 #include "render/map_bed.h"
 
-namespace talus {
+namespace talus::render {
 namespace {
 
 using test::settings_of;
@@ -21,10 +21,10 @@ std::vector<std::string> labels_of(const std::vector<AxisTick>& ticks) {
 }
 
 Trace trace_of(const std::vector<double>& tilts, const std::vector<double>& values, double theta_c = nan,
-               TraceKind kind = TraceKind::overloaded) {
-  MapSettings settings;
+               pictures::TraceKind kind = pictures::TraceKind::overloaded) {
+  pictures::MapSettings settings;
   settings.theta_c = theta_c;
-  return make_trace(kind, tilts, values, settings, tilts.empty() ? 0.0 : tilts.back());
+  return pictures::make_trace(kind, tilts, values, settings, tilts.empty() ? 0.0 : tilts.back());
 }
 
 TEST(Trace, IsTheCurveInDegreesWithRoundTicks) {
@@ -52,14 +52,15 @@ TEST(Trace, ShowsFailureOnlyWhereItIsKnownAndInTheRange) {
 }
 
 TEST(Trace, OfOverloadedGrainsSaysWhoseGammaItGoesBy) {
-  const MapSettings settings = settings_of("gamma");  // single grains
-  EXPECT_EQ(make_trace(TraceKind::overloaded, {}, {}, settings, 0.0).title,
+  const pictures::MapSettings settings = settings_of("gamma");  // single grains
+  EXPECT_EQ(pictures::make_trace(pictures::TraceKind::overloaded, {}, {}, settings, 0.0).title,
             "p_o, share of overloaded grains, single grains");
-  EXPECT_EQ(make_trace(TraceKind::volume_strain, {}, {}, settings, 0.0).title, "Volume strain ΔV/V in %");
+  EXPECT_EQ(pictures::make_trace(pictures::TraceKind::volume_strain, {}, {}, settings, 0.0).title,
+            "Volume strain ΔV/V in %");
 }
 
 TEST(Trace, VolumeStrainIsInPercent) {
-  const Trace trace = trace_of({0.0, 0.1}, {-0.004, 0.001}, nan, TraceKind::volume_strain);
+  const Trace trace = trace_of({0.0, 0.1}, {-0.004, 0.001}, nan, pictures::TraceKind::volume_strain);
   EXPECT_DOUBLE_EQ(trace.y[0], -0.4);
   EXPECT_EQ(trace.title, "Volume strain ΔV/V in %");
   EXPECT_EQ(labels_of(trace.y_ticks), (std::vector<std::string>{"−0.4", "−0.2", "0.0", "0.2"}));
@@ -90,36 +91,36 @@ TEST(Trace, OfFewOrEqualOrMissingValuesCanBeDrawn) {
   const Trace gap = trace_of({0.0, 0.1, 0.2}, {0.1, nan, 0.3});
   expect_drawable(gap);
   EXPECT_TRUE(std::isnan(gap.y[1]));
-  expect_drawable(trace_of({0.0, 0.1}, {0.0, 0.0}, nan, TraceKind::volume_strain));
+  expect_drawable(trace_of({0.0, 0.1}, {0.0, 0.0}, nan, pictures::TraceKind::volume_strain));
   expect_drawable(trace_of({0.0, 0.1}, {0.123456, 0.1234561}));
 }
 
 TEST(TraceValue, OfAFrameGoesByTheThreshold) {
   test::Packing packing = test::row_of_grains({0.9, 0.9, 0.6, nan, 0.1});
   test::add_contact(packing, 0, 1, 1.0);
-  MapSettings settings = settings_of("overloaded");
-  const auto value = [&](TraceKind kind) {
-    return frame_value(kind, {packing.frame, packing.statics}, settings);
+  pictures::MapSettings settings = settings_of("overloaded");
+  const auto value = [&](pictures::TraceKind kind) {
+    return pictures::frame_value(kind, {packing.frame, packing.statics}, settings);
   };
-  EXPECT_DOUBLE_EQ(value(TraceKind::overloaded), 0.75);
-  EXPECT_DOUBLE_EQ(value(TraceKind::largest_cluster), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(value(pictures::TraceKind::overloaded), 0.75);
+  EXPECT_DOUBLE_EQ(value(pictures::TraceKind::largest_cluster), 2.0 / 3.0);
   settings.threshold_factor = 1.5;
-  EXPECT_DOUBLE_EQ(value(TraceKind::overloaded), 0.5);
-  EXPECT_DOUBLE_EQ(value(TraceKind::largest_cluster), 1.0);
+  EXPECT_DOUBLE_EQ(value(pictures::TraceKind::overloaded), 0.5);
+  EXPECT_DOUBLE_EQ(value(pictures::TraceKind::largest_cluster), 1.0);
   settings.threshold_factor = 2.0;
-  EXPECT_TRUE(std::isnan(value(TraceKind::largest_cluster)));
-  EXPECT_THROW(value(TraceKind::stress_ratio), Error);
+  EXPECT_TRUE(std::isnan(value(pictures::TraceKind::largest_cluster)));
+  EXPECT_THROW(value(pictures::TraceKind::stress_ratio), Error);
 }
 
 TEST(TraceValue, ComesFromFramesOrFromAColumn) {
-  EXPECT_EQ(trace_column(TraceKind::stress_ratio), Observable::stress_ratio);
-  EXPECT_EQ(trace_column(TraceKind::volume_strain), Observable::volume_strain);
-  for (const TraceKind kind : trace_kinds())
-    if (trace_from_frames(kind)) {
-      EXPECT_THROW(trace_column(kind), Error);
-      EXPECT_TRUE(needs_theta_c(kind));
+  EXPECT_EQ(pictures::trace_column(pictures::TraceKind::stress_ratio), Observable::stress_ratio);
+  EXPECT_EQ(pictures::trace_column(pictures::TraceKind::volume_strain), Observable::volume_strain);
+  for (const pictures::TraceKind kind : pictures::trace_kinds())
+    if (pictures::trace_from_frames(kind)) {
+      EXPECT_THROW(pictures::trace_column(kind), Error);
+      EXPECT_TRUE(pictures::needs_theta_c(kind));
     }
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::render

@@ -13,38 +13,38 @@
 namespace talus::test {
 
 struct NamedBox {
-  Box box;
+  render::Box box;
   std::string name;
   int part = 0;  ///< boxes of one part may touch: a bar and its ticks
 };
 
-inline Box grown(const Box& box, double by) {
+inline render::Box grown(const render::Box& box, double by) {
   return {box.x - by, box.y - by, box.width + 2.0 * by, box.height + 2.0 * by};
 }
 
 /// px: the width of the lines of the furniture.
-inline double line_width(const Layout& layout) { return std::max(1.0, std::round(layout.em / 12.0)); }
+inline double line_width(const render::Layout& layout) { return std::max(1.0, std::round(layout.em / 12.0)); }
 
 /// All that is drawn, with its lines, ticks and walls.
-inline std::vector<NamedBox> all_boxes(const Layout& layout) {
+inline std::vector<NamedBox> all_boxes(const render::Layout& layout) {
   const double line = line_width(layout), tick = std::round(0.3 * layout.em);
   std::vector<NamedBox> boxes = {{layout.bed.box, "bed"}};
-  const auto add = [&](const Box& box, const std::string& name) {
+  const auto add = [&](const render::Box& box, const std::string& name) {
     boxes.push_back({box, name, static_cast<int>(boxes.size())});
   };
   if (layout.scale_bar.width > 0.0) add(layout.scale_bar, "scale bar");
   if (layout.arrow.width > 0.0) add(layout.arrow, "arrow");
-  for (const PlacedBar& bar : layout.bars) {
+  for (const render::PlacedBar& bar : layout.bars) {
     add(grown(bar.box, line), "bar");
     const int part = boxes.back().part;
     for (const double x : bar.ticks)
       boxes.push_back({{x - 0.5 * line, bar.box.bottom(), line, tick}, "tick of a bar", part});
   }
-  for (const PlacedText& text : layout.texts) add(text.box, "text \"" + text.text + "\"");
-  for (const PlacedSwatch& swatch : layout.swatches) add(swatch.box, "swatch");
-  for (const PlacedTrace& trace : layout.traces) {
+  for (const render::PlacedText& text : layout.texts) add(text.box, "text \"" + text.text + "\"");
+  for (const render::PlacedSwatch& swatch : layout.swatches) add(swatch.box, "swatch");
+  for (const render::PlacedTrace& trace : layout.traces) {
     const double disc = 0.3 * layout.em;  // of the mark, which may stand at the edge of the frame
-    Box drawn = grown(trace.box, line);
+    render::Box drawn = grown(trace.box, line);
     if (!std::isnan(trace.mark.y)) {
       drawn.x = std::min(drawn.x, trace.mark.x - disc);
       drawn.width = std::max(trace.box.right() + line, trace.mark.x + disc) - drawn.x;
@@ -54,44 +54,44 @@ inline std::vector<NamedBox> all_boxes(const Layout& layout) {
   return boxes;
 }
 
-inline bool overlap(const Box& a, const Box& b) {
+inline bool overlap(const render::Box& a, const render::Box& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
-inline std::string text_of(const Box& box) {
+inline std::string text_of(const render::Box& box) {
   return "(" + std::to_string(box.x) + ", " + std::to_string(box.y) + ") to (" + std::to_string(box.right()) +
          ", " + std::to_string(box.bottom()) + ")";
 }
 
 /// Whether a box has no part in the bed, which may be turned: it lies beyond one of the sides of the other.
-inline bool clear_of_bed(const Box& box, const Window& bed) {
-  const auto bed_x = [&](const Point& p) {
+inline bool clear_of_bed(const render::Box& box, const render::Window& bed) {
+  const auto bed_x = [&](const render::Point& p) {
     return (bed.camera.cosine * (p.x - bed.camera.origin_x) + bed.camera.sine * (p.y - bed.camera.origin_y)) /
            bed.camera.scale;
   };
-  const auto bed_y = [&](const Point& p) {
+  const auto bed_y = [&](const render::Point& p) {
     return (bed.camera.sine * (p.x - bed.camera.origin_x) - bed.camera.cosine * (p.y - bed.camera.origin_y)) /
            bed.camera.scale;
   };
-  const Point corners[] = {
+  const render::Point corners[] = {
       {box.x, box.y}, {box.right(), box.y}, {box.x, box.bottom()}, {box.right(), box.bottom()}};
   const auto all = [&](const auto& beyond) {
     return std::all_of(std::begin(corners), std::end(corners), beyond);
   };
-  return all([&](const Point& p) { return bed_x(p) < bed.x_min; }) ||
-         all([&](const Point& p) { return bed_x(p) > bed.x_max; }) ||
-         all([&](const Point& p) { return bed_y(p) < bed.y_min; }) ||
-         all([&](const Point& p) { return bed_y(p) > bed.y_max; });
+  return all([&](const render::Point& p) { return bed_x(p) < bed.x_min; }) ||
+         all([&](const render::Point& p) { return bed_x(p) > bed.x_max; }) ||
+         all([&](const render::Point& p) { return bed_y(p) < bed.y_min; }) ||
+         all([&](const render::Point& p) { return bed_y(p) > bed.y_max; });
 }
 
 /// What is wrong with a layout: what lies outside of the picture, over something else, or, of texts on one
 /// line, so near to the next that they read as one. Empty where nothing is.
-inline std::string untidy(const Layout& layout) {
+inline std::string untidy(const render::Layout& layout) {
   constexpr double between_texts = 0.35;  // em
   std::string wrong;
   const std::vector<NamedBox> boxes = all_boxes(layout);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Box& box = boxes[i].box;
+    const render::Box& box = boxes[i].box;
     if (!(box.width * box.height > 0.0)) wrong += boxes[i].name + " is empty\n";
     if (box.x < 0.0 || box.y < 0.0 || box.right() > layout.width || box.bottom() > layout.height)
       wrong += boxes[i].name + " leaves the picture: " + text_of(box) + "\n";
@@ -108,7 +108,7 @@ inline std::string untidy(const Layout& layout) {
   return wrong;
 }
 
-inline void expect_tidy(const Layout& layout, const std::string& what) {
+inline void expect_tidy(const render::Layout& layout, const std::string& what) {
   EXPECT_EQ(untidy(layout), "") << what;
 }
 

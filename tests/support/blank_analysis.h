@@ -11,26 +11,27 @@ struct AnalysisSizes {
 };
 
 /// All of its size, and NaN or 0.
-inline Analysis blank_analysis(const AnalysisSizes& of, std::span<const Quantity> table = quantities()) {
-  Analysis analysis;
+inline analysis::Analysis blank_analysis(const AnalysisSizes& of,
+                                         std::span<const analysis::Quantity> table = analysis::quantities()) {
+  analysis::Analysis analysis;
   analysis.thresholds.resize(of.thresholds);
   analysis.frames.resize(of.frames);
   analysis.events.resize(of.events);
-  for (FrameRecord& frame : analysis.frames) frame.thresholds.resize(of.thresholds);
-  const Sizes sizes = {{'T', of.frames}, {'F', of.thresholds}, {'N', of.grains}, {'X', of.sections},
-                       {'B', of.bins},   {'Y', of.layers},     {'E', of.events}};
-  for (const Quantity& quantity : table) {
-    if (!is_present(quantity, analysis)) continue;
+  for (analysis::FrameRecord& frame : analysis.frames) frame.thresholds.resize(of.thresholds);
+  const io::Sizes sizes = {{'T', of.frames}, {'F', of.thresholds}, {'N', of.grains}, {'X', of.sections},
+                           {'B', of.bins},   {'Y', of.layers},     {'E', of.events}};
+  for (const analysis::Quantity& quantity : table) {
+    if (!io::is_present(quantity, analysis)) continue;
     std::size_t count = 1;
-    for (const std::uint64_t extent : dimensions(data_set_of(quantity), sizes)) count *= extent;
-    Values values = values_of(quantity, analysis);
+    for (const std::uint64_t extent : io::dimensions(io::data_set_of(quantity), sizes)) count *= extent;
+    analysis::Values values = analysis::values_of(quantity, analysis);
     std::visit(
         [&]<typename T>(std::vector<T>& numbers) {
           if (numbers.size() != count)
             numbers.assign(count, std::is_floating_point_v<T> ? static_cast<T>(not_known) : T(0));
         },
         values);
-    set_values(quantity, values, analysis);
+    analysis::set_values(quantity, values, analysis);
   }
   return analysis;
 }

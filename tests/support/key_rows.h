@@ -11,9 +11,9 @@
 namespace talus {
 
 /// The row of a key with this default.
-inline std::string row_text(const KeyHead& key, const std::string& by_default) {
-  return "| `" + full_name(key) + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" + by_default +
-         "` | " + range_text(key) + " | " + key.help + " |\n";
+inline std::string row_text(const scenario::KeyHead& key, const std::string& by_default) {
+  return "| `" + scenario::full_name(key) + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" +
+         by_default + "` | " + scenario::range_text(key) + " | " + key.help + " |\n";
 }
 
 /// All rows of keys on a page of the documents.

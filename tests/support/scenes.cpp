@@ -18,12 +18,12 @@ constexpr double loose_fraction = 0.4;
 
 }  // namespace
 
-std::string name_of(SolverKind kind) {
-  return kind == SolverKind::gauss_seidel ? "gauss_seidel" : "accelerated";
+std::string name_of(solver::SolverKind kind) {
+  return kind == solver::SolverKind::gauss_seidel ? "gauss_seidel" : "accelerated";
 }
 
-StepSettings exact_step(SolverKind kind, double friction) {
-  StepSettings settings;
+dynamics::StepSettings exact_step(solver::SolverKind kind, double friction) {
+  dynamics::StepSettings settings;
   settings.h = time_step;
   settings.margin = 0.02 * radius;
   settings.law.friction = settings.law.wall_friction = friction;
@@ -33,12 +33,12 @@ StepSettings exact_step(SolverKind kind, double friction) {
   return settings;
 }
 
-StepSettings bed_step(double tolerance, double friction) {
-  StepSettings settings;
+dynamics::StepSettings bed_step(double tolerance, double friction) {
+  dynamics::StepSettings settings;
   settings.h = time_step;
-  settings.margin = 0.02 * BedPlan{}.mean_diameter;
+  settings.margin = 0.02 * dynamics::BedPlan{}.mean_diameter;
   settings.law.friction = settings.law.wall_friction = friction;
-  settings.law.allowed_overlap = 1e-4 * BedPlan{}.mean_diameter;
+  settings.law.allowed_overlap = 1e-4 * dynamics::BedPlan{}.mean_diameter;
   settings.solver.tolerance = tolerance;
   return settings;
 }
@@ -94,8 +94,8 @@ World random_cloud(std::uint64_t seed, Index count, bool periodic, double length
   return world;
 }
 
-BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed) {
-  BedPlan plan;
+dynamics::BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed) {
+  dynamics::BedPlan plan;
   plan.length = columns * plan.mean_diameter;
   plan.grain_count = count;
   plan.periodic = periodic;
@@ -103,29 +103,29 @@ BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed) 
   return plan;
 }
 
-World fallen_bed(const BedPlan& plan, const StepSettings& settings, int steps) {
-  World world = make_loose_bed(plan, loose_fraction);
-  StepWorkspace workspace;
-  for (int k = 0; k < steps; ++k) step(world, settings, workspace);
+World fallen_bed(const dynamics::BedPlan& plan, const dynamics::StepSettings& settings, int steps) {
+  World world = dynamics::make_loose_bed(plan, loose_fraction);
+  dynamics::StepWorkspace workspace;
+  for (int k = 0; k < steps; ++k) dynamics::step(world, settings, workspace);
   return world;
 }
 
-void come_to_rest(World& world, const StepSettings& settings, StepWorkspace& workspace) {
+void come_to_rest(World& world, const dynamics::StepSettings& settings, dynamics::StepWorkspace& workspace) {
   const double still = 1e-3 * world.gravity * settings.h;
   int quiet = 0;
   for (int k = 0; quiet < 50 && k < 10000; ++k)
-    quiet = step(world, settings, workspace).motion.rms_velocity <= still ? quiet + 1 : 0;
+    quiet = dynamics::step(world, settings, workspace).motion.rms_velocity <= still ? quiet + 1 : 0;
   EXPECT_EQ(quiet, 50) << "the world did not come to rest: " << rms_velocity(world.grains);
 }
 
-World settled_bed(const BedPlan& plan, const StepSettings& settings) {
-  World world = make_loose_bed(plan, loose_fraction);
-  StepWorkspace workspace;
+World settled_bed(const dynamics::BedPlan& plan, const dynamics::StepSettings& settings) {
+  World world = dynamics::make_loose_bed(plan, loose_fraction);
+  dynamics::StepWorkspace workspace;
   come_to_rest(world, settings, workspace);
   return world;
 }
 
-FrozenStep next_problem(const World& world, const StepSettings& settings) {
+FrozenStep next_problem(const World& world, const dynamics::StepSettings& settings) {
   World midpoint = world;
   Grains& grains = midpoint.grains;
   for (Index i = 0; i < grains.free_count; ++i) {
@@ -136,16 +136,16 @@ FrozenStep next_problem(const World& world, const StepSettings& settings) {
     if (grains.x[i] >= world.boundary.length) grains.x[i] -= world.boundary.length;
   }
   FrozenStep frozen;
-  NeighbourList list;
-  detect_contacts(list, grains, world.boundary, settings.margin, frozen.contacts);
+  contact::NeighbourList list;
+  contact::detect_contacts(list, grains, world.boundary, settings.margin, frozen.contacts);
   const bool moments = settings.law.rolling_friction != 0.0;
   frozen.contacts.moment.assign(moments ? frozen.contacts.a.size() : 0, 0.0);
-  recall_forces(world.contacts, frozen.contacts);
-  form_problem(midpoint, frozen.contacts, settings.law, settings.h, settings.solver.tolerance,
-               frozen.problem);
+  contact::recall_forces(world.contacts, frozen.contacts);
+  dynamics::form_problem(midpoint, frozen.contacts, settings.law, settings.h, settings.solver.tolerance,
+                         frozen.problem);
   for (std::size_t c = 0; c < frozen.contacts.moment.size(); ++c)
     frozen.guess.pr.push_back(frozen.contacts.moment[c] * settings.h /
-                              rolling_length(frozen.problem, static_cast<Index>(c)));
+                              solver::rolling_length(frozen.problem, static_cast<Index>(c)));
   for (double fn : frozen.contacts.fn) frozen.guess.pn.push_back(fn * settings.h);
   for (double ft : frozen.contacts.ft) frozen.guess.pt.push_back(ft * settings.h);
   return frozen;

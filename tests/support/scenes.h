@@ -15,13 +15,14 @@ inline constexpr double density = 2500.0;  ///< kg/m^3
 inline constexpr double time_step = 1e-3;  ///< s
 
 /// Both solvers, for tests that each must pass, and their names.
-inline constexpr SolverKind both_solvers[] = {SolverKind::gauss_seidel, SolverKind::accelerated};
-std::string name_of(SolverKind kind);
+inline constexpr solver::SolverKind both_solvers[] = {solver::SolverKind::gauss_seidel,
+                                                      solver::SolverKind::accelerated};
+std::string name_of(solver::SolverKind kind);
 
 /// A step that is solved as far as doubles go in a scene of a few contacts.
-StepSettings exact_step(SolverKind kind, double friction = 0.5);
+dynamics::StepSettings exact_step(solver::SolverKind kind, double friction = 0.5);
 /// A step as a bed needs it: candidates within 2 % of the diameter, the tolerance of a run at rest.
-StepSettings bed_step(double tolerance = 1e-6, double friction = 0.5);
+dynamics::StepSettings bed_step(double tolerance = 1e-6, double friction = 0.5);
 
 /// A disk that touches the smooth plane y = 0, at rest.
 World disk_on_plane(double tilt);
@@ -35,22 +36,22 @@ World column(Index count);
 World random_cloud(std::uint64_t seed, Index count, bool periodic, double length);
 
 /// A loose bed of `count` grains, `columns` mean diameters long.
-BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed);
+dynamics::BedPlan bed_plan(bool periodic, Index count, Index columns, std::uint64_t seed);
 /// The bed of a plan after `steps` steps of falling and settling.
-World fallen_bed(const BedPlan& plan, const StepSettings& settings, int steps);
+World fallen_bed(const dynamics::BedPlan& plan, const dynamics::StepSettings& settings, int steps);
 /// Takes steps until the world is at rest: its rms velocity stayed below 1e-3 g h for 50 steps.
 /// Fails the test where that takes more than 10 000 steps.
-void come_to_rest(World& world, const StepSettings& settings, StepWorkspace& workspace);
+void come_to_rest(World& world, const dynamics::StepSettings& settings, dynamics::StepWorkspace& workspace);
 /// The bed of a plan when it has come to rest.
-World settled_bed(const BedPlan& plan, const StepSettings& settings);
+World settled_bed(const dynamics::BedPlan& plan, const dynamics::StepSettings& settings);
 
 /// What the solver sees in the next step of a world: the first half of step().
 struct FrozenStep {
   Contacts contacts;
-  ContactProblem problem;
-  ContactSolution guess;  ///< the remembered forces
+  solver::ContactProblem problem;
+  solver::ContactSolution guess;  ///< the remembered forces
 };
-FrozenStep next_problem(const World& world, const StepSettings& settings);
+FrozenStep next_problem(const World& world, const dynamics::StepSettings& settings);
 
 /// Sums over the free grains: momentum, and angular momentum about the origin.
 struct Momentum {

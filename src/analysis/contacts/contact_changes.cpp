@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// What tells a contact from all others of its frame, in every frame alike.
@@ -51,4 +51,4 @@ ContactChanges contact_changes(const Frame& before, const Frame& after) {
   return {places_of_rest(later, earlier), places_of_rest(earlier, later)};
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

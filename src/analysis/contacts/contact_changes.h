@@ -5,7 +5,7 @@
 
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::analysis {
 
 struct ContactChanges {
   std::vector<Index> gained;  ///< places in the contacts of the frame after, ascending
@@ -18,4 +18,4 @@ struct ContactChanges {
 /// frames have different numbers of grains.
 ContactChanges contact_changes(const Frame& before, const Frame& after);
 
-}  // namespace talus
+}  // namespace talus::analysis

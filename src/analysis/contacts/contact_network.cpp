@@ -13,7 +13,7 @@
 #include "stress/bed.h"
 #include "stress/stress_state.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 double mean_normal_force(const FrameContacts& contacts) {
@@ -66,7 +66,7 @@ double mobilisation_of(const BedFrame& bed, Index c) {
 void take_coordination(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
   const std::vector<Index> degree =
-      loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
+      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
   const Index ends = std::accumulate(degree.begin(), degree.end(), Index{0});
   const Backbone backbone = find_backbone(bed, degree);
   Index backbone_ends = 0, in_backbone = 0;
@@ -78,7 +78,7 @@ void take_coordination(const BedFrame& bed, FrameRecord& record) {
   const auto ratio = [](Index above, Index below) {
     return below > 0 ? static_cast<double>(above) / below : 0.0;
   };
-  record.coordination_number = coordination_number(degree);
+  record.coordination_number = stress::coordination_number(degree);
   record.coordination_number_of_all = ratio(ends, bed.statics.free_count);
   record.coordination_number_without_rattlers = ratio(backbone_ends, in_backbone);
   record.rattler_fraction = ratio(bed.statics.free_count - in_backbone, bed.statics.free_count);
@@ -127,8 +127,8 @@ void take_networks(const BedFrame& bed, FrameRecord& record) {
                             : not_known;
   record.strong_share_of_mean_stress = matrix(strong).trace() / matrix(all).trace();
   record.strong_share_of_deviator = deviator_product(strong, all) / deviator_product(all, all);
-  record.strong_stress_ratio = stress_state(strong).ratio;
-  record.weak_stress_ratio = stress_state(weak).ratio;
+  record.strong_stress_ratio = stress::stress_state(strong).ratio;
+  record.weak_stress_ratio = stress::stress_state(weak).ratio;
   const FabricComponent components[] = {fabric_component(bed.frame.contacts, 2, in_strong),
                                         fabric_component(bed.frame.contacts, 2, in_weak)};
   for (std::size_t k = 0; k < std::size(components); ++k) {
@@ -163,4 +163,4 @@ void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   record.critical_correlation_length = correlation_length(clusters, bed.frame.y);
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

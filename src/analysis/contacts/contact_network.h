@@ -8,7 +8,7 @@
 #include "core/bed_frame.h"
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::analysis {
 
 // Each of these sets members of a record, which are defined in the table of quantities.
 
@@ -38,4 +38,4 @@ void take_networks(const BedFrame& bed, FrameRecord& record);
 /// (clusters.h, of the grains that they join) are NaN where none slides.
 void take_critical_contacts(const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "analysis/contacts/contact_network.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// A mean of unit vectors at twice the angles of normals.
@@ -62,4 +62,4 @@ void take_weak_contacts(const BedFrame& bed, std::span<const double> edges, Fram
   record.weak_fabric_by_friction = weak.fabric_by_friction;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// From which |f_t| / (mu f_n) on a weak contact counts as coherent: from half of it on weak contacts of
 /// poured beds stand across the strong ones, the more so the more of their friction is mobilised.
@@ -30,4 +30,4 @@ WeakContacts weak_contacts(const BedFrame& bed, double mean_normal_force, std::s
 /// Sets members of a record, which are defined in the table of quantities; its mean normal force is known.
 void take_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

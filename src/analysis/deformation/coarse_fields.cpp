@@ -7,7 +7,7 @@
 #include "core/tensor_inverse.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Gauss and Legendre's on [0, 1].
@@ -182,4 +182,4 @@ void take_granular_temperature(const BedFrame& bed, FrameRecord& record) {
   record.granular_temperature = sum / mass;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

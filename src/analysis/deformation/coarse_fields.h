@@ -10,7 +10,7 @@
 #include "core/bed_frame.h"
 #include "core/tensor.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Diameter, in D, of the support of the coarse-graining function with which an analysis finds the granular
 /// temperature.
@@ -77,4 +77,4 @@ std::vector<double> granular_temperatures(const BedFrame& bed, double cutoff);
 /// Sets members of a record, defined in the table of quantities.
 void take_granular_temperature(const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "analysis/free_grains.h"
 #include "core/tensor_inverse.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// From one frame to another, m, of all grains; along x across the period.
@@ -99,4 +99,4 @@ void take_deformation(const Frame& before, const BedFrame& bed, FrameRecord& rec
   record.nonaffine_largest = std::sqrt(largest);
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// A grain's neighbours are the grains, those of the floor among them, whose centres lie within this of its
 /// own, in D: the first two shells.
@@ -43,4 +43,4 @@ double vorticity(const Tensor2& gradient);
 /// Sets members of a record, defined in the table of quantities.
 void take_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -1,6 +1,6 @@
 #include "analysis/events/event_quantities.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 const std::string bursts = "event_velocity event_quiet";
@@ -123,4 +123,4 @@ std::vector<Quantity> event_quantities() {
   return rows;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

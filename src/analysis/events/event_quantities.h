@@ -5,9 +5,9 @@
 
 #include "analysis/quantities.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// What there is of them all, then what there is of each.
 std::vector<Quantity> event_quantities();
 
-}  // namespace talus
+}  // namespace talus::analysis

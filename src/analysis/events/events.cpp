@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr double share_above_depth = 0.95;
@@ -109,4 +109,4 @@ Movement movement_between(const Frame& before, const Frame& after, const RunStat
   return movement;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "core/bed_frame.h"
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// A burst of motion, by places in a series of steps.
 struct Burst {
@@ -48,4 +48,4 @@ struct Movement {
 Movement movement_between(const Frame& before, const Frame& after, const RunStatics& statics, double least,
                           double surface);
 
-}  // namespace talus
+}  // namespace talus::analysis

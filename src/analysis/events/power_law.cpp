@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Those from `minimum` on, ascending.
@@ -70,4 +70,4 @@ ExponentialLaw exponential_law(std::span<const double> values, double minimum) {
   return law;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

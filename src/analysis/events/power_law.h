@@ -5,7 +5,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// From so few values on an exponent is told; fewer leave it open within a third or more of alpha - 1.
 inline constexpr int fewest_to_tell = 10;
@@ -42,4 +42,4 @@ struct ExponentialLaw {
 /// The mean is NaN with fewer than fewest_to_tell.
 ExponentialLaw exponential_law(std::span<const double> values, double minimum);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 
 #include "analysis/free_grains.h"
 
-namespace talus {
+namespace talus::analysis {
 
 std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int layers) {
   const FrameContacts& contacts = bed.frame.contacts;
@@ -47,4 +47,4 @@ void take_failure_distance(const BedFrame& bed, double height, FrameRecord& reco
   record.critical_share_of_bound = whole.share_of_bound();
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

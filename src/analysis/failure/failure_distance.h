@@ -5,7 +5,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Layers of equal thickness by which the share is told over depth.
 inline constexpr int critical_layers = 10;
@@ -36,4 +36,4 @@ std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int lay
 /// the share of the whole bed, which take_critical_contacts sets.
 void take_failure_distance(const BedFrame& bed, double height, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 
 FailureRatio failure_ratio(std::span<const double> tilts, std::span<const double> ratios, double theta_c,
                            double window) {
@@ -18,4 +18,4 @@ FailureRatio failure_ratio(std::span<const double> tilts, std::span<const double
   return {result.mean, result.deviation};
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

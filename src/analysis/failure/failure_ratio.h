@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace talus {
+namespace talus::analysis {
 
 /// deg before theta_c, the window of failure_ratio in analyses.
 inline constexpr double failure_window = 0.5;
@@ -19,4 +19,4 @@ struct FailureRatio {
 FailureRatio failure_ratio(std::span<const double> tilts, std::span<const double> ratios, double theta_c,
                            double window);
 
-}  // namespace talus
+}  // namespace talus::analysis

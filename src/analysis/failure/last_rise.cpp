@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace talus {
+namespace talus::analysis {
 
 SeriesPart last_rise(std::span<const double> tilts) {
   const auto rises = [&](std::size_t k) { return std::abs(tilts[k]) > std::abs(tilts[k - 1]); };
@@ -62,4 +62,4 @@ std::vector<ObservableRow> rows_of_last_rise(std::span<const ObservableRow> rows
   return rise;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "analysis/record.h"
 #include "core/observables.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// A part of a series: places first ... end - 1.
 struct SeriesPart {
@@ -56,4 +56,4 @@ double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, st
 /// below 0, it, sigma_T/sigma_N and the displacement of the surface have the other sign.
 std::vector<ObservableRow> rows_of_last_rise(std::span<const ObservableRow> rows);
 
-}  // namespace talus
+}  // namespace talus::analysis

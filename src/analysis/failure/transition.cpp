@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr std::size_t lasting = 3;  // frames for which a cluster has to span
@@ -109,4 +109,4 @@ double first_slide(std::span<const double> tilts, std::span<const double> displa
   return not_known;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Where the largest coarse-graining length jumps (paper, Fig. 12b).
 struct LengthJump {
@@ -67,4 +67,4 @@ inline constexpr double slide_window = 0.5;
 double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,
                    double window);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "analysis/overload/disjoint_sets.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Sorts clusters by size; those of equal size keep their order, which is that of their smallest ids.
@@ -106,4 +106,4 @@ double correlation_length(const Clusters& clusters, const std::vector<double>& y
   return weights > 0.0 ? std::sqrt(2.0 * moments / weights) : not_known;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

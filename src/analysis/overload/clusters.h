@@ -6,7 +6,7 @@
 #include "analysis/overload/links.h"
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Clusters in the order of their sizes, the largest first; of equal ones the one with the smallest id first.
 struct Clusters {
@@ -42,4 +42,4 @@ double second_moment_of_others(const Clusters& clusters);
 /// wrap around; NaN without any. y in m.
 double correlation_length(const Clusters& clusters, const std::vector<double>& y);
 
-}  // namespace talus
+}  // namespace talus::analysis

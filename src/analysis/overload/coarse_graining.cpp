@@ -9,7 +9,7 @@
 #include "stress/overload.h"
 #include "stress/stress_state.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Whether the ratio Q/P of stress_state is at most the threshold. Without its root and its arc tangent:
@@ -66,7 +66,7 @@ CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& ru
   result.length.assign(static_cast<std::size_t>(bed.statics.free_count), not_known);
   Neighbourhoods neighbourhoods(bed);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
-    if (!is_overloaded(bed.frame.gamma[i], rule.threshold)) continue;
+    if (!stress::is_overloaded(bed.frame.gamma[i], rule.threshold)) continue;
     const std::optional<double> length = search_length(neighbourhoods, i, rule);
     result.length[i] = length.value_or(rule.cut);
     ++result.overloaded;
@@ -85,7 +85,7 @@ std::vector<double> coarse_stress_ratio(const BedFrame& bed, double l) {
       all = sum;
       return true;
     });
-    result[i] = stress_state(all).ratio;
+    result[i] = stress::stress_state(all).ratio;
   }
   return result;
 }
@@ -101,7 +101,7 @@ std::vector<double> overloaded_over_scale(const BedFrame& bed, double threshold,
     std::size_t next = 0;  // diameter that is not judged yet
     const auto judge_up_to = [&](double diameter) {
       for (; next < l.size() && l[next] < diameter; ++next)
-        if (is_overloaded(stress_state(within).ratio, threshold)) ++overloaded[next];
+        if (stress::is_overloaded(stress::stress_state(within).ratio, threshold)) ++overloaded[next];
     };
     neighbourhoods.around(i, 0.5 * l.back(), [&](double distance, const Tensor2& sum) {
       judge_up_to(2.0 * distance);
@@ -119,10 +119,10 @@ NeighbourhoodCurve neighbourhood_curve(const BedFrame& bed, Index grain, double 
   NeighbourhoodCurve curve;
   Neighbourhoods(bed).around(grain, 0.5 * largest, [&](double distance, const Tensor2& sum) {
     curve.l.push_back(2.0 * distance);
-    curve.gamma.push_back(stress_state(sum).ratio);
+    curve.gamma.push_back(stress::stress_state(sum).ratio);
     return true;
   });
   return curve;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -10,7 +10,7 @@
 #include "core/bed_frame.h"
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// l_min, in D, that is used unless another is asked for: a grain together with its first neighbours.
 inline constexpr double default_l_min = 3.0;
@@ -63,4 +63,4 @@ struct NeighbourhoodCurve {
 };
 NeighbourhoodCurve neighbourhood_curve(const BedFrame& bed, Index grain, double largest);
 
-}  // namespace talus
+}  // namespace talus::analysis

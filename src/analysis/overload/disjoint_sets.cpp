@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace talus {
+namespace talus::analysis {
 
 DisjointSets::DisjointSets(std::size_t count) : parent_(count), periods_(count, 0) {
   std::iota(parent_.begin(), parent_.end(), 0);
@@ -32,4 +32,4 @@ bool DisjointSets::join(Index a, Index b, Index shift) {
   return true;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 
 #include "core/types.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Disjoint sets of the elements 0 ... count - 1, with path halving. The root of a set is its smallest
 /// element. Each element knows by how many periods it is away from its root.
@@ -28,4 +28,4 @@ class DisjointSets {
   std::vector<Index> periods_;  ///< from the parent
 };
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 #include "analysis/cells.h"
 #include "analysis/free_grains.h"
 
-namespace talus {
+namespace talus::analysis {
 
 std::vector<Link> force_links(const BedFrame& bed) {
   const FrameContacts& contacts = bed.frame.contacts;
@@ -43,4 +43,4 @@ std::vector<Link> neighbour_links(const BedFrame& bed, double reach) {
   return links;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Two free grains, a < b; b is at x_b + shift * period, seen from a.
 struct Link {
@@ -22,4 +22,4 @@ std::vector<Link> force_links(const BedFrame& bed);
 /// diameter. Each pair once, with its nearest image. In the order of (a, b).
 std::vector<Link> neighbour_links(const BedFrame& bed, double reach = 1.1);
 
-}  // namespace talus
+}  // namespace talus::analysis

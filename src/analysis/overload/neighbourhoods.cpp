@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace talus {
+namespace talus::analysis {
 
 std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::vector<Near>& scratch) {
   // Evenly spread over an area are the squares of distances: so many buckets hold about one each.
@@ -32,4 +32,4 @@ std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::
   return count;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

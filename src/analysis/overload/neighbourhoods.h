@@ -9,7 +9,7 @@
 #include "analysis/free_grains.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// A grain and how far away it is.
 struct Near {
@@ -80,4 +80,4 @@ class Neighbourhoods {
   std::vector<Near> near_, scratch_;
 };
 
-}  // namespace talus
+}  // namespace talus::analysis

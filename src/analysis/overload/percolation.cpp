@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// The bed along x in equal columns, about a mean diameter wide.
@@ -124,4 +124,4 @@ DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_se
   return paths;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "analysis/overload/links.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Free grains at which clusters may begin and end. D is the mean diameter.
 struct BedEdges {
@@ -38,4 +38,4 @@ DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_se
                              const std::vector<Link>& links, const BedEdges& edges, double direction,
                              double spread);
 
-}  // namespace talus
+}  // namespace talus::analysis

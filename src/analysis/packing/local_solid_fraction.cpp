@@ -9,7 +9,7 @@
 #include "core/tensor.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using Polygon = std::vector<Vector2>;
@@ -137,4 +137,4 @@ void take_local_solid_fraction(const BedFrame& bed, FrameRecord& record) {
   record.local_solid_fraction_spread = std::sqrt(squares / count);
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// How far cells reach: to a power |x - x_i|^2 - r_i^2 of this times D^2, the hole in a ring of six grains of
 /// diameter D. What is farther from all grains is not in the bed, but above it.
@@ -31,4 +31,4 @@ std::vector<double> local_solid_fractions(const BedFrame& bed);
 /// Sets members of a record, defined in the table of quantities.
 void take_local_solid_fraction(const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

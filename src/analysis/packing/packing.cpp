@@ -9,7 +9,7 @@
 #include "stress/free_surface.h"
 #include "stress/internal_moment.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 Tensor2 over(const Tensor2& moment, double volume) {
@@ -33,7 +33,7 @@ double frame_volume(const BedFrame& bed) {
   Boundary boundary;
   boundary.periodic = bed.statics.periodic;
   boundary.length = bed.statics.length;
-  return bed_volume(grains, boundary);
+  return stress::bed_volume(grains, boundary);
 }
 
 double bulk_solid_fraction(const BedFrame& bed, double volume) {
@@ -49,8 +49,8 @@ double bulk_solid_fraction(const BedFrame& bed, double volume) {
 
 PackingStress packing_stress(const BedFrame& bed, double volume) {
   PackingStress stress;
-  stress.sigma = over(sum_of_moments(bed.frame.internal_moment, 0, bed.statics.free_count), volume);
-  stress.state = stress_state(stress.sigma);
+  stress.sigma = over(stress::sum_of_moments(bed.frame.internal_moment, 0, bed.statics.free_count), volume);
+  stress.state = stress::stress_state(stress.sigma);
   stress.normal = stress.sigma.yy;
   stress.shear = -stress.sigma.yx;
   stress.shear_over_normal = stress.shear / stress.normal;
@@ -75,4 +75,4 @@ Histogram stress_ratio_distribution(const BedFrame& bed, int bins) {
   return histogram;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,13 +7,13 @@
 #include "core/bed_frame.h"
 #include "stress/stress_state.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// sigma = sum of the internal moments of the free grains / V (T20), Pa; compression is
 /// positive, y points away from the floor.
 struct PackingStress {
   Tensor2 sigma;
-  StressState state;               ///< Gamma is state.ratio (T22)
+  stress::StressState state;       ///< Gamma is state.ratio (T22)
   double normal = 0.0;             ///< sigma_N = sigma_yy
   double shear = 0.0;              ///< sigma_T = -sigma_yx, positive where gravity pulls towards +x
   double shear_over_normal = 0.0;  ///< sigma_T / sigma_N; NaN where nothing is carried
@@ -43,4 +43,4 @@ std::vector<Tensor2> section_stresses(const BedFrame& bed, double volume, int co
 /// Stress ratios gamma of the free grains that carry something, in equal bins over [0, 1]. Paper, Fig. 8.
 Histogram stress_ratio_distribution(const BedFrame& bed, int bins);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -12,7 +12,7 @@
 #include "analysis/free_grains.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr double layer_over_d = 2.0;
@@ -243,4 +243,4 @@ PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int
                           bins, period_of(bed.statics));
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

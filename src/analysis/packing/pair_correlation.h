@@ -5,7 +5,7 @@
 
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// C(r) = <dv_i dv_j> / <dv^2> over pairs of points at distances in equal bins of r from 0 to `largest` (m);
 /// dv is the deviation from the mean. Points whose value is NaN are left out.
@@ -28,4 +28,4 @@ PairCorrelation stress_ratio_correlation(const BedFrame& bed, double largest, in
 /// over the mean of its layer, like forces. A grain that carries nothing has 0.
 PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int bins);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -3,7 +3,7 @@
 
 #include "analysis/free_grains.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Adds the part of contact c in the sum of the internal moments of the free grains (T19), J: branch vector
 /// times force.
@@ -14,4 +14,4 @@ inline void add_moment(const BedFrame& bed, Index c, Tensor2& sum) {
   matrix(sum) += branch_length(bed, c) * n * f.transpose();
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr int half_turn = 180;  // deg
@@ -86,4 +86,4 @@ std::array<double, 3> direction_peaks(const Frame& frame) {
   return peaks;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

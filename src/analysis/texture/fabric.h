@@ -7,7 +7,7 @@
 #include "analysis/histogram.h"
 #include "core/snapshot.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Directions of contact normals in [0, 180) deg to the bed, in equal bins; each contact counts once, or with
 /// f_n.
@@ -29,4 +29,4 @@ FabricComponent fabric_component(const FrameContacts& contacts, int m, const std
 /// highest; deg, to 1 deg. NaN without contacts.
 std::array<double, 3> direction_peaks(const Frame& frame);
 
-}  // namespace talus
+}  // namespace talus::analysis

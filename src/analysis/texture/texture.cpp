@@ -5,14 +5,14 @@
 #include "analysis/texture/contact_moment.h"
 #include "stress/stress_state.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Direction of the major principal stress of the contact forces, rad; NaN without contacts.
 double stress_axis(const BedFrame& bed) {
   Tensor2 sum;
   for (Index c = 0; c < bed.frame.contacts.count(); ++c) add_moment(bed, c, sum);
-  return bed.frame.contacts.count() > 0 ? stress_state(sum).axis : not_known;
+  return bed.frame.contacts.count() > 0 ? stress::stress_state(sum).axis : not_known;
 }
 
 }  // namespace
@@ -54,4 +54,4 @@ void take_texture(const BedFrame& bed, FrameRecord& record) {
   record.texture_stress_ratio = texture.stress_ratio();
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -5,7 +5,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Anisotropies about the major principal direction of the stress of the contact forces, each the amplitude
 /// of a cosine (of tangential forces, a sine) of twice the angle to it (Rothenburg and Bathurst 1989). Those
@@ -26,4 +26,4 @@ Texture texture_of(const BedFrame& bed);
 /// Sets members of a record, which are defined in the table of quantities.
 void take_texture(const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

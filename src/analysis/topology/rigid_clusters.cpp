@@ -6,7 +6,7 @@
 
 #include "analysis/overload/disjoint_sets.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr Index nobody = -1;
@@ -172,4 +172,4 @@ void take_rigid_clusters(const BedFrame& bed, FrameRecord& record) {
   record.rigid_redundant = clusters.redundant / carrying;
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// Constraints between two bodies: 2 of a contact that sticks (a pin), 1 of one that slides (a bar).
 struct Bond {
@@ -35,4 +35,4 @@ std::vector<Bond> bonds_of(const BedFrame& bed);
 /// Sets members of a record, which are defined in the table of quantities.
 void take_rigid_clusters(const BedFrame& bed, FrameRecord& record);
 
-}  // namespace talus
+}  // namespace talus::analysis

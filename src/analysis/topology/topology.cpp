@@ -10,7 +10,7 @@
 #include "analysis/overload/disjoint_sets.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr std::size_t slices = 16;
@@ -166,4 +166,4 @@ void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index
   }
 }
 
-}  // namespace talus
+}  // namespace talus::analysis

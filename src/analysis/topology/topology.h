@@ -8,7 +8,7 @@
 #include "analysis/record.h"
 #include "core/bed_frame.h"
 
-namespace talus {
+namespace talus::analysis {
 
 /// The thresholds between which something is there, the threshold falling: birth >= death >= 0.
 struct Lifetime {
@@ -54,4 +54,4 @@ void take_topology(const PersistenceDiagram& diagram, Index free_count, std::spa
 void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
                           std::vector<FrameRecord>& frames);
 
-}  // namespace talus
+}  // namespace talus::analysis

@@ -13,7 +13,7 @@ namespace {
 
 void parse(const std::string& text) {
   try {
-    if (talus::manifest_text(talus::parse_manifest(text, "manifest")) != text) std::abort();
+    if (talus::io::manifest_text(talus::io::parse_manifest(text, "manifest")) != text) std::abort();
   } catch (const talus::Error& error) {
     if (error.code() != talus::ExitCode::bad_data) std::abort();
   }

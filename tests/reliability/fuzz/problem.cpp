@@ -13,8 +13,8 @@ using namespace talus;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Parcels file = decode(std::as_bytes(std::span(data, size)), "p.h5");
-    hostile::use_problem(stored_problem("p.h5", checked_problem("p.h5", file)));
+    const io::Parcels file = io::decode(std::as_bytes(std::span(data, size)), "p.h5");
+    hostile::use_problem(problems::stored_problem("p.h5", problems::checked_problem("p.h5", file)));
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) std::abort();
   }

@@ -11,16 +11,17 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  talus::Scenario scenario;
+  talus::scenario::Scenario scenario;
   try {
     // The first byte in two halves: the text is a file, or a setting of the command line.
-    scenario = size > 0 && data[0] % 2 == 1 ? talus::parse_scenario("", "f.toml", {text.substr(1)})
-                                            : talus::parse_scenario(text, "f.toml");
+    scenario = size > 0 && data[0] % 2 == 1 ? talus::scenario::parse_scenario("", "f.toml", {text.substr(1)})
+                                            : talus::scenario::parse_scenario(text, "f.toml");
   } catch (const talus::LocatedError& error) {
     if (error.code() != talus::ExitCode::bad_data) std::abort();
     return 0;
   }
-  if (talus::parse_scenario(talus::resolved_toml(scenario), "again.toml") != scenario) std::abort();
-  talus::estimate(scenario);
+  if (talus::scenario::parse_scenario(talus::scenario::resolved_toml(scenario), "again.toml") != scenario)
+    std::abort();
+  talus::session::estimate(scenario);
   return 0;
 }

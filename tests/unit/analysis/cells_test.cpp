@@ -7,7 +7,7 @@
 
 #include "core/random.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 struct Places {
@@ -69,4 +69,4 @@ TEST(NearestImage, is_at_most_half_a_period_away) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 TEST(Histogram, counts_between_its_edges) {
@@ -47,4 +47,4 @@ TEST(Histogram, of_nothing_is_zero) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

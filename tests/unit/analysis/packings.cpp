@@ -16,7 +16,7 @@ Index append(Packing& packing, double x, double y, double radius, Tensor2 moment
   packing.frame.y.push_back(y);
   packing.frame.omega.push_back(0.0);
   packing.frame.internal_moment.push_back(moment);
-  packing.frame.gamma.push_back(stress_state(moment).ratio);
+  packing.frame.gamma.push_back(stress::stress_state(moment).ratio);
   packing.statics.radius.push_back(radius);
   return packing.frame.grain_count() - 1;
 }
@@ -58,7 +58,7 @@ void add_contact(Packing& packing, Index a, Index b, double fn, double ft, int s
   contacts.py.push_back(frame.y[a] + packing.statics.radius[a] * dy / distance);
   contacts.fn.push_back(fn);
   contacts.ft.push_back(ft);
-  contacts.status.push_back(contact_status(fn, ft, packing.statics.friction));
+  contacts.status.push_back(stress::contact_status(fn, ft, packing.statics.friction));
 }
 
 void moments_from_contacts(Packing& packing) {
@@ -76,13 +76,13 @@ void moments_from_contacts(Packing& packing) {
   contacts.gap.assign(contacts.a.size(), 0.0);
   contacts.fn = packing.frame.contacts.fn;
   contacts.ft = packing.frame.contacts.ft;
-  internal_moments(grains, contacts, packing.frame.internal_moment);
+  stress::internal_moments(grains, contacts, packing.frame.internal_moment);
   gamma_from_moments(packing);
 }
 
 void gamma_from_moments(Packing& packing) {
   for (std::size_t i = 0; i < packing.frame.gamma.size(); ++i)
-    packing.frame.gamma[i] = stress_state(packing.frame.internal_moment[i]).ratio;
+    packing.frame.gamma[i] = stress::stress_state(packing.frame.internal_moment[i]).ratio;
 }
 
 Packing triangular_lattice(Index columns, Index rows, bool periodic) {

@@ -7,15 +7,15 @@
 #include "runs/analysis_parameters.h"
 #include "support/blank_analysis.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 TEST(AnalysisJson, has_each_quantity_of_its_table) {
-  RunView run;
+  runs::RunView run;
   run.analysis = test::blank_analysis({.frames = 2, .thresholds = 1, .grains = 3, .sections = 2, .bins = 2});
   run.analysis.frames[1].volume = 0.25;
-  std::vector<Quantity> table = quantities();
-  table.push_back({&FrameRecord::volume, "packing/made_up", "T", "m", "made up for this test", ""});
+  std::vector<analysis::Quantity> table = analysis::quantities();
+  table.push_back({&analysis::FrameRecord::volume, "packing/made_up", "T", "m", "made up for this test", ""});
   const std::string text = analysis_json(run, table);
   EXPECT_NE(text.find("\"packing/made_up\": [null, 0.25]"), std::string::npos) << text;
   EXPECT_EQ(analysis_json(run).find("made_up"), std::string::npos);
@@ -24,10 +24,10 @@ TEST(AnalysisJson, has_each_quantity_of_its_table) {
 
 TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) {
   const auto text_with = [](double theta_c, double first_slide) {
-    RunView run;
+    runs::RunView run;
     run.statics.mean_diameter = 1.0;
     run.analysis = test::blank_analysis({.frames = 2, .sections = 2, .bins = 2});
-    run.analysis.parameters = as_facts(AnalysisParameters());
+    run.analysis.parameters = runs::as_facts(analysis::AnalysisParameters());
     run.analysis.frames[0].tilt = 0.0;
     run.analysis.frames[1].tilt = 0.4;
     run.analysis.theta_c = theta_c;
@@ -47,4 +47,4 @@ TEST(BeyondRepose, is_told_from_a_degree_on) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

@@ -21,19 +21,19 @@ class CommandTree : public testing::Test {
     go->add_option_group("how")->add_option("--by", text_, "By what:who]");
     go->add_subcommand("near", "Not far");
     app_.add_subcommand("hidden", "Nobody sees this")->group("");
-    tree_ = command_tree(app_, "tool");
+    tree_ = app::command_tree(app_, "tool");
   }
 
   CLI::App app_{"A tool.", "tool"};
   bool flag_ = false;
   int number_ = 3;
   std::string text_;
-  CommandPage tree_;
+  app::CommandPage tree_;
 };
 
 TEST_F(CommandTree, has_what_the_parser_has_without_what_is_hidden) {
   ASSERT_EQ(tree_.commands.size(), 1U);
-  const CommandPage& go = tree_.commands.front();
+  const app::CommandPage& go = tree_.commands.front();
   EXPECT_EQ(go.name, "tool go");
   ASSERT_EQ(go.commands.size(), 1U);
   EXPECT_EQ(go.commands.front().name, "tool go near");
@@ -51,7 +51,7 @@ TEST_F(CommandTree, has_what_the_parser_has_without_what_is_hidden) {
 }
 
 TEST_F(CommandTree, makes_a_man_page_of_each_command) {
-  const auto pages = man_pages(tree_);
+  const auto pages = app::man_pages(tree_);
   ASSERT_EQ(pages.size(), 3U);
   EXPECT_EQ(pages[0].first, "tool.1");
   EXPECT_EQ(pages[2].first, "tool-go-near.1");
@@ -65,18 +65,19 @@ TEST_F(CommandTree, makes_a_man_page_of_each_command) {
 }
 
 TEST_F(CommandTree, is_quoted_in_completions_as_shells_want_it) {
-  EXPECT_NE(bash_completion(tree_).find("\"go --to\") values='north south' ;;"), std::string::npos);
-  EXPECT_NE(bash_completion(tree_).find(
+  EXPECT_NE(app::bash_completion(tree_).find("\"go --to\") values='north south' ;;"), std::string::npos);
+  EXPECT_NE(app::bash_completion(tree_).find(
                 "\"go\") commands='near' options='-h --help --fast -n --number --to --by' ;;"),
             std::string::npos)
-      << bash_completion(tree_);
-  EXPECT_NE(zsh_completion(tree_).find("'--to[Where to]:TEXT:(north south)'"), std::string::npos);
-  EXPECT_NE(zsh_completion(tree_).find("'--by[By what\\:who\\]]:TEXT:_files'"), std::string::npos)
-      << zsh_completion(tree_);
-  EXPECT_NE(fish_completion(tree_).find("-l to -x -a 'north south' -d 'Where to'"), std::string::npos);
-  EXPECT_EQ(first_clause("Go there: 'at once'"), "Go there");
-  EXPECT_EQ(first_clause("In haste [not]"), "In haste");
-  for (const std::string& script : {bash_completion(tree_), zsh_completion(tree_), fish_completion(tree_)})
+      << app::bash_completion(tree_);
+  EXPECT_NE(app::zsh_completion(tree_).find("'--to[Where to]:TEXT:(north south)'"), std::string::npos);
+  EXPECT_NE(app::zsh_completion(tree_).find("'--by[By what\\:who\\]]:TEXT:_files'"), std::string::npos)
+      << app::zsh_completion(tree_);
+  EXPECT_NE(app::fish_completion(tree_).find("-l to -x -a 'north south' -d 'Where to'"), std::string::npos);
+  EXPECT_EQ(app::first_clause("Go there: 'at once'"), "Go there");
+  EXPECT_EQ(app::first_clause("In haste [not]"), "In haste");
+  for (const std::string& script :
+       {app::bash_completion(tree_), app::zsh_completion(tree_), app::fish_completion(tree_)})
     EXPECT_EQ(script.find("hidden"), std::string::npos);
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 TEST(MovingStep, IsOneOfWhichTheRunAskedLessThanOfABedAtRest) {
@@ -23,4 +23,4 @@ TEST(MovingStep, TellsWhichToleranceWasReached) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

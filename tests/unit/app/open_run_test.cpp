@@ -9,7 +9,7 @@
 #include "base/errors.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 class OpenRunTest : public testing::Test {
@@ -17,7 +17,7 @@ class OpenRunTest : public testing::Test {
   OpenRunTest() {
     std::ofstream(request_.scenario) << "seed = 5\n[bed]\nlength = 10\ndepth = 2\n";
     OpenRun run = start_run(request_);
-    Checkpoint checkpoint = run.session.checkpoint(0.0);
+    io::Checkpoint checkpoint = run.session.checkpoint(0.0);
     std::erase_if(checkpoint.integers, [](const auto& named) { return named.first == "phase"; });
     run.store.commit({}, checkpoint);
   }
@@ -39,4 +39,4 @@ TEST_F(OpenRunTest, names_the_run_and_the_value_that_its_checkpoint_lacks) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

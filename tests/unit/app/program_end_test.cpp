@@ -17,7 +17,7 @@
 #include "base/errors.h"
 #include "base/sanitizers.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 constexpr bool sanitizers_report_crashes = sanitizes_addresses || sanitizes_threads;
@@ -104,4 +104,4 @@ TEST(ProgramEnd, by_exit_or_terminate_after_a_failed_allocation_is_that_of_missi
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

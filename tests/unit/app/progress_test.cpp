@@ -6,14 +6,14 @@
 
 #include "session/estimate.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 bool has(const std::string& line, const std::string& part) { return line.find(part) != std::string::npos; }
 
 RunShown tilting() {
   RunShown shown;
-  shown.phase = Phase::tilt;
+  shown.phase = session::Phase::tilt;
   shown.tilt = 12.345;
   shown.share = 12.345 / 20.0;
   shown.repose_assumed = 20.0;
@@ -32,14 +32,15 @@ std::string count_text(std::size_t done, double elapsed, std::optional<int> widt
 }
 
 TEST(Durations, AreTextsOfTwoUnitsAtMost) {
-  EXPECT_EQ(duration_text(7.6), "8 s");
-  EXPECT_EQ(duration_text(125.0), "2 min 05 s");
-  EXPECT_EQ(duration_text(11400.0), "3 h 10 min");
+  EXPECT_EQ(session::duration_text(7.6), "8 s");
+  EXPECT_EQ(session::duration_text(125.0), "2 min 05 s");
+  EXPECT_EQ(session::duration_text(11400.0), "3 h 10 min");
 }
 
 TEST(ProgressText, FitsEveryWidth) {
   RunShown shown = tilting();
-  for (const Phase phase : {Phase::deposition, Phase::tilt, Phase::flow}) {
+  for (const session::Phase phase :
+       {session::Phase::deposition, session::Phase::tilt, session::Phase::flow}) {
     shown.phase = phase;
     for (int width = 0; width <= 250; ++width)
       EXPECT_LE(run_text(shown, width).size(), static_cast<std::size_t>(width));
@@ -74,12 +75,12 @@ TEST(ProgressText, PromisesNothingBeyondTheExpectedEnd) {
 TEST(ProgressText, OfOtherStages) {
   RunShown shown = tilting();
   shown.repose_assumed.reset();
-  shown.phase = Phase::deposition;
+  shown.phase = session::Phase::deposition;
   shown.time = 0.25;
   shown.contacts = 2000;
   EXPECT_EQ(run_text(shown, 79),
             "deposition 0.250 s  [########------]  61 %  elapsed 1 h 02 min  ETA 3 h 03 min");
-  shown.phase = Phase::flow;
+  shown.phase = session::Phase::flow;
   shown.share.reset();
   EXPECT_EQ(run_text(shown, 60), "flow at 12.345 deg  elapsed 1 h 02 min  residual 2.9e-07");
 }
@@ -99,4 +100,4 @@ TEST(ProgressBar, IsFullAtTheEnd) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::app {
 namespace {
 
-SolverRecord record_of(std::int64_t tilt) {
-  SolverRecord record;
+session::SolverRecord record_of(std::int64_t tilt) {
+  session::SolverRecord record;
   record.unconverged_tilt = tilt;
   record.residual_max_rest = 6.6e-6;
   record.residual_max_moving = 2.1e-4;
@@ -32,8 +32,8 @@ TEST(UnconvergedSteps, AreAWarningWhereTheyAreMany) {
 
 TEST(UnconvergedSteps, AreNotMentionedWhereThereAreNone) {
   EXPECT_EQ(remark_on(record_of(0), 1000).text, "");
-  EXPECT_EQ(remark_on(SolverRecord(), 0).text, "");
+  EXPECT_EQ(remark_on(session::SolverRecord(), 0).text, "");
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

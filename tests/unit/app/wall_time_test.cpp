@@ -4,7 +4,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::app {
 namespace {
 
 TEST(WallTime, is_read_as_batch_systems_write_it) {
@@ -29,4 +29,4 @@ TEST(WallTime, is_refused_where_it_is_not_clear) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::app

@@ -7,7 +7,7 @@
 
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 using test::density;
@@ -132,4 +132,4 @@ TEST(Detection, coincident_centres_are_pushed_apart_upwards) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contact

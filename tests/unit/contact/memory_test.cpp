@@ -10,7 +10,7 @@
 #include "core/random.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
@@ -129,4 +129,4 @@ TEST(Memory, a_grain_that_wraps_around_the_edge_keeps_its_forces) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contact

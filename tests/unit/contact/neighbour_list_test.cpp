@@ -11,7 +11,7 @@
 #include "core/random.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::contact {
 namespace {
 
 using test::radius;
@@ -298,4 +298,4 @@ TEST(NeighbourList, a_position_that_is_no_number_has_a_cell_as_all_have) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::contact

@@ -8,7 +8,7 @@
 #include "core/trigonometry.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 /// Smallest gap between any two grains, through the periodic images too.
@@ -157,4 +157,4 @@ TEST(LooseBed, a_smooth_floor_is_a_plane_with_the_friction_of_grains) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

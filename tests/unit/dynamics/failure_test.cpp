@@ -6,7 +6,7 @@
 
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr double h = 1e-3;
@@ -115,4 +115,4 @@ TEST(SurfaceVelocity, is_the_mean_along_x_of_the_free_grains_above) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

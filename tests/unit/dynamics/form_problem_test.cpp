@@ -10,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr double h = 1e-3;
@@ -20,7 +20,7 @@ constexpr double tolerance = 1e-4;
 struct Scene {
   World world = test::disk_on_plane(0.0);
   ContactLawParameters law;
-  ContactProblem problem;
+  solver::ContactProblem problem;
   std::vector<double> fn, ft;  ///< remembered forces of its first contacts, N; others have none
 
   explicit Scene(double gap, double vy = 0.0) {
@@ -29,8 +29,8 @@ struct Scene {
   }
   void form_now() {
     Contacts contacts;
-    NeighbourList list;
-    detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
+    contact::NeighbourList list;
+    contact::detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
     std::copy(fn.begin(), fn.end(), contacts.fn.begin());
     std::copy(ft.begin(), ft.end(), contacts.ft.begin());
     form_problem(world, contacts, law, h, tolerance, problem);
@@ -54,7 +54,7 @@ TEST(FormProblem, free_velocities_are_those_of_free_fall) {
   scene.world.grains.omega[0] = 7.0;
   add_disk(scene.world.grains, {0.5, -0.1}, 0.01, test::density, true);
   scene.form_now();
-  const ContactProblem& p = scene.problem;
+  const solver::ContactProblem& p = scene.problem;
   ASSERT_EQ(p.body_count(), 3);  // the disk, the glued grain, the plane
   EXPECT_DOUBLE_EQ(p.vx[0], 3.0 + h * 9.81 * 0.5);
   EXPECT_DOUBLE_EQ(p.vy[0], 2.0 - h * 9.81 * cosine(radians(30.0)));
@@ -165,25 +165,26 @@ TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
   World world = test::random_cloud(5, 900, true, 30.0 * test::radius);
   world.boundary.planes = {{{0.0, 1.0}, 4.0 * test::radius, true}};
   Contacts contacts;
-  NeighbourList list;
-  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  contact::NeighbourList list;
+  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
   for (std::size_t c = 0; c < contacts.fn.size(); c += 3) contacts.fn[c] = 1.0 + static_cast<double>(c);
   ContactLawParameters law;
   law.rolling_friction = 0.1;
-  ContactProblem alone, together;
+  solver::ContactProblem alone, together;
   form_problem(world, contacts, law, h, tolerance, alone);
   ThreadTeam team(3);
   form_problem(world, contacts, law, h, tolerance, together, &team);
   EXPECT_EQ(together.a, alone.a);
   EXPECT_EQ(together.b, alone.b);
-  for (const auto field :
-       {&ContactProblem::vx, &ContactProblem::vy, &ContactProblem::omega, &ContactProblem::inverse_mass,
-        &ContactProblem::inverse_inertia, &ContactProblem::lever}) {
+  for (const auto field : {&solver::ContactProblem::vx, &solver::ContactProblem::vy,
+                           &solver::ContactProblem::omega, &solver::ContactProblem::inverse_mass,
+                           &solver::ContactProblem::inverse_inertia, &solver::ContactProblem::lever}) {
     EXPECT_EQ(together.*field, alone.*field);
     EXPECT_EQ((alone.*field).size(), world.grains.x.size() + 1);
   }
-  for (const auto field : {&ContactProblem::nx, &ContactProblem::ny, &ContactProblem::cn, &ContactProblem::ct,
-                           &ContactProblem::mu, &ContactProblem::rolling_friction}) {
+  for (const auto field : {&solver::ContactProblem::nx, &solver::ContactProblem::ny,
+                           &solver::ContactProblem::cn, &solver::ContactProblem::ct,
+                           &solver::ContactProblem::mu, &solver::ContactProblem::rolling_friction}) {
     EXPECT_EQ(together.*field, alone.*field);
     EXPECT_EQ((alone.*field).size(), contacts.a.size());
   }
@@ -193,9 +194,9 @@ TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
 TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   const World world = test::random_cloud(5, 20'000, true, 300.0 * test::radius);
   Contacts contacts;
-  NeighbourList list;
-  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
-  ContactProblem problem;
+  contact::NeighbourList list;
+  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  solver::ContactProblem problem;
   form_problem(world, contacts, {}, h, tolerance, problem);
   ASSERT_EQ(problem.column.size(), problem.vx.size());
   const Index columns = problem.columns;
@@ -210,7 +211,7 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   }
   EXPECT_GT(across_the_edge, 0);
   ThreadTeam team(3);
-  ContactProblem together;
+  solver::ContactProblem together;
   form_problem(world, contacts, {}, h, tolerance, together, &team);
   EXPECT_EQ(together.column, problem.column);
 }
@@ -218,12 +219,12 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
 TEST(FormProblem, what_has_left_a_large_bed_has_a_column) {
   World world = test::random_cloud(5, 20'000, false, 300.0 * test::radius);
   Contacts contacts;
-  NeighbourList list;
-  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  contact::NeighbourList list;
+  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
   world.grains.x[0] = -1.0;
   world.grains.x[1] = 1e12;
   world.grains.x[2] = std::numeric_limits<double>::quiet_NaN();
-  ContactProblem problem;
+  solver::ContactProblem problem;
   form_problem(world, contacts, {}, h, tolerance, problem);
   EXPECT_EQ(problem.column[0], 0);
   EXPECT_EQ(problem.column[1], problem.columns - 1);
@@ -233,9 +234,9 @@ TEST(FormProblem, what_has_left_a_large_bed_has_a_column) {
 TEST(FormProblem, a_small_bed_has_no_columns) {
   const World world = test::random_cloud(5, 900, true, 300.0 * test::radius);
   Contacts contacts;
-  NeighbourList list;
-  detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
-  ContactProblem problem;
+  contact::NeighbourList list;
+  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  solver::ContactProblem problem;
   problem.column = {1, 2, 3};  // of a larger one before
   problem.columns = 4;
   form_problem(world, contacts, {}, h, tolerance, problem);
@@ -259,4 +260,4 @@ TEST(FormProblem, walls_have_the_friction_of_walls) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -9,7 +9,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr double round_off = 1e-12;  // D
@@ -160,4 +160,4 @@ TEST(GeometricBed, has_the_grains_asked_for_at_rest_and_inside) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

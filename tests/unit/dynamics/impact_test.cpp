@@ -10,7 +10,7 @@
 #include "dynamics/collapse.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 using test::radius;
@@ -26,7 +26,7 @@ Relative relative(const Grains& g, double angle) {
           -d.x * n.y + d.y * n.x - g.radius[0] * g.omega[0] - g.radius[1] * g.omega[1]};
 }
 
-class Impact : public testing::TestWithParam<SolverKind> {
+class Impact : public testing::TestWithParam<solver::SolverKind> {
  protected:
   StepSettings settings_with(double restitution, double tangential_restitution, double friction) {
     StepSettings settings = test::exact_step(GetParam(), friction);
@@ -203,4 +203,4 @@ TEST_P(Impact, a_cloud_of_disks_never_gains_energy) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 using test::radius;
@@ -18,7 +18,7 @@ using test::time_step;
 constexpr double friction = 0.5;
 constexpr int steps = 100;
 
-class Incline : public testing::TestWithParam<SolverKind> {
+class Incline : public testing::TestWithParam<solver::SolverKind> {
  protected:
   World after_steps(double tilt, bool rotates, double rolling_friction = 0.0) {
     World world = test::disk_on_plane(tilt);
@@ -154,4 +154,4 @@ TEST_P(Incline, a_disk_above_the_plane_falls_freely) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

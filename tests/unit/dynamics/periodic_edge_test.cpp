@@ -7,12 +7,12 @@
 #include "dynamics/collapse.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 using test::radius;
 
-class PeriodicEdge : public testing::TestWithParam<SolverKind> {};
+class PeriodicEdge : public testing::TestWithParam<solver::SolverKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Solvers, PeriodicEdge, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
@@ -149,4 +149,4 @@ TEST_P(PeriodicEdge, a_falling_crowd_keeps_its_momentum_along_x) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -9,7 +9,7 @@
 #include "dynamics/step.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr PourRule rule{.speed = 2.0, .interval = 0.01, .density = 2500.0};
@@ -209,10 +209,10 @@ TEST(Pour, a_grain_that_arrives_touches_in_its_first_step) {
   World world = bare_floor(plan);
   StepWorkspace workspace;
   let_arrive(arrivals, rule, 1e-3, world);
-  step(world, test::exact_step(SolverKind::accelerated), workspace);
+  step(world, test::exact_step(solver::SolverKind::accelerated), workspace);
   EXPECT_NEAR(world.grains.vy[0], 0.0, 1e-9);
   EXPECT_NEAR(world.grains.y[0], world.grains.radius[0], 1e-9);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

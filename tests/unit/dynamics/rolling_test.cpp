@@ -7,7 +7,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 constexpr double length = 20.0;
@@ -104,4 +104,4 @@ TEST(Rolling, the_critical_angle_does_not_hold_a_grain_that_rolls) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

@@ -4,10 +4,10 @@
 
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
-class Statics : public testing::TestWithParam<SolverKind> {};
+class Statics : public testing::TestWithParam<solver::SolverKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Statics, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
@@ -81,4 +81,4 @@ TEST_P(Statics, walls_and_floor_have_their_own_friction) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

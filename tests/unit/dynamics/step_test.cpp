@@ -9,7 +9,7 @@
 #include "dynamics/collapse.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::dynamics {
 namespace {
 
 BedPlan falling_plan(bool periodic) { return test::bed_plan(periodic, 36, 8, 11); }
@@ -160,4 +160,4 @@ TEST(Step, every_stage_has_a_name) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::dynamics

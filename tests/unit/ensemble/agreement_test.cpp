@@ -9,18 +9,18 @@
 
 #include "ensemble/plus_minus.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 PaperValue equal_to(double value, double accuracy, const char* unit = "1") {
-  return {PaperQuantity::theta_c, "name", "where",           "text", value, accuracy, unit,
-          Relation::equals,       "",     &Analysis::theta_c};
+  return {PaperQuantity::theta_c,      "name", "where", "text", value, accuracy, unit, Relation::equals, "",
+          &analysis::Analysis::theta_c};
 }
 PaperValue above(double value) {
-  return {PaperQuantity::dilation, "name", "where",           "text", value, 0.0, "1",
-          Relation::above,         "",     &Analysis::theta_c};
+  return {PaperQuantity::dilation,     "name", "where", "text", value, 0.0, "1", Relation::above, "",
+          &analysis::Analysis::theta_c};
 }
 Spread spread(std::initializer_list<Measured> values) { return spread_of(std::vector(values)); }
 Agreement verdict_of(const PaperValue& paper, const Spread& ours) {
@@ -106,4 +106,4 @@ TEST(PlusMinus, has_two_digits_of_the_width) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

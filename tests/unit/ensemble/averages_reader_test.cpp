@@ -16,7 +16,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -97,34 +97,35 @@ TEST(ReadAverages, of_slopes_that_stand_has_no_angle_left) {
 
 /// A file of one variant with two seeds and values of theta_c.
 template <typename T>
-void write_angles(const std::string& path, ElementType type, const char* shape,
+void write_angles(const std::string& path, io::ElementType type, const char* shape,
                   const std::vector<T>& values) {
-  hdf5::Writer file({}, seal_size);
+  io::hdf5::Writer file({}, io::seal_size);
   file.set_attribute("/variants/0", "name", "");
   file.set_attribute("/variants/0", "scenario", "");
   for (const char* name : {"/variants/0/seed", "/variants/0/state_hash"})
-    file.write(DataSetField{name, ElementType::uint64, "2", "1", ""}, std::vector<std::uint64_t>{1, 2});
-  file.write(DataSetField{"/variants/0/numbers/theta_c/values", type, shape, "deg", ""}, values);
+    file.write(io::DataSetField{name, io::ElementType::uint64, "2", "1", ""},
+               std::vector<std::uint64_t>{1, 2});
+  file.write(io::DataSetField{"/variants/0/numbers/theta_c/values", type, shape, "deg", ""}, values);
   std::vector<std::byte> bytes = file.image();
-  seal(bytes, averages_seal);
-  write_durably(path, bytes);
+  io::seal(bytes, io::averages_seal);
+  io::write_durably(path, bytes);
 }
 
 TEST(ReadAverages, refuses_other_files) {
   const test::TemporaryFolder folder;
-  write_text(folder.path("text"), "talus run file 1\n");
+  io::write_text(folder.path("text"), "talus run file 1\n");
   EXPECT_FALSE(holds_averages(folder.path("text")));
   EXPECT_FALSE(holds_averages(folder.path("none")));
   EXPECT_EQ(test::exit_code_of([&] { read_averages(folder.path("text")); }), ExitCode::bad_data);
   const std::string path = folder.path("made.h5");
   const std::vector<double> both = {19.0, 20.0};
-  write_angles(path, ElementType::float64, "2 1", both);
+  write_angles(path, io::ElementType::float64, "2 1", both);
   EXPECT_TRUE(holds_averages(path));
   EXPECT_EQ(read_averages(path).at(0).numbers.at(0).values, both);
   const auto code = [&path] { return test::exit_code_of([&] { read_averages(path); }); };
-  write_angles(path, ElementType::float64, "1 1", std::vector<double>{19.0});
+  write_angles(path, io::ElementType::float64, "1 1", std::vector<double>{19.0});
   EXPECT_EQ(code(), ExitCode::bad_data) << "a member without its number";
-  write_angles(path, ElementType::uint64, "2 1", std::vector<std::uint64_t>{19, 20});
+  write_angles(path, io::ElementType::uint64, "2 1", std::vector<std::uint64_t>{19, 20});
   EXPECT_EQ(code(), ExitCode::bad_data) << "numbers of another kind";
 }
 
@@ -139,7 +140,7 @@ TEST(ReadAverages, refuses_an_infinite_value) {
 
 TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_from) {
   constexpr double diameter = 0.01;
-  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2, .bins = 2});
+  analysis::Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2, .bins = 2});
   analysis.theta_c = radians(15.0);
   analysis.lc_cut = 40.0 * diameter;
   analysis.dilation = {radians(3.0), none};
@@ -148,7 +149,7 @@ TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_f
     analysis.thresholds[f].lc_jump = radians(10.0 + static_cast<double>(f));
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    FrameRecord& frame = analysis.frames[k];
+    analysis::FrameRecord& frame = analysis.frames[k];
     frame.tilt = radians(5.0 * static_cast<double>(k));
     frame.volume_strain = 0.001 * static_cast<double>(k);
     frame.critical_correlation_length = 3.0 * diameter;
@@ -156,31 +157,32 @@ TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_f
     frame.thresholds[0].cluster_count = static_cast<Index>(7 + k);
   }
   MemberResult member{1, {"hash", "", 0.0, {}}, member_series(analysis, diameter)};
-  for (const Quantity& quantity : quantities())
-    if (is_number_of_run(quantity)) {
-      const auto values = std::get<std::vector<double>>(values_of(quantity, analysis));
+  for (const analysis::Quantity& quantity : analysis::quantities())
+    if (analysis::is_number_of_run(quantity)) {
+      const auto values = std::get<std::vector<double>>(analysis::values_of(quantity, analysis));
       for (std::size_t k = 0; k < values.size(); ++k)
-        member.numbers.numbers.push_back({element_name(quantity.name, k), scaled_unit(quantity.unit),
-                                          scaled(quantity.unit, values[k], diameter)});
+        member.numbers.numbers.push_back({element_name(quantity.name, k),
+                                          analysis::scaled_unit(quantity.unit),
+                                          analysis::scaled(quantity.unit, values[k], diameter)});
     }
-  const Analysis found = analysis_of(member, diameter);
+  const analysis::Analysis found = analysis_of(member, diameter);
   ASSERT_EQ(found.frames.size(), 3u);
   ASSERT_EQ(found.thresholds.size(), 2u);
   EXPECT_EQ(found.frames[0].thresholds[0].cluster_count, 7);
-  for (const Quantity& quantity : quantities()) {
-    if (is_number_of_run(quantity)) {
-      const auto before = std::get<std::vector<double>>(values_of(quantity, analysis));
-      const auto after = std::get<std::vector<double>>(values_of(quantity, found));
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (analysis::is_number_of_run(quantity)) {
+      const auto before = std::get<std::vector<double>>(analysis::values_of(quantity, analysis));
+      const auto after = std::get<std::vector<double>>(analysis::values_of(quantity, found));
       ASSERT_EQ(before.size(), after.size());
       for (std::size_t k = 0; k < before.size(); ++k)
         EXPECT_TRUE(std::isnan(before[k]) ? std::isnan(after[k]) : std::abs(after[k] - before[k]) < 1e-15)
             << quantity.name;
     }
-    if (!is_number_of_frame(quantity)) continue;
+    if (!analysis::is_number_of_frame(quantity)) continue;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t f = 0; f < 2; ++f) {
-        const double before = number_of(quantity, analysis.frames[k], f);
-        const double after = number_of(quantity, found.frames[k], f);
+        const double before = analysis::number_of(quantity, analysis.frames[k], f);
+        const double after = analysis::number_of(quantity, found.frames[k], f);
         EXPECT_TRUE(std::isnan(before) ? std::isnan(after) : std::abs(after - before) < 1e-15)
             << quantity.name << " " << before << " " << after;
       }
@@ -188,4 +190,4 @@ TEST(AnalysisOf, a_member_has_all_single_numbers_of_the_analysis_that_it_comes_f
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

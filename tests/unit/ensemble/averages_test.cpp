@@ -13,7 +13,7 @@
 #include "support/blank_analysis.h"
 #include "support/exit_code.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -114,9 +114,9 @@ TEST(AveragesCsv, has_a_row_for_each_quantity_at_each_angle_with_values) {
 }
 
 TEST(MemberSeries, end_at_theta_c_and_have_units_of_tables) {
-  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2});
+  analysis::Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2});
   for (int k = 0; k < 3; ++k) {
-    FrameRecord& frame = analysis.frames[static_cast<std::size_t>(k)];
+    analysis::FrameRecord& frame = analysis.frames[static_cast<std::size_t>(k)];
     frame.tilt = radians(10.0 * k);
     frame.stress_ratio = 0.1 * k;
     frame.thresholds[1].lc_mean = 0.02 * (k + 1);
@@ -136,9 +136,9 @@ TEST(MemberSeries, end_at_theta_c_and_have_units_of_tables) {
 }
 
 TEST(MemberSeries, of_a_bed_that_slopes_to_the_other_side_are_mirrored) {
-  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 1});
+  analysis::Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 1});
   for (int k = 0; k < 3; ++k) {
-    FrameRecord& frame = analysis.frames[static_cast<std::size_t>(k)];
+    analysis::FrameRecord& frame = analysis.frames[static_cast<std::size_t>(k)];
     frame.tilt = radians(-10.0 * k);
     frame.sigma_t_over_n = -0.1 * k;
   }
@@ -150,4 +150,4 @@ TEST(MemberSeries, of_a_bed_that_slopes_to_the_other_side_are_mirrored) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -13,7 +13,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 const ClaimTimes quick{0.06};  // a heartbeat each 5 ms; dead after 60 ms
@@ -179,4 +179,4 @@ TEST(ClaimName, is_that_of_its_run_with_a_number) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -19,7 +19,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using Seeds = std::vector<std::uint64_t>;
@@ -140,11 +140,11 @@ TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
 
 TEST_F(EnsembleManifestTest, keeps_the_plan_of_trials_to_the_last_bit) {
   EnsembleManifest asked = wanted({1});
-  const PerturbationPlan plan = {1.0 / 3.0, 0.1, {10.5, 2.0}};
+  const session::PerturbationPlan plan = {1.0 / 3.0, 0.1, {10.5, 2.0}};
   asked.task = plan;
   extend_ensemble(ensemble, asked);
   EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(plan));
-  asked.task = PerturbationPlan{1.0 / 3.0, 0.1, {10.5, 2.5}};
+  asked.task = session::PerturbationPlan{1.0 / 3.0, 0.1, {10.5, 2.5}};
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, asked); }), ExitCode::bad_data);
 }
 
@@ -203,7 +203,7 @@ TEST_F(EnsembleManifestTest, has_short_names_that_differ_whatever_the_values_are
   std::set<std::string> names;
   for (const std::string& file : files) {
     const auto variants =
-        plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=" + toml_text(file)});
+        plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=" + scenario::toml_text(file)});
     const std::string& name = variants.front().name;
     EXPECT_TRUE(name.starts_with("deposition.file=")) << name;
     EXPECT_LT(name.size(), 100u);
@@ -251,7 +251,7 @@ TEST_F(EnsembleManifestTest, loses_a_variant_that_only_fails_to_a_command_withou
   const EnsemblePlan plan = plan_of(read_ensemble(ensemble), ensemble);
   record_failure(plan.members[1].path, {65, "bad"});  // of 0.4
   record_failure(plan.members[2].path, {65, "bad"});  // of 0.5
-  write_text(plan.members[5].path, "done");
+  io::write_text(plan.members[5].path, "done");
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.4"}));
   EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is wanted, and a member of 0.5 is done";
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.7"}));
@@ -389,4 +389,4 @@ TEST_F(EnsembleManifestTest, has_each_combination_of_what_varies_once) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -18,7 +18,7 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,9 +58,10 @@ class DroppedFrames : public testing::Test {
     fs::create_directories(folder_.path(folder));
     for (std::size_t m = 0; m < count; ++m) {
       const Member& member = found.members[m];
-      Session session(member.scenario);
-      RunStore store = RunStore::create(member.path, run_header(session, {"", {}, "", 1}), false);
-      run_to_end(session, store, {});
+      session::Session session(member.scenario);
+      io::RunStore store =
+          io::RunStore::create(member.path, session::run_header(session, {"", {}, "", 1}), false);
+      session::run_to_end(session, store, {});
     }
     return found;
   }
@@ -79,19 +80,19 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   EXPECT_EQ(drop("2", of, "e"), 0u) << "both seeds keep their frames";
   const MemberResult before = analysed_member(of.members[0], known_);
   EXPECT_TRUE(before.has_frames);
-  const std::vector<StepRow> steps = RunFile::open(path).steps();
-  const std::vector<double> tilts = RunFile::open(path).frame_tilts();
-  fs::create_directory(run_folder(path));
+  const std::vector<StepRow> steps = io::RunFile::open(path).steps();
+  const std::vector<double> tilts = io::RunFile::open(path).frame_tilts();
+  fs::create_directory(io::run_folder(path));
   EXPECT_EQ(drop("analysis", of, "e"), 2u);
-  EXPECT_FALSE(fs::exists(run_folder(path))) << "what a kill had left";
+  EXPECT_FALSE(fs::exists(io::run_folder(path))) << "what a kill had left";
   EXPECT_EQ(drop("analysis", of, "e"), 0u);
-  const RunFile run = RunFile::open(path);
+  const io::RunFile run = io::RunFile::open(path);
   EXPECT_FALSE(run.has_frames());
   EXPECT_EQ(run.frame_tilts(), tilts);
   EXPECT_EQ(run.steps(), steps);
   EXPECT_EQ(run.changed_data_sets(), std::vector<std::string>());
   EXPECT_EQ(hash_text(state_hash(run.checkpoint().world)), before.numbers.state_hash);
-  for (const auto& read : {&RunFile::frame, &RunFile::positions})
+  for (const auto& read : {&io::RunFile::frame, &io::RunFile::positions})
     EXPECT_EQ(test::exit_code_of([&] { (run.*read)(0); }), ExitCode::missing_input);
   const MemberResult& after = read_member(of.members[0], known_);
   EXPECT_FALSE(after.has_frames);
@@ -103,9 +104,9 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   EXPECT_EQ(after.series.theta, before.series.theta);
   EXPECT_EQ(after.lists.lists.size(), before.lists.lists.size());
   EXPECT_LT(fs::file_size(path), fs::file_size(of.members[1].path) * 2) << "both are small";
-  store_analysis(path, *read_analysis(run), before.numbers.state_hash);
-  EXPECT_FALSE(RunFile::open(path).has_frames()) << "analysed again, it is as it was";
-  EXPECT_EQ(test::exit_code_of([&] { analyse_run(run, AnalysisParameters(), 1, {}); }),
+  io::store_analysis(path, *io::read_analysis(run), before.numbers.state_hash);
+  EXPECT_FALSE(io::RunFile::open(path).has_frames()) << "analysed again, it is as it was";
+  EXPECT_EQ(test::exit_code_of([&] { runs::analyse_run(run, analysis::AnalysisParameters(), 1, {}); }),
             ExitCode::missing_input);
 }
 
@@ -115,7 +116,7 @@ TEST_F(DroppedFrames, are_none_behind_a_link) {
   const EnsemblePlan behind = plan("e", 0);
   fs::create_directory(folder_.path("own"));
   EXPECT_EQ(drop("analysis", behind, "own"), 0u);
-  EXPECT_TRUE(RunFile::open(folder_.path("victim/seed-3.h5")).has_frames());
+  EXPECT_TRUE(io::RunFile::open(folder_.path("victim/seed-3.h5")).has_frames());
   EXPECT_EQ(drop("analysis", behind, "e"), 1u) << "the link is the folder's own";
 }
 
@@ -123,18 +124,18 @@ TEST_F(DroppedFrames, are_not_those_of_another_run) {
   const EnsemblePlan of = plan("e", 1);
   fs::rename(of.members[0].path, of.members[1].path);
   EXPECT_EQ(drop("analysis", of, "e"), 0u);
-  EXPECT_TRUE(RunFile::open(of.members[1].path).has_frames());
+  EXPECT_TRUE(io::RunFile::open(of.members[1].path).has_frames());
 }
 
 TEST_F(DroppedFrames, leave_no_folders_and_claims_of_members_that_are_done) {
   const EnsemblePlan of = plan("e", 1);
-  for (const std::size_t m : {0u, 1u}) fs::create_directory(run_folder(of.members[m].path));
+  for (const std::size_t m : {0u, 1u}) fs::create_directory(io::run_folder(of.members[m].path));
   std::ofstream(claim_path(of.members[0].path, 0)) << "process 1 on host far, boot another\n";
   drop_leftovers(of);
-  EXPECT_FALSE(fs::exists(run_folder(of.members[0].path)));
+  EXPECT_FALSE(fs::exists(io::run_folder(of.members[0].path)));
   EXPECT_FALSE(fs::exists(claim_path(of.members[0].path, 0)));
-  EXPECT_TRUE(fs::exists(run_folder(of.members[1].path))) << "of a member that is not done";
+  EXPECT_TRUE(fs::exists(io::run_folder(of.members[1].path))) << "of a member that is not done";
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

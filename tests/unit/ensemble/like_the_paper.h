@@ -5,7 +5,7 @@
 
 #include "ensemble/reproduction.h"
 
-namespace talus {
+namespace talus::ensemble {
 
 /// Two seeds that have the paper's values in everything, around them by `spread` of each.
 inline ReproductionResult like_the_paper(double spread) {
@@ -43,4 +43,4 @@ inline void set_everywhere(ReproductionResult& result, PaperQuantity quantity, M
   }
 }
 
-}  // namespace talus
+}  // namespace talus::ensemble

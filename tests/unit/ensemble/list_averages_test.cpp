@@ -15,7 +15,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -78,10 +78,10 @@ TEST(ListAverages, stand_in_the_file_with_their_bins) {
   Averages numbers;
   numbers.over_tilt.angles = {0.0, 1.0, 2.0, 3.0, 4.0};
   write_averages(folder.path("e.h5"), {{"", "seed = 1\n", numbers, averages_of_two()}}, "0.1.0");
-  hdf5::Reader file = hdf5::Reader::from_file(folder.path("e.h5"));
+  io::hdf5::Reader file = io::hdf5::Reader::from_file(folder.path("e.h5"));
   const auto values = [&](const std::string& path, const char* shape) {
-    const DataSetField field{"/variants/0/" + path, ElementType::float64, shape, "", ""};
-    return file.read<double>(field, hdf5::any_number);
+    const io::DataSetField field{"/variants/0/" + path, io::ElementType::float64, shape, "", ""};
+    return file.read<double>(field, io::hdf5::any_number);
   };
   EXPECT_EQ(values("bins/gamma/edge", "3"), (std::vector{0.0, 0.5, 1.0}));
   EXPECT_DOUBLE_EQ(values("over_tilt/gamma/density/mean", "5 2")[1], 20.0);
@@ -91,25 +91,26 @@ TEST(ListAverages, stand_in_the_file_with_their_bins) {
 }
 
 /// Every list of the table of quantities has numbers of its own.
-Analysis filled_analysis() {
-  Analysis analysis = test::blank_analysis({.frames = 3, .thresholds = 2, .sections = 4, .bins = 5});
+analysis::Analysis filled_analysis() {
+  analysis::Analysis analysis =
+      test::blank_analysis({.frames = 3, .thresholds = 2, .sections = 4, .bins = 5});
   int next = 1;
-  for (const Quantity& quantity : quantities()) {
-    if (!is_list_of_frame(quantity)) continue;
-    Values values = values_of(quantity, analysis);
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_list_of_frame(quantity)) continue;
+    analysis::Values values = analysis::values_of(quantity, analysis);
     std::visit(
         [&]<typename T>(std::vector<T>& numbers) {
           for (T& number : numbers) number = static_cast<T>(next++);
         },
         values);
-    set_values(quantity, values, analysis);
+    analysis::set_values(quantity, values, analysis);
   }
-  for (FrameRecord& frame : analysis.frames) frame.tilt = radians(static_cast<double>(next++));
+  for (analysis::FrameRecord& frame : analysis.frames) frame.tilt = radians(static_cast<double>(next++));
   return analysis;
 }
 
 TEST(MemberLists, end_at_theta_c_and_leave_out_directions_and_grains) {
-  Analysis analysis = filled_analysis();
+  analysis::Analysis analysis = filled_analysis();
   analysis.theta_c = analysis.frames[1].tilt;
   const MemberLists found = member_lists(analysis, 0.25);
   EXPECT_EQ(found.theta.size(), 2u);
@@ -122,4 +123,4 @@ TEST(MemberLists, end_at_theta_c_and_leave_out_directions_and_grains) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

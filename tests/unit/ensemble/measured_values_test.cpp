@@ -11,7 +11,7 @@
 #include "core/trigonometry.h"
 #include "support/blank_analysis.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using enum PaperQuantity;
@@ -22,49 +22,49 @@ constexpr double diameter = 0.01;
 
 struct HandMadeRun {
   std::vector<double> tilts;
-  Analysis analysis = test::blank_analysis({.frames = frames, .thresholds = 2, .sections = 4});
+  analysis::Analysis analysis = test::blank_analysis({.frames = frames, .thresholds = 2, .sections = 4});
 
   HandMadeRun() {
     for (std::size_t k = 0; k < frames; ++k) tilts.push_back(radians(5.0 * static_cast<double>(k)));
-    set(&Analysis::theta_c, 0, radians(21.0));
-    set(&Analysis::failure_ratio, 0, 0.7);
+    set(&analysis::Analysis::theta_c, 0, radians(21.0));
+    set(&analysis::Analysis::failure_ratio, 0, 0.7);
     for (std::size_t k = 0; k < frames; ++k) {
       const double number = static_cast<double>(k);
-      set(&FrameRecord::volume_strain, k, 1e-3 * (number == 2 ? -2.0 : number));
-      set(&FrameRecord::solid_fraction, k, 0.8 + 0.01 * number);
-      set(&FrameRecord::stress_ratio, k, 0.5 * std::sin(tilts[k]));
+      set(&analysis::FrameRecord::volume_strain, k, 1e-3 * (number == 2 ? -2.0 : number));
+      set(&analysis::FrameRecord::solid_fraction, k, 0.8 + 0.01 * number);
+      set(&analysis::FrameRecord::stress_ratio, k, 0.5 * std::sin(tilts[k]));
       for (std::size_t f = 0; f < 2; ++f) {
         const double shift = f == 0 ? 0.0 : -0.2;
-        set(&FrameThreshold::overloaded_fraction, 2 * k + f, 0.5 + shift + 0.01 * number);
-        set(&FrameThreshold::overloaded_fraction_of_all, 2 * k + f, 0.4 + shift + 0.01 * number);
-        set(&FrameThreshold::lc_mean, 2 * k + f, diameter * (4.0 + number));
-        set(&FrameThreshold::lc_max, 2 * k + f, diameter * (10.0 + 2.0 * number));
+        set(&analysis::FrameThreshold::overloaded_fraction, 2 * k + f, 0.5 + shift + 0.01 * number);
+        set(&analysis::FrameThreshold::overloaded_fraction_of_all, 2 * k + f, 0.4 + shift + 0.01 * number);
+        set(&analysis::FrameThreshold::lc_mean, 2 * k + f, diameter * (4.0 + number));
+        set(&analysis::FrameThreshold::lc_max, 2 * k + f, diameter * (10.0 + 2.0 * number));
       }
     }
-    set(&RunThreshold::lc_jump, 0, radians(15.0));
-    set(&RunThreshold::lc_jump, 1, none);
+    set(&analysis::RunThreshold::lc_jump, 0, radians(15.0));
+    set(&analysis::RunThreshold::lc_jump, 1, none);
     percolate(0, 0.0, none);
     percolate(1, radians(10.0), radians(5.0));
     dilate(radians(10.0), radians(8.0), radians(12.0));
   }
 
-  void set(const QuantityMember& member, std::size_t index, double value) {
-    const Quantity& quantity = quantity_of(member);
-    auto numbers = std::get<std::vector<double>>(values_of(quantity, analysis));
+  void set(const analysis::QuantityMember& member, std::size_t index, double value) {
+    const analysis::Quantity& quantity = analysis::quantity_of(member);
+    auto numbers = std::get<std::vector<double>>(analysis::values_of(quantity, analysis));
     numbers.at(index) = value;
-    set_values(quantity, numbers, analysis);
+    analysis::set_values(quantity, numbers, analysis);
   }
   void percolate(std::size_t f, double tilt, double error) {
-    set(&RunThreshold::percolation, f, tilt);
-    set(&RunThreshold::percolation_error, f, error);
+    set(&analysis::RunThreshold::percolation, f, tilt);
+    set(&analysis::RunThreshold::percolation_error, f, error);
   }
   void dilate(double tilt, double low, double high) {
-    set(&Analysis::dilation, 0, tilt);
-    set(&Analysis::dilation_low, 0, low);
-    set(&Analysis::dilation_high, 0, high);
+    set(&analysis::Analysis::dilation, 0, tilt);
+    set(&analysis::Analysis::dilation_low, 0, low);
+    set(&analysis::Analysis::dilation_high, 0, high);
   }
-  RunView measured() const {
-    RunView run;
+  runs::RunView measured() const {
+    runs::RunView run;
     run.statics.mean_diameter = diameter;
     run.statics.length = 2.0;
     run.analysis = analysis;
@@ -106,7 +106,7 @@ TEST(MeasuredValue, at_theta_d_stands_on_either_side_of_the_jump) {
 
 TEST(MeasuredValue, after_the_jump_is_cut_as_in_the_paper) {
   HandMadeRun run;
-  run.set(&FrameThreshold::lc_max, 2 * 3, 36.0 * diameter);
+  run.set(&analysis::FrameThreshold::lc_max, 2 * 3, 36.0 * diameter);
   EXPECT_DOUBLE_EQ(run.value(lc_max_after_jump).value, 30.0);
 }
 
@@ -170,41 +170,42 @@ TEST(Ratios, are_means_over_the_last_half_degree) {
   run.tilts = {0.0, radians(10.0), radians(20.4), radians(20.6), radians(20.9), radians(22.0)};
   const double factor[] = {0.0, 0.1, 0.2, 0.6, 0.8, 0.3};
   for (std::size_t k = 1; k < frames; ++k)
-    run.set(&FrameRecord::stress_ratio, k, factor[k] * std::sin(run.tilts[k]));
+    run.set(&analysis::FrameRecord::stress_ratio, k, factor[k] * std::sin(run.tilts[k]));
   EXPECT_NEAR(run.value(stress_ratio_over_sine).value, 0.7, 1e-12);
 }
 
 TEST(Gradient, is_positive_where_the_lower_half_carries_more) {
   HandMadeRun run;
   const double sections[] = {1.0, 1.0, 3.0, 3.0};
-  for (std::size_t x = 0; x < 4; ++x) run.set(&FrameRecord::section_sigma_xx, 4 * 4 + x, sections[x]);
+  for (std::size_t x = 0; x < 4; ++x)
+    run.set(&analysis::FrameRecord::section_sigma_xx, 4 * 4 + x, sections[x]);
   EXPECT_DOUBLE_EQ(run.value(wall_gradient).value, 1.0);
 }
 
 TEST(Directions, near_180_deg_are_near_0) {
   HandMadeRun run;
-  run.set(&FrameRecord::direction_peak, 0, radians(177.0));
-  run.set(&FrameRecord::direction_peak, 1, radians(61.0));
+  run.set(&analysis::FrameRecord::direction_peak, 0, radians(177.0));
+  run.set(&analysis::FrameRecord::direction_peak, 1, radians(61.0));
   EXPECT_NEAR(run.value(normals_near_0).value, -3.0, 1e-12);
   EXPECT_NEAR(run.value(normals_near_60).value, 61.0, 1e-12);
 }
 
 TEST(MeasuredValue, of_a_slope_that_stands_is_none) {
   HandMadeRun run;
-  run.set(&Analysis::theta_c, 0, none);
+  run.set(&analysis::Analysis::theta_c, 0, none);
   for (const Measured& measured : measure_all(run.measured(), 0, Population::carrying))
     EXPECT_TRUE(std::isnan(measured.value));
 }
 
 TEST(WallPoint, has_the_height_of_the_bed_at_failure) {
   HandMadeRun run;
-  run.set(&FrameRecord::volume, 4, 0.38);
+  run.set(&analysis::FrameRecord::volume, 4, 0.38);
   const WallPoint point = wall_point(run.measured());
   EXPECT_DOUBLE_EQ(point.depth_over_length, 0.38 / 4.0);
   EXPECT_NEAR(point.ratio, 0.7, 1e-12);
-  run.set(&Analysis::theta_c, 0, none);
+  run.set(&analysis::Analysis::theta_c, 0, none);
   EXPECT_TRUE(std::isnan(wall_point(run.measured()).ratio));
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -8,7 +8,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 void touch(const std::string& path) { std::ofstream file(path); }
@@ -57,4 +57,4 @@ TEST(MemberFailure, has_the_last_line_of_a_log_that_says_something) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 TEST(PaperValues, have_a_row_for_each_quantity_in_order) {
@@ -20,7 +20,8 @@ TEST(PaperValues, are_in_three_parts) {
 }
 
 TEST(PaperValues, are_read_from_quantities_of_the_table) {
-  for (const PaperValue& paper : paper_values) EXPECT_NO_THROW(quantity_of(paper.source)) << paper.name;
+  for (const PaperValue& paper : paper_values)
+    EXPECT_NO_THROW(analysis::quantity_of(paper.source)) << paper.name;
 }
 
 TEST(PaperValues, that_are_equal_to_something_have_an_accuracy) {
@@ -42,4 +43,4 @@ TEST(PaperValues, of_the_walls_are_those_of_equation_15) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

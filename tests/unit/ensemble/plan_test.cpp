@@ -7,7 +7,7 @@
 #include "base/errors.h"
 #include "support/exit_code.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using Seeds = std::vector<std::uint64_t>;
@@ -39,4 +39,4 @@ TEST(EnsemblePlan, has_every_variant_with_every_seed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -14,7 +14,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 TEST(DISABLED_JobOfAPool, ends_well) {}
@@ -34,8 +34,8 @@ TEST(Pool, does_all_jobs_and_returns_those_that_failed) {
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].log, bad);
   EXPECT_EQ(failed[0].exit_code, 1);
-  EXPECT_NE(read_text(bad).find("as it should"), std::string::npos);
-  EXPECT_NE(read_text(good).find("1 test"), std::string::npos) << "its folder was made";
+  EXPECT_NE(io::read_text(bad).find("as it should"), std::string::npos);
+  EXPECT_NE(io::read_text(good).find("1 test"), std::string::npos) << "its folder was made";
 }
 
 TEST(Pool, ends_its_jobs_where_it_is_not_to_go_on) {
@@ -83,4 +83,4 @@ TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -9,7 +9,7 @@
 
 #include "runs/analysis_parameters.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 /// A run that has the paper's value in every quantity.
@@ -34,12 +34,13 @@ TEST(Readings, are_of_single_grains_with_either_threshold_and_of_grains_with_fir
   ASSERT_EQ(base_readings().size(), std::size(expected));
   for (std::size_t b = 0; b < std::size(expected); ++b) {
     const Reading& base = base_readings()[b];
-    const AnalysisParameters parameters = parse_analysis_settings(analyses[base.analysis].settings);
+    const analysis::AnalysisParameters parameters =
+        runs::parse_analysis_settings(analyses[base.analysis].settings);
     EXPECT_EQ(parameters.l_min, expected[b].first) << base.base;
     EXPECT_EQ(base.factor, expected[b].second) << base.base;
-    AnalysisParameters defaults;
+    analysis::AnalysisParameters defaults;
     defaults.l_min = parameters.l_min;
-    EXPECT_EQ(as_facts(parameters), as_facts(defaults)) << "nothing else is changed";
+    EXPECT_EQ(runs::as_facts(parameters), runs::as_facts(defaults)) << "nothing else is changed";
   }
   EXPECT_EQ(base_readings().back().analysis, 0u) << "that of the run file";
 }
@@ -55,7 +56,7 @@ TEST(Readings, change_one_factor_from_their_base) {
     const ChainAnalysis& analysis = analyses[reading.analysis];
     const bool changed = reading.analysis != base->analysis;
     EXPECT_EQ(changed, !reading.change.empty()) << reading.change;
-    EXPECT_EQ(parse_analysis_settings(analysis.settings).l_min == 0.0, base->base.starts_with("single"))
+    EXPECT_EQ(runs::parse_analysis_settings(analysis.settings).l_min == 0.0, base->base.starts_with("single"))
         << analysis.name;
   }
   EXPECT_EQ(readings().size(), 20u);
@@ -136,4 +137,4 @@ TEST(Conclusion, is_complete_where_all_agrees) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -9,7 +9,7 @@
 #include "base/errors.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 ReportDocument small_report() {
@@ -72,4 +72,4 @@ TEST(Html, without_its_picture_is_an_error) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -12,7 +12,7 @@
 #include "support/temporary_folder.h"
 #include "unit/ensemble/like_the_paper.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -160,4 +160,4 @@ TEST(ValuesCsv, has_a_row_for_each_value) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

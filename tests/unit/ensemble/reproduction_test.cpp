@@ -9,15 +9,16 @@
 #include "base/errors.h"
 #include "ensemble/built_in_scenarios.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 TEST(Reproduction, runs_the_beds_of_the_paper) {
   const ReproductionPlan plan = plan_reproduction(false, "1-2", "folder");
   ASSERT_EQ(plan.variants.size(), 8u);
   EXPECT_EQ(plan.members.size(), 16u);
-  const DepositionMethod methods[] = {DepositionMethod::pour, DepositionMethod::geometric,
-                                      DepositionMethod::collapse};
+  const scenario::DepositionMethod methods[] = {scenario::DepositionMethod::pour,
+                                                scenario::DepositionMethod::geometric,
+                                                scenario::DepositionMethod::collapse};
   for (std::size_t b = 0; b < 3; ++b) {
     EXPECT_TRUE(is_periodic(plan.variants[b]));
     EXPECT_EQ(plan.variants[b].scenario.deposition.method, methods[b]);
@@ -53,4 +54,4 @@ TEST(Reproduction, of_no_seeds_is_refused) { EXPECT_THROW(plan_reproduction(fals
 TEST(BuiltInScenarios, that_do_not_exist_are_a_defect) { EXPECT_THROW(built_in_scenario("paper"), Error); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -17,7 +17,7 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,20 +25,21 @@ namespace fs = std::filesystem;
 class ReadingsTest : public testing::Test {
  protected:
   /// A plan of one member whose run and analysis are complete.
-  ReproductionPlan computed(const Scenario& scenario) const {
+  ReproductionPlan computed(const scenario::Scenario& scenario) const {
     ReproductionPlan plan{plan_ensemble({1}, {{"bed", "", scenario}}, folder_.path().string()), false};
     const Member& member = plan.members.front();
     fs::create_directories(folder_.path("bed"));
-    Session session(member.scenario);
-    RunStore store = RunStore::create(member.path, run_header(session, {"", {}, "", 1}), false);
-    run_to_end(session, store, {});
-    const RunFile run = RunFile::open(member.path);
-    const Analysis analysis = analyse_run(run, AnalysisParameters(), 1, {});
-    store_analysis(member.path, analysis, hash_text(state_hash(run.checkpoint().world)));
+    session::Session session(member.scenario);
+    io::RunStore store =
+        io::RunStore::create(member.path, session::run_header(session, {"", {}, "", 1}), false);
+    session::run_to_end(session, store, {});
+    const io::RunFile run = io::RunFile::open(member.path);
+    const analysis::Analysis analysis = runs::analyse_run(run, analysis::AnalysisParameters(), 1, {});
+    io::store_analysis(member.path, analysis, hash_text(state_hash(run.checkpoint().world)));
     return plan;
   }
-  static std::vector<StoredReading> readings_of(const Member& member) {
-    return read_readings(RunFile::open(member.path));
+  static std::vector<io::StoredReading> readings_of(const Member& member) {
+    return io::read_readings(io::RunFile::open(member.path));
   }
   test::TemporaryFolder folder_;
 };
@@ -50,21 +51,21 @@ TEST_F(ReadingsTest, are_made_where_they_are_missing_and_measured) {
   EXPECT_EQ(test::exit_code_of([&] { measure_members(plan); }), ExitCode::bad_data);
   complete_readings(member);
   EXPECT_TRUE(is_measured(member));
-  const std::vector<StoredReading> before = readings_of(member);
+  const std::vector<io::StoredReading> before = readings_of(member);
   EXPECT_EQ(before.size(), 12u);
-  const std::string state = hash_text(state_hash(RunFile::open(member.path).checkpoint().world));
-  std::vector<StoredReading> changed = before;
+  const std::string state = hash_text(state_hash(io::RunFile::open(member.path).checkpoint().world));
+  std::vector<io::StoredReading> changed = before;
   changed[3].key = "of another version";
   changed[4].values[0] = 7.5;  // valid by its key: it is taken as it is
-  store_readings(member.path, changed, state);
+  io::store_readings(member.path, changed, state);
   EXPECT_FALSE(is_measured(member));
   complete_readings(member);
   EXPECT_TRUE(is_measured(member));
   EXPECT_EQ(readings_of(member)[3].key, before[3].key);
   EXPECT_EQ(readings_of(member)[4].values[0], 7.5);
-  store_analysis(member.path, *read_analysis(member.path), state);
+  io::store_analysis(member.path, *io::read_analysis(member.path), state);
   EXPECT_EQ(readings_of(member).size(), 12u) << "a run that is analysed again keeps them";
-  EXPECT_EQ(RunFile::open(member.path).changed_data_sets(), std::vector<std::string>());
+  EXPECT_EQ(io::RunFile::open(member.path).changed_data_sets(), std::vector<std::string>());
   const auto written = fs::last_write_time(member.path);
   complete_readings(member);
   EXPECT_EQ(fs::last_write_time(member.path), written) << "nothing is missing";
@@ -80,8 +81,8 @@ TEST_F(ReadingsTest, are_made_where_they_are_missing_and_measured) {
 }
 
 TEST_F(ReadingsTest, are_none_between_walls) {
-  Scenario scenario = test::small_tilted_bed(1.0);
-  scenario.bed.boundary = BedBoundary::walls;
+  scenario::Scenario scenario = test::small_tilted_bed(1.0);
+  scenario.bed.boundary = scenario::BedBoundary::walls;
   const ReproductionPlan plan = computed(scenario);
   complete_readings(plan.members.front());
   EXPECT_TRUE(readings_of(plan.members.front()).empty());
@@ -90,9 +91,9 @@ TEST_F(ReadingsTest, are_none_between_walls) {
   ASSERT_EQ(result.outcomes.size(), 1u);
   EXPECT_FALSE(result.outcomes[0].values.front().empty());
   EXPECT_TRUE(result.outcomes[0].values[1].empty());
-  remove_file(plan.members.front().path);
+  io::remove_file(plan.members.front().path);
   EXPECT_TRUE(measure_members(plan).outcomes.empty()) << "of what is not done";
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -12,7 +12,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
@@ -77,14 +77,14 @@ TEST(EnsembleMark, counts_members_and_committed_steps) {
   write(folder.path("seed-1.h5"), "");
   write(folder.path("seed-2.failed"), "");
   std::filesystem::create_directory(folder.path("seed-3.h5.run"));
-  Manifest manifest;
+  io::Manifest manifest;
   const std::string bytes = "x";
-  const StoredFile file = describe("header.h5", std::as_bytes(std::span(bytes)));
+  const io::StoredFile file = io::describe("header.h5", std::as_bytes(std::span(bytes)));
   manifest.header = manifest.checkpoint = file;
   manifest.segments = {{file, 1, 0, 1, 40}, {file, 1, 0, 1, 2}};
-  write(folder.path("seed-3.h5.run/manifest"), manifest_text(manifest));
+  write(folder.path("seed-3.h5.run/manifest"), io::manifest_text(manifest));
   EXPECT_EQ(mark_of(plan), (EnsembleMark{2, 42}));
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -9,7 +9,7 @@
 #include "base/errors.h"
 #include "support/exit_code.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -114,4 +114,4 @@ TEST(SlurmCommands, queue_one_task_again_and_not_its_array) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

@@ -17,7 +17,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -52,7 +52,7 @@ StepRow step_at(double phase, double iterations) {
 /// A periodic bed, 1 m long and 0.5 m deep, tilted to 3 deg in frames of 1 deg. The first grain creeps by
 /// 0.25 m up to 1 deg, over the edge, and by another 0.5 m up to 2 deg.
 void write_run(const std::string& path, double theta_c) {
-  RunHeader header;
+  io::RunHeader header;
   header.statics.free_count = 2;
   header.statics.radius = header.statics.mass = {0.1, 0.1, 0.1};
   header.statics.periodic = true;
@@ -61,13 +61,13 @@ void write_run(const std::string& path, double theta_c) {
   header.statics.mean_diameter = 0.2;
   header.scenario_resolved = "seed = 3\n";
   header.provenance = {{"version", "0.0.0"}, {"git_hash", "abc"}};
-  Segment segment;
+  io::Segment segment;
   segment.frames = {frame_at(0, 0.875, 0, 0.0), frame_at(1, 0.125, 1, 0.0), frame_at(2, 0.625, 1, 0.9),
                     frame_at(3, 0.0, 2, none)};
   segment.observables = {row_at(0, 0.0), row_at(1, -0.01), row_at(1.5, -0.02), row_at(2.0, -0.03),
                          row_at(2.75, 0.5)};
   segment.steps = {step_at(0, 1000), step_at(1, 100), step_at(1, 300)};
-  Checkpoint checkpoint;
+  io::Checkpoint checkpoint;
   checkpoint.world.tilt = radians(3.0);
   checkpoint.world.boundary = {true, header.statics.length, {}};
   for (int i = 0; i < 3; ++i) add_disk(checkpoint.world.grains, {0.1 * i, 0.0}, 0.1, 1.0, i == 2);
@@ -76,7 +76,7 @@ void write_run(const std::string& path, double theta_c) {
                         {"residual_max_moving", 1e-4},
                         {"unconverged_steps", 1.0}};
   checkpoint.timing = {{"deposition", 2.0}, {"tilt", 3.0}};
-  RunStore store = RunStore::create(path, header, false);
+  io::RunStore store = io::RunStore::create(path, header, false);
   store.commit(segment, checkpoint);
   store.pack();
 }
@@ -86,7 +86,7 @@ class StudyFiguresTest : public testing::Test {
   StudyFigures figures_of(double theta_c, double reference) const {
     const std::string path = folder_.path("run.h5");
     write_run(path, theta_c);
-    return study_figures(RunFile::open(path), reference);
+    return study_figures(io::RunFile::open(path), reference);
   }
   test::TemporaryFolder folder_;
 };
@@ -171,7 +171,7 @@ TEST(StudyResult, is_that_of_the_members_that_are_done) {
   EXPECT_EQ(found.outcomes[0].member, 1u);
   EXPECT_EQ(found.outcomes[0].version, "0.0.0 (abc)");
   EXPECT_EQ(found.outcomes[0].state_hash,
-            hash_text(state_hash(RunFile::open(plan.members[1].path).checkpoint().world)));
+            hash_text(state_hash(io::RunFile::open(plan.members[1].path).checkpoint().world)));
   EXPECT_EQ(found.reference, 2.0);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::volume_strain_at_reference), -0.03);
 }
@@ -193,4 +193,4 @@ TEST(StudyFields, are_documented_as_they_are) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

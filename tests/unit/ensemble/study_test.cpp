@@ -11,7 +11,7 @@
 #include "support/exit_code.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -89,7 +89,7 @@ TEST_F(StudyPlanTest, changes_joined_keys_together) {
   const StudyPlan study = plan({}, {"tilt.rate:tilt.step=2:2e-3"}, "1");
   ASSERT_EQ(study.members.size(), 2u);
   EXPECT_EQ(study.members[1].name, "tilt.rate=2,tilt.step=0.002/seed-1");
-  EXPECT_EQ(time_step(study.members[1].scenario), time_step(study.members[0].scenario));
+  EXPECT_EQ(scenario::time_step(study.members[1].scenario), scenario::time_step(study.members[0].scenario));
 }
 
 TEST_F(StudyPlanTest, runs_nothing_twice) {
@@ -123,4 +123,4 @@ TEST_F(StudyPlanTest, what_no_scenario_takes_is_refused) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

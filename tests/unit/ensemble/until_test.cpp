@@ -8,7 +8,7 @@
 
 #include "support/exit_code.h"
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -53,4 +53,4 @@ TEST(Precision, of_what_no_run_has_is_refused_and_says_what_there_is) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

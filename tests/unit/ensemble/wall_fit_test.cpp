@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace talus {
+namespace talus::ensemble {
 namespace {
 
 TEST(WallFit, GivesTheCoefficientOfPointsOnTheLaw) {
@@ -40,4 +40,4 @@ TEST(WallFit, OnePointHasNoErrorAndNoPointNoCoefficient) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::ensemble

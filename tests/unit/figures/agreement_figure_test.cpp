@@ -10,7 +10,7 @@
 
 #include "unit/ensemble/like_the_paper.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// The row that has this label, from 1 on; 0 where there is none.
@@ -31,7 +31,7 @@ std::vector<double> values_in(const Table& table, std::size_t row, const std::st
 }
 
 TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
-  const Figure figure = agreement_figure(like_the_paper(0.0)).value();
+  const Figure figure = agreement_figure(ensemble::like_the_paper(0.0)).value();
   ASSERT_EQ(figure.tables.size(), 2u);
   for (const Table& table : figure.tables) {
     EXPECT_FALSE(table.columns.front().values.empty());
@@ -43,9 +43,10 @@ TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
 }
 
 TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
-  ReproductionResult result = like_the_paper(0.0);
-  set_everywhere(result, PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
-  set_everywhere(result, PaperQuantity::overloaded_at_0, {std::numeric_limits<double>::quiet_NaN()});
+  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
+  ensemble::set_everywhere(result, ensemble::PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
+  ensemble::set_everywhere(result, ensemble::PaperQuantity::overloaded_at_0,
+                           {std::numeric_limits<double>::quiet_NaN()});
   const Figure figure = agreement_figure(result).value();
   const std::size_t theta_c = row_of(figure, "packing", "θ_c");
   EXPECT_EQ(values_in(figure.tables[0], theta_c, "score"), std::vector<double>(3, -2.0));
@@ -56,17 +57,18 @@ TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
 }
 
 TEST(AgreementFigure, leaves_out_what_cannot_be_compared) {
-  ReproductionResult result = like_the_paper(0.0);
-  for (Variant& bed : result.plan.variants) bed.scenario.bed.depth = 20.0;  // lengths end at the depth
+  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
+  for (ensemble::Variant& bed : result.plan.variants)
+    bed.scenario.bed.depth = 20.0;  // lengths end at the depth
   const Figure figure = agreement_figure(result).value();
   EXPECT_EQ(row_of(figure, "chain", "mean {/:Italic ℓ}_c at 0°"), 0u);
   EXPECT_GT(row_of(figure, "chain", "p_o at 0°"), 0u);
 }
 
 TEST(AgreementFigure, needs_something_to_compare) {
-  ReproductionResult result = like_the_paper(0.0);
-  std::erase_if(result.outcomes, [&](const ReproducedOutcome& outcome) {
-    return is_periodic(result.plan.variants[result.plan.members[outcome.member].variant]);
+  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
+  std::erase_if(result.outcomes, [&](const ensemble::ReproducedOutcome& outcome) {
+    return ensemble::is_periodic(result.plan.variants[result.plan.members[outcome.member].variant]);
   });
   const Figure figure = agreement_figure(result).value();
   EXPECT_FALSE(figure.tables[0].columns.front().values.empty()) << "beds between walls";
@@ -76,4 +78,4 @@ TEST(AgreementFigure, needs_something_to_compare) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -10,14 +10,14 @@
 #include "figures/recipes.h"
 #include "support/blank_analysis.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 const double nan = std::nan("");
 
 /// A run of which there are only values: theta_c and theta_d by the jump of l_c, deg.
-RunView run_with(std::uint64_t seed, double theta_c, double jump) {
-  RunView run;
+runs::RunView run_with(std::uint64_t seed, double theta_c, double jump) {
+  runs::RunView run;
   run.path = "e.h5#seed-" + std::to_string(seed);
   run.scenario.seed = seed;
   run.analysis = test::blank_analysis({.frames = 1, .thresholds = 2});
@@ -130,4 +130,4 @@ TEST_F(AngleFigures, NeedSeveralRunsOfAGroup) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

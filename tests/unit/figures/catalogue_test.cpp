@@ -13,7 +13,7 @@
 #include "figures/scripts.h"
 #include "support/places.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// Scripts that no figure of the catalogue has: what all begin with, the figures of `talus perturb`
@@ -62,4 +62,4 @@ TEST(Catalogue, IsThatOfItsPage) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

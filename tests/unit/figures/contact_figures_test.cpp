@@ -7,25 +7,26 @@
 #include "figures/recipes.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr std::size_t bins = 2;
-constexpr auto density = &FrameRecord::direction_density;
+constexpr auto density = &analysis::FrameRecord::direction_density;
 
 /// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
 /// and of 3 `level` in the others.
-RunView run_with(const std::string& folder, double theta_c, double level) {
-  RunView run = view_of_run(folder, RunFile::open(folder), {});
+runs::RunView run_with(const std::string& folder, double theta_c, double level) {
+  runs::RunView run = runs::view_of_run(folder, io::RunFile::open(folder), {});
   run.analysis.theta_c = radians(theta_c);
   run.analysis.frames.resize(run.file->frame_count());
   for (std::size_t k = 0; k < run.analysis.frames.size(); ++k)
     run.analysis.frames[k].tilt = run.file->frame_tilts()[k];
-  for (FrameRecord& frame : run.analysis.frames)
+  for (analysis::FrameRecord& frame : run.analysis.frames)
     frame.*density = std::vector<double>(bins, &frame == run.analysis.frames.data() ? level : 3.0 * level);
   run.analysis.direction_edge = {0.0, 0.5 * pi, pi};
   run.analysis.gamma_edge = {0.0, 1.0};
-  for (FrameRecord& frame : run.analysis.frames) frame.direction_density_by_force = std::vector<double>(bins);
+  for (analysis::FrameRecord& frame : run.analysis.frames)
+    frame.direction_density_by_force = std::vector<double>(bins);
   return run;
 }
 
@@ -89,4 +90,4 @@ TEST(RoundedText, HasAtMostSoManyDecimals) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

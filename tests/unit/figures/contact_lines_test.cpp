@@ -7,7 +7,7 @@
 #include "figures/recipes.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 void expect_line(const ContactLine& line, Index contact, double x1, double y1, double x2, double y2) {
@@ -100,4 +100,4 @@ TEST(ForceTable, MeasuresInMeanDiameters) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

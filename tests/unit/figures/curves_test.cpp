@@ -15,7 +15,7 @@
 #include "stress/overload.h"
 #include "unit/figures/example_figure_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 const std::vector<double>& column(const Table& table, const std::string& name) {
@@ -49,26 +49,26 @@ class Curves : public ::testing::Test {
   }
 
   /// Run r has r + 1 times `first`, growing by `step` from element to element.
-  void fill(const QuantityMember& member, double first, double step) {
-    const Quantity& quantity = quantity_of(member);
+  void fill(const analysis::QuantityMember& member, double first, double step) {
+    const analysis::Quantity& quantity = analysis::quantity_of(member);
     for (std::size_t r = 0; r < groups_[0].runs.size(); ++r) {
-      Analysis& analysis = groups_[0].runs[r].analysis;
-      if (!is_present(quantity, analysis)) continue;
-      auto all = std::get<std::vector<double>>(values_of(quantity, analysis));
+      analysis::Analysis& analysis = groups_[0].runs[r].analysis;
+      if (!io::is_present(quantity, analysis)) continue;
+      auto all = std::get<std::vector<double>>(analysis::values_of(quantity, analysis));
       for (std::size_t k = 0; k < all.size(); ++k)
         all[k] = static_cast<double>(r + 1) * first + static_cast<double>(k) * step;
-      set_values(quantity, all, analysis);
+      analysis::set_values(quantity, all, analysis);
     }
   }
 
   /// Beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
   void stand_between_walls() {
-    const RunView& run = groups_[0].runs[0];
+    const runs::RunView& run = groups_[0].runs[0];
     const double length = run.scenario.bed.length, diameter = run.statics.mean_diameter;
-    groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
-    fill(&Analysis::failure_ratio, 0.5, 0.0);
-    fill(&Analysis::failure_ratio_spread, 0.1, 0.0);
-    fill(&FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
+    groups_[0].runs[0].scenario.bed.boundary = scenario::BedBoundary::walls;
+    fill(&analysis::Analysis::failure_ratio, 0.5, 0.0);
+    fill(&analysis::Analysis::failure_ratio_spread, 0.1, 0.0);
+    fill(&analysis::FrameRecord::volume, 20.0 * length * diameter * diameter, 0.0);
   }
 
   test::TemporaryFolder folder_;
@@ -77,7 +77,7 @@ class Curves : public ::testing::Test {
 };
 
 TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
-  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  fill(&analysis::FrameRecord::stress_ratio, 0.1, 0.01);
   const auto figure = stress_ratio_figure(groups_);
   ASSERT_TRUE(figure);
   ASSERT_EQ(figure->tables.size(), 2u);
@@ -91,9 +91,9 @@ TEST_F(Curves, OfThePackingAreMeansOverAllRuns) {
 }
 
 TEST_F(Curves, OfBedsThatSlopeToTheOtherSideAreMirrored) {
-  fill(&FrameRecord::sigma_t_over_n, -0.1, -0.01);
-  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
-  for (RunView& run : groups_[0].runs)
+  fill(&analysis::FrameRecord::sigma_t_over_n, -0.1, -0.01);
+  fill(&analysis::FrameRecord::stress_ratio, 0.1, 0.01);
+  for (runs::RunView& run : groups_[0].runs)
     for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(-static_cast<double>(k));
   const auto shear = shear_stress_figure(groups_), ratio = stress_ratio_figure(groups_);
   EXPECT_NEAR(column(shear->tables[0], "ratio")[1], 0.21, 1e-15);
@@ -102,7 +102,8 @@ TEST_F(Curves, OfBedsThatSlopeToTheOtherSideAreMirrored) {
 }
 
 TEST_F(Curves, AreOfAnyQuantityOfFrames) {
-  const Quantity made_up = {&FrameThreshold::lc_max, "lc/made_up", "T F", "m", "made up for this test", ""};
+  const analysis::Quantity made_up = {
+      &analysis::FrameThreshold::lc_max, "lc/made_up", "T F", "m", "made up for this test", ""};
   fill(made_up.member, 1.0, 0.0);
   const FrameColumn frame_column = column_of("made_up", made_up, 1);
   const RunChoice runs = runs_with_threshold(groups_[0]);
@@ -121,7 +122,7 @@ TEST_F(Curves, EndAtTheFailureOfEachRun) {
 }
 
 TEST_F(Curves, HaveTheRunsOneByOneBehindThem) {
-  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  fill(&analysis::FrameRecord::stress_ratio, 0.1, 0.01);
   const std::vector<double> tilts = groups_[0].runs[0].file->frame_tilts();
   groups_[0].runs[0].analysis.theta_c = 0.5 * (tilts[1] + tilts[2]);
   const auto figure = stress_ratio_figure(groups_);
@@ -140,8 +141,8 @@ TEST_F(Curves, HaveTheRunsOneByOneBehindThem) {
 }
 
 TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
-  fill(&FrameRecord::stress_ratio, 0.0, 0.01);  // of all runs 0, 0.01 and 0.02 in the three frames
-  for (RunView& run : groups_[0].runs) {
+  fill(&analysis::FrameRecord::stress_ratio, 0.0, 0.01);  // of all runs 0, 0.01 and 0.02 in the three frames
+  for (runs::RunView& run : groups_[0].runs) {
     run.scenario.output.frame_every = 0.5;
     for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(static_cast<double>(k));
   }
@@ -162,8 +163,8 @@ TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
 }
 
 TEST_F(Curves, OfAllQuantitiesAreThoseWithATitleAndAValue) {
-  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
-  fill(&FrameThreshold::lc_mean, 0.02, 0.0);
+  fill(&analysis::FrameRecord::stress_ratio, 0.1, 0.01);
+  fill(&analysis::FrameThreshold::lc_mean, 0.02, 0.0);
   const auto figure = quantities_over_tilt(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(variable(*figure, "panels"), "2");
@@ -175,12 +176,12 @@ TEST_F(Curves, OfAllQuantitiesAreThoseWithATitleAndAValue) {
 }
 
 TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {
-  fill(&FrameRecord::stress_ratio, 0.1, 0.01);
+  fill(&analysis::FrameRecord::stress_ratio, 0.1, 0.01);
   EXPECT_FALSE(differences_over_tilt(groups_)) << "one group";
   groups_.resize(2);
   groups_[1].label = "other";
   for (const std::uint64_t seed : {1, 2}) groups_[1].runs.push_back(example::figure_run(path_, seed, 80.0));
-  for (RunView& run : groups_[1].runs) {
+  for (runs::RunView& run : groups_[1].runs) {
     for (std::size_t k = 0; k < 3; ++k)
       run.analysis.frames[k].stress_ratio = 1.0 + 0.3 * static_cast<double>(run.scenario.seed);
     run.analysis.frames[1].tilt += radians(0.1);  // and another grid of tilts
@@ -205,7 +206,7 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
   const auto mapped = critical_contacts_figure(groups_);
   ASSERT_TRUE(mapped);
   EXPECT_EQ(variable(*mapped, "letters"), "\"bcd\"");
-  for (RunView& run : groups_[0].runs) run.file.reset();
+  for (runs::RunView& run : groups_[0].runs) run.file.reset();
   const auto values = critical_contacts_figure(groups_);
   ASSERT_TRUE(values);
   EXPECT_EQ(variable(*values, "letters"), "\"abc\"");
@@ -218,12 +219,12 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
 }
 
 TEST_F(Curves, OfDistributionsNeedNoFile) {
-  fill(&FrameRecord::gamma_density, 1.0, 0.0);
-  for (RunView& run : groups_[0].runs) run.file.reset();
+  fill(&analysis::FrameRecord::gamma_density, 1.0, 0.0);
+  for (runs::RunView& run : groups_[0].runs) run.file.reset();
   const auto figure = gamma_density_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
-  for (RunView& run : groups_[0].runs) run.analysis.gamma_edge.clear();
+  for (runs::RunView& run : groups_[0].runs) run.analysis.gamma_edge.clear();
   for (const FigureRecipe& recipe : figure_catalogue())
     if (recipe.material == Material::distributions) {
       EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no distributions to be made from";
@@ -231,7 +232,7 @@ TEST_F(Curves, OfDistributionsNeedNoFile) {
 }
 
 TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
-  fill(&FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
+  fill(&analysis::FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
   const auto figure = overloaded_fraction_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(figure->runs.size(), 2u) << "the third has none";
@@ -247,9 +248,9 @@ TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
 
 TEST_F(Curves, OfLengthsAreInDiameters) {
   const double diameter = groups_[0].runs[0].file->header().statics.mean_diameter;
-  fill(&FrameThreshold::lc_mean, 2.0 * diameter, 0.0);
-  fill(&FrameThreshold::lc_max, 10.0 * diameter, 0.0);
-  fill(&Analysis::lc_cut, 15.0 * diameter, 0.0);
+  fill(&analysis::FrameThreshold::lc_mean, 2.0 * diameter, 0.0);
+  fill(&analysis::FrameThreshold::lc_max, 10.0 * diameter, 0.0);
+  fill(&analysis::Analysis::lc_cut, 15.0 * diameter, 0.0);
   groups_[0].runs[0].analysis.lc_cut = 40.0 * diameter;
   const auto figure = length_figure(groups_);
   EXPECT_NEAR(column(figure->tables[0], "mean_1")[0], 3.0, 1e-12);
@@ -265,20 +266,21 @@ TEST_F(Curves, OfLengthsHaveTheCutOfEachBedAndAllThatThePaperFound) {
   other.runs.push_back(std::move(groups_[0].runs.front()));
   groups_[0].runs.erase(groups_[0].runs.begin());
   groups_.push_back(std::move(other));
-  for (RunView& run : groups_[0].runs) run.analysis.lc_cut = 6.0 * diameter;
-  for (RunView& run : groups_[1].runs) run.analysis.lc_cut = 10.0 * diameter;
+  for (runs::RunView& run : groups_[0].runs) run.analysis.lc_cut = 6.0 * diameter;
+  for (runs::RunView& run : groups_[1].runs) run.analysis.lc_cut = 10.0 * diameter;
   const auto figure = length_figure(groups_);
   EXPECT_NEAR(std::stod(variable(*figure, "cut_1")), 6.0, 1e-12);
   EXPECT_NEAR(std::stod(variable(*figure, "cut_2")), 10.0, 1e-12);
-  EXPECT_GE(std::stod(variable(*figure, "top")), paper_value(PaperQuantity::lc_max_after_jump).value)
+  EXPECT_GE(std::stod(variable(*figure, "top")),
+            ensemble::paper_value(ensemble::PaperQuantity::lc_max_after_jump).value)
       << "the cut of a shallow bed must not drop the paper's crosses";
 }
 
 TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
-  fill(&FrameRecord::gamma_density, 1.0, 0.0);
+  fill(&analysis::FrameRecord::gamma_density, 1.0, 0.0);
   const auto figure = gamma_density_figure(groups_);
   EXPECT_EQ(column(figure->tables[0], "density_0"), (std::vector<double>{1.5, 1.5}));
-  for (RunView& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
+  for (runs::RunView& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
   const auto early = gamma_density_figure(groups_);
   EXPECT_TRUE(std::isnan(column(early->tables[0], "density_10")[0]));
   EXPECT_EQ(variable(*early, "angles"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
@@ -291,18 +293,18 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
   const Table& table = figure->tables[0];
   const std::vector<double>& scales = column(table, "l");
   EXPECT_EQ(scales.front(), 0.0) << "the grain alone";
-  const RunFile& run = *groups_[0].runs[0].file;
+  const io::RunFile& run = *groups_[0].runs[0].file;
   const RunStatics& statics = run.header().statics;
   for (std::size_t s = 0; s < scales.size(); ++s) {
     const double l = std::max(scales[s], 1e-9) * statics.mean_diameter;  // of 0 the frame says itself
-    const Frame frame = with_gamma_of_neighbourhoods(run.frame(0), statics, l);
-    EXPECT_NEAR(column(table, "p_o_0")[s], count_overloaded({frame, statics}, sine(radians(80.0))).fraction(),
-                1e-12)
+    const Frame frame = analysis::with_gamma_of_neighbourhoods(run.frame(0), statics, l);
+    EXPECT_NEAR(column(table, "p_o_0")[s],
+                stress::count_overloaded({frame, statics}, sine(radians(80.0))).fraction(), 1e-12)
         << scales[s];
     EXPECT_EQ(column(table, "p_o_0_error")[s], 0.0) << "both runs are the same";
   }
   EXPECT_EQ(column(table, "p_o_failure").size(), scales.size());
-  for (RunView& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
+  for (runs::RunView& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
   EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
 }
 
@@ -310,23 +312,23 @@ TEST_F(Curves, CaptionsSayWhoseGammaItIs) {
   EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find(
                 "its first neighbours, a neighbourhood of diameter 3 D"),
             std::string::npos);
-  for (RunView& run : groups_[0].runs) run.analysis.parameters = {{"l_min", "0"}};
+  for (runs::RunView& run : groups_[0].runs) run.analysis.parameters = {{"l_min", "0"}};
   EXPECT_NE(overloaded_fraction_figure(groups_)->caption.find("gamma is that of single grains"),
             std::string::npos);
   EXPECT_NE(gamma_density_figure(groups_)->caption.find("gamma is that of single grains"), std::string::npos);
 }
 
 TEST_F(Curves, OfTheVolumeHaveNumbersThatDoNotTouch) {
-  fill(&FrameRecord::volume_strain, 0.0, 0.01);
-  fill(&FrameRecord::centre_of_mass_strain, 0.0, -0.002);
+  fill(&analysis::FrameRecord::volume_strain, 0.0, 0.01);
+  fill(&analysis::FrameRecord::centre_of_mass_strain, 0.0, -0.002);
   const auto figure = volume_strain_figure(groups_);
   EXPECT_EQ(std::stod(variable(*figure, "step_volume_strain")), 5.0) << "of 20e-3";
   EXPECT_EQ(std::stod(variable(*figure, "step_centre_of_mass_strain")), 1.0) << "of -4e-3";
 }
 
 TEST_F(Curves, OfTheVolumeHaveThetaDByEachEstimator) {
-  fill(&RunThreshold::lc_jump, radians(10.0), radians(1.0));
-  fill(&Analysis::dilation, radians(5.0), 0.0);
+  fill(&analysis::RunThreshold::lc_jump, radians(10.0), radians(1.0));
+  fill(&analysis::Analysis::dilation, radians(5.0), 0.0);
   const auto figure = volume_strain_figure(groups_);
   ASSERT_EQ(figure->tables.size(), 3u);
   const Table& table = table_called(*figure, "theta_d-");
@@ -354,7 +356,7 @@ TEST_F(Curves, AreCalledAsInTheCatalogue) {
 }
 
 TEST_F(Curves, OfPeriodicBedsLeaveOutWalls) {
-  groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
+  groups_[0].runs[0].scenario.bed.boundary = scenario::BedBoundary::walls;
   EXPECT_FALSE(overloaded_fraction_figure(groups_));
   EXPECT_FALSE(volume_strain_figure(groups_));
   EXPECT_TRUE(stress_ratio_figure(groups_));
@@ -362,8 +364,8 @@ TEST_F(Curves, OfPeriodicBedsLeaveOutWalls) {
 
 TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
   EXPECT_FALSE(wall_stress_figure(groups_)) << "a periodic bed";
-  groups_[0].runs[0].scenario.bed.boundary = BedBoundary::walls;
-  fill(&FrameRecord::section_sigma_xx, 100.0, 0.0);
+  groups_[0].runs[0].scenario.bed.boundary = scenario::BedBoundary::walls;
+  fill(&analysis::FrameRecord::section_sigma_xx, 100.0, 0.0);
   const RunStatics& statics = groups_[0].runs[0].file->header().statics;
   double mass = 0.0;
   for (Index i = 0; i < statics.free_count; ++i) mass += statics.mass[i];
@@ -376,7 +378,7 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
 
 TEST_F(Curves, OfWallsNeedNumbersOnly) {
   stand_between_walls();
-  for (RunView& run : groups_[0].runs) run.file.reset();
+  for (runs::RunView& run : groups_[0].runs) run.file.reset();
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);
   const Table& table = figure->tables[0];
@@ -388,7 +390,7 @@ TEST_F(Curves, OfWallsNeedNumbersOnly) {
 
 TEST_F(Curves, OfWallsLeaveOutRunsWithoutARatio) {
   stand_between_walls();
-  for (RunView& run : groups_[0].runs)
+  for (runs::RunView& run : groups_[0].runs)
     if (run.analysis.failure_ratio == 1.0) run.analysis.failure_ratio = not_known;
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);
@@ -405,4 +407,4 @@ TEST(GnuplotQuoted, StandsForItself) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -4,7 +4,7 @@
 
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 struct Ends {
@@ -39,4 +39,4 @@ TEST(Cycles, of_a_tilt_that_only_rises_or_falls_or_stands_are_one) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

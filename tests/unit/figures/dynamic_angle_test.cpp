@@ -6,7 +6,7 @@
 #include "figures/recipes.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 const double nan = std::nan("");
@@ -21,17 +21,17 @@ ObservableRow row_at(double time, double tilt, double displacement) {
 }
 
 /// A run that fails at 10 s and 20 deg, and rests at `rest` (deg).
-RunView run_with(const std::string& path, double rest, std::uint64_t seed) {
-  RunStore store = RunStore::create(path, example::header(), false);
-  Segment segment;
+runs::RunView run_with(const std::string& path, double rest, std::uint64_t seed) {
+  io::RunStore store = io::RunStore::create(path, example::header(), false);
+  io::Segment segment;
   segment.observables = {row_at(7.5, 19.0, 0.0),   row_at(9.0, 19.5, 0.0),    row_at(10.0, 20.0, 0.01),
                          row_at(10.5, 19.8, 0.06), row_at(11.0, 19.6, 0.061), row_at(11.0, 19.6, 0.061)};
-  Checkpoint checkpoint = example::checkpoint(0);
+  io::Checkpoint checkpoint = example::checkpoint(0);
   checkpoint.results = {{"theta_c", radians(19.9)}, {"theta_r", radians(rest)}};
   store.commit(segment, checkpoint);
-  RunView run = view_of_run(path, RunFile::open(path), {});
+  runs::RunView run = runs::view_of_run(path, io::RunFile::open(path), {});
   run.scenario.seed = seed;
-  Analysis& analysis = run.analysis;
+  analysis::Analysis& analysis = run.analysis;
   analysis.theta_c = radians(19.9);
   analysis.thresholds = {
       {.factor = 1.0, .lc_jump = radians(12.0), .lc_jump_error = radians(0.25), .percolation = radians(0.0)},
@@ -120,4 +120,4 @@ TEST_F(DynamicAngle, TracesTheSurfaceFromTwoSecondsBeforeFailureOn) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

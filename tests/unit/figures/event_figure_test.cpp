@@ -11,7 +11,7 @@
 #include "runs/event_catalogue.h"
 #include "unit/figures/example_figure_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 const std::vector<double>& column(const Table& table, const std::string& name) {
@@ -37,9 +37,9 @@ class EventFigure : public ::testing::Test {
 
   /// `count` events of each run, of 1, 2, 4, ... m g D; the last is the failure.
   void add_events(int count) {
-    for (RunView& run : groups_[0].runs) {
+    for (runs::RunView& run : groups_[0].runs) {
       const RunStatics& statics = run.file->header().statics;
-      const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
+      const double unit = runs::mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
       for (int k = 0; k < count; ++k)
         run.analysis.events.push_back({.begin = radians(1.0 + k),
                                        .waiting = k == 0 ? not_known : radians(0.1 * k),
@@ -121,4 +121,4 @@ TEST_F(EventFigure, is_none_without_rearrangements) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

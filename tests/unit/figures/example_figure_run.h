@@ -13,8 +13,8 @@ namespace talus::example {
 
 /// Opens the run at `path` (three frames) as one that fails at theta_c, deg; NaN: not at all, and without
 /// thresholds.
-inline RunView figure_run(const std::string& path, std::uint64_t seed, double theta_c = std::nan("")) {
-  RunView run = view_of_run(path, RunFile::open(path), {});
+inline runs::RunView figure_run(const std::string& path, std::uint64_t seed, double theta_c = std::nan("")) {
+  runs::RunView run = runs::view_of_run(path, io::RunFile::open(path), {});
   run.scenario.seed = seed;
   const std::uint64_t thresholds = std::isnan(theta_c) ? 0 : 2;
   run.analysis = test::blank_analysis(

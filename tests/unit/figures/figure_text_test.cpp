@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "unit/figures/example_figure_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 Figure example_figure() {
@@ -24,17 +24,17 @@ Figure example_figure() {
 }
 
 TEST(CsvText, HasNamesThenAllDigits) {
-  EXPECT_EQ(csv_text(example_figure().tables[0]), "theta,p_o\n0,NaN\n0.30000000000000004,-1\n");
-  EXPECT_EQ(csv_text(example_figure().tables[1]), "theta\n");
+  EXPECT_EQ(app::csv_text(example_figure().tables[0]), "theta,p_o\n0,NaN\n0.30000000000000004,-1\n");
+  EXPECT_EQ(app::csv_text(example_figure().tables[1]), "theta\n");
 }
 
 TEST(CsvText, HasAnEmptyLineBetweenBlocks) {
   const Table table = {"", {{"seed", "1", "", {1, 1, 2, 3}}, {"x", "1", "", {5, 6, 7, 8}}}, true};
-  EXPECT_EQ(csv_text(table), "seed,x\n1,5\n1,6\n\n2,7\n\n3,8\n");
+  EXPECT_EQ(app::csv_text(table), "seed,x\n1,5\n1,6\n\n2,7\n\n3,8\n");
 }
 
 TEST(GnuplotText, HasVariablesThenStyleThenScript) {
-  const std::string text = gnuplot_text(example_figure(), 8.6);
+  const std::string text = app::gnuplot_text(example_figure(), 8.6);
   const auto at = [&text](const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
     return text.find(part);
@@ -47,11 +47,11 @@ TEST(GnuplotText, HasVariablesThenStyleThenScript) {
 
 TEST(FigureWidth, IsThatOfOneOrTwoColumns) {
   Figure figure = example_figure();
-  EXPECT_EQ(figure_width(figure, 0), 8.6);
-  EXPECT_EQ(figure_width(figure, 2), 17.8);
+  EXPECT_EQ(app::figure_width(figure, 0), 8.6);
+  EXPECT_EQ(app::figure_width(figure, 2), 17.8);
   figure.wide = true;
-  EXPECT_EQ(figure_width(figure, 0), 17.8);
-  EXPECT_EQ(figure_width(figure, 1), 8.6);
+  EXPECT_EQ(app::figure_width(figure, 0), 17.8);
+  EXPECT_EQ(app::figure_width(figure, 1), 8.6);
 }
 
 TEST(ProvenanceJson, NamesRunsAndColumns) {
@@ -65,7 +65,7 @@ TEST(ProvenanceJson, NamesRunsAndColumns) {
   groups[0].runs[0].analysis.parameters = {{"lc_cut", "30"}};
   Figure figure = example_figure();
   figure.runs = {used};
-  const std::string text = provenance_json(figure, groups, "talus figures a.h5");
+  const std::string text = app::provenance_json(figure, groups, "talus figures a.h5");
   for (const std::string& part :
        {std::string("\"caption\": \"A \\\"caption\\\"\""), std::string("\"command\": \"talus figures a.h5\""),
         "\"path\": \"" + used + "\"", std::string("\"seed\": 7"), std::string("\"lc_cut\": \"30\""),
@@ -78,4 +78,4 @@ TEST(ProvenanceJson, NamesRunsAndColumns) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -5,7 +5,7 @@
 #include "core/trigonometry.h"
 #include "figures/recipes.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 /// Tilts from 0 to `last` degrees.
@@ -45,4 +45,4 @@ TEST(PanelFrames, TakeTheFramesThatThereAre) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -5,7 +5,7 @@
 #include "figures/recipes.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
@@ -22,8 +22,8 @@ test::Packing column_of_grains() {
 
 TEST(TypicalGrain, IsNearestToTheMeansAtAllThresholds) {
   const test::Packing packing = column_of_grains();
-  const FrameThreshold first{.lc = {4, 4, 4, 5, 4.4f, 3, 4, 4, none, none}, .lc_mean = 4.0};
-  const FrameThreshold second{.lc = {2, 2, 4, 2, 2.1f, 2, 2, 2, none, none}, .lc_mean = 2.0};
+  const analysis::FrameThreshold first{.lc = {4, 4, 4, 5, 4.4f, 3, 4, 4, none, none}, .lc_mean = 4.0};
+  const analysis::FrameThreshold second{.lc = {2, 2, 4, 2, 2.1f, 2, 2, 2, none, none}, .lc_mean = 2.0};
   EXPECT_EQ(typical_grain(packing, std::vector{first, second}), 4);
   EXPECT_EQ(typical_grain(packing, std::vector{first}), 2);
 }
@@ -31,10 +31,10 @@ TEST(TypicalGrain, IsNearestToTheMeansAtAllThresholds) {
 TEST(TypicalGrain, IsOverloadedAndOfEqualOnesTheFirst) {
   const test::Packing packing = column_of_grains();
   const std::vector lengths = {
-      FrameThreshold{.lc = {4, 4, none, 5, 3, none, 4, 4, none, none}, .lc_mean = 4.0}};
+      analysis::FrameThreshold{.lc = {4, 4, none, 5, 3, none, 4, 4, none, none}, .lc_mean = 4.0}};
   EXPECT_EQ(typical_grain(packing, lengths), 3);
   const std::vector nobody = {
-      FrameThreshold{.lc = {4, 4, none, none, none, none, 4, 4, none, none}, .lc_mean = 4.0}};
+      analysis::FrameThreshold{.lc = {4, 4, none, none, none, none, 4, 4, none, none}, .lc_mean = 4.0}};
   EXPECT_EQ(typical_grain(packing, nobody), std::nullopt);
 }
 
@@ -42,7 +42,7 @@ TEST(TypicalGrain, IsAwayFromWalls) {
   test::Packing packing = column_of_grains();
   packing.frame.x[3] = 9.0;
   const std::vector lengths = {
-      FrameThreshold{.lc = {none, none, none, 4, 5, none, none, none, none, none}, .lc_mean = 4.0}};
+      analysis::FrameThreshold{.lc = {none, none, none, 4, 5, none, none, none, none, none}, .lc_mean = 4.0}};
   EXPECT_EQ(typical_grain(packing, lengths), 3) << "periodic";
   packing.statics.periodic = false;
   EXPECT_EQ(typical_grain(packing, lengths), 4);
@@ -65,4 +65,4 @@ TEST(GrainsAround, AreSeenFromTheGrainAcrossThePeriodicEdge) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

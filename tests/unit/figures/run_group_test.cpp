@@ -5,17 +5,17 @@
 #include "base/errors.h"
 #include "unit/figures/example_figure_run.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 class RunGroups : public ::testing::Test {
  protected:
   RunGroups() { example::store_with_commits(path_, 1); }
 
-  RunView run(std::uint64_t seed) const { return example::figure_run(path_, seed); }
-  RunView walls(std::uint64_t seed, double length) const {
-    RunView result = run(seed);
-    result.scenario.bed.boundary = BedBoundary::walls;
+  runs::RunView run(std::uint64_t seed) const { return example::figure_run(path_, seed); }
+  runs::RunView walls(std::uint64_t seed, double length) const {
+    runs::RunView result = run(seed);
+    result.scenario.bed.boundary = scenario::BedBoundary::walls;
     result.scenario.bed.length = length;
     return result;
   }
@@ -26,16 +26,16 @@ class RunGroups : public ::testing::Test {
 
 template <typename... Runs>
 std::vector<RunGroup> groups_of(Runs... runs) {
-  std::vector<RunView> all;
+  std::vector<runs::RunView> all;
   (all.push_back(std::move(runs)), ...);
   return group_runs(std::move(all));
 }
 
 TEST_F(RunGroups, TakeRunsThatDifferInNothingThatShapesTheResult) {
-  RunView other = run(1);
+  runs::RunView other = run(1);
   other.scenario.output.frame_every = 1.0;
   other.scenario.tilt.end_angle = 10.0;
-  other.scenario.tilt.after_failure = AfterFailure::lower;
+  other.scenario.tilt.after_failure = scenario::AfterFailure::lower;
   other.scenario.tilt.lowering_rate = 1.0;
   other.scenario.deposition.max_time = 100.0;
   other.scenario.contact.wall_friction = 0.1;
@@ -47,7 +47,7 @@ TEST_F(RunGroups, TakeRunsThatDifferInNothingThatShapesTheResult) {
 }
 
 TEST_F(RunGroups, PartRunsByWhatMayShapeTheResult) {
-  RunView loose = run(1), fast = run(1), rubbed = walls(1, 100.0);
+  runs::RunView loose = run(1), fast = run(1), rubbed = walls(1, 100.0);
   loose.scenario.solver.tolerance = 1e-5;
   fast.scenario.tilt.rate = 2.0;
   rubbed.scenario.contact.wall_friction = 0.1;
@@ -56,7 +56,7 @@ TEST_F(RunGroups, PartRunsByWhatMayShapeTheResult) {
 }
 
 TEST_F(RunGroups, NameTheKeysThatTellThemApart) {
-  RunView other = run(1);
+  runs::RunView other = run(1);
   other.scenario.deposition.friction = 0.15;
   const auto groups = groups_of(run(1), std::move(other), walls(1, 100.0));
   ASSERT_EQ(groups.size(), 3u);
@@ -75,7 +75,7 @@ TEST_F(RunGroups, ComePeriodicFirstThenByLength) {
 
 TEST_F(RunGroups, PartRunsOfOneSeedThatEndedInOtherStates) {
   const auto of_ensemble = [&](std::uint64_t seed, const std::string& folder) {
-    RunView result = run(seed);
+    runs::RunView result = run(seed);
     result.path = "/runs/" + folder + "/ensemble.h5#seed-" + std::to_string(seed);
     result.state_hash = "of " + folder;
     return result;
@@ -100,4 +100,4 @@ TEST_F(RunGroups, RefuseARunTwice) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::figures {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -57,4 +57,4 @@ TEST(MeanColumns, AreMeansWithStandardErrors) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::figures

@@ -38,7 +38,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"figures",
      {"analysis/", "base/", "core/", "ensemble/", "pictures/", "render/frame_view.h", "runs/", "scenario/",
       "session/", "stress/"}},
-    {"export",
+    {"exports",
      {"analysis/", "base/", "core/", "io/", "pictures/", "runs/", "scenario/", "session/", "stress/",
       "view/"}},
     {"view",
@@ -47,7 +47,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"gui", {"base/", "core/", "pictures/", "render/", "view/"}},
     {"render", {"base/"}},
     {"app",
-     {"analysis/", "base/", "core/", "ensemble/", "export/", "figures/", "gui/", "io/", "pictures/",
+     {"analysis/", "base/", "core/", "ensemble/", "exports/", "figures/", "gui/", "io/", "pictures/",
       "problems/", "render/", "runs/", "scenario/", "session/", "view/"}},
 };
 
@@ -73,7 +73,7 @@ const std::vector<Home> homes = {
     {"toml++/", "src/scenario/toml.cpp"},
     {"xxhash.h", "src/base/hash.cpp"},
     {"zlib.h", "render/png.cpp"},
-    {"zlib.h", "src/export/page/tables.cpp"},
+    {"zlib.h", "src/exports/page/tables.cpp"},
 };
 
 /// Headers of the operating system, which any room may include.
@@ -164,6 +164,27 @@ TEST(Includes, keep_each_foreign_library_in_its_room) {
       ADD_FAILURE() << place(file, i) << "\n  belongs in " << home->path << " only";
   });
   for (const std::string& header : unused) ADD_FAILURE() << "nothing includes " << header;
+}
+
+/// Names that all rooms share are in talus itself: those of base and core, and of the library its face.
+bool is_in_talus_itself(const std::string& room) {
+  return room == "base" || room == "core" || room == "library";
+}
+
+TEST(Rooms, have_each_a_namespace) {
+  for (const TextFile& file : read_texts({"src", "render"})) {
+    const std::string room = room_of(file.path);
+    const std::string own = is_in_talus_itself(room) ? "namespace talus {" : "namespace talus::" + room;
+    for (std::size_t i = 0; is_source(file) && i < file.lines.size(); ++i) {
+      const std::string& line = file.lines[i];
+      if (!line.starts_with("namespace talus") || line.starts_with("namespace talus::embedded ")) continue;
+      const std::string next = i + 1 < file.lines.size() ? file.lines[i + 1] : "";
+      const bool declares_another = next.starts_with("class ") || next.starts_with("struct ");
+      const bool is_own = line == own || line == own + " {" || line.starts_with(own + "::");
+      if (!is_own && !(declares_another && next.ends_with(";")))
+        ADD_FAILURE() << place(file, i) << "\n  expected " << own;
+    }
+  }
 }
 
 TEST(Rooms, below_app_do_not_print) {

@@ -21,7 +21,7 @@
 #include "support/places.h"
 #include "unit/io/example_analysis.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 template <typename T>
@@ -30,16 +30,16 @@ bool same_bits(const std::vector<T>& one, const std::vector<T>& other) {
   return one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(T)) == 0;
 }
 
-void expect_same(const Analysis& read, const Analysis& written) {
+void expect_same(const analysis::Analysis& read, const analysis::Analysis& written) {
   EXPECT_EQ(read.key, written.key);
   EXPECT_EQ(read.parameters, written.parameters);
   EXPECT_EQ(sizes_of(read), sizes_of(written));
-  for (const Quantity& quantity : quantities()) {
-    const Values other = values_of(quantity, read);
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    const analysis::Values other = analysis::values_of(quantity, read);
     const auto is_same = [&other]<typename T>(const std::vector<T>& expected) {
       return same_bits(std::get<std::vector<T>>(other), expected);
     };
-    EXPECT_TRUE(std::visit(is_same, values_of(quantity, written))) << quantity.name;
+    EXPECT_TRUE(std::visit(is_same, analysis::values_of(quantity, written))) << quantity.name;
   }
 }
 
@@ -64,21 +64,21 @@ TEST_F(AnalysisFile, gives_back_what_was_stored) {
 
 TEST_F(AnalysisFile, leaves_out_what_needs_a_threshold_where_there_is_none) {
   store_analysis(path_, example::analysis(0, 1), state_);
-  const Analysis read = read_analysis(path_).value();
+  const analysis::Analysis read = read_analysis(path_).value();
   expect_same(read, example::analysis(0, 1));
   EXPECT_TRUE(read.thresholds.empty());
-  EXPECT_FALSE(is_present(quantity_of(&FrameThreshold::overloaded_fraction), read));
-  EXPECT_TRUE(is_present(quantity_of(&FrameRecord::stress), read));
+  EXPECT_FALSE(is_present(analysis::quantity_of(&analysis::FrameThreshold::overloaded_fraction), read));
+  EXPECT_TRUE(is_present(analysis::quantity_of(&analysis::FrameRecord::stress), read));
 }
 
 TEST_F(AnalysisFile, has_as_many_events_as_there_are) {
   store_analysis(path_, example::analysis(2, 1), state_);
   EXPECT_EQ(read_analysis(path_).value().events.size(), 4u);
   store_analysis(path_, example::analysis(0, 1), state_);
-  const Analysis none = read_analysis(path_).value();
+  const analysis::Analysis none = read_analysis(path_).value();
   EXPECT_TRUE(none.events.empty());
-  EXPECT_FALSE(is_present(quantity_of(&EventRecord::energy), none));
-  EXPECT_TRUE(is_present(quantity_of(&Analysis::event_count), none));
+  EXPECT_FALSE(is_present(analysis::quantity_of(&analysis::EventRecord::energy), none));
+  EXPECT_TRUE(is_present(analysis::quantity_of(&analysis::Analysis::event_count), none));
 }
 
 TEST_F(AnalysisFile, keeps_the_run_to_the_last_bit) {
@@ -125,7 +125,7 @@ TEST_F(AnalysisFile, of_another_run_is_left_alone) {
 }
 
 TEST_F(AnalysisFile, of_another_number_of_frames_is_refused) {
-  Analysis shorter = test::blank_analysis(
+  analysis::Analysis shorter = test::blank_analysis(
       {.frames = 2, .thresholds = 1, .grains = example::grain_count, .sections = 5, .bins = 4});
   shorter.parameters = {{"bins", "4"}};
   store_analysis(path_, shorter, state_);
@@ -161,31 +161,33 @@ TEST_F(AnalysisFile, tells_other_readers_what_it_holds) {
 }
 
 TEST(Quantities, have_their_values_in_the_order_of_their_shape) {
-  const Analysis analysis = example::analysis(2, 1);
+  const analysis::Analysis analysis = example::analysis(2, 1);
   const std::size_t grains = example::grain_count;
-  const auto lengths = std::get<std::vector<float>>(values_of(quantity_of(&FrameThreshold::lc), analysis));
+  const auto lengths = std::get<std::vector<float>>(
+      analysis::values_of(analysis::quantity_of(&analysis::FrameThreshold::lc), analysis));
   EXPECT_EQ(lengths.size(), 3 * 2 * grains);
   EXPECT_EQ(lengths[3 * grains + 1], analysis.frames[1].thresholds[1].lc[1]);
-  const Quantity& mean = quantity_of(&FrameThreshold::lc_mean);
-  EXPECT_EQ(number_of(mean, analysis, 3), analysis.frames[1].thresholds[1].lc_mean);
-  EXPECT_EQ(number_of(mean, analysis.frames[1], 1), analysis.frames[1].thresholds[1].lc_mean);
+  const analysis::Quantity& mean = analysis::quantity_of(&analysis::FrameThreshold::lc_mean);
+  EXPECT_EQ(analysis::number_of(mean, analysis, 3), analysis.frames[1].thresholds[1].lc_mean);
+  EXPECT_EQ(analysis::number_of(mean, analysis.frames[1], 1), analysis.frames[1].thresholds[1].lc_mean);
 }
 
 /// The table with a row more: a quantity is known to a file by its row alone.
-std::vector<Quantity> with_made_up_quantity() {
-  std::vector<Quantity> table = quantities();
-  table.push_back({&FrameRecord::volume, "packing/made_up", "T", "m", "made up for this test", "bins"});
+std::vector<analysis::Quantity> with_made_up_quantity() {
+  std::vector<analysis::Quantity> table = analysis::quantities();
+  table.push_back(
+      {&analysis::FrameRecord::volume, "packing/made_up", "T", "m", "made up for this test", "bins"});
   return table;
 }
 
 TEST_F(AnalysisFile, has_each_quantity_of_its_table) {
-  const std::vector<Quantity> table = with_made_up_quantity();
-  const Analysis written = example::analysis(2, 1);
+  const std::vector<analysis::Quantity> table = with_made_up_quantity();
+  const analysis::Analysis written = example::analysis(2, 1);
   store_analysis(path_, written, state_, table);
   hdf5::Reader reader = hdf5::Reader::from_file(path_);
   const auto stored = reader.read<double>(data_set_of(table.back()), hdf5::any_number);
-  EXPECT_TRUE(same_bits(stored, std::get<std::vector<double>>(values_of(table.back(), written))));
-  Analysis read = read_analysis(path_, std::span(&table.back(), 1)).value();
+  EXPECT_TRUE(same_bits(stored, std::get<std::vector<double>>(analysis::values_of(table.back(), written))));
+  analysis::Analysis read = read_analysis(path_, std::span(&table.back(), 1)).value();
   EXPECT_EQ(read.frames[1].volume, written.frames[1].volume);
   EXPECT_TRUE(std::isnan(read.frames[1].stress_ratio)) << "not in that table";
 }
@@ -212,4 +214,4 @@ TEST(AnalysisSchema, every_path_stands_once) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

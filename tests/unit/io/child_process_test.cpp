@@ -15,7 +15,7 @@
 #include "base/errors.h"
 #include "base/sanitizers.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 /// A lock on a run is held by whoever has its file open.
@@ -75,4 +75,4 @@ TEST(Parcels, cut_short_on_their_way_are_refused) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -10,7 +10,7 @@
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(Damage, shapes_and_types_are_checked_against_the_schema) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -73,7 +73,7 @@ void seal_again(const std::string& run) {
   const std::string text = file_text(run);
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
   std::vector<std::byte> sealed(bytes, bytes + text.size());
-  seal(sealed);
+  io::seal(sealed);
   write_text(run, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
 }
 

@@ -11,7 +11,7 @@
 #include "support/places.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 std::string row_text(const DataSetField& field) {
@@ -63,4 +63,4 @@ TEST(FileFormat, every_path_stands_once) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

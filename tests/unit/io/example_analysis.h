@@ -13,6 +13,6 @@ inline constexpr int analysis_commits = 3;
 std::string analysed_state();
 
 /// For `thresholds` thresholds. Analyses of another `serial` have other values.
-Analysis analysis(std::uint64_t thresholds, int serial);
+analysis::Analysis analysis(std::uint64_t thresholds, int serial);
 
 }  // namespace talus::example

@@ -50,8 +50,8 @@ Frame frame(Random& random, int number) {
 
 }  // namespace
 
-RunHeader header() {
-  RunHeader header;
+io::RunHeader header() {
+  io::RunHeader header;
   header.statics.free_count = free_grain_count;
   header.statics.radius = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
   header.statics.mass = {1.1, 1.2, 1.3, 1.4, 1.5, 1.6};
@@ -69,9 +69,9 @@ RunHeader header() {
   return header;
 }
 
-Segment segment(int k) {
+io::Segment segment(int k) {
   Random random(static_cast<std::uint64_t>(k));
-  Segment s;
+  io::Segment s;
   for (int i = 0; i < k % 3; ++i) s.frames.push_back(frame(random, 3 * k + i));
   s.observables.resize(2);
   s.steps.resize(5);
@@ -85,9 +85,9 @@ Segment segment(int k) {
   return s;
 }
 
-Checkpoint checkpoint(int k) {
+io::Checkpoint checkpoint(int k) {
   Random random(static_cast<std::uint64_t>(1000 + k));
-  Checkpoint c;
+  io::Checkpoint c;
   for (Index i = 0; i < grain_count; ++i)
     add_disk(c.world.grains, {random.uniform(), random.uniform()}, random.uniform(0.1, 0.2), 2500.0,
              i >= free_grain_count);
@@ -113,8 +113,8 @@ Checkpoint checkpoint(int k) {
   return c;
 }
 
-RunStore store_with_commits(const std::string& path, int count) {
-  RunStore store = RunStore::create(path, header(), false);
+io::RunStore store_with_commits(const std::string& path, int count) {
+  io::RunStore store = io::RunStore::create(path, header(), false);
   for (int k = 0; k < count; ++k) store.commit(segment(k), checkpoint(k));
   return store;
 }

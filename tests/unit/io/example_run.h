@@ -13,14 +13,14 @@ using test::TemporaryFolder;
 inline constexpr Index grain_count = 6;
 inline constexpr Index free_grain_count = 4;
 
-RunHeader header();
+io::RunHeader header();
 /// Commit number k holds k % 3 frames, at ascending tilts, 2 rows of observables, 5 of steps and k / 2
 /// commands.
-Segment segment(int k);
-Checkpoint checkpoint(int k);
+io::Segment segment(int k);
+io::Checkpoint checkpoint(int k);
 
 /// A store with the commits 0 ... count - 1.
-RunStore store_with_commits(const std::string& path, int count);
+io::RunStore store_with_commits(const std::string& path, int count);
 
 std::string file_text(const std::string& path);
 void write_text(const std::string& path, const std::string& text);

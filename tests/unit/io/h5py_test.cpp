@@ -7,7 +7,7 @@
 #include "support/places.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 constexpr const char* interpreter = "/usr/bin/python3";
@@ -42,4 +42,4 @@ TEST(H5py, reads_a_packed_file_and_finds_it_valid) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -12,7 +12,7 @@
 #include "unit/io/damaged_run.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -306,4 +306,4 @@ TEST_F(RepairFolder, without_its_header_is_refused) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -9,7 +9,7 @@
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 constexpr int commits = 5;  // frames: 0 + 1 + 2 + 0 + 1
@@ -250,4 +250,4 @@ TEST(RoundTrip, a_resumed_run_continues_with_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -14,7 +14,7 @@
 #include "io/run_file.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST(RunStore, the_folder_of_a_packed_run_can_be_discarded_and_no_other) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

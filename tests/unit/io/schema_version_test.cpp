@@ -9,7 +9,7 @@
 #include "unit/io/damaged_run.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::io {
 namespace {
 
 class SchemaVersion : public testing::Test {
@@ -49,4 +49,4 @@ TEST_F(SchemaVersion, runs_without_commands_have_no_group_of_them) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::io

@@ -23,22 +23,23 @@ bool same(double one, double other) { return one == other || (std::isnan(one) &&
 
 TEST(MeasuredFrame, of_a_file_has_the_numbers_of_its_analysis) {
   const test::TemporaryFolder folder;
-  Scenario scenario = test::small_tilted_bed(10.0);
+  scenario::Scenario scenario = test::small_tilted_bed(10.0);
   Simulation sim(scenario);
   sim.record(folder.path("run.h5"));
   sim.finish();
-  AnalysisParameters parameters;
+  analysis::AnalysisParameters parameters;
   parameters.gamma_c = 0.3;
-  const RunView run = analysed_run(folder.path("run.h5"), parameters, {});
+  const runs::RunView run = runs::analysed_run(folder.path("run.h5"), parameters, {});
   const std::size_t k = run.analysis.frames.size() / 2;
   MeasuredFrame frame = measured_frame(folder.path("run.h5"), k, {"gamma_c=0.3"});
   int compared = 0;
-  for (const Quantity& quantity : quantities()) {
-    if (!is_number_of_frame(quantity) || quantity.name.starts_with("deformation/"))
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_number_of_frame(quantity) || quantity.name.starts_with("deformation/"))
       continue;  // of two frames
-    for (std::size_t f = 0; f < (needs_threshold(quantity) ? 2u : 1u); ++f) {
+    for (std::size_t f = 0; f < (analysis::needs_threshold(quantity) ? 2u : 1u); ++f) {
       const std::string name = f == 0 ? quantity.name : quantity.name + "[1]";
-      EXPECT_TRUE(same(frame.quantity(name), number_of(quantity, run.analysis.frames[k], f))) << name;
+      EXPECT_TRUE(same(frame.quantity(name), analysis::number_of(quantity, run.analysis.frames[k], f)))
+          << name;
       ++compared;
     }
   }
@@ -51,13 +52,14 @@ TEST(MeasuredFrame, of_a_live_run_has_the_quantities_of_its_grains) {
   for (const bool tilted : {false, true}) {
     if (tilted) sim.tilt_to(5.0);
     const auto count = static_cast<std::size_t>(sim.world().grains.count());
-    for (const FrameQuantity& quantity : grain_quantities()) {
+    for (const analysis::FrameQuantity& quantity : analysis::grain_quantities()) {
       if (quantity.name.empty()) continue;
-      EXPECT_EQ(sim.grain_values(quantity.name).size(), components(quantity) * count) << quantity.name;
+      EXPECT_EQ(sim.grain_values(quantity.name).size(), analysis::components(quantity) * count)
+          << quantity.name;
     }
-    for (const FrameQuantity& quantity : contact_quantities())
+    for (const analysis::FrameQuantity& quantity : analysis::contact_quantities())
       EXPECT_EQ(sim.contact_values(quantity.name).size(),
-                components(quantity) * static_cast<std::size_t>(sim.frame().contacts.count()))
+                analysis::components(quantity) * static_cast<std::size_t>(sim.frame().contacts.count()))
           << quantity.name;
   }
 }

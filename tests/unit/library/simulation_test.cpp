@@ -34,30 +34,30 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t to_the_end = 1'000'000;
 
 /// Poured, so that grains arrive while it is looked at.
-Scenario poured_bed() {
-  Scenario scenario = test::small_tilted_bed(3.0);
-  scenario.deposition.method = DepositionMethod::pour;
+scenario::Scenario poured_bed() {
+  scenario::Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.deposition.method = scenario::DepositionMethod::pour;
   return scenario;
 }
 
 /// The state at the end of a run that nothing interrupts.
-std::string end_of(const Scenario& scenario) {
-  Session session(scenario);
-  replay(session, nullptr, {}, to_the_end, {});
+std::string end_of(const scenario::Scenario& scenario) {
+  session::Session session(scenario);
+  session::replay(session, nullptr, {}, to_the_end, {});
   return hash_text(state_hash(session.world()));
 }
 
 /// The state that the commands and the start of a file lead to.
-std::string replayed(const RunFile& run) {
-  Session session = session_at_start(run.header(), "run");
-  replay(session, nullptr, run.commands(), to_the_end, {});
+std::string replayed(const io::RunFile& run) {
+  session::Session session = session::session_at_start(run.header(), "run");
+  session::replay(session, nullptr, run.commands(), to_the_end, {});
   return hash_text(state_hash(session.world()));
 }
 
 class SimulationOfChance : public testing::TestWithParam<int> {};
 
 TEST_P(SimulationOfChance, has_the_same_bits) {
-  const Scenario scenario = poured_bed();
+  const scenario::Scenario scenario = poured_bed();
   const test::TemporaryFolder folder;
   Random random(static_cast<std::uint64_t>(GetParam()));
   Simulation sim(scenario);
@@ -83,7 +83,7 @@ TEST_P(SimulationOfChance, has_the_same_bits) {
   }
   static const std::string expected = end_of(scenario);
   EXPECT_EQ(sim.state_hash(), expected);
-  EXPECT_TRUE(!recorded || RunFile::open(folder.path("run.h5")).complete());
+  EXPECT_TRUE(!recorded || io::RunFile::open(folder.path("run.h5")).complete());
 }
 
 INSTANTIATE_TEST_SUITE_P(Chunks, SimulationOfChance, testing::Range(0, 30));
@@ -99,7 +99,7 @@ TEST(Simulation, that_is_recorded_goes_on_where_it_was_left) {
   EXPECT_NEAR(sim.tilt(), 1.0, 0.5);
   sim.finish();
   EXPECT_EQ(sim.state_hash(), end_of(poured_bed()));
-  EXPECT_TRUE(RunFile::open(folder.path("run.h5")).complete());
+  EXPECT_TRUE(io::RunFile::open(folder.path("run.h5")).complete());
 }
 
 TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
@@ -116,7 +116,7 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   sim.drop(2, 0.01, 0.01);
   sim.finish();
   EXPECT_NE(sim.state_hash(), end_of(poured_bed()));
-  EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim.state_hash());
+  EXPECT_EQ(replayed(io::RunFile::open(folder.path("run.h5"))), sim.state_hash());
 }
 
 TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
@@ -139,7 +139,7 @@ TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(failed, 0);
   for (int k = 0; k < 4; ++k)
-    EXPECT_EQ(RunFile::open(folder.path(std::to_string(k) + ".h5")).checkpoint().world.step, 24);
+    EXPECT_EQ(io::RunFile::open(folder.path(std::to_string(k) + ".h5")).checkpoint().world.step, 24);
 }
 
 TEST(Simulation, that_is_resumed_measures_motion_from_the_first_frame_of_its_file) {
@@ -169,14 +169,14 @@ TEST(Simulation, that_is_a_copy_says_what_the_original_says) {
 
 TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {
   const test::TemporaryFolder folder;
-  const Scenario scenario = test::small_tilted_bed(3.0);
+  const scenario::Scenario scenario = test::small_tilted_bed(3.0);
   {
-    Session session(scenario);
-    RunHeader header = run_header(session, {});
+    session::Session session(scenario);
+    io::RunHeader header = session::run_header(session, {});
     header.provenance.emplace_back("replay_of", "run.h5");
     header.provenance.emplace_back("replay_steps", "100000");
-    RunStore store = RunStore::create(folder.path("replay.h5"), header, false);
-    Recorder recorder(session, store);
+    io::RunStore store = io::RunStore::create(folder.path("replay.h5"), header, false);
+    session::Recorder recorder(session, store);
     recorder.advance();
     recorder.commit();
   }
@@ -222,7 +222,7 @@ TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
   sim.record(folder.path("run.h5"));
   sim.set_friction(0.4);
   sim.finish();
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
   EXPECT_TRUE(run.header().branch.has_value());
   EXPECT_EQ(replayed(run), sim.state_hash());
 }
@@ -248,7 +248,7 @@ TEST(Simulation, stops_at_its_goals) {
   sim.step(2);
   EXPECT_EQ(sim.world().step, 2);
   sim.deposit();
-  EXPECT_EQ(sim.phase(), Phase::tilt);
+  EXPECT_EQ(sim.phase(), session::Phase::tilt);
   EXPECT_EQ(sim.tilt(), 0.0);
   sim.tilt_to(2.0);
   EXPECT_NEAR(sim.tilt(), 2.0, 0.021);
@@ -263,7 +263,7 @@ TEST(Simulation, stops_at_its_goals) {
 }
 
 TEST(Simulation, is_interrupted_between_two_steps) {
-  Scenario slow = test::small_tilted_bed(3.0);
+  scenario::Scenario slow = test::small_tilted_bed(3.0);
   slow.bed.length = 40.0;
   slow.bed.depth = 10.0;
   slow.tilt.rate = 0.5;
@@ -313,7 +313,7 @@ TEST(Simulation, is_looked_at_and_copied_in_a_child_of_fork_and_goes_on_in_the_p
   sim->interrupt_if([] { return false; });
   sim->finish();
   EXPECT_EQ(sim->state_hash(), end_of(poured_bed()));
-  EXPECT_EQ(replayed(RunFile::open(folder.path("run.h5"))), sim->state_hash());
+  EXPECT_EQ(replayed(io::RunFile::open(folder.path("run.h5"))), sim->state_hash());
 }
 
 TEST(Simulation, that_is_left_is_free_though_a_child_of_fork_has_its_files) {

@@ -10,7 +10,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 TEST(BackgroundTasks, are_done_in_order_on_one_other_thread) {
@@ -101,4 +101,4 @@ TEST(BackgroundTasks, are_dropped_while_others_are_taken) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::pictures

@@ -10,7 +10,7 @@
 #include "pictures/picture_marks.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 constexpr Index grains = 40;
@@ -55,9 +55,9 @@ struct Variation {
 
 /// Frames at 0, 1, 2 deg of the tilt, and one of the flow that follows, which stands higher.
 std::string example_run(const test::TemporaryFolder& folder, const Variation& variation = {}) {
-  Checkpoint checkpoint;
+  io::Checkpoint checkpoint;
   checkpoint.world = row_of_grains();
-  RunHeader header;
+  io::RunHeader header;
   header.statics.free_count = grains;
   header.statics.radius = checkpoint.world.grains.radius;
   header.statics.mass = checkpoint.world.grains.mass;
@@ -67,8 +67,8 @@ std::string example_run(const test::TemporaryFolder& folder, const Variation& va
   header.seed = variation.seed;
   header.scenario_resolved = variation.scenario;
   header.provenance = {{"start", variation.start}};
-  RunStore store = RunStore::create(folder.path("run.h5"), header, true);
-  Segment segment;
+  io::RunStore store = io::RunStore::create(folder.path("run.h5"), header, true);
+  io::Segment segment;
   segment.frames = {frame_at(0.0, {{2, 12}}), frame_at(1.0, {{2, 12}, {15, 30}}),
                     frame_at(2.0, {{2, 12}, {15, 30}}), frame_at(1.5, {{2, 12}}, 0.25)};
   for (const Frame& frame : segment.frames) {
@@ -89,17 +89,17 @@ MapPlan plan_of(const std::string& map, MapOptions options = {}) {
 
 std::string key_of(const DrawnRun& run) { return picture_key(run.series, 1, 0); }
 
-Colour fill_of(const FrameView& view, Index grain) {
+render::Colour fill_of(const render::FrameView& view, Index grain) {
   return view.discs[static_cast<std::size_t>(grain)].fill;
 }
 
 TEST(PictureSeries, a_cluster_keeps_its_colour_whichever_frames_are_drawn) {
   const test::TemporaryFolder folder;
   DrawnRun run = open_drawn_run(example_run(folder), plan_of("clusters"), {});
-  const Colour alone = fill_of(picture(run, 2, 0), 5);  // drawn first
+  const render::Colour alone = fill_of(picture(run, 2, 0), 5);  // drawn first
   EXPECT_EQ(alone, fill_of(picture(run, 0, 0), 5));
   EXPECT_EQ(alone, fill_of(picture(run, 3, 0), 5)) << "in the flow too";
-  const FrameView later = picture(run, 1, 0);
+  const render::FrameView later = picture(run, 1, 0);
   EXPECT_EQ(alone, fill_of(later, 5));
   EXPECT_NE(alone, fill_of(later, 20)) << "the larger one that came later has another";
 }
@@ -120,8 +120,8 @@ TEST(PictureSeries, what_moves_is_measured_from_the_frame_before_or_from_that_as
   const std::string path = example_run(folder);
   DrawnRun before = open_drawn_run(path, plan_of("displacement"), {});
   EXPECT_EQ(picture(before, 2, 0).title, "Displacement per degree of tilt");
-  const Colour still = fill_of(picture(before, 0, 0), 5);
-  const Colour steady = fill_of(picture(before, 1, 0), 5);
+  const render::Colour still = fill_of(picture(before, 0, 0), 5);
+  const render::Colour steady = fill_of(picture(before, 1, 0), 5);
   EXPECT_NE(steady, still) << "at 0 deg nothing has moved yet";
   EXPECT_EQ(fill_of(picture(before, 2, 0), 5), steady) << "each frame has moved as far as the one before";
 
@@ -172,7 +172,7 @@ TEST(PictureSeries, traces_are_those_of_the_tilt) {
   MapOptions options;
   options.traces = "overloaded,stress_ratio";
   DrawnRun run = open_drawn_run(example_run(folder), plan_of("gamma", options), {});
-  const FrameView view = picture(run, 1, 0);
+  const render::FrameView view = picture(run, 1, 0);
   ASSERT_EQ(view.traces.size(), 2u);
   EXPECT_EQ(view.traces[0].y, (std::vector{10.0 / 40, 25.0 / 40, 25.0 / 40}));
   EXPECT_EQ(view.traces[1].y, (std::vector{0.1, 0.1, 0.1}));
@@ -230,4 +230,4 @@ TEST(PictureSeries, keys_tell_frames_and_settings_apart) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::pictures

@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::pictures {
 namespace {
 
 std::vector<double> rad(std::vector<double> angles) {
@@ -53,4 +53,4 @@ TEST(MovieFrames, are_as_many_as_angle_and_speed_say) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::pictures

@@ -11,7 +11,7 @@
 #include "session/measure.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 constexpr double tolerance = 1e-9;
@@ -35,9 +35,9 @@ RunStatics statics_of(const World& world, double length, double friction) {
 /// Some 30 grains at rest on a rough floor.
 const FrozenBed& small_bed() {
   static const FrozenBed bed = [] {
-    const StepSettings settings = test::bed_step(tolerance);
+    const dynamics::StepSettings settings = test::bed_step(tolerance);
     return freeze(test::settled_bed(test::bed_plan(true, 30, 6, 3), settings), settings,
-                  BedPlan{}.mean_diameter);
+                  dynamics::BedPlan{}.mean_diameter);
   }();
   return bed;
 }
@@ -51,7 +51,7 @@ FrozenBed grain_on_two(double friction) {
   add_disk(world.grains, {x, std::sqrt(3.0) * r}, r, test::density, false);
   add_disk(world.grains, {x - r, 0.0}, r, test::density, true);
   add_disk(world.grains, {x + r, 0.0}, r, test::density, true);
-  const StepSettings settings = test::exact_step(SolverKind::accelerated, friction);
+  const dynamics::StepSettings settings = test::exact_step(solver::SolverKind::accelerated, friction);
   FrozenBed bed = freeze(std::move(world), settings, mean_diameter);
   const double weight = bed.world.grains.mass[0] * bed.world.gravity;
   bed.step.guess.pn.assign(2, weight * settings.h / std::sqrt(3.0));
@@ -161,12 +161,12 @@ TEST(AdmissibleForces, random_starts_are_feasible_and_follow_from_the_seed) {
   }
   for (const ForceStart start : {ForceStart::exponential, ForceStart::uniform}) {
     Random one(7), same(7), other(8), many(9);
-    const ContactSolution guess = first_guess(start, bed, one);
+    const solver::ContactSolution guess = first_guess(start, bed, one);
     EXPECT_EQ(guess.pn, first_guess(start, bed, same).pn);
     EXPECT_NE(guess.pn, first_guess(start, bed, other).pn);
     double sum = 0.0, squares = 0.0, count = 0.0;
     for (int draw = 0; draw < 200; ++draw) {
-      const ContactSolution drawn = first_guess(start, bed, many);
+      const solver::ContactSolution drawn = first_guess(start, bed, many);
       for (std::size_t c = 0; c < drawn.pn.size(); ++c) {
         EXPECT_GE(drawn.pn[c], 0.0);
         EXPECT_LE(std::fabs(drawn.pt[c]), bed.step.problem.mu[c] * drawn.pn[c]);
@@ -188,8 +188,8 @@ TEST(AdmissibleForces, random_starts_are_feasible_and_follow_from_the_seed) {
 TEST(AdmissibleForces, starts_from_the_memory_are_shares_of_it) {
   const FrozenBed& bed = small_bed();
   Random random(3);
-  const ContactSolution doubled = first_guess(ForceStart::doubled, bed, random);
-  const ContactSolution scattered = first_guess(ForceStart::scattered, bed, random);
+  const solver::ContactSolution doubled = first_guess(ForceStart::doubled, bed, random);
+  const solver::ContactSolution scattered = first_guess(ForceStart::scattered, bed, random);
   double least = 2.0, largest = 0.0;
   for (std::size_t c = 0; c < doubled.pn.size(); ++c) {
     const double pn = bed.step.guess.pn[c], pt = bed.step.guess.pt[c];
@@ -210,7 +210,7 @@ TEST(AdmissibleForces, starts_from_the_memory_are_shares_of_it) {
 TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
   World world = test::column(2);
   world.grains.y[1] += 0.5 * test::radius;
-  const StepSettings settings = test::exact_step(SolverKind::accelerated);
+  const dynamics::StepSettings settings = test::exact_step(solver::SolverKind::accelerated);
   FrozenBed bed = freeze(std::move(world), settings, mean_diameter);
   bed.step.guess.pn.assign(1, 1.0);
   Random random(1);
@@ -225,7 +225,7 @@ TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
 TEST(AdmissibleForces, open_contacts_carry_nothing) {
   World world = test::column(2);
   world.grains.y[1] += 0.001 * test::radius;  // a candidate contact, open
-  FrozenBed bed = freeze(std::move(world), test::exact_step(SolverKind::accelerated), mean_diameter);
+  FrozenBed bed = freeze(std::move(world), test::exact_step(solver::SolverKind::accelerated), mean_diameter);
   ASSERT_EQ(bed.step.problem.contact_count(), 2);
   bed.step.guess.pn.assign(2, 1e-3);
   Random random(1);
@@ -241,7 +241,7 @@ TEST(AdmissibleForces, open_contacts_carry_nothing) {
 TEST(AdmissibleForces, a_frozen_bed_stands_still) {
   World world = test::disk_on_plane(0.2);
   world.grains.vx[0] = world.grains.vy[0] = world.grains.omega[0] = 1.0;
-  const StepSettings settings = test::exact_step(SolverKind::accelerated);
+  const dynamics::StepSettings settings = test::exact_step(solver::SolverKind::accelerated);
   const FrozenBed bed = freeze(world, settings, mean_diameter);
   EXPECT_EQ(bed.world.grains.x, world.grains.x);
   EXPECT_EQ(bed.world.grains.vx[0], 0.0);
@@ -267,9 +267,9 @@ class MeasuredForces : public testing::Test {
  protected:
   static FrameForces forces_of(const FrozenBed& bed, double length, ForceSearch search,
                                const std::vector<std::string>& settings = {"gamma_c=0.3"}) {
-    const Frame stored = make_frame(loaded_world(bed, bed.step.guess), bed.law);
+    const Frame stored = session::make_frame(loaded_world(bed, bed.step.guess), bed.law);
     return admissible_forces(bed, {stored, statics_of(bed.world, length, bed.law.friction)},
-                             parse_analysis_settings(settings), std::nan(""), search);
+                             runs::parse_analysis_settings(settings), std::nan(""), search);
   }
 };
 
@@ -319,4 +319,4 @@ TEST_F(MeasuredForces, need_a_threshold_and_one_frame) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::problems

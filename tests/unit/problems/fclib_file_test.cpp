@@ -13,7 +13,7 @@
 #include "support/places.h"
 #include "unit/io/example_run.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 /// Two contacts, W not symmetric, a guess, and no data sets of Talus' own.
@@ -31,10 +31,10 @@ FclibProblem example() {
 
 FclibProblem with_bodies() {
   FclibProblem problem = example();
-  for (const DataSetField& field : fclib_schema())
+  for (const io::DataSetField& field : fclib_schema())
     if (field.path.starts_with("/talus/")) {
       const std::size_t size = field.shape == "B" ? 3 : field.shape == "C" ? 2 : 1;
-      if (field.type == ElementType::int32)
+      if (field.type == io::ElementType::int32)
         problem.integers[field.path].assign(size, field.path.ends_with("/b") ? 2 : 0);
       else
         problem.reals[field.path].assign(size, 0.1 + static_cast<double>(problem.reals.size()));
@@ -161,8 +161,8 @@ TEST(FclibFile, what_is_no_hdf5_is_refused) {
 
 TEST(FclibFile, is_documented_as_it_is) {
   std::ostringstream expected;
-  for (const DataSetField& field : fclib_schema())
-    expected << "| `" << field.path << "` | " << type_name(field.type) << " | "
+  for (const io::DataSetField& field : fclib_schema())
+    expected << "| `" << field.path << "` | " << io::type_name(field.type) << " | "
              << (field.shape.empty() ? "-" : field.shape) << " | " << field.unit << " | " << field.help
              << " |\n";
   std::string found;
@@ -173,4 +173,4 @@ TEST(FclibFile, is_documented_as_it_is) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::problems

@@ -10,19 +10,19 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
-SolverSettings settings_of(SolverKind kind, double tolerance) {
-  SolverSettings settings;
+solver::SolverSettings settings_of(solver::SolverKind kind, double tolerance) {
+  solver::SolverSettings settings;
   settings.kind = kind;
   settings.tolerance = tolerance;
   settings.max_iterations = 50000;
   return settings;
 }
 
-LocalSolution zero(const LocalProblem& problem) {
-  LocalSolution solution;
+solver::LocalSolution zero(const solver::LocalProblem& problem) {
+  solver::LocalSolution solution;
   solution.p.resize(problem.mu.size());
   return solution;
 }
@@ -30,7 +30,7 @@ LocalSolution zero(const LocalProblem& problem) {
 /// A small packing; closing gaps and overlaps of the size of the error of the steps before keeps it solvable
 /// to any tolerance.
 test::FrozenStep packing(std::uint64_t seed) {
-  const StepSettings settings = test::bed_step(1e-8);
+  const dynamics::StepSettings settings = test::bed_step(1e-8);
   World world = test::fallen_bed(test::bed_plan(seed % 2 == 0, 24, 6, seed), settings, 100);
   world.tilt = 0.02 * static_cast<double>(seed);
   test::FrozenStep frozen = test::next_problem(world, settings);
@@ -40,13 +40,13 @@ test::FrozenStep packing(std::uint64_t seed) {
 }
 
 /// W = G G^T of random blocks along a chain of contacts, with normal and tangent coupled everywhere.
-LocalProblem coupled_chain(std::uint64_t seed, Index contacts) {
+solver::LocalProblem coupled_chain(std::uint64_t seed, Index contacts) {
   Random random(seed);
   const Index unknowns = 2 * contacts;
   std::vector<std::vector<double>> g(static_cast<std::size_t>(unknowns));
   for (std::vector<double>& row : g)
     for (int k = 0; k < 6; ++k) row.push_back(random.uniform(-1.0, 1.0));
-  std::vector<MatrixEntry> entries;
+  std::vector<solver::MatrixEntry> entries;
   // Row i of G holds columns 2 (i / 2) ... 2 (i / 2) + 5: contacts up to two apart overlap.
   for (Index i = 0; i < unknowns; ++i)
     for (Index j = std::max(0, i - 5); j < std::min(unknowns, i + 6); ++j) {
@@ -57,13 +57,13 @@ LocalProblem coupled_chain(std::uint64_t seed, Index contacts) {
       }
       entries.push_back({i, j, sum});
     }
-  std::vector<RelativeVelocity> q;
+  std::vector<solver::RelativeVelocity> q;
   for (Index c = 0; c < contacts; ++c) q.push_back({random.uniform(-1.0, 0.3), random.uniform(-1.0, 1.0)});
-  return local_problem(std::move(entries), std::move(q),
-                       std::vector<double>(static_cast<std::size_t>(contacts), 0.3));
+  return solver::local_problem(std::move(entries), std::move(q),
+                               std::vector<double>(static_cast<std::size_t>(contacts), 0.3));
 }
 
-class LocalSolver : public testing::TestWithParam<SolverKind> {};
+class LocalSolver : public testing::TestWithParam<solver::SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, LocalSolver, testing::ValuesIn(test::both_solvers),
                          [](const auto& kind) { return test::name_of(kind.param); });
 
@@ -71,15 +71,15 @@ INSTANTIATE_TEST_SUITE_P(Kinds, LocalSolver, testing::ValuesIn(test::both_solver
 TEST_P(LocalSolver, finds_the_velocities_of_the_bodies) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const test::FrozenStep frozen = packing(seed);
-    ContactSolution of_bodies = frozen.guess;
-    SolverWorkspace workspace;
-    const SolverSettings reference = settings_of(SolverKind::gauss_seidel, 1e-10);
-    EXPECT_TRUE(solve(frozen.problem, reference, workspace, of_bodies).converged);
-    const LocalSolution expected = local_form(frozen.problem, of_bodies);
-    const LocalProblem problem = local_problem(frozen.problem);
-    LocalSolution found = zero(problem);
+    solver::ContactSolution of_bodies = frozen.guess;
+    solver::SolverWorkspace workspace;
+    const solver::SolverSettings reference = settings_of(solver::SolverKind::gauss_seidel, 1e-10);
+    EXPECT_TRUE(solver::solve(frozen.problem, reference, workspace, of_bodies).converged);
+    const solver::LocalSolution expected = solver::local_form(frozen.problem, of_bodies);
+    const solver::LocalProblem problem = solver::local_problem(frozen.problem);
+    solver::LocalSolution found = zero(problem);
     for (std::size_t c = 0; c < found.p.size(); ++c) found.p[c] = {frozen.guess.pn[c], frozen.guess.pt[c]};
-    const SolverReport report = solve(problem, settings_of(GetParam(), 1e-10), found);
+    const solver::SolverReport report = solve(problem, settings_of(GetParam(), 1e-10), found);
     EXPECT_TRUE(report.converged) << report.residual.eta;
     ASSERT_GT(problem.contact_count(), 10);
     double difference = 0.0;
@@ -92,14 +92,14 @@ TEST_P(LocalSolver, finds_the_velocities_of_the_bodies) {
 
 TEST_P(LocalSolver, obeys_the_law_where_normal_and_tangent_are_coupled) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const LocalProblem problem = coupled_chain(seed, 40);
-    LocalSolution solution = zero(problem);
-    const SolverReport report = solve(problem, settings_of(GetParam(), 1e-13), solution);
+    const solver::LocalProblem problem = coupled_chain(seed, 40);
+    solver::LocalSolution solution = zero(problem);
+    const solver::SolverReport report = solve(problem, settings_of(GetParam(), 1e-13), solution);
     ASSERT_TRUE(report.converged) << report.residual.eta;
     int carrying = 0, sliding = 0;
     for (Index c = 0; c < problem.contact_count(); ++c) {
-      const Impulse p = solution.p[c];
-      const RelativeVelocity u = solution.u[c];
+      const solver::Impulse p = solution.p[c];
+      const solver::RelativeVelocity u = solution.u[c];
       EXPECT_GE(p.normal, 0.0);
       EXPECT_GE(u.normal, -1e-11);
       EXPECT_NEAR(p.normal * u.normal, 0.0, 1e-11);
@@ -116,60 +116,63 @@ TEST_P(LocalSolver, obeys_the_law_where_normal_and_tangent_are_coupled) {
 }
 
 TEST_P(LocalSolver, leaves_a_solution_as_it_is) {
-  const LocalProblem problem = coupled_chain(1, 40);
-  LocalSolution solution = zero(problem);
+  const solver::LocalProblem problem = coupled_chain(1, 40);
+  solver::LocalSolution solution = zero(problem);
   solve(problem, settings_of(GetParam(), 1e-12), solution);
-  const std::vector<Impulse> solved = solution.p;
-  const SolverReport report = solve(problem, settings_of(GetParam(), 1e-11), solution);
+  const std::vector<solver::Impulse> solved = solution.p;
+  const solver::SolverReport report = solve(problem, settings_of(GetParam(), 1e-11), solution);
   EXPECT_EQ(report.iterations, 0);
   EXPECT_TRUE(report.converged);
   for (std::size_t c = 0; c < solved.size(); ++c) EXPECT_EQ(solution.p[c].normal, solved[c].normal);
 }
 
 TEST_P(LocalSolver, stops_at_the_iterations_it_is_given_and_says_so) {
-  const LocalProblem problem = coupled_chain(2, 40);
-  LocalSolution solution = zero(problem);
-  SolverSettings settings = settings_of(GetParam(), 1e-15);
+  const solver::LocalProblem problem = coupled_chain(2, 40);
+  solver::LocalSolution solution = zero(problem);
+  solver::SolverSettings settings = settings_of(GetParam(), 1e-15);
   settings.max_iterations = 7;
-  const SolverReport report = solve(problem, settings, solution);
+  const solver::SolverReport report = solve(problem, settings, solution);
   EXPECT_EQ(report.iterations, 7);
   EXPECT_FALSE(report.converged);
-  EXPECT_EQ(report.residual.eta, natural_map_residual(problem, solution).eta);
+  EXPECT_EQ(report.residual.eta, solver::natural_map_residual(problem, solution).eta);
 }
 
 TEST_P(LocalSolver, has_nothing_to_do_without_contacts) {
-  LocalSolution solution;
-  const SolverReport report = solve(local_problem({}, {}, {}), settings_of(GetParam(), 1e-6), solution);
+  solver::LocalSolution solution;
+  const solver::SolverReport report =
+      solve(solver::local_problem({}, {}, {}), settings_of(GetParam(), 1e-6), solution);
   EXPECT_EQ(report.iterations, 0);
   EXPECT_TRUE(report.converged);
 }
 
 /// That momentum takes less than a quarter of the sweeps from the guess.
-void expect_saved_sweeps(const LocalProblem& problem, const LocalSolution& guess) {
-  LocalSolution plain = guess, fast = guess;
-  const int sweeps = solve(problem, settings_of(SolverKind::gauss_seidel, 1e-8), plain).iterations;
-  const int with_momentum = solve(problem, settings_of(SolverKind::accelerated, 1e-8), fast).iterations;
+void expect_saved_sweeps(const solver::LocalProblem& problem, const solver::LocalSolution& guess) {
+  solver::LocalSolution plain = guess, fast = guess;
+  const int sweeps = solve(problem, settings_of(solver::SolverKind::gauss_seidel, 1e-8), plain).iterations;
+  const int with_momentum =
+      solve(problem, settings_of(solver::SolverKind::accelerated, 1e-8), fast).iterations;
   EXPECT_GT(sweeps, 100);
   EXPECT_LT(4 * with_momentum, sweeps);
 }
 
 TEST(LocalSolvers, momentum_saves_sweeps) {
-  const LocalProblem problem = local_problem(test::next_problem(test::column(20), test::bed_step()).problem);
+  const solver::LocalProblem problem =
+      solver::local_problem(test::next_problem(test::column(20), test::bed_step()).problem);
   expect_saved_sweeps(problem, zero(problem));
 }
 
 // The same along the tangent: disks in a row that roll on each other, pressed together.
 TEST(LocalSolvers, momentum_saves_sweeps_of_friction) {
-  ContactProblem row;
+  solver::ContactProblem row;
   constexpr Index count = 20;
   for (Index i = 0; i < count; ++i) test::add_body(row, 1.0, 0.1, 0.0, 0.0, i == 0 ? 1.0 : 0.0);
   row.inverse_mass.assign(count, 0.0);  // they can turn only
   for (Index i = 0; i + 1 < count; ++i) test::add_contact(row, i, i + 1, 1.0, 0.0, 0.5);
-  const LocalProblem problem = local_problem(row);
-  LocalSolution pressed = zero(problem);
-  for (Impulse& p : pressed.p) p.normal = 1.0;
+  const solver::LocalProblem problem = solver::local_problem(row);
+  solver::LocalSolution pressed = zero(problem);
+  for (solver::Impulse& p : pressed.p) p.normal = 1.0;
   expect_saved_sweeps(problem, pressed);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::problems

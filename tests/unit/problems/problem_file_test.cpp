@@ -14,7 +14,7 @@
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::problems {
 namespace {
 
 const char* const tiny_bed =
@@ -23,28 +23,28 @@ const char* const tiny_bed =
 
 /// A run of the bed, complete or with its last commit only.
 std::string tiny_run(const test::TemporaryFolder& folder) {
-  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
-  Session session(scenario);
-  RunHeader header;
-  header.statics = run_statics(scenario, session.world());
+  const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
+  session::Session session(scenario);
+  io::RunHeader header;
+  header.statics = session::run_statics(scenario, session.world());
   header.scenario_given = tiny_bed;
-  header.scenario_resolved = resolved_toml(scenario);
+  header.scenario_resolved = scenario::resolved_toml(scenario);
   header.seed = scenario.seed;
-  RunStore store = RunStore::create(folder.path("run.h5"), header, false);
-  EXPECT_EQ(run_to_end(session, store, {}), RunEnd::complete);
+  io::RunStore store = io::RunStore::create(folder.path("run.h5"), header, false);
+  EXPECT_EQ(session::run_to_end(session, store, {}), session::RunEnd::complete);
   return folder.path("run.h5");
 }
 
 /// A bed on its way down: contacts that open, stick and slide.
 StepProblem falling_bed() {
-  StepSettings settings = test::bed_step(1e-8);
+  dynamics::StepSettings settings = test::bed_step(1e-8);
   settings.law.restitution = 0.5;
   const World world = test::fallen_bed(test::bed_plan(true, 24, 6, 1), settings, 100);
   const test::FrozenStep frozen = test::next_problem(world, settings);
   StepProblem step;
   step.problem = frozen.problem;
   step.guess = frozen.guess;
-  velocities_from_impulses(step.problem, step.guess);
+  solver::velocities_from_impulses(step.problem, step.guess);
   step.scales = {settings.h, world.gravity, 0.1, 0.01, test::weight(world)};
   return step;
 }
@@ -61,16 +61,16 @@ TEST(ProblemFile, a_step_is_read_back_bit_for_bit) {
   write_problem(folder.path("p.h5"), step, "a falling bed");
   const StoredProblem stored = read_problem(folder.path("p.h5"));
   ASSERT_TRUE(stored.step.has_value());
-  const ContactProblem& problem = stored.step->problem;
-  for (auto field :
-       {&ContactProblem::vx, &ContactProblem::vy, &ContactProblem::omega, &ContactProblem::inverse_mass,
-        &ContactProblem::inverse_inertia, &ContactProblem::lever, &ContactProblem::nx, &ContactProblem::ny,
-        &ContactProblem::cn, &ContactProblem::ct, &ContactProblem::mu})
+  const solver::ContactProblem& problem = stored.step->problem;
+  for (auto field : {&solver::ContactProblem::vx, &solver::ContactProblem::vy, &solver::ContactProblem::omega,
+                     &solver::ContactProblem::inverse_mass, &solver::ContactProblem::inverse_inertia,
+                     &solver::ContactProblem::lever, &solver::ContactProblem::nx, &solver::ContactProblem::ny,
+                     &solver::ContactProblem::cn, &solver::ContactProblem::ct, &solver::ContactProblem::mu})
     expect_same_bits(problem.*field, step.problem.*field);
   EXPECT_EQ(problem.a, step.problem.a);
   EXPECT_EQ(problem.b, step.problem.b);
-  for (auto field : {&ContactSolution::pn, &ContactSolution::pt, &ContactSolution::vx, &ContactSolution::vy,
-                     &ContactSolution::omega})
+  for (auto field : {&solver::ContactSolution::pn, &solver::ContactSolution::pt, &solver::ContactSolution::vx,
+                     &solver::ContactSolution::vy, &solver::ContactSolution::omega})
     expect_same_bits(stored.step->guess.*field, step.guess.*field);
   EXPECT_EQ(std::memcmp(&stored.step->scales, &step.scales, sizeof step.scales), 0);
 }
@@ -83,7 +83,7 @@ TEST(ProblemFile, keeps_the_columns_of_a_large_bed) {
   for (Index i = 0; i < step.problem.body_count(); ++i) step.problem.column.push_back(i / 3);
   step.problem.columns = step.problem.column.back() + 1;
   write_problem(folder.path("p.h5"), step, "");
-  const ContactProblem stored = read_problem(folder.path("p.h5")).step->problem;
+  const solver::ContactProblem stored = read_problem(folder.path("p.h5")).step->problem;
   EXPECT_EQ(stored.column, step.problem.column);
   EXPECT_EQ(stored.columns, step.problem.columns);
 }
@@ -92,15 +92,17 @@ TEST(ProblemFile, holds_the_local_form_of_the_step) {
   const test::TemporaryFolder folder;
   const StepProblem step = falling_bed();
   write_problem(folder.path("p.h5"), step, "a falling bed");
-  const LocalProblem found = read_problem(folder.path("p.h5")).local;
-  const LocalProblem expected = local_problem(step.problem);
+  const solver::LocalProblem found = read_problem(folder.path("p.h5")).local;
+  const solver::LocalProblem expected = solver::local_problem(step.problem);
   EXPECT_EQ(found.row_begin, expected.row_begin);
   EXPECT_EQ(found.column, expected.column);
   EXPECT_EQ(found.diagonal, expected.diagonal);
   ASSERT_EQ(found.block.size(), expected.block.size());
-  EXPECT_EQ(
-      std::memcmp(found.block.data(), expected.block.data(), found.block.size() * sizeof(DelassusBlock)), 0);
-  EXPECT_EQ(std::memcmp(found.q.data(), expected.q.data(), found.q.size() * sizeof(RelativeVelocity)), 0);
+  EXPECT_EQ(std::memcmp(found.block.data(), expected.block.data(),
+                        found.block.size() * sizeof(solver::DelassusBlock)),
+            0);
+  EXPECT_EQ(std::memcmp(found.q.data(), expected.q.data(), found.q.size() * sizeof(solver::RelativeVelocity)),
+            0);
 }
 
 TEST(ProblemFile, keeps_what_the_run_asks_of_the_step) {
@@ -144,16 +146,16 @@ TEST(ProblemFile, bodies_that_solvers_cannot_take_are_refused) {
 // The last frame is the state of the checkpoint: its problem is the one that the next step would solve.
 TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
   const test::TemporaryFolder folder;
-  const RunFile run = RunFile::open(tiny_run(folder));
+  const io::RunFile run = io::RunFile::open(tiny_run(folder));
   ASSERT_EQ(run.frame_count(), 3u);
   const StepProblem step = problem_after_frame(run, 2);
   EXPECT_NEAR(step.scales.tilt, 0.03 * 3.14159265358979 / 180.0, 1e-15);
 
-  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   World world = run.checkpoint().world;
   world.tilt = step.scales.tilt;
-  StepWorkspace workspace;
-  begin_step(world, step_settings(scenario), workspace);
+  dynamics::StepWorkspace workspace;
+  dynamics::begin_step(world, session::step_settings(scenario), workspace);
   EXPECT_EQ(step.problem.a, workspace.problem.a);
   expect_same_bits(step.problem.vx, workspace.problem.vx);
   expect_same_bits(step.problem.cn, workspace.problem.cn);
@@ -163,14 +165,14 @@ TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
 // The tolerance of a step is that of the velocities before it, as in the run.
 TEST(StepProblem, has_the_tolerance_that_the_run_asks) {
   const test::TemporaryFolder folder;
-  const RunFile run = RunFile::open(tiny_run(folder));
-  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  const io::RunFile run = io::RunFile::open(tiny_run(folder));
+  const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   for (const std::size_t k : {1u, 2u}) {
-    const World world = world_at_frame(run, k);
+    const World world = session::world_at_frame(run, k);
     const StepProblem step = problem_after_frame(run, k);
     ASSERT_TRUE(step.tolerance.has_value());
     EXPECT_EQ(step.tolerance->velocity, rms_velocity(world.grains) / (world.gravity * step.scales.h));
-    EXPECT_EQ(step.tolerance->asked, step_settings(scenario, world).solver.tolerance);
+    EXPECT_EQ(step.tolerance->asked, session::step_settings(scenario, world).solver.tolerance);
     EXPECT_EQ(step.tolerance->at_rest, scenario.solver.tolerance);
   }
 }
@@ -179,10 +181,10 @@ TEST(StepProblem, has_the_tolerance_that_the_run_asks) {
 // solver.
 TEST(StepProblem, of_a_frame_in_single_precision_is_nearly_solved_by_its_memory) {
   const test::TemporaryFolder folder;
-  const RunFile run = RunFile::open(tiny_run(folder));
+  const io::RunFile run = io::RunFile::open(tiny_run(folder));
   const StepProblem step = problem_after_frame(run, 1);
   EXPECT_GT(step.problem.contact_count(), 20);
-  EXPECT_LT(natural_map_residual(step.problem, step.guess).eta, 1e-3) << "the bed is at rest";
+  EXPECT_LT(solver::natural_map_residual(step.problem, step.guess).eta, 1e-3) << "the bed is at rest";
   EXPECT_NEAR(carried_weight(step, step.guess), 1.0, 1e-3);
   double mass = 0.0;
   for (Index i = 0; i < run.header().statics.free_count; ++i) mass += run.header().statics.mass[i];
@@ -199,7 +201,7 @@ TEST(StepProblem, weight_is_carried_by_what_does_not_move) {
   step.problem.nx = {0.0, 0.0, -0.6};
   step.problem.ny = {1.0, -1.0, -0.8};
   step.problem.mu = {0.5, 0.5, 0.5};
-  ContactSolution solution;
+  solver::ContactSolution solution;
   solution.pn = {5.0, 8e-3, 10e-3};  // between the two grains: not carried by the floor
   solution.pt = {0.0, 0.0, 1e-3};
   // Floor on grain 0: 8 N up. On grain 1: (10 (0.6, 0.8) - 1 (0.8, -0.6)) N, 8.6 N up. Of a weight of 20 N.
@@ -207,4 +209,4 @@ TEST(StepProblem, weight_is_carried_by_what_does_not_move) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::problems

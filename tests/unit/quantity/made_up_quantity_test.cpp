@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "export/writers.h"
+#include "exports/writers.h"
 #include "pictures/map_kind.h"
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
@@ -21,7 +21,7 @@ class MadeUpQuantity : public testing::Test {
   MadeUpQuantity() {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
     model_.emplace(example::opened(folder_.path("run.h5")));
-    model_->state.map.layers = map_layers("made_up");
+    model_->state.map.layers = pictures::map_layers("made_up");
   }
   std::vector<double> diameters() const {
     std::vector<double> all;
@@ -31,23 +31,23 @@ class MadeUpQuantity : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  std::optional<ViewModel> model_;
+  std::optional<view::ViewModel> model_;
 };
 
 TEST_F(MadeUpQuantity, is_a_map) {
   model_->first().map(2.0);
-  const FrameView& map = model_->first().annotated_map();
+  const render::FrameView& map = model_->first().annotated_map();
   EXPECT_EQ(map.title, "Made up");
   ASSERT_EQ(map.legends.size(), 1u);
   ASSERT_EQ(map.legends[0].bars.size(), 1u);
-  const Bar& bar = map.legends[0].bars[0];
+  const render::Bar& bar = map.legends[0].bars[0];
   EXPECT_EQ(bar.title, "in D");
   EXPECT_EQ(bar.symbol, "m");
   EXPECT_EQ(bar.unit, "D");
   EXPECT_EQ(bar.high, 2.0);
-  EXPECT_NE(list_of_maps().find("dyed, made_up"), std::string::npos) << list_of_maps();
-  EXPECT_EQ(map_help(map_layers("made_up")[0]), "twice the radius of each grain");
-  EXPECT_NO_THROW(map_layers("made_up+forces"));
+  EXPECT_NE(pictures::list_of_maps().find("dyed, made_up"), std::string::npos) << pictures::list_of_maps();
+  EXPECT_EQ(pictures::map_help(pictures::map_layers("made_up")[0]), "twice the radius of each grain");
+  EXPECT_NO_THROW(pictures::map_layers("made_up+forces"));
 }
 
 TEST_F(MadeUpQuantity, is_the_value_of_a_grain_on_it) {
@@ -58,7 +58,7 @@ TEST_F(MadeUpQuantity, is_the_value_of_a_grain_on_it) {
 TEST_F(MadeUpQuantity, is_a_column_of_exports) {
   const Frame frame = example::bed_frame(10.0, 2);
   const RunStatics statics = example::bed_statics();
-  const CsvRows csv = grains_csv({{frame, statics}, 0, frame.gamma});
+  const exports::CsvRows csv = exports::grains_csv({{frame, statics}, 0, frame.gamma});
   EXPECT_NE(csv.head.find(",made_up (m),"), std::string::npos) << csv.head;
 }
 
@@ -67,7 +67,7 @@ TEST_F(MadeUpQuantity, is_a_name_in_conditions) {
   model_->select_by_condition();
   EXPECT_EQ(model_->state.selecting.error, "");
   EXPECT_EQ(model_->selected_grains().size(), static_cast<std::size_t>(model_->statics().free_count));
-  EXPECT_EQ(head_of(grain_number("made_up")), "made_up (D)");
+  EXPECT_EQ(view::head_of(analysis::grain_number("made_up")), "made_up (D)");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "scenario/text.h"
 #include "support/key_rows.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
 std::string refusal(const std::vector<std::string>& settings) {
@@ -22,7 +22,7 @@ std::string refusal(const std::vector<std::string>& settings) {
 }
 
 TEST(AnalysisParameters, are_taken_from_settings) {
-  const AnalysisParameters p = parse_analysis_settings(
+  const analysis::AnalysisParameters p = parse_analysis_settings(
       {"threshold_factors=0.5,1,3", "gamma_c=0.3", "l_min=0", "lc_factor=2", "lc_cut=30",
        "joining=neighbours", "averaging=0.5", "min_contacts=3", "sections=7", "bins=10",
        "event_velocity=0.02", "event_quiet=2", "event_displacement=0.05", "event_size_min=0.1"});
@@ -31,7 +31,7 @@ TEST(AnalysisParameters, are_taken_from_settings) {
   EXPECT_EQ(p.l_min, 0.0);
   EXPECT_EQ(p.lc_factor, 2.0);
   EXPECT_EQ(p.lc_cut, 30.0);
-  EXPECT_EQ(p.joining, Joining::neighbours);
+  EXPECT_EQ(p.joining, analysis::Joining::neighbours);
   EXPECT_EQ(p.averaging, 0.5);
   EXPECT_EQ(p.min_contacts, 3);
   EXPECT_EQ(p.sections, 7);
@@ -57,7 +57,8 @@ TEST(AnalysisParameters, are_taken_from_settings) {
 }
 
 TEST(AnalysisParameters, admit_their_defaults_as_text) {
-  EXPECT_EQ(as_facts(from_facts(as_facts(AnalysisParameters{}))), as_facts(AnalysisParameters{}));
+  EXPECT_EQ(as_facts(from_facts(as_facts(analysis::AnalysisParameters{}))),
+            as_facts(analysis::AnalysisParameters{}));
   EXPECT_FALSE(parse_analysis_settings({"gamma_c=run"}).gamma_c.has_value());
   EXPECT_FALSE(parse_analysis_settings({"event_velocity=solver"}).event_velocity.has_value());
   EXPECT_FALSE(parse_analysis_settings({"event_size_min=fit"}).event_size_min.has_value());
@@ -129,9 +130,9 @@ TEST(AnalysisParameters, that_are_mistyped_are_recognised) {
 TEST(AnalysisParameters, are_documented_as_they_are) {
   std::string expected;
   for (const AnalysisKey& key : analysis_keys())
-    expected += row_text(key, plain_text(key.get(AnalysisParameters{})));
+    expected += row_text(key, scenario::plain_text(key.get(analysis::AnalysisParameters{})));
   EXPECT_EQ(rows_of("docs/analysis.md"), expected) << "the table of docs/analysis.md must be:\n" << expected;
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::runs

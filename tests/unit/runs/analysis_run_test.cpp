@@ -18,7 +18,7 @@
 #include "support/places.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -62,7 +62,7 @@ double tilt_at(double time, double held) { return time <= held ? time : std::max
 /// Frames of 1 s, one for each entry of `soft`, and rows of observables of 0.5 s.
 void write_run(const std::string& path, const std::vector<Index>& soft, double theta_c, bool complete = true,
                double held = 90.0) {
-  RunHeader header;
+  io::RunHeader header;
   header.statics.free_count = free_grains;
   header.statics.radius.assign(free_grains + 1, 0.5 * diameter);
   header.statics.mass.assign(free_grains + 1, 1.0);
@@ -72,7 +72,7 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
   header.statics.mean_diameter = diameter;
   header.statics.gravity = 9.81;
   header.statics.friction = 0.5;
-  Segment segment;
+  io::Segment segment;
   for (std::size_t k = 0; k < soft.size(); ++k)
     segment.frames.push_back(column(static_cast<double>(k), soft[k]));
   for (Frame& frame : segment.frames) frame.tilt = radians(tilt_at(frame.time, held));
@@ -84,13 +84,13 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
     at(row, Observable::solid_fraction) = 0.1 * i;
     segment.observables.push_back(row);
   }
-  Checkpoint checkpoint;
+  io::Checkpoint checkpoint;
   checkpoint.world.tilt = radians(static_cast<double>(soft.size()));
   checkpoint.world.boundary = {true, header.statics.length, {}};
   for (Index i = 0; i <= free_grains; ++i)
     add_disk(checkpoint.world.grains, {0.5, i * diameter}, 0.5 * diameter, 1.0, i == free_grains);
   checkpoint.results = {{"theta_c", radians(theta_c)}};
-  RunStore store = RunStore::create(path, header, true);
+  io::RunStore store = io::RunStore::create(path, header, true);
   store.commit(segment, checkpoint);
   if (complete) store.pack();
 }
@@ -98,78 +98,81 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
 class AnalysisRun : public testing::Test {
  protected:
   /// By the gamma of single grains, unless the settings say another l_min.
-  Analysis analyse(const std::vector<Index>& soft, double theta_c, std::vector<std::string> settings = {},
-                   int threads = 1) const {
+  analysis::Analysis analyse(const std::vector<Index>& soft, double theta_c,
+                             std::vector<std::string> settings = {}, int threads = 1) const {
     write_run(path_, soft, theta_c);
     if (std::ranges::none_of(settings, [](const auto& setting) { return setting.starts_with("l_min="); }))
       settings.emplace_back("l_min=0");
-    return analyse_run(RunFile::open(path_), parse_analysis_settings(settings), threads, {});
+    return analyse_run(io::RunFile::open(path_), parse_analysis_settings(settings), threads, {});
   }
 
   test::TemporaryFolder folder_;
   std::string path_ = folder_.path("run.h5");
 };
 
-double number(const Analysis& analysis, const QuantityMember& member, std::size_t k, std::size_t f = 0) {
-  return number_of(quantity_of(member), analysis.frames.at(k), f);
+double number(const analysis::Analysis& analysis, const analysis::QuantityMember& member, std::size_t k,
+              std::size_t f = 0) {
+  return analysis::number_of(analysis::quantity_of(member), analysis.frames.at(k), f);
 }
 
 TEST_F(AnalysisRun, counts_overloaded_grains_at_each_threshold) {
-  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1"});
+  const analysis::Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1"});
   EXPECT_NEAR(a.gamma_c, 0.5, 1e-12);
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 0), 1.0);
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 0), 1.0) << "1/3 >= 0.25";
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 1), 0.75) << "1/3 < 0.5";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0, 0), 1.0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1, 0), 1.0) << "1/3 >= 0.25";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1, 1), 0.75) << "1/3 < 0.5";
 }
 
 TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
   // Grain 1 has M_xx = 0.5 in the frame at 1 deg alone: 1/4 as a mean of two frames, 1/6 as one of three.
-  const Analysis a = analyse({-1, 1, -1, -1}, 30.0, {"threshold_factors=1,1.3", "averaging=2"});
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 0), 1.0) << "0.6 >= 0.5";
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0, 1), 0.75) << "0.6 < 0.65";
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1, 1), 1.0) << "5/7 >= 0.65";
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 3, 0), 1.0);
-  EXPECT_NEAR(number(a, &FrameRecord::gamma_mean, 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
-  EXPECT_NEAR(number(a, &FrameRecord::gamma_mean, 3), 1.0, 1e-12)
+  const analysis::Analysis a = analyse({-1, 1, -1, -1}, 30.0, {"threshold_factors=1,1.3", "averaging=2"});
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0, 0), 1.0) << "0.6 >= 0.5";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0, 1), 0.75) << "0.6 < 0.65";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1, 1), 1.0) << "5/7 >= 0.65";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 3, 0), 1.0);
+  EXPECT_NEAR(number(a, &analysis::FrameRecord::gamma_mean, 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
+  EXPECT_NEAR(number(a, &analysis::FrameRecord::gamma_mean, 3), 1.0, 1e-12)
       << "1 deg is farther than half of the window";
-  EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}), &FrameThreshold::overloaded_fraction, 1),
+  EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}),
+                   &analysis::FrameThreshold::overloaded_fraction, 1),
             0.75)
       << "a window that reaches no other frame";
 }
 
 TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
   // The highest grain has one contact, the others two.
-  const Analysis a = analyse({-1, 1}, 30.0, {"min_contacts=2"});
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 0), 1.0);
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction_of_all, 0), 0.75);
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1), 2.0 / 3.0);
-  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 0), 3);
-  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 0), 0) << "the highest grain is the surface";
-  EXPECT_EQ(number(a, &FrameRecord::stress_ratio, 0), 1.0) << "its moment counts";
-  EXPECT_EQ(
-      number(analyse({-1, 1}, 30.0, {"min_contacts=3"}), &FrameThreshold::overloaded_fraction_of_all, 0),
-      0.0);
+  const analysis::Analysis a = analyse({-1, 1}, 30.0, {"min_contacts=2"});
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0), 1.0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction_of_all, 0), 0.75);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1), 2.0 / 3.0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::largest_cluster, 0), 3);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_depth, 0), 0) << "the highest grain is the surface";
+  EXPECT_EQ(number(a, &analysis::FrameRecord::stress_ratio, 0), 1.0) << "its moment counts";
+  EXPECT_EQ(number(analyse({-1, 1}, 30.0, {"min_contacts=3"}),
+                   &analysis::FrameThreshold::overloaded_fraction_of_all, 0),
+            0.0);
 }
 
 TEST_F(AnalysisRun, finds_clusters_and_labels_grains) {
-  const Analysis a = analyse({-1, 1}, 30.0);
-  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 0), 1);
-  EXPECT_EQ(number(a, &FrameThreshold::spans_depth, 1), 0);
-  EXPECT_EQ(number(a, &FrameThreshold::spans_length, 0), 0);
-  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 0), 4);
-  EXPECT_EQ(number(a, &FrameThreshold::cluster_count, 1), 2);
-  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::mean_cluster, 1), 1.5);
-  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::second_moment, 1), 5.0 / 3.0);
+  const analysis::Analysis a = analyse({-1, 1}, 30.0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_depth, 0), 1);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_depth, 1), 0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_length, 0), 0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::largest_cluster, 0), 4);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::cluster_count, 1), 2);
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::mean_cluster, 1), 1.5);
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::second_moment, 1), 5.0 / 3.0);
   EXPECT_EQ(a.frames[1].thresholds[0].cluster, (std::vector<Index>{1, -1, 0, 0, -1}));
 }
 
 TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
   // From grain 0: alone its moment is (0, 1), gamma 1; with grain 1 (0.5, 2), 3/5; with grain 2 (0.5, 3),
   // 5/7.
-  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_cut=3"});
+  const analysis::Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_cut=3"});
   EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
-  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_mean, 0, 1), 3 * diameter) << "gamma is 1 everywhere";
-  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_share_cut, 0, 1), 1.0);
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::lc_mean, 0, 1), 3 * diameter)
+      << "gamma is 1 everywhere";
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::lc_share_cut, 0, 1), 1.0);
   const std::vector<float>& lengths = a.frames[1].thresholds[0].lc;
   EXPECT_FLOAT_EQ(lengths[0], 3 * diameter) << "0.6 > 0.25";
   EXPECT_FLOAT_EQ(lengths[1], 3 * diameter) << "1/3 > 0.25: overloaded at the first threshold";
@@ -181,7 +184,8 @@ TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
 
 TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
   // Of the grains above 1.3 Gamma_c = 0.65, grain 0 has gamma 1, 3/5, 5/7 with its neighbours.
-  const Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_factor=1.1", "lc_cut=3"});
+  const analysis::Analysis a =
+      analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_factor=1.1", "lc_cut=3"});
   EXPECT_NEAR(a.thresholds[1].end_ratio, 0.55, 1e-12);
   const std::vector<float>& second = a.frames[1].thresholds[1].lc;
   EXPECT_FLOAT_EQ(second[0], 3 * diameter) << "0.6 > 0.55";
@@ -192,11 +196,11 @@ TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
 
 TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
   // The moments of grains 0 to 3, each with those above and below it, sum up to gamma 3/5, 5/7, 5/7, 1.
-  const Analysis a =
+  const analysis::Analysis a =
       analyse({-1, 1}, 30.0, {"l_min=3", "threshold_factors=1.3", "lc_factor=1.45", "lc_cut=3.5"});
-  EXPECT_EQ(number(a, &FrameThreshold::overloaded_fraction, 1), 0.75);
-  EXPECT_DOUBLE_EQ(number(a, &FrameRecord::gamma_mean, 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
-  EXPECT_EQ(number(a, &FrameThreshold::largest_cluster, 1), 3);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1), 0.75);
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameRecord::gamma_mean, 1), (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::largest_cluster, 1), 3);
   const std::vector<float>& length = a.frames[1].thresholds[0].lc;
   EXPECT_TRUE(std::isnan(length[0])) << "0.6 < 0.65: not overloaded";
   EXPECT_FLOAT_EQ(length[1], 3 * diameter) << "5/7 <= 0.725 where the search begins";
@@ -205,25 +209,25 @@ TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
 
 TEST_F(AnalysisRun, takes_first_neighbours_unless_it_is_told_otherwise) {
   write_run(path_, {-1, 1}, 30.0);
-  const RunFile run = RunFile::open(path_);
-  EXPECT_DOUBLE_EQ(number(analyse_run(run, {}, 1, {}), &FrameRecord::gamma_mean, 1),
+  const io::RunFile run = io::RunFile::open(path_);
+  EXPECT_DOUBLE_EQ(number(analyse_run(run, {}, 1, {}), &analysis::FrameRecord::gamma_mean, 1),
                    (0.6 + 10.0 / 7.0 + 1.0) / 4.0);
 }
 
 TEST_F(AnalysisRun, search_does_not_end_before_it_begins) {
-  const Analysis a = analyse({-1, 1}, 30.0, {"l_min=3", "lc_cut=2"});
+  const analysis::Analysis a = analyse({-1, 1}, 30.0, {"l_min=3", "lc_cut=2"});
   EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
 }
 
 TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
-  const RunFile run = RunFile::open(test::source_folder() + "/tests/runs/schema_4.h5");
+  const io::RunFile run = io::RunFile::open(test::source_folder() + "/tests/runs/schema_4.h5");
   for (const int threads : {1, 3}) {
-    const Analysis a = analyse_run(run, {}, threads, {});
+    const analysis::Analysis a = analyse_run(run, {}, threads, {});
     EXPECT_TRUE(std::isnan(a.frames[0].nonaffine)) << "there is none before it";
     for (std::size_t k = 1; k < a.frames.size(); ++k) {
       const Frame before = run.frame(k - 1), now = run.frame(k);
-      FrameRecord expected;
-      take_deformation(before, {now, run.header().statics}, expected);
+      analysis::FrameRecord expected;
+      analysis::take_deformation(before, {now, run.header().statics}, expected);
       EXPECT_GT(a.frames[k].nonaffine, 0.0);
       EXPECT_EQ(a.frames[k].nonaffine, expected.nonaffine) << k;
       EXPECT_EQ(a.frames[k].local_shear_share, expected.local_shear_share) << k;
@@ -232,94 +236,99 @@ TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
 }
 
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
-  const Analysis a = analyse({-1, 1, -1}, 30.0);
-  EXPECT_EQ(number(a, &FrameRecord::volume_strain, 2), 4.0) << "of the row at 2 deg";
-  EXPECT_DOUBLE_EQ(number(a, &FrameRecord::solid_fraction, 1), 0.2);
+  const analysis::Analysis a = analyse({-1, 1, -1}, 30.0);
+  EXPECT_EQ(number(a, &analysis::FrameRecord::volume_strain, 2), 4.0) << "of the row at 2 deg";
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameRecord::solid_fraction, 1), 0.2);
   EXPECT_NEAR(a.dilation[0], radians(4.0), 1e-12);
   EXPECT_TRUE(std::isnan(a.dilation[1])) << "that strain is constant";
 }
 
 TEST_F(AnalysisRun, finds_the_percolation_angle_and_its_error) {
-  const Analysis a = analyse({1, 1, -1, -1, -1}, 30.0);
+  const analysis::Analysis a = analyse({1, 1, -1, -1, -1}, 30.0);
   EXPECT_NEAR(a.thresholds[0].percolation, radians(2.0), 1e-12);
   EXPECT_NEAR(a.thresholds[0].percolation_error, radians(1.0), 1e-12);
 }
 
 TEST_F(AnalysisRun, finds_the_jump_of_the_largest_length) {
   // With a soft grain 1 the moments about grain 3 sum up to gamma 5/7 when the second neighbour is in.
-  const Analysis a = analyse({1, 1, -1, -1}, 30.0, {"threshold_factors=1.6", "lc_cut=6"});
-  EXPECT_DOUBLE_EQ(number(a, &FrameThreshold::lc_max, 1), 4 * diameter);
+  const analysis::Analysis a = analyse({1, 1, -1, -1}, 30.0, {"threshold_factors=1.6", "lc_cut=6"});
+  EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::lc_max, 1), 4 * diameter);
   EXPECT_NEAR(a.thresholds[0].lc_jump, radians(2.0), 1e-12);
   EXPECT_NEAR(a.thresholds[0].lc_jump_error, radians(1.0), 1e-12);
   EXPECT_DOUBLE_EQ(a.thresholds[0].lc_jump_size, 2 * diameter);
 }
 
 TEST_F(AnalysisRun, leaves_out_thresholds_where_the_slope_stands) {
-  const Analysis a = analyse({-1, 1}, none);
+  const analysis::Analysis a = analyse({-1, 1}, none);
   EXPECT_TRUE(a.thresholds.empty());
   EXPECT_TRUE(a.frames[0].thresholds.empty());
-  EXPECT_EQ(number(a, &FrameRecord::coordination_number, 0), 7.0 / 4.0);
+  EXPECT_EQ(number(a, &analysis::FrameRecord::coordination_number, 0), 7.0 / 4.0);
   EXPECT_TRUE(std::isnan(a.gamma_c));
-  EXPECT_EQ(number(analyse({-1, 1}, none, {"gamma_c=0.5"}), &FrameThreshold::overloaded_fraction, 1), 0.75);
+  EXPECT_EQ(
+      number(analyse({-1, 1}, none, {"gamma_c=0.5"}), &analysis::FrameThreshold::overloaded_fraction, 1),
+      0.75);
 }
 
 TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
   std::vector<Index> soft;
   for (Index k = 0; k < 12; ++k) soft.push_back(k % 5 - 1);
   const std::vector<std::string> long_work = {"bins=1000", "sections=1000"};  // so that threads overlap
-  const Analysis one = analyse(soft, 30.0, long_work), three = analyse(soft, 30.0, long_work, 3);
-  for (const Quantity& quantity : quantities()) {
-    const Values other = values_of(quantity, three);
+  const analysis::Analysis one = analyse(soft, 30.0, long_work), three = analyse(soft, 30.0, long_work, 3);
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    const analysis::Values other = analysis::values_of(quantity, three);
     std::visit(
         [&]<typename T>(const std::vector<T>& numbers) {
           const auto& others = std::get<std::vector<T>>(other);
           EXPECT_TRUE(std::ranges::equal(std::as_bytes(std::span(numbers)), std::as_bytes(std::span(others))))
               << quantity.name;
         },
-        values_of(quantity, one));
+        analysis::values_of(quantity, one));
   }
 }
 
 TEST_F(AnalysisRun, tells_its_progress) {
   write_run(path_, {-1, 1, 2}, 30.0);
   std::vector<std::size_t> done;
-  analyse_run(RunFile::open(path_), {}, 2, [&](std::size_t frames) { done.push_back(frames); });
+  analyse_run(io::RunFile::open(path_), {}, 2, [&](std::size_t frames) { done.push_back(frames); });
   EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3}));
 }
 
 TEST_F(AnalysisRun, key_depends_on_run_and_parameters) {
   write_run(path_, {-1}, 30.0);
-  const RunFile run = RunFile::open(path_);
+  const io::RunFile run = io::RunFile::open(path_);
   const std::string key = analysis_key(run, {});
   EXPECT_EQ(analysis_key(run, {}), key);
   for (const char* setting : {"threshold_factors=1", "gamma_c=0.5", "lc_factor=2", "lc_cut=3", "l_min=0",
                               "joining=neighbours", "averaging=2", "min_contacts=2", "sections=3", "bins=7"})
     EXPECT_NE(analysis_key(run, parse_analysis_settings({setting})), key) << setting;
   write_run(folder_.path("other.h5"), {-1, -1}, 30.0);
-  EXPECT_NE(analysis_key(RunFile::open(folder_.path("other.h5")), {}), key);
+  EXPECT_NE(analysis_key(io::RunFile::open(folder_.path("other.h5")), {}), key);
 }
 
 TEST_F(AnalysisRun, of_a_folder_is_that_of_its_file) {
-  const Analysis packed = analyse({-1, 1}, 30.0);
+  const analysis::Analysis packed = analyse({-1, 1}, 30.0);
   write_run(folder_.path("part.h5"), {-1, 1}, 30.0, false);
-  const RunFile run = RunFile::open(folder_.path("part.h5"));
+  const io::RunFile run = io::RunFile::open(folder_.path("part.h5"));
   EXPECT_FALSE(run.complete());
-  const Quantity& lc_max = quantity_of(&FrameThreshold::lc_max);
-  EXPECT_EQ(values_of(lc_max, analyse_run(run, parse_analysis_settings({"l_min=0"}), 1, {})),
-            values_of(lc_max, packed));
+  const analysis::Quantity& lc_max = analysis::quantity_of(&analysis::FrameThreshold::lc_max);
+  EXPECT_EQ(analysis::values_of(lc_max, analyse_run(run, parse_analysis_settings({"l_min=0"}), 1, {})),
+            analysis::values_of(lc_max, packed));
 }
 
 TEST_F(AnalysisRun, without_frames_is_refused) {
   write_run(path_, {}, none);
-  EXPECT_THROW(analyse_run(RunFile::open(path_), {}, 1, {}), Error);
+  EXPECT_THROW(analyse_run(io::RunFile::open(path_), {}, 1, {}), Error);
 }
 
 TEST_F(AnalysisRun, takes_of_a_hold_the_strains_of_each_frame) {
   write_run(path_, {-1, 1, 1, 1, 1}, 30.0, true, 2.0);
-  const Analysis a = analyse_run(RunFile::open(path_), parse_analysis_settings({"l_min=0"}), 1, {});
+  const analysis::Analysis a =
+      analyse_run(io::RunFile::open(path_), parse_analysis_settings({"l_min=0"}), 1, {});
   for (std::size_t k = 0; k < 5; ++k)
-    EXPECT_EQ(number(a, &FrameRecord::volume_strain, k), std::fabs(2.0 * static_cast<double>(k) - 8.0)) << k;
+    EXPECT_EQ(number(a, &analysis::FrameRecord::volume_strain, k),
+              std::fabs(2.0 * static_cast<double>(k) - 8.0))
+        << k;
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::runs

@@ -14,7 +14,7 @@
 #include "runs/analysis_run.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::runs {
 namespace {
 
 constexpr double h = 1e-3, g = 9.81;
@@ -52,10 +52,10 @@ Frame bed_after(std::int64_t step, double moved, double sunk) {
 
 class EventCatalogue : public testing::Test {
  protected:
-  Analysis analyse(double theta_c, std::vector<std::string> settings = {},
-                   const std::function<void(Segment&)>& change = {}) {
+  analysis::Analysis analyse(double theta_c, std::vector<std::string> settings = {},
+                             const std::function<void(io::Segment&)>& change = {}) {
     settings.insert(settings.begin(), "l_min=0");
-    RunHeader header;
+    io::RunHeader header;
     header.statics = {2,
                       std::vector(3, 0.5 * diameter),
                       std::vector(3, 0.4),
@@ -65,7 +65,7 @@ class EventCatalogue : public testing::Test {
                       diameter,
                       g,
                       0.5};
-    Segment segment;
+    io::Segment segment;
     segment.frames = {bed_after(begin, 0.0, 0.0), bed_after(begin + 100, 0.5, 0.0),
                       bed_after(begin + 200, 0.5, 0.25), bed_after(begin + 300, 2.0, 0.25)};
     for (std::int64_t step = 1; step <= begin + steps; ++step) {
@@ -84,15 +84,15 @@ class EventCatalogue : public testing::Test {
       at(row, Observable::coordination_number) = step < begin + 35 ? 3.5 : 3.25;
     }
     if (change) change(segment);
-    Checkpoint checkpoint;
+    io::Checkpoint checkpoint;
     checkpoint.world.boundary = {true, header.statics.length, {}};
     for (int i = 0; i < 3; ++i)
       add_disk(checkpoint.world.grains, {i * diameter, 0.5 * diameter}, 0.5 * diameter, 1.0, i == 2);
     checkpoint.results = {{"theta_c", radians(theta_c)}};
-    RunStore store = RunStore::create(path_, header, true);
+    io::RunStore store = io::RunStore::create(path_, header, true);
     store.commit(segment, checkpoint);
     store.pack();
-    return analyse_run(RunFile::open(path_), parse_analysis_settings(settings), 1, {});
+    return analyse_run(io::RunFile::open(path_), parse_analysis_settings(settings), 1, {});
   }
 
   test::TemporaryFolder folder_;
@@ -100,7 +100,7 @@ class EventCatalogue : public testing::Test {
 };
 
 TEST_F(EventCatalogue, has_the_bursts_of_the_series) {
-  const Analysis a = analyse(10.285);
+  const analysis::Analysis a = analyse(10.285);
   ASSERT_EQ(a.events.size(), 3u);
   EXPECT_NEAR(a.event_threshold, 9e-3 * g * h, 1e-12)
       << "ten times 3000 times the tolerance of 3e-7, times g h";
@@ -125,7 +125,7 @@ TEST_F(EventCatalogue, has_the_bursts_of_the_series) {
 }
 
 TEST_F(EventCatalogue, has_what_the_rows_say_before_and_after) {
-  const Analysis a = analyse(10.285);
+  const analysis::Analysis a = analyse(10.285);
   EXPECT_EQ(a.events[0].volume_strain, 0.0) << "it changes after the row at the end of the event";
   EXPECT_EQ(a.events[0].coordination_number, -0.25);
   EXPECT_EQ(a.events[1].volume_strain, 0.0);
@@ -134,7 +134,7 @@ TEST_F(EventCatalogue, has_what_the_rows_say_before_and_after) {
 }
 
 TEST_F(EventCatalogue, has_what_moved_between_the_frames) {
-  const Analysis a = analyse(10.285);
+  const analysis::Analysis a = analyse(10.285);
   EXPECT_EQ(a.events[0].grains, 1);
   EXPECT_NEAR(a.events[0].centre[0], 1.0 * diameter, 1e-9);
   EXPECT_NEAR(a.events[0].centre[1], 1.5 * diameter, 1e-9);
@@ -147,7 +147,7 @@ TEST_F(EventCatalogue, has_what_moved_between_the_frames) {
 }
 
 TEST_F(EventCatalogue, shares_the_work_of_gravity_by_the_path) {
-  const Analysis a = analyse(10.285);
+  const analysis::Analysis a = analyse(10.285);
   const double weight = 0.4 * g;
   // 12 of 100 steps are fast; 7 in the second interval, where the other grain comes down.
   const double of_first = 12.0 * fast / (12.0 * fast + 88.0 * slow);
@@ -159,7 +159,7 @@ TEST_F(EventCatalogue, shares_the_work_of_gravity_by_the_path) {
               1e-3 * a.events[1].energy);
   EXPECT_NEAR(a.event_energy, a.events[0].energy + a.events[1].energy, 1e-15);
   // Split in two by a shorter quiet time, they share the frames, and the energy by 7 to 5.
-  const Analysis b = analyse(10.285, {"event_quiet=0.3"});
+  const analysis::Analysis b = analyse(10.285, {"event_quiet=0.3"});
   ASSERT_EQ(b.events.size(), 4u);
   EXPECT_EQ(b.events[0].sharing, 2);
   EXPECT_EQ(b.events[0].centre, b.events[1].centre);
@@ -168,24 +168,24 @@ TEST_F(EventCatalogue, shares_the_work_of_gravity_by_the_path) {
 
 TEST_F(EventCatalogue, goes_by_the_threshold_that_is_given) {
   EXPECT_EQ(analyse(10.285, {"event_velocity=100"}).events.size(), 0u) << "none is faster than 0.98 m/s";
-  const Analysis a = analyse(10.285, {"event_velocity=6"});
+  const analysis::Analysis a = analyse(10.285, {"event_velocity=6"});
   ASSERT_EQ(a.events.size(), 1u) << "one step of 0.1 m/s";
   EXPECT_NEAR(a.event_threshold, 6.0 * g * h, 1e-12);
   EXPECT_NEAR(a.events[0].duration, h, 1e-12);
 }
 
 TEST_F(EventCatalogue, of_a_slope_that_has_not_failed_ends_with_one_that_is_not_over) {
-  const Analysis a = analyse(not_known);
+  const analysis::Analysis a = analyse(not_known);
   EXPECT_EQ(a.events[2].kind, 2);
   EXPECT_EQ(a.event_count, 2.0) << "its size is not known";
 }
 
 TEST_F(EventCatalogue, is_empty_where_steps_or_rows_are_missing) {
   for (const auto& change :
-       {std::function<void(Segment&)>([](Segment& s) { s.steps.clear(); }),
-        std::function<void(Segment&)>([](Segment& s) { s.observables.clear(); }),
-        std::function<void(Segment&)>([](Segment& s) { s.steps.erase(s.steps.begin() + 50); })}) {
-    const Analysis a = analyse(10.285, {}, change);
+       {std::function<void(io::Segment&)>([](io::Segment& s) { s.steps.clear(); }),
+        std::function<void(io::Segment&)>([](io::Segment& s) { s.observables.clear(); }),
+        std::function<void(io::Segment&)>([](io::Segment& s) { s.steps.erase(s.steps.begin() + 50); })}) {
+    const analysis::Analysis a = analyse(10.285, {}, change);
     EXPECT_TRUE(a.events.empty());
     EXPECT_TRUE(std::isnan(a.event_count));
     EXPECT_TRUE(std::isnan(a.event_threshold));
@@ -193,8 +193,8 @@ TEST_F(EventCatalogue, is_empty_where_steps_or_rows_are_missing) {
 }
 
 /// So many rearrangements whose energy is 2^k J/m, k mod 3 of which dilates.
-Analysis made_up_events(int count) {
-  Analysis a;
+analysis::Analysis made_up_events(int count) {
+  analysis::Analysis a;
   for (int k = 0; k < count; ++k)
     a.events.push_back({.waiting = k == 0 ? not_known : 0.1 * k,
                         .energy = std::pow(2.0, k),
@@ -204,7 +204,7 @@ Analysis made_up_events(int count) {
 }
 
 TEST(EventLaws, leave_the_failure_out) {
-  Analysis a = made_up_events(12);
+  analysis::Analysis a = made_up_events(12);
   find_event_laws(1.0, a);
   EXPECT_EQ(a.event_count, 12.0);
   EXPECT_EQ(a.event_energy, 4095.0);
@@ -217,16 +217,16 @@ TEST(EventLaws, leave_the_failure_out) {
 }
 
 TEST(EventLaws, of_too_few_events_are_not_known) {
-  Analysis a = made_up_events(9);
+  analysis::Analysis a = made_up_events(9);
   find_event_laws(not_known, a);
   EXPECT_TRUE(std::isnan(a.event_size_exponent));
   EXPECT_EQ(a.event_size_count, 9.0);
   EXPECT_TRUE(std::isnan(a.event_waiting_mean));
-  Analysis none;
+  analysis::Analysis none;
   find_event_laws(not_known, none);
   EXPECT_EQ(none.event_count, 0.0);
   EXPECT_TRUE(std::isnan(none.event_dilating_share));
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::runs

@@ -11,7 +11,7 @@
 #include "scenario/scenario.h"
 #include "support/places.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(All, BadScenario, testing::ValuesIn(bad_scenarios()),
 TEST(BadScenarios, are_many) { EXPECT_GE(bad_scenarios().size(), 300u); }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

@@ -10,7 +10,7 @@
 #include "support/key_rows.h"
 #include "support/places.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 const std::string root = test::source_folder();
@@ -65,4 +65,4 @@ TEST(Assets, have_a_small_demo) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

@@ -13,7 +13,7 @@
 #include "scenario/scenario.h"
 #include "support/places.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 /// The message with which `read` fails; empty where it does not.
@@ -242,4 +242,4 @@ TEST(ReadScenario, a_device_that_holds_nothing_is_no_scenario_of_defaults) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

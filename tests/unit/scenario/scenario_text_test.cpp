@@ -10,7 +10,7 @@
 #include "scenario/keys.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 Scenario read_back(const Scenario& scenario) { return parse_scenario(resolved_toml(scenario), "resolved"); }
@@ -151,4 +151,4 @@ TEST(TomlText, of_text_has_its_escapes) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

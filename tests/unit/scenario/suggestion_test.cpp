@@ -6,7 +6,7 @@
 
 #include "scenario/keys.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 const KeyHeads keys = heads(scenario_keys());
@@ -52,4 +52,4 @@ TEST(Suggestion, of_a_section) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

@@ -10,7 +10,7 @@
 #include "scenario/rules.h"
 #include "scenario/text.h"
 
-namespace talus {
+namespace talus::scenario {
 namespace {
 
 using Verb = ProgramPhrase::Verb;
@@ -205,4 +205,4 @@ TEST(TiltProgram, and_an_end_angle_are_one_too_many) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::scenario

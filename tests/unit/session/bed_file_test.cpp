@@ -15,11 +15,11 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
-BedPlan plan_of(bool periodic = true, bool rough = true) {
-  BedPlan plan;
+dynamics::BedPlan plan_of(bool periodic = true, bool rough = true) {
+  dynamics::BedPlan plan;
   plan.length = 10.0 * plan.mean_diameter;
   plan.periodic = periodic;
   plan.rough_floor = rough;
@@ -34,7 +34,8 @@ struct Table {
 };
 
 /// The message without the name of the folder.
-std::string message_of(const std::string& path, std::size_t frame, const BedPlan& plan, ExitCode code) {
+std::string message_of(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
+                       ExitCode code) {
   try {
     bed_of_file(path, frame, plan);
   } catch (const Error& error) {
@@ -46,14 +47,14 @@ std::string message_of(const std::string& path, std::size_t frame, const BedPlan
   return "accepted";
 }
 
-std::string message_of(const std::string& table, const BedPlan& plan = plan_of()) {
+std::string message_of(const std::string& table, const dynamics::BedPlan& plan = plan_of()) {
   return message_of(Table(table).path, 0, plan, ExitCode::bad_data);
 }
 
 TEST(BedOfTable, has_its_grains_at_rest_between_floor_and_walls_of_the_plan) {
   const Table table("x,y,radius\n0.6,0.5,0.5\n5,1,0.6\n");
   for (const bool periodic : {true, false}) {
-    const BedPlan plan = plan_of(periodic);
+    const dynamics::BedPlan plan = plan_of(periodic);
     const World world = bed_of_file(table.path, 0, plan);
     ASSERT_EQ(world.grains.free_count, 2);
     EXPECT_EQ(world.grains.count(), 12);
@@ -115,8 +116,9 @@ TEST(BedOfTable, is_in_mean_diameters) {
       "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
       "(grains.mean_diameter); a table with lengths in mm has deposition.file_unit = \"mm\" or names its "
       "columns as in x [mm]");
-  EXPECT_EQ(bed_of_file(Table("30 20 5.4\n").path, 0, plan_of(), LengthUnit::millimetre).grains.radius[0],
-            0.0054);
+  EXPECT_EQ(
+      bed_of_file(Table("30 20 5.4\n").path, 0, plan_of(), scenario::LengthUnit::millimetre).grains.radius[0],
+      0.0054);
   EXPECT_NE(message_of("3,2,1e308\n3,2,1e308\n"), "accepted");
 }
 
@@ -139,11 +141,11 @@ TEST(BedOfFile, says_what_a_missing_one_is_needed_for) {
 /// A run of 30 grains that is not complete: of each of its three frames another grain lies higher.
 struct StoredRun {
   StoredRun() : path(folder.path("run.h5")) {
-    Scenario scenario = test::small_bed();
-    scenario.deposition.method = DepositionMethod::geometric;
+    scenario::Scenario scenario = test::small_bed();
+    scenario.deposition.method = scenario::DepositionMethod::geometric;
     const Session session(scenario);
-    RunStore store = RunStore::create(path, run_header(session, {}), false);
-    Segment segment;
+    io::RunStore store = io::RunStore::create(path, run_header(session, {}), false);
+    io::Segment segment;
     for (int k = 0; k < 3; ++k) {
       World world = session.world();
       world.step = k;
@@ -158,9 +160,9 @@ struct StoredRun {
   std::string path;
 };
 
-Scenario scenario_of(const std::string& file, int frame = 0) {
-  Scenario scenario = test::small_tilted_bed(0.1);
-  scenario.deposition.method = DepositionMethod::file;
+scenario::Scenario scenario_of(const std::string& file, int frame = 0) {
+  scenario::Scenario scenario = test::small_tilted_bed(0.1);
+  scenario.deposition.method = scenario::DepositionMethod::file;
   scenario.deposition.file = file;
   scenario.deposition.frame = frame;
   return scenario;
@@ -168,7 +170,7 @@ Scenario scenario_of(const std::string& file, int frame = 0) {
 
 TEST(BedOfRun, has_the_grains_of_the_frame_that_is_asked_for) {
   const StoredRun run;
-  const RunFile file = RunFile::open(run.path);
+  const io::RunFile file = io::RunFile::open(run.path);
   for (const std::size_t k : {0u, 2u}) {
     const World world = bed_of_file(run.path, k, plan_of());
     const Frame frame = file.positions(k);
@@ -188,15 +190,15 @@ TEST(BedOfRun, fits_the_plan) {
   const StoredRun run;
   EXPECT_EQ(message_of(run.path, 3, plan_of(), ExitCode::bad_data),
             "run.h5: there is no frame 3: expected deposition.frame below 3, the number of its frames");
-  EXPECT_THROW(bed_of_file(run.path, 0, plan_of(), LengthUnit::metre), Error);
+  EXPECT_THROW(bed_of_file(run.path, 0, plan_of(), scenario::LengthUnit::metre), Error);
   EXPECT_EQ(message_of(run.path, 0, plan_of(false), ExitCode::bad_data),
             "run.h5: the run has a periodic bed: expected bed.boundary = \"periodic\"");
-  BedPlan longer = plan_of();
+  dynamics::BedPlan longer = plan_of();
   longer.length *= 1.1;
   EXPECT_EQ(message_of(run.path, 0, longer, ExitCode::bad_data),
             "run.h5: the period of the run is 0.1 m, but bed.length makes it 0.11 m; give the scenario the "
             "values of the run (talus info)");
-  BedPlan larger = plan_of();
+  dynamics::BedPlan larger = plan_of();
   larger.mean_diameter *= 1.05;
   EXPECT_EQ(
       message_of(run.path, 0, larger, ExitCode::bad_data),
@@ -206,7 +208,7 @@ TEST(BedOfRun, fits_the_plan) {
 
 TEST(RunOfFile, has_as_many_grains_as_the_file) {
   const StoredRun run;
-  Scenario scenario = scenario_of(run.path);
+  scenario::Scenario scenario = scenario_of(run.path);
   scenario.bed.depth = 100.0;
   EXPECT_EQ(grain_count(scenario), 30);
   EXPECT_EQ(estimate(scenario).grains, 30);
@@ -229,4 +231,4 @@ TEST(RunOfFile, comes_to_rest_and_goes_on_without_the_file) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -4,11 +4,11 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 void expect_two_grains(const std::string& text, std::size_t first_line = 1, std::size_t second_line = 2,
-                       LengthUnit unit = LengthUnit::mean_diameter) {
+                       scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter) {
   const std::vector<TableGrain> grains = parse_bed_table(text, "bed.csv", unit, 1.0);
   ASSERT_EQ(grains.size(), 2u) << text;
   EXPECT_EQ(grains[0].x, 0.5);
@@ -23,7 +23,7 @@ void expect_two_grains(const std::string& text, std::size_t first_line = 1, std:
 
 std::string message_of(const std::string& text) {
   try {
-    parse_bed_table(text, "bed.csv", LengthUnit::mean_diameter, 1.0);
+    parse_bed_table(text, "bed.csv", scenario::LengthUnit::mean_diameter, 1.0);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     return error.what();
@@ -81,22 +81,22 @@ TEST(BedTable, skips_columns_that_are_no_part_of_a_grain) {
 TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
   const std::string mm = "\n500,1250,400\n3000,-125,600\n";
   for (const char* names : {"x [mm],y [mm],radius [mm]", "x (mm),y(mm),r_mm", "x,y,r"})
-    expect_two_grains(names + mm, 2, 3, LengthUnit::millimetre);
+    expect_two_grains(names + mm, 2, 3, scenario::LengthUnit::millimetre);
   for (const char* names : {"x [mm],y [mm],radius [mm]", "X/mm,Y mm,r_MM"})
     expect_two_grains(names + mm, 2, 3);
   expect_two_grains("x [m] z [cm] d [\xc2\xb5m]\n0.5 125 8e5\n3 -12.5 1.2e6\n", 2, 3);
-  expect_two_grains("500 1250 400\n3000 -125 600\n", 1, 2, LengthUnit::millimetre);
+  expect_two_grains("500 1250 400\n3000 -125 600\n", 1, 2, scenario::LengthUnit::millimetre);
   EXPECT_EQ(message_of("x [in],y,r\n1,2,1\n"),
             "bed.csv:1:1: error: the column \"x [in]\" has an unknown unit: expected D, m, cm, mm or um");
   try {
-    parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", LengthUnit::millimetre, 1.0);
+    parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", scenario::LengthUnit::millimetre, 1.0);
     ADD_FAILURE() << "two units";
   } catch (const LocatedError& error) {
     EXPECT_STREQ(error.what(),
                  "bed.csv:1:3: error: the column \"y [m]\" names another unit than deposition.file_unit: "
                  "leave one of them out");
   }
-  EXPECT_EQ(in_metres(2.0, LengthUnit::mean_diameter, 0.01), 0.02);
+  EXPECT_EQ(in_metres(2.0, scenario::LengthUnit::mean_diameter, 0.01), 0.02);
 }
 
 TEST(BedTable, refuses_names_with_a_sentence_about_names) {
@@ -123,7 +123,7 @@ TEST(BedTable, refuses_names_with_a_sentence_about_names) {
 
 TEST(BedTable, without_lines_has_no_grain) {
   for (const char* text : {"", "\n\n", "# nothing", "x,y,radius\n"})
-    EXPECT_TRUE(parse_bed_table(text, "bed.csv", LengthUnit::mean_diameter, 1.0).empty()) << text;
+    EXPECT_TRUE(parse_bed_table(text, "bed.csv", scenario::LengthUnit::mean_diameter, 1.0).empty()) << text;
 }
 
 TEST(BedTable, tells_where_it_cannot_be_read) {
@@ -157,4 +157,4 @@ TEST(BedTable, has_radii_above_zero) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

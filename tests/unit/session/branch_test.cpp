@@ -19,14 +19,14 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr std::int64_t to_the_end = 1'000'000;
 
 void record(Session& session, const RunOrigin& origin, const std::string& path,
             std::span<const Command> commands = {}) {
-  RunStore store = RunStore::create(path, run_header(session, origin), false);
+  io::RunStore store = io::RunStore::create(path, run_header(session, origin), false);
   ASSERT_EQ(replay(session, &store, commands, to_the_end, {}), RunEnd::complete);
 }
 
@@ -36,12 +36,12 @@ void record_run(const std::string& path, std::span<const Command> commands = {})
   record(session, {}, path, commands);
 }
 
-BranchOrigin origin_at(const RunFile& run, const std::string& path, std::size_t k) {
+io::BranchOrigin origin_at(const io::RunFile& run, const std::string& path, std::size_t k) {
   return {path, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)),
           checkpoint_at_frame(run, k)};
 }
 
-Session begun(const BranchOrigin& branch) {
+Session begun(const io::BranchOrigin& branch) {
   Session session(test::small_tilted_bed(3.0), branch.start);
   session.record_start();
   return session;
@@ -57,12 +57,12 @@ TEST(Branch, is_replayed_from_its_own_file_with_any_number_of_threads) {
   const test::TemporaryFolder folder;
   const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
   record_run(parent);
-  const RunFile run = RunFile::open(parent);
-  const BranchOrigin origin = origin_at(run, parent, 2);
+  const io::RunFile run = io::RunFile::open(parent);
+  const io::BranchOrigin origin = origin_at(run, parent, 2);
   Session session = begun(origin);
   const std::vector<Command> commands = some_commands(origin.start.world.step);
   record(session, {"", "", "", 1, origin}, path, commands);
-  const RunFile branch = RunFile::open(path);
+  const io::RunFile branch = io::RunFile::open(path);
   ASSERT_TRUE(branch.header().branch);
   EXPECT_EQ(branch.header().branch->run, parent);
   EXPECT_EQ(branch.header().branch->frame, 2);
@@ -84,7 +84,7 @@ TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
   const test::TemporaryFolder folder;
   const std::string parent = folder.path("run.h5");
   record_run(parent);
-  const RunFile run = RunFile::open(parent);
+  const io::RunFile run = io::RunFile::open(parent);
   Session session = begun(origin_at(run, parent, 2));
   const Frame first = session.segment().frames.front(), left = run.frame(2);
   EXPECT_EQ(first.step, left.step);
@@ -115,7 +115,7 @@ TEST(Branch, knows_how_the_run_stood_at_each_frame) {
                                          {step + 60, CommandKind::tilt_rate, -1, 12.0},
                                          {step + 70, CommandKind::release}};
   record_run(folder.path("run.h5"), commands);
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
   Session again(test::small_tilted_bed(3.0));
   std::size_t compared = 0;
   auto next = commands.begin();
@@ -146,7 +146,7 @@ TEST(Branch, knows_how_the_run_stood_at_each_frame) {
 TEST(Branch, of_the_last_frame_is_refused_with_a_reason) {
   const test::TemporaryFolder folder;
   record_run(folder.path("run.h5"));
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
   const std::size_t last = run.all_frame_tilts().size() - 1;
   EXPECT_EQ(test::exit_code_of([&] { checkpoint_at_frame(run, last); }), ExitCode::usage);
 }
@@ -155,12 +155,12 @@ TEST(Branch, of_a_branch_goes_on) {
   const test::TemporaryFolder folder;
   const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
   record_run(parent);
-  const RunFile run = RunFile::open(parent);
-  const BranchOrigin origin = origin_at(run, parent, 1);
+  const io::RunFile run = io::RunFile::open(parent);
+  const io::BranchOrigin origin = origin_at(run, parent, 1);
   Session session = begun(origin);
   const std::vector<Command> commands = {{origin.start.world.step, CommandKind::friction, -1, 0.9}};
   record(session, {"", "", "", 1, origin}, path, commands);
-  const RunFile branch = RunFile::open(path);
+  const io::RunFile branch = io::RunFile::open(path);
   const Schedule schedule = stored_schedule(checkpoint_at_frame(branch, 2), false, "the branch");
   EXPECT_EQ(schedule.friction, 0.9);
   EXPECT_EQ(schedule.tilt_steps,
@@ -168,45 +168,47 @@ TEST(Branch, of_a_branch_goes_on) {
 }
 
 /// A run of a scenario, recorded whole.
-RunFile recorded(const Scenario& scenario, const std::string& path, std::span<const Command> commands = {}) {
+io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path,
+                     std::span<const Command> commands = {}) {
   Session session(scenario);
   record(session, {}, path, commands);
-  return RunFile::open(path);
+  return io::RunFile::open(path);
 }
 
 /// A branch of it at frame k, recorded to its end.
-RunFile recorded_branch(const RunFile& run, const std::string& path, std::size_t k) {
-  const BranchOrigin origin = origin_at(run, "run.h5", k);
-  Session session(stored_scenario(run.header(), "run.h5"), origin.start);
+io::RunFile recorded_branch(const io::RunFile& run, const std::string& path, std::size_t k) {
+  const io::BranchOrigin origin = origin_at(run, "run.h5", k);
+  Session session(runs::stored_scenario(run.header(), "run.h5"), origin.start);
   session.record_start();
   record(session, {"", "", "", 1, origin}, path);
-  return RunFile::open(path);
+  return io::RunFile::open(path);
 }
 
-void expect_whole(const RunFile& run) {
+void expect_whole(const io::RunFile& run) {
   const RunCheck check = check_run(run, {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();
 }
 
 TEST(Branch, goes_on_with_the_programme_of_the_tilt) {
   const test::TemporaryFolder folder;
-  Scenario scenario = test::small_tilted_bed(1.0);
+  scenario::Scenario scenario = test::small_tilted_bed(1.0);
   scenario.tilt.end_angle.reset();
   scenario.tilt.program = {"to 1", "hold 0.03", "to 0.5", "2 times"};
-  const TiltProgram program(scenario);
-  const RunFile run = recorded(scenario, folder.path("run.h5"));
+  const scenario::TiltProgram program(scenario);
+  const io::RunFile run = recorded(scenario, folder.path("run.h5"));
   const std::int64_t first = run.frame(0).step;
   for (const std::size_t k : {std::size_t{0}, run.frame_count() / 2}) {
     SCOPED_TRACE(k);
-    const RunFile branch = recorded_branch(run, folder.path("branch" + std::to_string(k) + ".h5"), k);
+    const io::RunFile branch = recorded_branch(run, folder.path("branch" + std::to_string(k) + ".h5"), k);
     expect_whole(branch);
     EXPECT_EQ(branch.checkpoint().world.step, run.checkpoint().world.step);
-    EXPECT_EQ(find_value(branch.checkpoint().integers, last_tilt_step_name),
-              find_value(run.checkpoint().integers, last_tilt_step_name));
+    EXPECT_EQ(find_value(branch.checkpoint().integers, io::last_tilt_step_name),
+              find_value(run.checkpoint().integers, io::last_tilt_step_name));
     ASSERT_EQ(branch.all_frame_tilts().size(), run.all_frame_tilts().size() - k);
     for (std::size_t j = 0; j < branch.all_frame_tilts().size(); ++j) {
       EXPECT_EQ(branch.all_frame_tilts()[j], run.all_frame_tilts()[j + k]);
-      EXPECT_EQ(problem_after_frame(branch, j).scales.tilt, program.tilt(branch.frame(j).step - first + 1));
+      EXPECT_EQ(problems::problem_after_frame(branch, j).scales.tilt,
+                program.tilt(branch.frame(j).step - first + 1));
     }
   }
 }
@@ -214,8 +216,8 @@ TEST(Branch, goes_on_with_the_programme_of_the_tilt) {
 TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
   const test::TemporaryFolder folder;
   const std::vector<Command> commands = {{0, CommandKind::friction, -1, 0.9}};
-  const RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
-  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
+  const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
   EXPECT_TRUE(branch.commands().empty());
   expect_whole(branch);
   EXPECT_GT(check_run(branch, {}).largest_mobilisation * 0.9, test::small_bed().contact.friction)
@@ -232,8 +234,8 @@ TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
   const std::vector<Command> commands = {{step + 1, CommandKind::friction, -1, 0.9},
                                          {step + 2, CommandKind::tilt_rate, -1, 12.0},
                                          {step + 3, CommandKind::drag, 5, grains.x[5], grains.y[5]}};
-  const RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
-  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
+  const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
   const Schedule first = stored_schedule(checkpoint_at_frame(run, 3), false, "the run"),
                  second = stored_schedule(checkpoint_at_frame(branch, 1), false, "the branch");
   ASSERT_EQ(branch.frame(1).step, run.frame(3).step);
@@ -250,18 +252,18 @@ TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
 
 TEST(Branch, goes_on_in_the_flow_after_failure) {
   const test::TemporaryFolder folder;
-  Scenario scenario = test::small_tilted_bed(3.0);
+  scenario::Scenario scenario = test::small_tilted_bed(3.0);
   scenario.contact.friction = 0.02;
   scenario.tilt.end_angle.reset();
-  scenario.tilt.after_failure = AfterFailure::lower;
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
   scenario.tilt.lowering_rate = 100.0;
-  const RunFile run = recorded(scenario, folder.path("run.h5"));
+  const io::RunFile run = recorded(scenario, folder.path("run.h5"));
   const std::size_t k = run.frame_count();
   ASSERT_LT(k + 1, run.all_frame_tilts().size()) << "a frame of the flow";
   const Schedule schedule = stored_schedule(checkpoint_at_frame(run, k), true, "the frame");
   EXPECT_EQ(schedule.phase, Phase::flow);
   EXPECT_TRUE(schedule.flow.failed);
-  const RunFile branch = recorded_branch(run, folder.path("branch.h5"), k);
+  const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), k);
   expect_whole(branch);
   EXPECT_EQ(find_value(branch.checkpoint().results, "theta_c"),
             find_value(run.checkpoint().results, "theta_c"));
@@ -358,4 +360,4 @@ TEST(Drag, is_told_once_however_often_it_was_moved) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

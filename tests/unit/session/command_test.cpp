@@ -13,7 +13,7 @@
 #include "session/session.h"
 #include "support/small_bed.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double diameter = 0.01;
@@ -134,13 +134,13 @@ TEST(Drop, of_more_grains_than_the_surface_has_is_refused) {
   EXPECT_EQ(state_hash(world), before);
 }
 
-Scenario small_bed() {
-  Scenario scenario = test::small_bed();
+scenario::Scenario small_bed() {
+  scenario::Scenario scenario = test::small_bed();
   scenario.tilt.end_angle = 30.0;
   return scenario;
 }
 
-Session tilting(const Scenario& scenario) {
+Session tilting(const scenario::Scenario& scenario) {
   Session session(scenario);
   while (session.phase() == Phase::deposition) session.advance();
   return session;
@@ -159,8 +159,9 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
   const double nan = std::nan("");
   const double infinite = std::numeric_limits<double>::infinity();
   const double limit = 100.0 * std::sqrt(9.81 * diameter);
-  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
-    Scenario scenario = small_bed();
+  for (const scenario::BedBoundary boundary :
+       {scenario::BedBoundary::periodic, scenario::BedBoundary::walls}) {
+    scenario::Scenario scenario = small_bed();
     scenario.bed.boundary = boundary;
     Session session(scenario);
     const std::uint64_t before = state_hash(session.world());
@@ -182,7 +183,7 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
                                     {0, CommandKind::tilt_rate, -1, -0.1, 0.0},
                                     {0, CommandKind::tilt_rate, -1, 101.0, 0.0},
                                     {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
-    if (boundary == BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
+    if (boundary == scenario::BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
     for (const Command& command : refused)
       EXPECT_EQ(refusal(session, command), ExitCode::usage) << command_text(command);
     EXPECT_EQ(state_hash(session.world()), before);
@@ -193,7 +194,7 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
 }
 
 TEST(Command, after_the_end_is_refused) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 0.001;
   Session session = tilting(scenario);
   session.advance();
@@ -222,8 +223,8 @@ TEST(Push, adds_to_the_velocity) {
 
 /// A column on a plane that is suddenly without friction slides at g sin(theta).
 TEST(Friction, holds_from_the_next_step_on) {
-  Scenario scenario = small_bed();
-  scenario.bed.floor = BedFloor::smooth;
+  scenario::Scenario scenario = small_bed();
+  scenario.bed.floor = scenario::BedFloor::smooth;
   scenario.tilt.rate = 20.0;
   scenario.tilt.step = 0.02;
   Session session = tilting(scenario);
@@ -247,7 +248,7 @@ TEST(Friction, holds_from_the_next_step_on) {
 }
 
 TEST(Friction, holds_in_the_deposition_and_after_it) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.deposition.friction = 0.1;
   scenario.deposition.wall_friction = 0.2;
   Session session(scenario);
@@ -267,7 +268,7 @@ TEST(FailedStep, leaves_the_session_as_it_was) {
   const Grains& grains = session.world().grains;
   session.apply({0, CommandKind::drag, 3, grains.x[3] + 0.01, grains.y[3] + 0.05});
   session.advance();
-  Checkpoint checkpoint = session.checkpoint(0.0);
+  io::Checkpoint checkpoint = session.checkpoint(0.0);
   checkpoint.world.gravity = std::numeric_limits<double>::infinity();
   Session broken(small_bed(), checkpoint);
   const std::uint64_t state = state_hash(broken.world());
@@ -304,7 +305,7 @@ TEST(TiltRate, of_a_deposition_is_that_with_which_the_tilt_begins) {
 
 /// Rows lie 20 steps apart; commands come between them, some of which set the rate.
 TEST(TiltBefore, is_that_of_the_bed_when_the_command_was_given_to_the_last_digit) {
-  Scenario scenario = test::small_tilted_bed(2.0);
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
   scenario.output.observable_every = 0.4;
   Session session(scenario);
   std::vector<double> tilts, times;
@@ -350,4 +351,4 @@ TEST(TiltBefore, is_that_of_the_bed_when_the_command_was_given_to_the_last_digit
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -11,44 +11,45 @@
 #include "session/session.h"
 #include "support/small_bed.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// 30 grains that arrive within 0.19 s; tilted by 0.05 deg.
-Scenario poured_bed(BedBoundary boundary = BedBoundary::periodic) {
-  Scenario scenario = test::small_tilted_bed(0.5);
+scenario::Scenario poured_bed(scenario::BedBoundary boundary = scenario::BedBoundary::periodic) {
+  scenario::Scenario scenario = test::small_tilted_bed(0.5);
   scenario.bed.boundary = boundary;
-  scenario.deposition.method = DepositionMethod::pour;
+  scenario.deposition.method = scenario::DepositionMethod::pour;
   scenario.deposition.rate = 0.5;
   return scenario;
 }
 
 TEST(AdviceForRest, names_the_key_that_keeps_a_bed_from_rest) {
   const auto advice = [](auto change, double velocity) {
-    Scenario scenario = poured_bed();
+    scenario::Scenario scenario = poured_bed();
     change(scenario);
     return advice_for_rest(scenario, velocity);
   };
-  EXPECT_EQ(advice([](Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
+  EXPECT_EQ(advice([](scenario::Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
             "with contact.restitution = 1 impacts take no energy, so that neither more time nor a tolerance "
             "helps: set it nearer to 0");
   EXPECT_EQ(
-      advice([](Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
+      advice([](scenario::Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
       "with contact.restitution = 0.97 impacts take little energy: set it nearer to 0, or allow more time "
       "(deposition.max_time)");
   for (const double e_t : {-1.0, 1.0})
     EXPECT_TRUE(
-        advice([e_t](Scenario& s) { s.contact.tangential_restitution = e_t; }, 1.0)
+        advice([e_t](scenario::Scenario& s) { s.contact.tangential_restitution = e_t; }, 1.0)
             .starts_with("with contact.tangential_restitution = " + std::string(e_t < 0 ? "-1" : "1")));
-  EXPECT_EQ(advice([](Scenario& s) { s.deposition.rest_velocity = 1e-9; }, 1e-4),
+  EXPECT_EQ(advice([](scenario::Scenario& s) { s.deposition.rest_velocity = 1e-9; }, 1e-4),
             "set deposition.rest_velocity higher: beds are at rest by the default of 0.005");
+  EXPECT_TRUE(advice([](scenario::Scenario&) {}, 1e-4)
+                  .starts_with("it has only just come below that, or the solver misses"));
   EXPECT_TRUE(
-      advice([](Scenario&) {}, 1e-4).starts_with("it has only just come below that, or the solver misses"));
-  EXPECT_TRUE(advice([](Scenario&) {}, 1.0).starts_with("allow more time (deposition.max_time), or set"));
+      advice([](scenario::Scenario&) {}, 1.0).starts_with("allow more time (deposition.max_time), or set"));
 }
 
 TEST(AdviceForRest, ends_the_message_about_a_bed_that_is_not_at_rest) {
-  Scenario scenario = poured_bed();
+  scenario::Scenario scenario = poured_bed();
   scenario.contact.restitution = 1.0;
   scenario.deposition.max_time = 0.05;
   Session session(scenario);
@@ -67,7 +68,8 @@ void advance_to_tilt(Session& session) {
 }
 
 TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
-  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
+  for (const scenario::BedBoundary boundary :
+       {scenario::BedBoundary::periodic, scenario::BedBoundary::walls}) {
     Session session(poured_bed(boundary));
     EXPECT_EQ(session.world().grains.free_count, 1);
     advance_to_tilt(session);
@@ -79,7 +81,7 @@ TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
 }
 
 TEST(PouredRun, tilts_when_all_have_arrived_even_if_those_before_are_at_rest) {
-  Scenario scenario = poured_bed();
+  scenario::Scenario scenario = poured_bed();
   scenario.deposition.rate = 0.05;  // 64 steps from one grain to the next, and 50 are rest
   Session session(scenario);
   advance_to_tilt(session);
@@ -94,7 +96,7 @@ TEST(PouredRun, holds_only_what_has_arrived_in_its_problem) {
     most = std::max(most, session.world().grains.free_count);
     EXPECT_EQ(session.world().grains.count(), session.world().grains.free_count + 10);
   }
-  EXPECT_EQ(most, arrived_by(session.world().time, pour_rule(session.scenario()), 30));
+  EXPECT_EQ(most, dynamics::arrived_by(session.world().time, pour_rule(session.scenario()), 30));
   EXPECT_LT(most, 10);
 }
 
@@ -114,7 +116,8 @@ TEST(PouredRun, has_statics_of_all_its_grains_from_the_beginning) {
 }
 
 TEST(PouredRun, taken_up_after_any_step_ends_with_the_same_bits) {
-  for (const BedBoundary boundary : {BedBoundary::periodic, BedBoundary::walls}) {
+  for (const scenario::BedBoundary boundary :
+       {scenario::BedBoundary::periodic, scenario::BedBoundary::walls}) {
     Session whole(poured_bed(boundary));
     while (whole.phase() != Phase::done) whole.advance();
     for (const int stopped_after : {1, 6, 7, 50, 180}) {
@@ -128,7 +131,7 @@ TEST(PouredRun, taken_up_after_any_step_ends_with_the_same_bits) {
 }
 
 TEST(PouredRun, has_its_time_to_come_to_rest_after_the_last_arrival) {
-  Scenario scenario = poured_bed();
+  scenario::Scenario scenario = poured_bed();
   scenario.deposition.max_time = 0.02;  // the arrivals alone take ten times that
   Session session(scenario);
   EXPECT_THROW(advance_to_tilt(session), Error);
@@ -137,8 +140,8 @@ TEST(PouredRun, has_its_time_to_come_to_rest_after_the_last_arrival) {
 }
 
 TEST(PouredRun, of_a_smooth_floor_and_of_still_grains) {
-  Scenario scenario = poured_bed(BedBoundary::walls);
-  scenario.bed.floor = BedFloor::smooth;
+  scenario::Scenario scenario = poured_bed(scenario::BedBoundary::walls);
+  scenario.bed.floor = scenario::BedFloor::smooth;
   scenario.deposition.arrival_speed = 0.0;
   Session session(scenario);
   advance_to_tilt(session);
@@ -146,7 +149,7 @@ TEST(PouredRun, of_a_smooth_floor_and_of_still_grains) {
 }
 
 TEST(Deposition, has_the_friction_of_the_run_unless_it_has_its_own) {
-  Scenario scenario = poured_bed();
+  scenario::Scenario scenario = poured_bed();
   scenario.contact.friction = 0.3;
   scenario.contact.wall_friction = 0.2;
   EXPECT_EQ(Session(scenario).law().friction, 0.3);
@@ -162,13 +165,13 @@ TEST(Deposition, has_the_friction_of_the_run_unless_it_has_its_own) {
 }
 
 TEST(StoredScenario, is_that_of_the_run) {
-  Scenario scenario = poured_bed();
+  scenario::Scenario scenario = poured_bed();
   scenario.deposition.friction = 0.4;
   scenario.deposition.wall_friction = 0.1;
-  RunHeader header;
-  header.scenario_resolved = resolved_toml(scenario);
-  EXPECT_EQ(stored_scenario(header, "run"), scenario);
+  io::RunHeader header;
+  header.scenario_resolved = scenario::resolved_toml(scenario);
+  EXPECT_EQ(runs::stored_scenario(header, "run"), scenario);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 TEST(Estimate, counts_what_the_scenario_says) {
-  Scenario scenario;
+  scenario::Scenario scenario;
   scenario.bed.length = 50.5;
   scenario.bed.depth = 20.0;
   scenario.tilt.rate = 2.0;
@@ -26,8 +26,8 @@ TEST(Estimate, counts_what_the_scenario_says) {
 }
 
 TEST(Estimate, counts_the_flow_after_failure_as_what_it_may_be) {
-  Scenario scenario;
-  scenario.tilt.after_failure = AfterFailure::lower;
+  scenario::Scenario scenario;
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
   const Estimate expected = estimate(scenario), without = estimate({});
   EXPECT_GT(expected.flow_steps, 0);
   EXPECT_NEAR(static_cast<double>(expected.frames - without.frames),
@@ -37,16 +37,16 @@ TEST(Estimate, counts_the_flow_after_failure_as_what_it_may_be) {
 }
 
 TEST(Estimate, a_long_flow_that_may_end_soon_needs_no_memory) {
-  Scenario scenario;
-  scenario.tilt.after_failure = AfterFailure::lower;
+  scenario::Scenario scenario;
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
   scenario.tilt.lowering_rate = 1e-4;
   EXPECT_GT(estimate(scenario).memory, 1e11);
   EXPECT_NO_THROW(require_memory(scenario));
 }
 
 TEST(Estimate, a_smooth_floor_has_no_grains) {
-  Scenario scenario;
-  scenario.bed.floor = BedFloor::smooth;
+  scenario::Scenario scenario;
+  scenario.bed.floor = scenario::BedFloor::smooth;
   EXPECT_EQ(estimate(scenario).floor_grains, 0);
 }
 
@@ -64,24 +64,24 @@ TEST(Estimate, a_bed_of_the_paper_is_a_matter_of_minutes_and_megabytes) {
 
 TEST(Estimate, grows_with_all_that_costs) {
   const Estimate usual = estimate({});
-  Scenario longer;
+  scenario::Scenario longer;
   longer.bed.length *= 2.0;
   EXPECT_GT(estimate(longer).seconds, 1.9 * usual.seconds);
   EXPECT_GT(estimate(longer).memory, 1.5 * usual.memory);
-  Scenario more_frames;
+  scenario::Scenario more_frames;
   more_frames.output.frame_every /= 10.0;
   EXPECT_GT(estimate(more_frames).disk, 8.0 * usual.disk);
   EXPECT_GT(estimate(more_frames).memory, usual.memory);
-  Scenario exact;
+  scenario::Scenario exact;
   exact.solver.tolerance = 1e-10;
   EXPECT_GT(estimate(exact).seconds, usual.seconds);
-  Scenario reference;
-  reference.solver.method = SolverMethod::gauss_seidel;
+  scenario::Scenario reference;
+  reference.solver.method = scenario::SolverMethod::gauss_seidel;
   EXPECT_GT(estimate(reference).seconds, 2.0 * usual.seconds);
-  Scenario hurried;
+  scenario::Scenario hurried;
   hurried.solver.max_iterations = 10;
   EXPECT_LT(estimate(hurried).seconds, 0.15 * usual.seconds);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -9,19 +9,19 @@
 #include "session/session.h"
 #include "support/small_bed.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
-Scenario small_bed() { return test::small_tilted_bed(0.2); }
+scenario::Scenario small_bed() { return test::small_tilted_bed(0.2); }
 
-Session run_to_end(const Scenario& scenario) {
+Session run_to_end(const scenario::Scenario& scenario) {
   Session session(scenario);
   while (session.phase() != Phase::done) session.advance();
   return session;
 }
 
 /// The message of the guard that stops the run, and its step.
-std::pair<std::string, std::int64_t> stopped_by(const Scenario& scenario) {
+std::pair<std::string, std::int64_t> stopped_by(const scenario::Scenario& scenario) {
   Session session(scenario);
   try {
     while (session.phase() != Phase::done) session.advance();
@@ -38,7 +38,7 @@ TEST(Guards, sound_runs_break_none) {
 }
 
 TEST(Guards, each_stops_the_run_with_its_limit) {
-  Scenario fast = small_bed(), deep = small_bed(), energetic = small_bed(), unsolved = small_bed();
+  scenario::Scenario fast = small_bed(), deep = small_bed(), energetic = small_bed(), unsolved = small_bed();
   fast.guards.velocity = 0.5;
   deep.guards.overlap = 1e-9;
   energetic.guards.energy = 1e-3;
@@ -55,7 +55,7 @@ TEST(Guards, each_stops_the_run_with_its_limit) {
 }
 
 TEST(Guards, stop_after_a_whole_step) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.guards.velocity = 0.5;
   Session stopped(scenario), plain(small_bed());
   EXPECT_THROW(while (true) stopped.advance(), Error);
@@ -68,21 +68,21 @@ TEST(Guards, stop_after_a_whole_step) {
 }
 
 TEST(Guards, warn_counts_what_they_let_pass) {
-  Scenario scenario = small_bed();
-  scenario.guards.action = GuardAction::warn;
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.action = scenario::GuardAction::warn;
   scenario.guards.velocity = 0.5;
   const Session session = run_to_end(scenario);
   const GuardWarnings& warnings = session.schedule().warnings;
   const auto velocity = static_cast<std::size_t>(Guard::velocity);
   EXPECT_GT(warnings.steps[velocity], 5);
   EXPECT_LT(warnings.steps[velocity], session.world().step);
-  Scenario stop = scenario;
-  stop.guards.action = GuardAction::stop;
+  scenario::Scenario stop = scenario;
+  stop.guards.action = scenario::GuardAction::stop;
   EXPECT_EQ(warnings.first[velocity], stopped_by(stop).second);
   EXPECT_EQ(state_hash(session.world()), state_hash(run_to_end(small_bed()).world()))
       << "watching changes nothing";
 
-  const Checkpoint checkpoint = session.checkpoint(0.0);
+  const io::Checkpoint checkpoint = session.checkpoint(0.0);
   const Session again(scenario, checkpoint);
   EXPECT_EQ(again.schedule().warnings.steps, warnings.steps);
   EXPECT_EQ(again.schedule().warnings.first, warnings.first);
@@ -93,7 +93,7 @@ TEST(Guards, warn_counts_what_they_let_pass) {
 }
 
 TEST(Guards, steps_in_a_row_are_counted_over_a_restart) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.guards.unconverged = 10;
   scenario.solver.max_iterations = 1;
   const std::int64_t whole = stopped_by(scenario).second;
@@ -105,4 +105,4 @@ TEST(Guards, steps_in_a_row_are_counted_over_a_restart) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -11,7 +11,7 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 PerturbationTable example() {
@@ -29,17 +29,17 @@ class StoredTrials : public testing::Test {
  protected:
   void store(const PerturbationTable& table) {
     const Session session(test::small_tilted_bed(1.0));
-    RunHeader header = run_header(session, {"", {}, "", 1});
+    io::RunHeader header = run_header(session, {"", {}, "", 1});
     header.provenance.emplace_back(trials_fact, plan_text(table.plan));
-    RunStore store = RunStore::create(path_, header, false);
+    io::RunStore store = io::RunStore::create(path_, header, false);
     for (const PerturbedState& state : table.states) {
-      Segment segment;
+      io::Segment segment;
       segment.trials = rows_of(state, 0);
       store.commit(segment, session.checkpoint(0.0));
     }
   }
   PerturbationTable read(const PerturbationPlan& plan) const {
-    return table_of(RunFile::open(path_), plan, "seed-1.h5");
+    return table_of(io::RunFile::open(path_), plan, "seed-1.h5");
   }
 
   test::TemporaryFolder folder_;
@@ -94,4 +94,4 @@ TEST(Patch, is_read_as_width_by_depth) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

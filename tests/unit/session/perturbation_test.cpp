@@ -8,7 +8,7 @@
 
 #include "session/perturbation_threshold.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 constexpr double diameter = 0.01;
@@ -140,4 +140,4 @@ TEST(Threshold, of_a_bed_that_does_not_hold_is_zero) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

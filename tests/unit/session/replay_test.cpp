@@ -14,10 +14,10 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
-Scenario small_bed() { return test::small_tilted_bed(1.0); }
+scenario::Scenario small_bed() { return test::small_tilted_bed(1.0); }
 
 /// Does what a user might, at these steps: in the deposition, twice at one step, and in the tilt.
 void meddle(Session& session, std::int64_t step, std::int64_t tilt_began) {
@@ -37,7 +37,7 @@ struct Meddled {
   std::optional<Session> session;
   std::vector<Command> commands;
 };
-Meddled meddled_run(std::int64_t steps, RunStore* store = nullptr, std::int64_t commit_every = 100) {
+Meddled meddled_run(std::int64_t steps, io::RunStore* store = nullptr, std::int64_t commit_every = 100) {
   Meddled run;
   run.session.emplace(small_bed());
   std::int64_t tilt_began = -1;
@@ -48,10 +48,10 @@ Meddled meddled_run(std::int64_t steps, RunStore* store = nullptr, std::int64_t 
     if (session.phase() != Phase::done) meddle(session, step, tilt_began);
     const bool ends = session.phase() == Phase::done || step >= steps;
     if (store != nullptr && (ends || step % commit_every == 0)) {
-      const Segment& segment = session.segment();
+      const io::Segment& segment = session.segment();
       run.commands.insert(run.commands.end(), segment.commands.begin(), segment.commands.end());
       store->commit(segment, session.checkpoint(0.0));
-      const Checkpoint checkpoint = session.checkpoint(0.0);
+      const io::Checkpoint checkpoint = session.checkpoint(0.0);
       run.session.emplace(small_bed(), checkpoint);
     } else if (ends) {
       run.commands = session.segment().commands;
@@ -84,11 +84,11 @@ TEST(Replay, of_a_run_that_was_resumed_again_and_again_gives_the_same_bits) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
   const Meddled whole = meddled_run(to_the_end);
-  RunStore store = RunStore::create(path, run_header(Session(small_bed()), {}), false);
+  io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
   const Meddled parts = meddled_run(to_the_end, &store);
   EXPECT_EQ(state_hash(parts.session->world()), state_hash(whole.session->world()));
   store.pack();
-  const RunFile stored = RunFile::open(path);
+  const io::RunFile stored = io::RunFile::open(path);
   EXPECT_EQ(stored.commands(), whole.commands);
   Session again(small_bed());
   replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
@@ -100,10 +100,10 @@ TEST(Replay, of_a_run_that_was_left_gives_the_same_bits) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
   {
-    RunStore store = RunStore::create(path, run_header(Session(small_bed()), {}), false);
+    io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
     meddled_run(20, &store);
   }
-  const RunFile left = RunFile::open(path);
+  const io::RunFile left = io::RunFile::open(path);
   ASSERT_EQ(left.commands().size(), 1u);
   ASSERT_EQ(left.commands().front().step, left.checkpoint().world.step);
   Session again(small_bed());
@@ -115,11 +115,11 @@ TEST(Replay, is_kept_as_the_run_it_was) {
   const test::TemporaryFolder folder;
   const Meddled run = meddled_run(to_the_end);
   const std::int64_t steps = run.session->world().step;
-  const RunHeader header = run_header(Session(small_bed()), {});
+  const io::RunHeader header = run_header(Session(small_bed()), {});
   Session again(small_bed());
-  RunStore store = RunStore::create(folder.path("again.h5"), header, false);
+  io::RunStore store = io::RunStore::create(folder.path("again.h5"), header, false);
   replay(again, &store, run.commands, steps, {});
-  const RunFile stored = RunFile::open(folder.path("again.h5"));
+  const io::RunFile stored = io::RunFile::open(folder.path("again.h5"));
   EXPECT_TRUE(stored.complete());
   EXPECT_EQ(stored.commands(), run.commands);
   EXPECT_EQ(stored.steps().size(), static_cast<std::size_t>(steps));
@@ -141,7 +141,7 @@ TEST(Replay, stops_when_asked) {
 
 /// A bed that does not come to rest in time ends with an error after a whole step: so it is stored.
 TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.deposition.max_time = 0.05;
   Session session(scenario);
   EXPECT_THROW(while (true) session.advance(), Error);
@@ -156,30 +156,32 @@ TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
 TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 2.0;
   Session session(scenario);
-  RunStore store = RunStore::create(path, run_header(session, {}), false);
+  io::RunStore store = io::RunStore::create(path, run_header(session, {}), false);
   while (session.world().tilt < radians(0.999)) session.advance();
   session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
   session.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
   while (session.world().tilt < radians(1.255)) session.advance();
   store.commit(session.segment(), session.checkpoint(0.0));
-  const RunFile run = RunFile::open(path);
-  const auto friction = [&run](std::size_t k) { return problem_after_frame(run, k).problem.mu.front(); };
+  const io::RunFile run = io::RunFile::open(path);
+  const auto friction = [&run](std::size_t k) {
+    return problems::problem_after_frame(run, k).problem.mu.front();
+  };
   ASSERT_EQ(run.frame_count(), 4u) << "at 0, 0.5, 1 and 1.25 deg";
   EXPECT_EQ(friction(1), 0.5);
   EXPECT_EQ(friction(2), 0.3) << "given at this very step";
   EXPECT_EQ(friction(3), 0.3);
-  EXPECT_NEAR(degrees(problem_after_frame(run, 1).scales.tilt - run.frame(1).tilt), 0.02, 1e-9);
-  EXPECT_NEAR(degrees(problem_after_frame(run, 3).scales.tilt - run.frame(3).tilt), 0.01, 1e-9);
+  EXPECT_NEAR(degrees(problems::problem_after_frame(run, 1).scales.tilt - run.frame(1).tilt), 0.02, 1e-9);
+  EXPECT_NEAR(degrees(problems::problem_after_frame(run, 3).scales.tilt - run.frame(3).tilt), 0.01, 1e-9);
 }
 
 /// Values that a run without commands does not have: a checkpoint without them is one of an older Talus.
 TEST(Checkpoint, has_what_commands_changed_and_only_that) {
   Session session(small_bed());
   const auto count = [](const Session& of) {
-    const Checkpoint checkpoint = of.checkpoint(0.0);
+    const io::Checkpoint checkpoint = of.checkpoint(0.0);
     return checkpoint.integers.size() + checkpoint.reals.size();
   };
   const std::size_t plain = count(session);
@@ -197,4 +199,4 @@ TEST(Checkpoint, has_what_commands_changed_and_only_that) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -13,16 +13,16 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
-Scenario checked_bed() {
-  Scenario scenario = test::small_tilted_bed(1.0);
+scenario::Scenario checked_bed() {
+  scenario::Scenario scenario = test::small_tilted_bed(1.0);
   scenario.output.observable_every = 0.1;
   return scenario;
 }
 
-Session run_of(const Scenario& scenario) {
+Session run_of(const scenario::Scenario& scenario) {
   Session run(scenario);
   while (run.phase() != Phase::done) run.advance();
   return run;
@@ -35,16 +35,18 @@ const Session& finished_run() {
 }
 
 /// The check of a run file into which something was written that is not so.
-RunCheck check_with(const std::function<void(Segment&)>& change, const Session& session = finished_run()) {
+RunCheck check_with(const std::function<void(io::Segment&)>& change,
+                    const Session& session = finished_run()) {
   const test::TemporaryFolder folder;
-  Segment segment = session.segment();
+  io::Segment segment = session.segment();
   change(segment);
-  RunStore store = RunStore::create(folder.path("run.h5"), run_header(session, {"", {}, "", 1}), false);
+  io::RunStore store =
+      io::RunStore::create(folder.path("run.h5"), run_header(session, {"", {}, "", 1}), false);
   store.commit(segment, session.checkpoint(0.0));
   store.pack();
   std::size_t frames = 0;
   const RunCheck check =
-      check_run(RunFile::open(folder.path("run.h5")), [&frames](std::size_t done) { frames = done; });
+      check_run(io::RunFile::open(folder.path("run.h5")), [&frames](std::size_t done) { frames = done; });
   EXPECT_EQ(frames, segment.frames.size());
   return check;
 }
@@ -56,7 +58,7 @@ std::string faults_of(const RunCheck& check) {
 }
 
 TEST(RunCheck, a_run_is_whole) {
-  const RunCheck check = check_with([](Segment&) {});
+  const RunCheck check = check_with([](io::Segment&) {});
   EXPECT_EQ(faults_of(check), "");
   EXPECT_EQ(check.frames, 3u);
   EXPECT_EQ(check.steps, finished_run().segment().steps.size());
@@ -69,37 +71,39 @@ TEST(RunCheck, a_run_is_whole) {
 
 struct Damage {
   const char* name;
-  std::function<void(Segment&)> done;
+  std::function<void(io::Segment&)> done;
   const char* fault;  ///< in what is found
 };
 
 const Damage damages[] = {
-    {"a_contact_that_pulls", [](Segment& s) { s.frames[1].contacts.fn[3] *= -1.0; },
+    {"a_contact_that_pulls", [](io::Segment& s) { s.frames[1].contacts.fn[3] *= -1.0; },
      "frame 1: 1 contacts pull"},
-    {"too_much_friction", [](Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
+    {"too_much_friction",
+     [](io::Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
      "Coulomb's law allows 1"},
-    {"another_force", [](Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
+    {"another_force", [](io::Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
      "frame 0: internal_moment is not that of the contacts"},
-    {"another_moment", [](Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; },
+    {"another_moment", [](io::Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; },
      "frame 2: internal_moment"},
-    {"another_tilt", [](Segment& s) { s.frames[0].tilt = 0.5; }, "forces and weight differ by"},
+    {"another_tilt", [](io::Segment& s) { s.frames[0].tilt = 0.5; }, "forces and weight differ by"},
     {"two_grains_in_one_place",
-     [](Segment& s) {
+     [](io::Segment& s) {
        s.frames[1].x[2] = s.frames[1].x[9];
        s.frames[1].y[2] = s.frames[1].y[9];
      },
      "frame 1: "},
-    {"a_grain_outside", [](Segment& s) { s.frames[1].x[2] = 2.0; }, "outside the period"},
-    {"frames_of_one_step", [](Segment& s) { s.frames[2].step = s.frames[1].step; }, "/frames/step: frame 2"},
-    {"another_number_of_a_step", [](Segment& s) { at(s.steps[7], StepField::step) = 9.0; },
+    {"a_grain_outside", [](io::Segment& s) { s.frames[1].x[2] = 2.0; }, "outside the period"},
+    {"frames_of_one_step", [](io::Segment& s) { s.frames[2].step = s.frames[1].step; },
+     "/frames/step: frame 2"},
+    {"another_number_of_a_step", [](io::Segment& s) { at(s.steps[7], StepField::step) = 9.0; },
      "/steps/step: row 7"},
-    {"a_step_less", [](Segment& s) { s.steps.pop_back(); }, "/checkpoint/step"},
+    {"a_step_less", [](io::Segment& s) { s.steps.pop_back(); }, "/checkpoint/step"},
     {"no_number",
-     [](Segment& s) {
+     [](io::Segment& s) {
        at(s.observables[2], Observable::kinetic_energy) = std::numeric_limits<double>::quiet_NaN();
      },
      "/observables/kinetic_energy: row 2"},
-    {"rows_out_of_order", [](Segment& s) { std::swap(s.observables[1], s.observables[2]); },
+    {"rows_out_of_order", [](io::Segment& s) { std::swap(s.observables[1], s.observables[2]); },
      "/observables/step: row"},
 };
 
@@ -115,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(all, RunCheckFinds, testing::ValuesIn(damages),
                          [](const auto& damage) { return damage.param.name; });
 
 /// Moves a grain of the first contact of two grains almost onto the other.
-void overlap_two_grains(Segment& segment) {
+void overlap_two_grains(io::Segment& segment) {
   Frame& frame = segment.frames[1];
   const FrameContacts& contacts = frame.contacts;
   std::size_t c = 0;
@@ -130,20 +134,20 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
     return faults_of(check_with(overlap_two_grains, session)).find("two grains overlap") != std::string::npos;
   };
   EXPECT_TRUE(is_told(finished_run()));
-  Scenario scenario = checked_bed();
+  scenario::Scenario scenario = checked_bed();
   scenario.guards.overlap = 10.0;
   EXPECT_FALSE(is_told(run_of(scenario)));
   scenario.guards = {};
-  scenario.guards.action = GuardAction::warn;
+  scenario.guards.action = scenario::GuardAction::warn;
   EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded, and it is no damage";
 }
 
 TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
   const auto is_told = [](double rest_velocity, double factor) {
-    Scenario scenario = checked_bed();
+    scenario::Scenario scenario = checked_bed();
     scenario.deposition.rest_velocity = rest_velocity;
     // All forces of the flat bed: the weight is out of balance by 1 - factor.
-    const auto scale_forces = [factor](Segment& s) {
+    const auto scale_forces = [factor](io::Segment& s) {
       Frame& frame = s.frames[0];
       for (std::size_t c = 0; c < frame.contacts.fn.size(); ++c) {
         frame.contacts.fn[c] *= factor;
@@ -159,14 +163,14 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
 }
 
 TEST(RunCheck, judges_the_first_frame_by_the_friction_of_the_deposition) {
-  Scenario scenario = checked_bed();
+  scenario::Scenario scenario = checked_bed();
   scenario.deposition.friction = scenario.deposition.wall_friction = 0.5;
   scenario.contact.friction = scenario.contact.wall_friction = 0.1;
-  EXPECT_EQ(faults_of(check_with([](Segment&) {}, run_of(scenario))), "");
+  EXPECT_EQ(faults_of(check_with([](io::Segment&) {}, run_of(scenario))), "");
 }
 
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
-  const RunCheck check = check_with([](Segment& s) {
+  const RunCheck check = check_with([](io::Segment& s) {
     for (StepRow& row : s.steps) at(row, StepField::residual) = std::numeric_limits<double>::infinity();
   });
   EXPECT_EQ(check.faults.size(), most_faults + 1);
@@ -174,4 +178,4 @@ TEST(RunCheck, does_not_tell_more_than_can_be_read) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

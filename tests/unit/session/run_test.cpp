@@ -8,7 +8,7 @@
 #include "session/run_header.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 const char* const tiny_bed =
@@ -17,10 +17,10 @@ const char* const tiny_bed =
 
 /// The state in which the bed ends.
 std::uint64_t carried_through(const std::string& path, const RunControl& control) {
-  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   Session session(scenario);
-  const RunHeader header = run_header(session, {});
-  RunStore store = RunStore::create(path, header, false);
+  const io::RunHeader header = run_header(session, {});
+  io::RunStore store = io::RunStore::create(path, header, false);
   EXPECT_EQ(run_to_end(session, store, control), RunEnd::complete);
   return state_hash(session.world());
 }
@@ -31,7 +31,7 @@ TEST(RunToEnd, each_frame_is_shown_once_in_its_order) {
   RunControl control;
   control.on_frame = [&shown](const Frame& frame) { shown.push_back(frame.step); };
   const std::uint64_t watched = carried_through(folder.path("watched.h5"), control);
-  const RunFile run = RunFile::open(folder.path("watched.h5"));
+  const io::RunFile run = io::RunFile::open(folder.path("watched.h5"));
   std::vector<std::int64_t> stored;
   for (std::size_t k = 0; k < run.all_frame_tilts().size(); ++k) stored.push_back(run.positions(k).step);
   EXPECT_EQ(shown.size(), 4u) << "0, 0.02, 0.04 and 0.05 deg";
@@ -45,8 +45,8 @@ TEST(RunToEnd, a_frame_is_shown_before_it_is_committed) {
   std::size_t shown = 0;
   RunControl control;
   control.on_frame = [&](const Frame&) {
-    const bool committed = run_presence(path) == RunPresence::folder;
-    EXPECT_EQ(committed ? RunFile::open(path).all_frame_tilts().size() : 0u, shown++);
+    const bool committed = io::run_presence(path) == io::RunPresence::folder;
+    EXPECT_EQ(committed ? io::RunFile::open(path).all_frame_tilts().size() : 0u, shown++);
   };
   carried_through(path, control);
   EXPECT_EQ(shown, 4u);
@@ -62,25 +62,25 @@ TEST(RunToEnd, stops_in_time_for_what_it_is_allowed) {
 TEST(RunToEnd, told_to_stop_while_it_packs_it_stays_a_folder) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
-  const Scenario scenario = parse_scenario(tiny_bed, "tiny.toml");
+  const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   Session session(scenario);
-  RunHeader header = run_header(session, {});
+  io::RunHeader header = run_header(session, {});
   {
-    RunStore store = RunStore::create(path, header, false);
+    io::RunStore store = io::RunStore::create(path, header, false);
     volatile std::sig_atomic_t stop = 0;
     RunControl control;
     control.stop = &stop;
     control.on_step = [&](const RunProgress& progress) { stop = progress.session.phase() == Phase::done; };
     EXPECT_EQ(run_to_end(session, store, control), RunEnd::stopped);
   }
-  EXPECT_EQ(run_presence(path), RunPresence::folder);
-  EXPECT_EQ(RunFile::open(path).all_frame_tilts().size(), 4u);
-  Checkpoint checkpoint;
-  RunStore store = RunStore::resume(path, header, checkpoint);
+  EXPECT_EQ(io::run_presence(path), io::RunPresence::folder);
+  EXPECT_EQ(io::RunFile::open(path).all_frame_tilts().size(), 4u);
+  io::Checkpoint checkpoint;
+  io::RunStore store = io::RunStore::resume(path, header, checkpoint);
   Session resumed(scenario, std::move(checkpoint));
   EXPECT_EQ(run_to_end(resumed, store, {}), RunEnd::complete);
-  EXPECT_EQ(run_presence(path), RunPresence::packed);
+  EXPECT_EQ(io::run_presence(path), io::RunPresence::packed);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

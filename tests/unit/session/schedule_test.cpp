@@ -11,7 +11,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// Every value is another number.
@@ -39,13 +39,13 @@ Schedule full_schedule() {
   return s;
 }
 
-Checkpoint stored(const Schedule& schedule, bool follows = true) {
-  Checkpoint checkpoint;
+io::Checkpoint stored(const Schedule& schedule, bool follows = true) {
+  io::Checkpoint checkpoint;
   store_schedule(schedule, follows, checkpoint);
   return checkpoint;
 }
 
-Schedule read(const Checkpoint& checkpoint, bool follows = true) {
+Schedule read(const io::Checkpoint& checkpoint, bool follows = true) {
   return stored_schedule(checkpoint, follows, "run.h5");
 }
 
@@ -56,7 +56,7 @@ std::vector<std::string> names(const Named& values) {
   return found;
 }
 
-std::string refusal(const Checkpoint& checkpoint) {
+std::string refusal(const io::Checkpoint& checkpoint) {
   try {
     read(checkpoint);
   } catch (const Error& error) {
@@ -67,7 +67,7 @@ std::string refusal(const Checkpoint& checkpoint) {
 }
 
 TEST(Schedule, comes_back_from_a_checkpoint_as_it_was) {
-  const Checkpoint checkpoint = stored(full_schedule()), again = stored(read(checkpoint));
+  const io::Checkpoint checkpoint = stored(full_schedule()), again = stored(read(checkpoint));
   EXPECT_EQ(schedule_hash(read(checkpoint)), schedule_hash(full_schedule()));
   EXPECT_EQ(again.integers, checkpoint.integers);
   EXPECT_EQ(again.reals, checkpoint.reals);
@@ -76,22 +76,22 @@ TEST(Schedule, comes_back_from_a_checkpoint_as_it_was) {
 }
 
 TEST(Schedule, each_stored_value_counts) {
-  const Checkpoint checkpoint = stored(full_schedule());
+  const io::Checkpoint checkpoint = stored(full_schedule());
   const std::uint64_t hash = schedule_hash(full_schedule());
   for (std::size_t k = 0; k < checkpoint.integers.size(); ++k) {
-    Checkpoint other = checkpoint;
+    io::Checkpoint other = checkpoint;
     other.integers[k].second = other.integers[k].second == 1 ? 0 : 1;
     EXPECT_NE(schedule_hash(read(other)), hash) << checkpoint.integers[k].first;
   }
   for (std::size_t k = 0; k < checkpoint.reals.size(); ++k) {
-    Checkpoint other = checkpoint;
+    io::Checkpoint other = checkpoint;
     other.reals[k].second = std::nextafter(other.reals[k].second, 100.0);
     EXPECT_NE(schedule_hash(read(other)), hash) << checkpoint.reals[k].first;
   }
 }
 
 TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
-  const Checkpoint plain = stored({}, false);
+  const io::Checkpoint plain = stored({}, false);
   EXPECT_EQ(names(plain.integers),
             (std::vector<std::string>{"phase", "tilt_steps", "quiet_steps", "flowing", "failed",
                                       "unconverged_deposition", "unconverged_tilt"}));
@@ -104,7 +104,7 @@ TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
   EXPECT_EQ(names(plain.timing),
             (std::vector<std::string>{"deposition", "tilt", "stage_move", "stage_detect", "stage_recall",
                                       "stage_assemble", "stage_solve", "stage_store"}));
-  const Checkpoint full = stored(full_schedule());
+  const io::Checkpoint full = stored(full_schedule());
   const auto added = [](const std::vector<std::string>& all, std::size_t from) {
     return std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
   };
@@ -122,18 +122,18 @@ TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
 }
 
 TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
-  const Checkpoint checkpoint = stored(full_schedule());
-  Checkpoint lacks = checkpoint;
+  const io::Checkpoint checkpoint = stored(full_schedule());
+  io::Checkpoint lacks = checkpoint;
   std::erase_if(lacks.reals, [](const auto& named) { return named.first == "tilt_from"; });
   EXPECT_EQ(refusal(lacks),
             "run.h5: data set /checkpoint/reals/tilt_from is missing; without it the run cannot go on");
-  Checkpoint phase = checkpoint, steps = checkpoint;
+  io::Checkpoint phase = checkpoint, steps = checkpoint;
   phase.integers[0].second = 4;
   EXPECT_EQ(refusal(phase), "run.h5: data set /checkpoint/integers/phase is 4, expected 0, 1, 2 or 3");
   steps.integers[1].second = -1;
   EXPECT_EQ(refusal(steps),
             "run.h5: data set /checkpoint/integers/tilt_steps is -1, expected a number of steps");
-  for (Checkpoint other = checkpoint; auto& [name, value] : other.reals) {
+  for (io::Checkpoint other = checkpoint; auto& [name, value] : other.reals) {
     const double was = std::exchange(value, std::nan(""));
     EXPECT_EQ(refusal(other),
               "run.h5: data set /checkpoint/reals/" + name + " is nan, expected a finite number");
@@ -145,7 +145,7 @@ TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
     EXPECT_EQ(std::string(error.what()),
               "run.h5: data set /branch/integers/phase is 4, expected 0, 1, 2 or 3");
   }
-  Checkpoint untimed = checkpoint;
+  io::Checkpoint untimed = checkpoint;
   untimed.timing.clear();
   EXPECT_EQ(read(untimed).seconds.tilt, 0.0) << "wall times are no state";
 }
@@ -154,10 +154,10 @@ TEST(Schedule, of_a_slope_at_rest_has_its_angle_and_one_before_has_none) {
   EXPECT_EQ(read(stored(full_schedule())).angle_at_rest, 0.28);
   Schedule flowing = full_schedule();
   flowing.angle_at_rest.reset();
-  const Checkpoint checkpoint = stored(flowing);
+  const io::Checkpoint checkpoint = stored(flowing);
   EXPECT_TRUE(std::isnan(*find_value(checkpoint.results, "theta_r")));
   EXPECT_FALSE(read(checkpoint).angle_at_rest);
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

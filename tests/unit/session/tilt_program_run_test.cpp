@@ -20,13 +20,13 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::session {
 namespace {
 
 /// By 0.02 deg a step of 1 ms; held, lowered slowly, and tilted to the other side.
-Scenario programmed_bed(std::vector<std::string> program = {"to 1", "hold 0.03", "to 0.2 at 10", "to -0.5",
-                                                            "2 times"}) {
-  Scenario scenario = test::small_tilted_bed(1.0);
+scenario::Scenario programmed_bed(std::vector<std::string> program = {"to 1", "hold 0.03", "to 0.2 at 10",
+                                                                      "to -0.5", "2 times"}) {
+  scenario::Scenario scenario = test::small_tilted_bed(1.0);
   scenario.tilt.end_angle.reset();
   scenario.tilt.program = std::move(program);
   return scenario;
@@ -41,17 +41,17 @@ void begin_tilt(Session& session) {
 }
 
 /// Carries a run through into a file.
-RunFile run_of(const Scenario& scenario, const std::string& path) {
+io::RunFile run_of(const scenario::Scenario& scenario, const std::string& path) {
   Session session(scenario);
-  const RunHeader header = run_header(session, {});
-  RunStore store = RunStore::create(path, header, false);
+  const io::RunHeader header = run_header(session, {});
+  io::RunStore store = io::RunStore::create(path, header, false);
   EXPECT_EQ(run_to_end(session, store, {}), RunEnd::complete);
-  return RunFile::open(path);
+  return io::RunFile::open(path);
 }
 
 TEST(TiltProgramRun, has_the_tilt_of_its_programme_in_every_step) {
-  const Scenario scenario = programmed_bed();
-  const TiltProgram program(scenario);
+  const scenario::Scenario scenario = programmed_bed();
+  const scenario::TiltProgram program(scenario);
   Session session(scenario);
   begin_tilt(session);
   EXPECT_EQ(session.world().tilt, 0.0);
@@ -65,14 +65,14 @@ TEST(TiltProgramRun, has_the_tilt_of_its_programme_in_every_step) {
     ASSERT_EQ(tilts[k], program.tilt(static_cast<std::int64_t>(k) + 1)) << k;
   EXPECT_EQ(tilts[49], radians(1.0));
   EXPECT_EQ(tilts[79], radians(1.0)) << "held for 30 steps";
-  EXPECT_EQ(tilts[80], radians(1.0) - radians(10.0 * time_step(scenario))) << "10 deg/s";
+  EXPECT_EQ(tilts[80], radians(1.0) - radians(10.0 * scenario::time_step(scenario))) << "10 deg/s";
   EXPECT_EQ(tilts[159], radians(0.2));
   EXPECT_EQ(tilts.back(), radians(-0.5));
   EXPECT_EQ(session.angle_of_repose(), std::nullopt);
 }
 
 TEST(TiltProgramRun, to_repose_alone_is_the_run_without_a_programme) {
-  Scenario plain = programmed_bed({});
+  scenario::Scenario plain = programmed_bed({});
   plain.tilt.end_angle.reset();
   Session without(plain), with(programmed_bed({"to repose"})),
       parts(programmed_bed({"to 3 at 20", "to repose"}));
@@ -86,8 +86,8 @@ TEST(TiltProgramRun, to_repose_alone_is_the_run_without_a_programme) {
 
 TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
   const test::TemporaryFolder folder;
-  const Scenario scenario = programmed_bed();
-  const RunFile run = run_of(scenario, folder.path("run.h5"));
+  const scenario::Scenario scenario = programmed_bed();
+  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
   EXPECT_TRUE(run.has_program());
   EXPECT_EQ(run.frame_count(), run.all_frame_tilts().size());
   std::vector<std::int64_t> steps;
@@ -110,7 +110,7 @@ TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
 }
 
 TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
-  const Scenario scenario = programmed_bed();
+  const scenario::Scenario scenario = programmed_bed();
   Session whole(scenario);
   run_through(whole);
   // The tilt begins at 0: its steps 60 (held), 100 (slowly down), 180 (below 0 soon), 193, 194 and 195 (a
@@ -130,12 +130,12 @@ TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
 }
 
 TEST(TiltProgramRun, resumed_again_and_again_and_replayed_gives_the_same_bits) {
-  const Scenario scenario = programmed_bed();
+  const scenario::Scenario scenario = programmed_bed();
   Session whole(scenario);
   run_through(whole);
   std::optional<Session> parts(std::in_place, scenario);
   while (parts->phase() != Phase::done) {
-    const Checkpoint checkpoint = parts->checkpoint(0.0);
+    const io::Checkpoint checkpoint = parts->checkpoint(0.0);
     parts.emplace(scenario, checkpoint);
     for (int k = 0; k < 7; ++k) parts->advance();
   }
@@ -146,7 +146,7 @@ TEST(TiltProgramRun, resumed_again_and_again_and_replayed_gives_the_same_bits) {
 }
 
 TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
-  const Scenario scenario = programmed_bed();
+  const scenario::Scenario scenario = programmed_bed();
   Session session(scenario);
   begin_tilt(session);
   EXPECT_NEAR(degrees(session.tilt_rate()), 20.0, 1e-9);
@@ -162,7 +162,7 @@ TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
   session.apply({0, CommandKind::tilt_rate, -1, 5.0, 0.0});
   EXPECT_FALSE(session.follows_program());
   for (int k = 0; k < 400; ++k) session.advance();
-  EXPECT_NEAR(degrees(session.world().tilt - before), 400 * 5.0 * time_step(scenario), 1e-9);
+  EXPECT_NEAR(degrees(session.world().tilt - before), 400 * 5.0 * scenario::time_step(scenario), 1e-9);
   EXPECT_EQ(session.phase(), Phase::tilt) << "no longer than the programme, but until the slope fails";
 
   Session again(scenario);
@@ -175,17 +175,17 @@ TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
 }
 
 /// A bed without friction flows as soon as it is tilted.
-Scenario slippery_bed(std::vector<std::string> program) {
-  Scenario scenario = programmed_bed(std::move(program));
+scenario::Scenario slippery_bed(std::vector<std::string> program) {
+  scenario::Scenario scenario = programmed_bed(std::move(program));
   scenario.contact.friction = 0.0;
-  scenario.bed.floor = BedFloor::smooth;
+  scenario.bed.floor = scenario::BedFloor::smooth;
   return scenario;
 }
 
 TEST(TiltProgramRun, ends_with_failure_on_either_side) {
   for (const double side : {1.0, -1.0}) {
     const test::TemporaryFolder folder;
-    const RunFile run =
+    const io::RunFile run =
         run_of(slippery_bed({side > 0.0 ? "to 30" : "to -30", "hold 100"}), folder.path("run.h5"));
     const double end = run.checkpoint().world.tilt;
     const auto theta_c = find_value(run.checkpoint().results, "theta_c");
@@ -200,10 +200,10 @@ TEST(TiltProgramRun, ends_with_failure_on_either_side) {
 TEST(TiltProgramRun, is_followed_by_the_flow_that_is_asked_for) {
   for (const double side : {1.0, -1.0}) {
     const test::TemporaryFolder folder;
-    Scenario scenario = slippery_bed({"to 1", side > 0.0 ? "to 30" : "to -30"});
-    scenario.tilt.after_failure = AfterFailure::lower;
+    scenario::Scenario scenario = slippery_bed({"to 1", side > 0.0 ? "to 30" : "to -30"});
+    scenario.tilt.after_failure = scenario::AfterFailure::lower;
     scenario.tilt.lowering_rate = 100.0;
-    const RunFile run = run_of(scenario, folder.path("run.h5"));
+    const io::RunFile run = run_of(scenario, folder.path("run.h5"));
     ASSERT_GT(run.all_frame_tilts().size(), run.frame_count()) << "frames of the flow";
     ASSERT_GT(run.all_observables().size(), run.observables().size());
     EXPECT_EQ(side * std::ranges::max(run.all_frame_tilts(), {}, [side](double tilt) { return side * tilt; }),
@@ -217,12 +217,12 @@ TEST(TiltProgramRun, is_followed_by_the_flow_that_is_asked_for) {
 
 TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_last_rise) {
   const test::TemporaryFolder folder;
-  Scenario scenario = programmed_bed({"to 3", "to 1", "to 2", "to 0"});
+  scenario::Scenario scenario = programmed_bed({"to 3", "to 1", "to 2", "to 0"});
   scenario.output.frame_every = 0.2;
-  const RunFile run = run_of(scenario, folder.path("run.h5"));
-  AnalysisParameters parameters;
+  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
+  analysis::AnalysisParameters parameters;
   parameters.gamma_c = 0.3;
-  const Analysis analysis = analyse_run(run, parameters, 1, {});
+  const analysis::Analysis analysis = runs::analyse_run(run, parameters, 1, {});
   ASSERT_EQ(analysis.frames.size(), run.frame_count());
   const std::vector<ObservableRow> rows = run.observables();
   for (std::size_t k = 0; k < analysis.frames.size(); ++k) {
@@ -232,7 +232,7 @@ TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_l
     ASSERT_NE(row, rows.end());
     EXPECT_EQ(analysis.frames[k].volume_strain, at(*row, Observable::volume_strain)) << k;
   }
-  const FramesOfRise rise = last_rise(analysis.frames);
+  const analysis::FramesOfRise rise = analysis::last_rise(analysis.frames);
   EXPECT_NEAR(degrees(rise.tilts.front()), 1.0, 1e-9);
   EXPECT_NEAR(degrees(rise.tilts.back()), 2.0, 1e-9);
   for (const double found : {analysis.thresholds.front().lc_jump, analysis.dilation[0], analysis.first_slide})
@@ -242,14 +242,14 @@ TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_l
 /// The problem of the step after a frame has the tilt that the run gave it.
 TEST(StepProblem, of_a_run_with_a_programme_is_that_of_its_next_step) {
   const test::TemporaryFolder folder;
-  const Scenario scenario = programmed_bed();
-  const RunFile run = run_of(scenario, folder.path("run.h5"));
-  const TiltProgram program(scenario);
+  const scenario::Scenario scenario = programmed_bed();
+  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
+  const scenario::TiltProgram program(scenario);
   for (std::size_t k = 0; k + 1 < run.frame_count(); ++k)
-    EXPECT_EQ(problem_after_frame(run, k).scales.tilt,
+    EXPECT_EQ(problems::problem_after_frame(run, k).scales.tilt,
               program.tilt(run.positions(k).step - run.positions(0).step + 1))
         << k;
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::session

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 void expect_impulse(const Impulse& p, double normal, double tangential) {
@@ -50,4 +50,4 @@ TEST(ContactLaw, solving_a_contact_stops_the_relative_velocity) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

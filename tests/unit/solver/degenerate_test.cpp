@@ -14,7 +14,7 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 constexpr double tolerance = 1e-8;
@@ -267,4 +267,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

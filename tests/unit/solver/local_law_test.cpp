@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 RelativeVelocity after(const DelassusBlock& w, Impulse p, RelativeVelocity b) {
@@ -110,4 +110,4 @@ TEST(LocalLaw, residual_is_that_of_the_bodies) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

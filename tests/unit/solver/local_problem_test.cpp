@@ -5,7 +5,7 @@
 #include "core/random.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// Column d of W by its meaning: the velocities that a unit impulse gives, over those without it. The bodies
@@ -114,4 +114,4 @@ TEST(LocalProblem, of_no_contacts_is_empty) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

@@ -9,7 +9,7 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 TEST(MeanOfIterates, is_that_of_all_values_since_the_first) {
@@ -72,7 +72,7 @@ TEST(MeanOfIterates, has_the_same_bits_on_any_number_of_threads) {
 
 /// The step of a bed that falls, which goes round in circles.
 test::FrozenStep step_in_circles() {
-  const StepSettings settings = test::bed_step(1e-6);
+  const dynamics::StepSettings settings = test::bed_step(1e-6);
   return test::next_problem(test::fallen_bed(test::bed_plan(false, 150, 16, 21), settings, 128), settings);
 }
 
@@ -101,4 +101,4 @@ TEST(MeanOfIterates, leaves_the_impulses_whose_residual_is_told) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

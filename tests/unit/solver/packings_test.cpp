@@ -9,15 +9,15 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// The packing of a seed: periodic or walled, with and without friction, moving or at rest, and every fifth
 /// with restitution as its first grains reach the floor.
 test::FrozenStep packing(std::uint64_t seed) {
-  StepSettings settings = test::bed_step(1e-8, seed % 4 == 0 ? 0.0 : 0.5);
+  dynamics::StepSettings settings = test::bed_step(1e-8, seed % 4 == 0 ? 0.0 : 0.5);
   settings.law.restitution = seed % 5 == 0 ? 0.5 : 0.0;
-  const BedPlan plan = test::bed_plan(seed % 2 == 0, 24, 6, seed);
+  const dynamics::BedPlan plan = test::bed_plan(seed % 2 == 0, 24, 6, seed);
   World world = test::fallen_bed(plan, settings, 75 + 25 * static_cast<int>(seed % 5));
   world.tilt = 0.02 * static_cast<double>(seed % 6);
   test::FrozenStep frozen = test::next_problem(world, settings);
@@ -61,7 +61,7 @@ TEST_P(Packing, solvers_agree_on_velocities) {
   EXPECT_TRUE(first.converged) << first.residual.eta;
   EXPECT_TRUE(second.converged) << second.residual.eta;
   const double fall = 9.81 * test::time_step;
-  const double rim = 0.5 * BedPlan{}.mean_diameter;
+  const double rim = 0.5 * dynamics::BedPlan{}.mean_diameter;
   const double difference = std::max({largest_difference(reference.vx, accelerated.vx),
                                       largest_difference(reference.vy, accelerated.vy),
                                       rim * largest_difference(reference.omega, accelerated.omega)});
@@ -126,9 +126,9 @@ double difference_of_solvers(const ContactProblem& problem, const ContactSolutio
   EXPECT_TRUE(
       solve(problem, settings_of(SolverKind::accelerated, 1e-10, 50000), workspace, accelerated).converged);
   alike = workspace.accelerated.linearisation.are_alike;
-  return std::max({largest_difference(reference.vx, accelerated.vx),
-                   largest_difference(reference.vy, accelerated.vy),
-                   0.5 * BedPlan{}.mean_diameter * largest_difference(reference.omega, accelerated.omega)});
+  return std::max(
+      {largest_difference(reference.vx, accelerated.vx), largest_difference(reference.vy, accelerated.vy),
+       0.5 * dynamics::BedPlan{}.mean_diameter * largest_difference(reference.omega, accelerated.omega)});
 }
 
 // Sweeps take a shorter way where all contacts have the same friction and all bodies are disks.
@@ -178,4 +178,4 @@ TEST(Columns, that_change_give_a_new_order) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

@@ -7,7 +7,7 @@
 #include "core/random.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// The problem in dense form, written down from the definitions: U = W P + b, W = H^T M^-1 H,
@@ -126,4 +126,4 @@ TEST(Problem, impulses_push_b_along_the_normal_and_a_back) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

@@ -6,7 +6,7 @@
 
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 Residual residual_at(const ContactProblem& problem, const std::vector<double>& pn,
@@ -83,4 +83,4 @@ TEST(Residual, does_not_depend_on_units) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

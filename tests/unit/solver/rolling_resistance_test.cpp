@@ -9,7 +9,7 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 /// A disk of 2 kg and radius 0.1 falls at 1 m/s on a fixed one of radius 0.2 along which it slides at 0.6
@@ -92,7 +92,7 @@ TEST_P(RollingResistance, forgets_its_guess_where_the_contact_opens) {
 
 // Velocities and residual of a bed are those of its impulses, which obey the bounds of the law.
 TEST_P(RollingResistance, of_a_bed_obeys_its_law) {
-  StepSettings settings = test::bed_step();
+  dynamics::StepSettings settings = test::bed_step();
   settings.law.rolling_friction = 0.1;
   const World world = test::fallen_bed(test::bed_plan(true, 30, 6, 2), settings, 100);
   const auto [contacts, problem, guess] = test::next_problem(world, settings);
@@ -149,15 +149,15 @@ class RollingPacking : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RollingPacking, testing::Range(1, 13));
 
-StepSettings rolling_settings(int seed) {
-  StepSettings settings = test::bed_step(1e-8);
+dynamics::StepSettings rolling_settings(int seed) {
+  dynamics::StepSettings settings = test::bed_step(1e-8);
   settings.law.rolling_friction = seed % 2 == 0 ? 0.05 : 0.3;
   return settings;
 }
 
 test::FrozenStep packing(int seed) {
-  const StepSettings settings = rolling_settings(seed);
-  const BedPlan plan = test::bed_plan(seed % 3 == 0, 24, 6, static_cast<std::uint64_t>(seed));
+  const dynamics::StepSettings settings = rolling_settings(seed);
+  const dynamics::BedPlan plan = test::bed_plan(seed % 3 == 0, 24, 6, static_cast<std::uint64_t>(seed));
   World world = test::fallen_bed(plan, settings, 75 + 25 * (seed % 5));
   world.tilt = 0.04 * (seed % 6);
   test::FrozenStep frozen = test::next_problem(world, settings);
@@ -217,4 +217,4 @@ TEST_P(RollingPacking, the_same_problem_has_the_same_bits) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

@@ -10,7 +10,8 @@
 
 namespace talus::test {
 
-void add_body(ContactProblem& problem, double mass, double radius, double vx, double vy, double omega) {
+void add_body(solver::ContactProblem& problem, double mass, double radius, double vx, double vy,
+              double omega) {
   problem.vx.push_back(vx);
   problem.vy.push_back(vy);
   problem.omega.push_back(omega);
@@ -19,8 +20,8 @@ void add_body(ContactProblem& problem, double mass, double radius, double vx, do
   problem.lever.push_back(radius);
 }
 
-void add_contact(ContactProblem& problem, Index a, Index b, double nx, double ny, double mu, double cn,
-                 double ct) {
+void add_contact(solver::ContactProblem& problem, Index a, Index b, double nx, double ny, double mu,
+                 double cn, double ct) {
   problem.a.push_back(a);
   problem.b.push_back(b);
   problem.nx.push_back(nx);
@@ -30,17 +31,17 @@ void add_contact(ContactProblem& problem, Index a, Index b, double nx, double ny
   problem.ct.push_back(ct);
 }
 
-ContactProblem one_contact(double vx, double mu) {
-  ContactProblem problem;
+solver::ContactProblem one_contact(double vx, double mu) {
+  solver::ContactProblem problem;
   add_body(problem, 2.0, 0.1, vx, -1.0, 0.0);
   add_body(problem, 0.0, 0.2, 0.0, 0.0, 0.0);
   add_contact(problem, 0, 1, 0.0, -1.0, mu);
   return problem;
 }
 
-ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) {
+solver::ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) {
   Random random(seed);
-  ContactProblem problem;
+  solver::ContactProblem problem;
   for (Index i = 0; i < bodies; ++i) {
     const bool fixed = i % 5 == 4;
     add_body(problem, fixed ? 0.0 : random.uniform(0.5, 2.0), random.uniform(0.5, 2.0),
@@ -58,9 +59,9 @@ ContactProblem random_problem(std::uint64_t seed, Index bodies, Index contacts) 
   return problem;
 }
 
-ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_each) {
+solver::ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_each) {
   Random random(seed);
-  ContactProblem problem;
+  solver::ContactProblem problem;
   problem.columns = columns;
   std::vector<Index> next(
       static_cast<std::size_t>(columns));  // in a shuffled order, another one for each layer
@@ -95,8 +96,8 @@ ContactProblem columns_problem(std::uint64_t seed, Index columns, Index bodies_e
   return problem;
 }
 
-ContactSolution no_guess(const ContactProblem& problem) {
-  ContactSolution solution;
+solver::ContactSolution no_guess(const solver::ContactProblem& problem) {
+  solver::ContactSolution solution;
   solution.pn.assign(static_cast<std::size_t>(problem.contact_count()), 0.0);
   solution.pt = solution.pn;
   if (problem.resists_rolling()) solution.pr = solution.pn;

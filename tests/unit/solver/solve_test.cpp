@@ -8,7 +8,7 @@
 #include "support/scenes.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 class Solve : public testing::TestWithParam<SolverKind> {
@@ -134,7 +134,7 @@ TEST_P(Solve, a_row_of_disks_adds_up_its_momentum) {
 }
 
 TEST_P(Solve, says_so_when_it_did_not_converge) {
-  const StepSettings settings = test::bed_step();
+  const dynamics::StepSettings settings = test::bed_step();
   const World world = test::fallen_bed(test::bed_plan(true, 30, 6, 1), settings, 100);
   const auto [contacts, problem, guess] = test::next_problem(world, settings);
   ContactSolution solution = test::no_guess(problem);
@@ -146,7 +146,7 @@ TEST_P(Solve, says_so_when_it_did_not_converge) {
 }
 
 TEST_P(Solve, its_residual_and_velocities_are_those_of_its_impulses) {
-  const StepSettings settings = test::bed_step();
+  const dynamics::StepSettings settings = test::bed_step();
   const World world = test::fallen_bed(test::bed_plan(true, 30, 6, 2), settings, 100);
   const auto [contacts, problem, guess] = test::next_problem(world, settings);
   ContactSolution solution = guess;
@@ -173,7 +173,7 @@ TEST_P(Solve, its_residual_and_velocities_are_those_of_its_impulses) {
 }
 
 TEST_P(Solve, starts_from_the_guess) {
-  const StepSettings settings = test::bed_step();
+  const dynamics::StepSettings settings = test::bed_step();
   const World world = test::fallen_bed(test::bed_plan(true, 30, 6, 2), settings, 100);
   const auto [contacts, problem, guess] = test::next_problem(world, settings);
   ContactSolution cold = test::no_guess(problem);
@@ -219,4 +219,4 @@ TEST(GaussSeidel, a_sweep_keeps_velocities_and_impulses_together) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

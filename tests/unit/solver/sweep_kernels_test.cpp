@@ -13,7 +13,7 @@
 #include "core/random.h"
 #include "solver/residual.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 constexpr float beta = 0.7F, friction = 0.5F;
@@ -430,4 +430,4 @@ TEST(SweepKernels, look_at_contacts_as_the_contact_law_does) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

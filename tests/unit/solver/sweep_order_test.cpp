@@ -16,7 +16,7 @@
 #include "core/random.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 struct Graph {
@@ -288,4 +288,4 @@ TEST(OrderOfSweep, has_work_for_several_threads_on_a_large_bed_only) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

@@ -7,7 +7,7 @@
 #include "solver/accelerated.h"
 #include "unit/solver/small_problems.h"
 
-namespace talus {
+namespace talus::solver {
 namespace {
 
 constexpr double window = 0.05;  // s: more than one needs
@@ -136,4 +136,4 @@ TEST(TeamOfSolve, and_what_was_learnt_of_it_stay_over_a_problem_that_needs_none)
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::solver

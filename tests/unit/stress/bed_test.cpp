@@ -7,7 +7,7 @@
 #include "core/trigonometry.h"
 #include "unit/stress/beds.h"
 
-namespace talus {
+namespace talus::stress {
 namespace {
 
 using test::add_grain;
@@ -55,4 +55,4 @@ TEST(CoordinationNumber, counts_each_force_for_each_free_grain_it_touches) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::stress

@@ -10,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "unit/stress/beds.h"
 
-namespace talus {
+namespace talus::stress {
 namespace {
 
 using test::add_grain;
@@ -247,4 +247,4 @@ TEST(SurfaceInclination, of_no_bed_is_nothing) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::stress

@@ -10,7 +10,7 @@
 #include "stress/stress_state.h"
 #include "support/scenes.h"
 
-namespace talus {
+namespace talus::stress {
 namespace {
 
 constexpr double r = 0.5;
@@ -181,4 +181,4 @@ TEST(InternalMoment, used_arrays_are_written_anew) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::stress

@@ -8,7 +8,7 @@
 #include "core/trigonometry.h"
 #include "stress/overload.h"
 
-namespace talus {
+namespace talus::stress {
 namespace {
 
 /// Principal values s1, s2 with the major direction at `angle` to x.
@@ -67,4 +67,4 @@ TEST(Overload, begins_at_the_threshold_and_leaves_out_grains_that_carry_nothing)
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::stress

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using Part = HeldBar::Part;
@@ -42,4 +42,4 @@ TEST(BarRange, ends_are_round) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

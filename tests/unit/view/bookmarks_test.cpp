@@ -13,7 +13,7 @@
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 std::vector<std::string> notes_of(const std::vector<Bookmark>& bookmarks) {
@@ -129,4 +129,4 @@ TEST_F(BookmarksOfRun, that_cannot_be_written_are_not_there) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

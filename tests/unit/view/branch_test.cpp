@@ -15,7 +15,7 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// The state after so many steps more; it waits for them.
@@ -88,22 +88,23 @@ TEST(Back, of_a_recorded_run_goes_on_in_another_file) {
     run.back(other);
     end = after_steps(run, 600).state_hash;
   }
-  const RunFile first = RunFile::open(one), second = RunFile::open(other);
+  const io::RunFile first = io::RunFile::open(one), second = io::RunFile::open(other);
   EXPECT_EQ(first.commands().size(), 1u);
   EXPECT_TRUE(second.commands().empty());
-  EXPECT_TRUE(check_run(second, {}).faults.empty());
-  for (const RunFile* run : {&first, &second}) {
-    Session again = session_at_start(run->header(), "run");
-    replay(again, nullptr, run->commands(), run->checkpoint().world.step, {});
+  EXPECT_TRUE(session::check_run(second, {}).faults.empty());
+  for (const io::RunFile* run : {&first, &second}) {
+    session::Session again = session::session_at_start(run->header(), "run");
+    session::replay(again, nullptr, run->commands(), run->checkpoint().world.step, {});
     EXPECT_EQ(state_hash(again.world()), state_hash(run->checkpoint().world));
   }
 }
 
 void record_run(const std::string& path) {
-  const Scenario scenario = test::small_tilted_bed(3.0);
-  Session session(scenario);
-  RunStore store = RunStore::create(path, run_header(session, {resolved_toml(scenario), {}, {}, 1}), false);
-  run_to_end(session, store, {});
+  const scenario::Scenario scenario = test::small_tilted_bed(3.0);
+  session::Session session(scenario);
+  io::RunStore store = io::RunStore::create(
+      path, session::run_header(session, {scenario::resolved_toml(scenario), {}, {}, 1}), false);
+  session::run_to_end(session, store, {});
 }
 
 TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
@@ -134,16 +135,16 @@ TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
   const std::string hash = after_steps(*model.live(), 60).state_hash;
   model.record(model.state.run_path);
   { const ViewModel ended = std::move(model); }
-  const RunFile branch = RunFile::open(folder.path("run-branch-1.h5"));
+  const io::RunFile branch = io::RunFile::open(folder.path("run-branch-1.h5"));
   EXPECT_EQ(hash_text(state_hash(branch.checkpoint().world)), hash);
   ASSERT_TRUE(branch.header().branch);
   EXPECT_EQ(branch.header().branch->run, folder.path("run.h5"));
   EXPECT_EQ(branch.header().branch->frame, 3);
   EXPECT_EQ(branch.header().branch->start.world.step, shown.step);
   EXPECT_EQ(branch.header().branch->run_hash,
-            hash_text(state_hash(RunFile::open(folder.path("run.h5")).checkpoint().world)));
-  Session again = session_at_start(branch.header(), "branch");
-  replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
+            hash_text(state_hash(io::RunFile::open(folder.path("run.h5")).checkpoint().world)));
+  session::Session again = session::session_at_start(branch.header(), "branch");
+  session::replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
   EXPECT_EQ(hash_text(state_hash(again.world())), hash);
 }
 
@@ -199,4 +200,4 @@ TEST(BranchView, stays_a_replay_where_the_run_ends) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

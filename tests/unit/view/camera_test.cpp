@@ -9,21 +9,21 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-const MapExtent bed{0.0, 100.0, -1.0, 19.0};
+const pictures::MapExtent bed{0.0, 100.0, -1.0, 19.0};
 
-MapExtent part(const ViewCamera& camera, double aspect, double turn_deg = 0.0) {
+pictures::MapExtent part(const ViewCamera& camera, double aspect, double turn_deg = 0.0) {
   return shown_part(camera, bed, 1.0, aspect, radians(turn_deg));
 }
 
-double length(const MapExtent& of) { return of.x_max - of.x_min; }
-double depth(const MapExtent& of) { return of.y_max - of.y_min; }
+double length(const pictures::MapExtent& of) { return of.x_max - of.x_min; }
+double depth(const pictures::MapExtent& of) { return of.y_max - of.y_min; }
 
 TEST(Camera, shows_all_of_the_bed_in_the_middle_of_the_picture) {
   for (const double aspect : {0.5, 2.0, 5.0, 20.0}) {
-    const MapExtent shown = part({3.0, 3.0, 1.0}, aspect);
+    const pictures::MapExtent shown = part({3.0, 3.0, 1.0}, aspect);
     EXPECT_NEAR(length(shown) / depth(shown), aspect, 1e-12);
     EXPECT_LE(shown.x_min, 1e-12);
     EXPECT_GE(shown.x_max, 100.0 - 1e-12);
@@ -36,7 +36,7 @@ TEST(Camera, shows_all_of_the_bed_in_the_middle_of_the_picture) {
 }
 
 TEST(Camera, zooms_about_its_centre) {
-  const MapExtent shown = part({40.0, 9.0, 10.0}, 2.0);
+  const pictures::MapExtent shown = part({40.0, 9.0, 10.0}, 2.0);
   EXPECT_NEAR(shown.x_min, 35.0, 1e-12);
   EXPECT_NEAR(shown.x_max, 45.0, 1e-12);
   EXPECT_NEAR(shown.y_min, 6.5, 1e-12);
@@ -44,7 +44,7 @@ TEST(Camera, zooms_about_its_centre) {
 }
 
 TEST(Camera, does_not_lose_the_bed) {
-  const MapExtent corner = part({1000.0, -1000.0, 10.0}, 2.0);
+  const pictures::MapExtent corner = part({1000.0, -1000.0, 10.0}, 2.0);
   EXPECT_NEAR(corner.x_max, 100.0, 1e-12);
   EXPECT_NEAR(corner.y_min, -1.0, 1e-12);
   EXPECT_NEAR(length(corner), 10.0, 1e-12);
@@ -56,7 +56,7 @@ TEST(Camera, does_not_lose_the_bed) {
 TEST(Camera, finds_the_part_that_fills_the_picture_when_it_is_turned) {
   for (const double turn : {5.0, 20.0, 35.0})
     for (const double aspect : {0.8, 1.3, 1.7}) {
-      const MapExtent shown = part({50.0, 9.0, 1.0}, aspect, turn);
+      const pictures::MapExtent shown = part({50.0, 9.0, 1.0}, aspect, turn);
       EXPECT_LE(shown.x_min, 1e-9);
       EXPECT_LE(shown.y_min, -1.0 + 1e-9);
       EXPECT_GE(depth(shown), 20.0 - 1e-9);
@@ -79,7 +79,7 @@ TEST(Camera, centred_is_where_the_part_is) {
 }
 
 TEST(Camera, common_part_is_what_lies_within_both) {
-  const MapExtent both = common_part(bed, {10.0, 200.0, -5.0, 7.0});
+  const pictures::MapExtent both = common_part(bed, {10.0, 200.0, -5.0, 7.0});
   EXPECT_EQ(both.x_min, 10.0);
   EXPECT_EQ(both.x_max, 100.0);
   EXPECT_EQ(both.y_min, -1.0);
@@ -87,4 +87,4 @@ TEST(Camera, common_part_is_what_lies_within_both) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -35,7 +35,7 @@ Frame bed_frame(double tilt, Index overloaded) {
     frame.x.push_back(column + 0.5);
     frame.y.push_back(row + 0.5);
     frame.internal_moment.push_back(floor ? Tensor2{} : Tensor2{1.0, 0.0, 0.0, over ? 0.0 : 1.0});
-    frame.gamma.push_back(stress_state(frame.internal_moment.back()).ratio);
+    frame.gamma.push_back(stress::stress_state(frame.internal_moment.back()).ratio);
   }
   frame.angle = frame.vx = frame.vy = frame.omega = std::vector(frame.x.size(), 0.0);
   frame.image.assign(frame.x.size(), 0);
@@ -57,10 +57,10 @@ Frame bed_frame(double tilt, Index overloaded) {
 }
 
 void write_run(const std::string& path, double theta_c, std::vector<Frame> frames) {
-  RunHeader header;
+  io::RunHeader header;
   header.statics = bed_statics();
   header.seed = 7;
-  Segment segment;
+  io::Segment segment;
   segment.frames = std::move(frames);
   for (int i = 0; i <= 50; ++i) {
     ObservableRow row{};
@@ -68,13 +68,13 @@ void write_run(const std::string& path, double theta_c, std::vector<Frame> frame
     at(row, Observable::time) = 0.05 * i;
     segment.observables.push_back(row);
   }
-  Checkpoint checkpoint;
+  io::Checkpoint checkpoint;
   checkpoint.world.boundary = {true, header.statics.length, {}};
   for (std::size_t i = 0; i < header.statics.radius.size(); ++i)
     add_disk(checkpoint.world.grains, {static_cast<double>(i), 0.0}, 0.5, 1.0,
              i >= static_cast<std::size_t>(header.statics.free_count));
   checkpoint.results = {{"theta_c", radians(theta_c)}};
-  RunStore store = RunStore::create(path, header, true);
+  io::RunStore store = io::RunStore::create(path, header, true);
   store.commit(segment, checkpoint);
   store.pack();
 }

@@ -9,7 +9,7 @@
 
 #include "base/errors.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 const std::vector<ExpressionName> names = {
@@ -108,4 +108,4 @@ TEST(Condition, no_nesting_uses_up_the_stack) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

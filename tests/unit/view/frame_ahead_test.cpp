@@ -11,7 +11,7 @@
 #include "pictures/overload_rule.h"
 #include "unit/view/example_bed.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 std::shared_ptr<const Frame> read_bed(std::size_t k) {
@@ -31,7 +31,8 @@ TEST(FrameAhead, makes_a_frame_as_the_view_would) {
   ASSERT_TRUE(made);
   const Frame stored = *read_bed(2);
   EXPECT_EQ(free_gamma(*made->stored), free_gamma(stored));
-  EXPECT_EQ(free_gamma(*made->mapped), free_gamma(mapped_frame(stored, example::bed_statics(), 3.0)));
+  EXPECT_EQ(free_gamma(*made->mapped),
+            free_gamma(pictures::mapped_frame(stored, example::bed_statics(), 3.0)));
   EXPECT_NE(free_gamma(*made->mapped), free_gamma(stored)) << "a neighbourhood of 3 D is more than a grain";
   EXPECT_FALSE(ahead.take(2, 3.0)) << "it has been taken";
 }
@@ -91,4 +92,4 @@ TEST(FrameAhead, has_none_that_cannot_be_read_or_is_of_another_bed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -15,10 +15,10 @@
 #include "unit/view/example_bed.h"
 #include "view/timeline.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-const OverloadRule rule{
+const pictures::OverloadRule rule{
     .theta_c = radians(20.0), .threshold_factor = 1.0, .joined_by_neighbours = false, .l_min = 0.0};
 
 std::shared_ptr<const Frame> read_bed(std::size_t k) {
@@ -27,9 +27,9 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
 }
 
 /// Takes in until so many frames were met, and says what is known of them.
-MetFrames wait_for(FrameSeries& series, std::size_t frames) {
+pictures::MetFrames wait_for(FrameSeries& series, std::size_t frames) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  PictureSeries pictures;
+  pictures::PictureSeries pictures;
   while (pictures.met.instants.size() < frames && series.error().empty() &&
          std::chrono::steady_clock::now() < end) {
     series.take_in(pictures);
@@ -41,7 +41,7 @@ MetFrames wait_for(FrameSeries& series, std::size_t frames) {
 TEST(FrameSeries, has_the_values_of_each_frame) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
-  PictureSeries pictures;
+  pictures::PictureSeries pictures;
   EXPECT_FALSE(series.take_in(pictures)) << "nothing was begun";
   series.begin(rule, {});
   EXPECT_FALSE(series.has_all_values());
@@ -49,7 +49,7 @@ TEST(FrameSeries, has_the_values_of_each_frame) {
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_TRUE(series.has_all_values());
   for (std::size_t k = 0; k < 6; ++k) {
-    const FrameRecord& values = series.values()[k];
+    const analysis::FrameRecord& values = series.values()[k];
     EXPECT_NEAR(values.tilt, radians(5.0 * static_cast<double>(k)), 1e-12);
     EXPECT_NEAR(values.thresholds[0].overloaded_fraction, example::overloaded_of_frames[k] / 40.0, 1e-12);
     EXPECT_EQ(values.thresholds[0].spans_depth, k >= 3 ? 1 : 0) << k;
@@ -70,7 +70,7 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 4);
   series.begin(rule, {});
-  const MetFrames met = wait_for(series, 6);
+  const pictures::MetFrames met = wait_for(series, 6);
   EXPECT_EQ(series.values().size(), 4u);
   ASSERT_EQ(met.cluster_colours.size(), 6u);
   EXPECT_TRUE(met.cluster_colours[0].empty());
@@ -81,8 +81,8 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
 TEST(FrameSeries, does_not_work_out_what_is_known) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
-  series.begin(rule,
-               std::vector(6, FrameRecord{.tilt = 1.0, .thresholds = {{.overloaded_fraction = 0.125}}}));
+  series.begin(rule, std::vector(6, analysis::FrameRecord{.tilt = 1.0,
+                                                          .thresholds = {{.overloaded_fraction = 0.125}}}));
   EXPECT_TRUE(series.has_all_values());
   EXPECT_EQ(wait_for(series, 6).cluster_colours.size(), 6u);
   ASSERT_EQ(series.values().size(), 6u);
@@ -94,11 +94,11 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   series.set_counts(6, 6);
   series.begin(rule, {});
   wait_for(series, 3);
-  OverloadRule other = rule;
+  pictures::OverloadRule other = rule;
   other.threshold_factor = 4.0;  // above 1: nothing is overloaded
   series.begin(other, {});
   EXPECT_TRUE(series.values().empty());
-  const MetFrames met = wait_for(series, 6);
+  const pictures::MetFrames met = wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.0);
   EXPECT_EQ(series.rule(), other);
@@ -110,7 +110,7 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
 TEST(FrameSeries, takes_grains_with_their_neighbours) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
-  OverloadRule with_neighbours = rule;
+  pictures::OverloadRule with_neighbours = rule;
   with_neighbours.l_min = 3.0;
   series.begin(with_neighbours, {});
   wait_for(series, 6);
@@ -146,10 +146,10 @@ TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
   });
   series.set_counts(3, 3);
   series.begin(rule, {});
-  ClusterColours tracker = wait_for(series, 3).tracker;
+  pictures::ClusterColours tracker = wait_for(series, 3).tracker;
   const RunStatics statics = example::bed_statics();
   const Frame frame = example::bed_frame(3.0, 2);
-  const auto next = tracker.next(overloaded_clusters({frame, statics}, {.theta_c = rule.theta_c}));
+  const auto next = tracker.next(pictures::overloaded_clusters({frame, statics}, {.theta_c = rule.theta_c}));
   EXPECT_EQ(next.at(0).track, 1);
 }
 
@@ -163,7 +163,7 @@ TEST(FrameSeries, leaves_out_what_was_begun_by_another_rule) {
   series.set_counts(2, 2);
   series.begin(rule, {});
   while (!reading) std::this_thread::yield();
-  OverloadRule other = rule;
+  pictures::OverloadRule other = rule;
   other.threshold_factor = 4.0;
   series.begin(other, {});
   go_on = true;
@@ -181,7 +181,7 @@ TEST(FrameSeries, says_why_a_frame_cannot_be_read) {
   series.begin(rule, {});
   wait_for(series, 6);
   EXPECT_EQ(series.error(), "frame 2 is damaged");
-  PictureSeries pictures;
+  pictures::PictureSeries pictures;
   while (series.take_in(pictures)) {
   }
   EXPECT_EQ(series.values().size(), 2u);
@@ -204,8 +204,8 @@ TEST(FrameSeries, ends_while_it_works) {
 
 /// The frame of a landmark of the bed, of which some rows and values are known.
 std::optional<std::size_t> frame_of(Landmark landmark, const std::vector<double>& tilts,
-                                    std::span<const ObservableRow> rows, std::span<const FrameRecord> values,
-                                    double theta_c) {
+                                    std::span<const ObservableRow> rows,
+                                    std::span<const analysis::FrameRecord> values, double theta_c) {
   TimelineSource source;
   source.tilts = tilts;
   source.times = source.all_times = std::vector<double>(tilts.size(), 0.0);
@@ -224,7 +224,7 @@ TEST(Landmarks, are_the_frames_where_values_change) {
   series.begin(rule, {});
   wait_for(series, 6);
   std::vector<double> tilts;
-  for (const FrameRecord& frame : series.values()) tilts.push_back(frame.tilt);
+  for (const analysis::FrameRecord& frame : series.values()) tilts.push_back(frame.tilt);
   const auto frame = [&](Landmark landmark, std::size_t known, double theta_c) {
     return frame_of(landmark, tilts, {}, std::span(series.values()).first(known), theta_c);
   };
@@ -250,4 +250,4 @@ TEST(Landmarks, dilation_begins_where_the_volume_is_smallest) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

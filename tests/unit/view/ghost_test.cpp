@@ -9,11 +9,13 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
-const Quantity& strain() { return quantity_of(&FrameRecord::volume_strain); }
-const Quantity& p_o() { return quantity_of(&FrameThreshold::overloaded_fraction); }
+const analysis::Quantity& strain() { return analysis::quantity_of(&analysis::FrameRecord::volume_strain); }
+const analysis::Quantity& p_o() {
+  return analysis::quantity_of(&analysis::FrameThreshold::overloaded_fraction);
+}
 
 /// Frames each degree from 0 on, whose volume strain is `slope` times the angle in degrees.
 GhostRun run_of(int frames, double slope, double theta_c) {
@@ -105,4 +107,4 @@ TEST(Ghost, stands_behind_curves_of_quantities_until_it_is_taken_away) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

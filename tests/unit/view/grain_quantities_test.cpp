@@ -21,7 +21,7 @@
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 class GrainQuantities : public testing::Test {
@@ -31,17 +31,17 @@ class GrainQuantities : public testing::Test {
     frame_.vx[4] = 3.0;
     frame_.vy[4] = -4.0;
     frame_.contacts.status[0] = ContactStatus::sliding;
-    judged_.cluster = overloaded_clusters({frame_, statics_}, rule_).label;
+    judged_.cluster = pictures::overloaded_clusters({frame_, statics_}, rule_).label;
   }
-  GrainSource source() { return {{frame_, statics_}, 2, frame_.gamma, &first_, {}, {&judged_, 1}}; }
+  analysis::GrainSource source() { return {{frame_, statics_}, 2, frame_.gamma, &first_, {}, {&judged_, 1}}; }
   std::vector<Index> where(const std::string& condition) {
     return grains_where(parse_condition(condition, grain_names()), source());
   }
 
   RunStatics statics_ = example::bed_statics();
   Frame first_ = example::bed_frame(0.0, 0), frame_ = example::bed_frame(10.0, 2);
-  OverloadRule rule_{.theta_c = radians(20.0), .l_min = 0.0};
-  FrameThreshold judged_;
+  pictures::OverloadRule rule_{.theta_c = radians(20.0), .l_min = 0.0};
+  analysis::FrameThreshold judged_;
 };
 
 TEST_F(GrainQuantities, a_condition_finds_free_grains) {
@@ -55,31 +55,32 @@ TEST_F(GrainQuantities, a_condition_finds_free_grains) {
 }
 
 TEST_F(GrainQuantities, all_have_a_value_for_each_grain) {
-  for (const GrainNumber& number : grain_numbers())
-    EXPECT_EQ(values_of(number, source()).size(), frame_.x.size()) << number.name;
+  for (const analysis::GrainNumber& number : analysis::grain_numbers())
+    EXPECT_EQ(analysis::values_of(number, source()).size(), frame_.x.size()) << number.name;
 }
 
 TEST_F(GrainQuantities, without_a_first_frame_nothing_is_said_of_displacements) {
-  const GrainSource of = {{frame_, statics_}};
-  EXPECT_TRUE(std::isnan(values_of(grain_number("displacement_x"), of)[3]));
-  EXPECT_TRUE(std::isnan(values_of(grain_number("displacement_y"), of)[3]));
+  const analysis::GrainSource of = {{frame_, statics_}};
+  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_x"), of)[3]));
+  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_y"), of)[3]));
 }
 
 TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {
   const test::TemporaryFolder folder;
   example::write_bed_run(folder.path("run.h5"), 20.0);
-  const RunFile file = RunFile::open(folder.path("run.h5"));
-  AnalysisParameters parameters;
+  const io::RunFile file = io::RunFile::open(folder.path("run.h5"));
+  analysis::AnalysisParameters parameters;
   parameters.l_min = 0.0;
   parameters.threshold_factors = {1.0};
   const RunStatics& statics = file.header().statics;
-  const Frame frame = analysed_frame(file, parameters, 2);
-  const FrameThreshold judged = analyse_thresholds({frame, statics}, parameters,
-                                                   begin_analysis(statics, parameters, radians(20.0)), 1.0)
-                                    .at(0);
+  const Frame frame = runs::analysed_frame(file, parameters, 2);
+  const analysis::FrameThreshold judged =
+      analysis::analyse_thresholds({frame, statics}, parameters,
+                                   analysis::begin_analysis(statics, parameters, radians(20.0)), 1.0)
+          .at(0);
   ViewModel model = example::opened(folder.path("run.h5"));
   model.go_to(2);
-  const auto values = [&](const char* name) { return model.grain_values(grain_number(name)); };
+  const auto values = [&](const char* name) { return model.grain_values(analysis::grain_number(name)); };
   int overloaded = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
     EXPECT_EQ(values("gamma_neighbourhood")[i], frame.gamma[i]) << i;
@@ -99,11 +100,11 @@ TEST(GrainQuantitiesOfARun, are_measured_since_the_frame_that_the_map_goes_by) {
   example::write_bed_run(folder.path("run.h5"), 20.0);
   ViewModel model = example::opened(folder.path("run.h5"));
   model.go_to(2);
-  const auto distance = [&] { return model.grain_values(grain_number("distance"))[39]; };
+  const auto distance = [&] { return model.grain_values(analysis::grain_number("distance"))[39]; };
   EXPECT_NEAR(distance(), 0.2, 1e-6) << "per degree since the frame before";
   model.state.since = radians(0.0);
   EXPECT_NEAR(distance(), 1.0, 1e-6) << "in all";
-  model.state.map.layers = {MapKind::displacement};
+  model.state.map.layers = {pictures::MapKind::displacement};
   model.first().map(2.0);
   EXPECT_EQ(model.first().values().values[39], distance()) << "as the map has it";
   model.state.selecting.condition = "distance > 0.5";
@@ -117,10 +118,10 @@ TEST(GrainQuantitiesOfPages, docs_list_those_that_no_export_has) {
   std::ifstream file(test::source_folder() + "/docs/view.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   std::string rows;
-  for (const FrameQuantity& quantity : grain_quantities())
-    if (!is_of_frame(quantity))
-      rows +=
-          fmt::format("| `{}` | {} | {} |\n", quantity.name, scaled_unit(quantity.unit), quantity.definition);
+  for (const analysis::FrameQuantity& quantity : analysis::grain_quantities())
+    if (!analysis::is_of_frame(quantity))
+      rows += fmt::format("| `{}` | {} | {} |\n", quantity.name, analysis::scaled_unit(quantity.unit),
+                          quantity.definition);
   EXPECT_NE(page.find("|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
 }
 
@@ -135,7 +136,7 @@ TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
       {"internal_moment_yx", "/particles/grains/internal_moment/value"},
       {"pressure", "/observables/sigma_n"}};
   for (const auto& [name, data_set] : same)
-    EXPECT_EQ(std::string(grain_number(name).quantity->unit), field_of(data_set).unit) << name;
+    EXPECT_EQ(std::string(analysis::grain_number(name).quantity->unit), io::field_of(data_set).unit) << name;
   const std::pair<const char*, const char*> per_metre[] = {{"/contacts/force", "N/m"},
                                                            {"/observables/kinetic_energy", "J/m"},
                                                            {"/particles/grains/internal_moment/value", "J/m"},
@@ -143,8 +144,8 @@ TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
                                                            {"/checkpoint/contact_force", "N/m"},
                                                            {"/branch/contact_force", "N/m"},
                                                            {"/branch/mass", "kg/m"}};
-  for (const auto& [data_set, unit] : per_metre) EXPECT_EQ(field_of(data_set).unit, unit) << data_set;
+  for (const auto& [data_set, unit] : per_metre) EXPECT_EQ(io::field_of(data_set).unit, unit) << data_set;
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

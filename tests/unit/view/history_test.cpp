@@ -16,7 +16,7 @@
 #include "view/inspection.h"
 #include "view/scene.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// Of frame k grain 3 has moved by k/10 m, and the contact of grains 3 and 13 carries k N/m, but none in the
@@ -133,7 +133,7 @@ class HistoryInView : public testing::Test {
     model_.emplace(example::opened(folder_.path("run.h5")));
   }
   long trail_lines() {
-    return std::ranges::count(model_->first().map(2.0).lines, trail_colour, &Line::colour);
+    return std::ranges::count(model_->first().map(2.0).lines, trail_colour, &render::Line::colour);
   }
   test::TemporaryFolder folder_;
   std::optional<ViewModel> model_;
@@ -184,4 +184,4 @@ TEST_F(HistoryInView, the_camera_follows_a_grain) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

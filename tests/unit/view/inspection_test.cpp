@@ -9,7 +9,7 @@
 #include "analysis/overload/links.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// With all that a frame of a run has.
@@ -20,12 +20,12 @@ test::Packing whole(test::Packing packing) {
   return packing;
 }
 
-Clusters clusters_of(const test::Packing& packing, double threshold) {
+analysis::Clusters clusters_of(const test::Packing& packing, double threshold) {
   std::vector<bool> overloaded;
   for (Index i = 0; i < packing.statics.free_count; ++i)
     overloaded.push_back(packing.frame.gamma[i] >= threshold);
-  return find_clusters(overloaded, force_links(packing), packing.frame.x,
-                       packing.statics.periodic ? packing.statics.length : 0.0);
+  return analysis::find_clusters(overloaded, analysis::force_links(packing), packing.frame.x,
+                                 packing.statics.periodic ? packing.statics.length : 0.0);
 }
 
 /// Grain 1 has grain 0 to its left, a floor grain below it, and the right wall beside it.
@@ -53,7 +53,7 @@ test::Packing corner() {
 }
 
 /// Of single grains.
-CoarseGrainingRule rule_of(double threshold, double cut) {
+analysis::CoarseGrainingRule rule_of(double threshold, double cut) {
   return {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut};
 }
 
@@ -131,12 +131,12 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
   for (const double l_min : {0.0, 3.0}) {
     const double threshold = l_min > 0.0 ? 0.2 : 0.4, cut = l_min > 0.0 ? 4.0 : 2.5;
     test::Packing packing = whole(test::random_packing(2, 150, 20.0, 8.0, true));
-    packing.frame = with_gamma_of_neighbourhoods(packing.frame, packing.statics, l_min);
-    const CoarseGrainingRule rule = {
+    packing.frame = analysis::with_gamma_of_neighbourhoods(packing.frame, packing.statics, l_min);
+    const analysis::CoarseGrainingRule rule = {
         .threshold = threshold, .end_ratio = threshold, .l_min = l_min, .cut = cut};
-    const CoarseGraining all = coarse_graining(packing, rule);
-    const std::vector<double> gamma = coarse_stress_ratio(packing, wide);
-    const Clusters clusters = clusters_of(packing, threshold);
+    const analysis::CoarseGraining all = analysis::coarse_graining(packing, rule);
+    const std::vector<double> gamma = analysis::coarse_stress_ratio(packing, wide);
+    const analysis::Clusters clusters = clusters_of(packing, threshold);
     ASSERT_GT(all.cut_off, 5);
     ASSERT_GT(all.overloaded - all.cut_off, 5);
     for (Index i = 0; i < packing.statics.free_count; ++i) {
@@ -147,7 +147,8 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
       }
       EXPECT_EQ(of.neighbourhood_gamma, gamma[i]);
       EXPECT_EQ(of.gamma, packing.frame.gamma[i]);
-      EXPECT_EQ(of.state.ratio, stress_state(packing.frame.internal_moment[i]).ratio) << "of the grain alone";
+      EXPECT_EQ(of.state.ratio, stress::stress_state(packing.frame.internal_moment[i]).ratio)
+          << "of the grain alone";
     }
   }
 }
@@ -190,4 +191,4 @@ TEST(GrainAt, prefers_a_disc_to_a_near_centre) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -20,17 +20,17 @@
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// A bed of 30 grains that is tilted to 2 deg in some hundred steps.
-Scenario small_bed() {
-  Scenario scenario = test::small_tilted_bed(2.0);
+scenario::Scenario small_bed() {
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
   scenario.output.frame_every = 1.0;
   return scenario;
 }
 
-LiveRun live(const Scenario& scenario, const std::string& output = "") {
+LiveRun live(const scenario::Scenario& scenario, const std::string& output = "") {
   return LiveRun(scenario, "seed = 1\n", output, false, "test");
 }
 
@@ -40,17 +40,17 @@ LiveStatus paused(const LiveRun& run) {
   return run.status();
 }
 
-Session plain_run(std::int64_t steps) {
-  Session session(small_bed());
-  while (session.phase() != Phase::done && session.world().step < steps) session.advance();
+session::Session plain_run(std::int64_t steps) {
+  session::Session session(small_bed());
+  while (session.phase() != session::Phase::done && session.world().step < steps) session.advance();
   return session;
 }
 
-std::string hash_of(const Session& session) { return hash_text(state_hash(session.world())); }
+std::string hash_of(const session::Session& session) { return hash_text(state_hash(session.world())); }
 
 /// The frame is that of a session: places, contacts and stresses of one and the same step.
-void expect_frame_of(const Session& session, const Frame& frame) {
-  const Frame expected = make_frame(session.world(), session.law());
+void expect_frame_of(const session::Session& session, const Frame& frame) {
+  const Frame expected = session::make_frame(session.world(), session.law());
   EXPECT_EQ(frame.step, expected.step);
   EXPECT_EQ(frame.time, expected.time);
   EXPECT_EQ(frame.tilt, expected.tilt);
@@ -72,7 +72,7 @@ TEST(LiveRun, begins_paused_before_its_first_step) {
   EXPECT_FALSE(status.theta_c);
   EXPECT_EQ(status.tilt_rate, 20.0);
   EXPECT_EQ(status.friction, 0.5);
-  EXPECT_EQ(status.state_hash, hash_of(Session(small_bed())));
+  EXPECT_EQ(status.state_hash, hash_of(session::Session(small_bed())));
   ASSERT_NE(run.frame(), nullptr);
   EXPECT_EQ(run.frame()->step, 0);
   EXPECT_EQ(run.frame()->grain_count(), 40) << "with its floor";
@@ -87,7 +87,7 @@ TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
     run.steps(0);
     run.observables(0);
   }
-  const Session plain = plain_run(1'000'000);
+  const session::Session plain = plain_run(1'000'000);
   const LiveStatus status = run.status();
   EXPECT_TRUE(status.done);
   EXPECT_EQ(status.error, "");
@@ -116,11 +116,11 @@ TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
     run.play();
     EXPECT_TRUE(paused(run).done);
   }
-  Session same = plain_run(0);
-  while (same.phase() == Phase::deposition) same.advance();
+  session::Session same = plain_run(0);
+  while (same.phase() == session::Phase::deposition) same.advance();
   same.apply({0, CommandKind::push, 3, 0.2, 0.1});
-  while (same.phase() != Phase::done) same.advance();
-  const RunFile run = RunFile::open(path);
+  while (same.phase() != session::Phase::done) same.advance();
+  const io::RunFile run = io::RunFile::open(path);
   EXPECT_EQ(hash_text(state_hash(run.checkpoint().world)), hash_of(same));
   EXPECT_EQ(run.steps(), same.segment().steps);
   EXPECT_EQ(run.observables(), same.segment().observables);
@@ -159,7 +159,7 @@ TEST(LiveRun, takes_as_many_steps_as_asked_for) {
     run.step(count);
     paused(run);
   }
-  const Session plain = plain_run(41);
+  const session::Session plain = plain_run(41);
   EXPECT_EQ(run.status().step, 41);
   EXPECT_EQ(run.status().state_hash, hash_of(plain));
   expect_frame_of(plain, *run.frame());
@@ -182,7 +182,7 @@ TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
 
 /// A frame that was taken from a run that goes on is one that a plain run has after as many steps.
 TEST(LiveRun, shows_frames_that_are_whole) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 60.0;
   LiveRun run = live(scenario);
   run.play();
@@ -193,7 +193,7 @@ TEST(LiveRun, shows_frames_that_are_whole) {
   }
   run.pause();
   frames.push_back((paused(run), run.frame()));
-  Session plain(scenario);
+  session::Session plain(scenario);
   for (const auto& frame : frames) {
     EXPECT_NEAR(frame->time, 1e-3 * static_cast<double>(frame->step), 1e-9);
     while (plain.world().step < frame->step) plain.advance();
@@ -204,7 +204,7 @@ TEST(LiveRun, shows_frames_that_are_whole) {
 }
 
 TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 5.0;
   LiveRun run = live(scenario);
   run.step(5);
@@ -223,8 +223,8 @@ TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
   const std::vector<Command> commands = run.commands();
   ASSERT_EQ(commands.size(), 4u);
   EXPECT_EQ(commands[2].kind, CommandKind::tilt_rate);
-  Session again(scenario);
-  replay(again, nullptr, commands, end.step, {});
+  session::Session again(scenario);
+  session::replay(again, nullptr, commands, end.step, {});
   EXPECT_EQ(end.state_hash, hash_of(again));
 }
 
@@ -242,7 +242,7 @@ TEST(LiveRun, refuses_what_cannot_be_done_and_goes_on) {
 }
 
 TEST(LiveRun, that_fails_says_why_and_keeps_its_state) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.deposition.max_time = 0.02;
   LiveRun run = live(scenario);
   run.play();
@@ -266,12 +266,12 @@ TEST(LiveRun, that_is_done_leaves_the_file_of_a_plain_run) {
     paused(run);
     commands = run.commands();
   }
-  const RunFile stored = RunFile::open(path);
+  const io::RunFile stored = io::RunFile::open(path);
   EXPECT_TRUE(stored.complete());
   EXPECT_EQ(stored.commands(), commands);
   EXPECT_EQ(stored.header().scenario_given, "seed = 1\n");
-  Session again(small_bed());
-  replay(again, nullptr, commands, stored.checkpoint().world.step, {});
+  session::Session again(small_bed());
+  session::replay(again, nullptr, commands, stored.checkpoint().world.step, {});
   EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
 }
 
@@ -286,16 +286,16 @@ TEST(LiveRun, that_is_left_can_be_resumed) {
     paused(run);
     run.apply({0, CommandKind::friction, -1, 0.8, 0.0});
   }
-  RunHeader header;
-  Checkpoint checkpoint;
-  RunStore store = RunStore::resume(path, header, checkpoint);
-  Session resumed(small_bed(), checkpoint);
+  io::RunHeader header;
+  io::Checkpoint checkpoint;
+  io::RunStore store = io::RunStore::resume(path, header, checkpoint);
+  session::Session resumed(small_bed(), checkpoint);
   EXPECT_EQ(resumed.law().friction, 0.8);
-  EXPECT_EQ(run_to_end(resumed, store, {}), RunEnd::complete);
-  const RunFile stored = RunFile::open(path);
+  EXPECT_EQ(session::run_to_end(resumed, store, {}), session::RunEnd::complete);
+  const io::RunFile stored = io::RunFile::open(path);
   ASSERT_EQ(stored.commands().size(), 1u);
-  Session again(small_bed());
-  replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
+  session::Session again(small_bed());
+  session::replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
   EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
 }
 
@@ -305,10 +305,10 @@ TEST(LiveRun, is_saved_when_asked) {
   LiveRun run = live(small_bed(), path);
   run.step(7);
   paused(run);
-  EXPECT_EQ(run_presence(path), RunPresence::none);
+  EXPECT_EQ(io::run_presence(path), io::RunPresence::none);
   run.save();
-  EXPECT_EQ(RunFile::open(path).checkpoint().world.step, 7);
-  EXPECT_EQ(RunFile::open(path).steps().size(), 7u);
+  EXPECT_EQ(io::RunFile::open(path).checkpoint().world.step, 7);
+  EXPECT_EQ(io::RunFile::open(path).steps().size(), 7u);
   EXPECT_THROW(live(small_bed(), path), Error) << "it is locked, and exists";
 }
 
@@ -318,7 +318,7 @@ TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
   LiveRun run = live(small_bed(), path);
   run.step(7);
   paused(run);
-  const std::filesystem::path stored = run_folder(path), aside = folder.path("aside");
+  const std::filesystem::path stored = io::run_folder(path), aside = folder.path("aside");
   std::filesystem::rename(stored, aside);
   run.save();
   EXPECT_NE(run.status().error.find("run.h5.run"), std::string::npos) << run.status().error;
@@ -328,12 +328,12 @@ TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
   paused(run);
   run.save();
   EXPECT_EQ(run.status().error, "");
-  EXPECT_EQ(RunFile::open(path).steps().size(), 8u);
+  EXPECT_EQ(io::RunFile::open(path).steps().size(), 8u);
 }
 
 /// A bed of three grains, so that thousands of steps take no time.
 TEST(LiveRun, thins_the_history_of_its_steps) {
-  Scenario scenario = small_bed();
+  scenario::Scenario scenario = small_bed();
   scenario.bed.length = 3.0;
   scenario.bed.depth = 1.0;
   scenario.tilt.rate = 1.0;
@@ -349,4 +349,4 @@ TEST(LiveRun, thins_the_history_of_its_steps) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -14,7 +14,7 @@
 #include "unit/view/opened_view.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using example::comes_true, example::opened, example::plot;
@@ -42,7 +42,7 @@ TEST_F(ViewOfScenario, follows_the_run) {
   EXPECT_EQ(model_->frame_count(), 0u);
   EXPECT_FALSE(model_->has(Landmark::first));
   EXPECT_EQ(model_->render_command(), "");
-  model_->state.map.layers = map_layers("displacement+clusters");
+  model_->state.map.layers = pictures::map_layers("displacement+clusters");
   EXPECT_EQ(model_->first().map(2.0).discs.empty(), false);
   model_->live()->run_to(radians(0.5));
   ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
@@ -122,14 +122,14 @@ TEST_F(ViewOfScenario, tells_that_the_slope_has_failed) {
 }
 
 TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
-  model_->state.map.layers = {MapKind::displacement};
+  model_->state.map.layers = {pictures::MapKind::displacement};
   model_->state.map.range_low = 1e-12;  // the bed is small, and creeps
   model_->state.map.range_high = 1e-3;
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));
   model_->update(0.0);
-  const std::vector<Disc> discs = model_->first().map(2.0).discs;
-  EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const Disc& disc) {
+  const std::vector<render::Disc> discs = model_->first().map(2.0).discs;
+  EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const render::Disc& disc) {
     return disc.hatched > 0.0f || disc.fill == discs[0].fill;
   })) << "the frame shown is the last recorded; it is not its own reference";
 }
@@ -152,7 +152,7 @@ TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
     model.live()->halt();
     model.live()->save();
   }
-  EXPECT_EQ(RunFile::open(output).header().seed, 3u) << "it is still there";
+  EXPECT_EQ(io::RunFile::open(output).header().seed, 3u) << "it is still there";
 }
 
 TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
@@ -197,4 +197,4 @@ TEST_F(ViewOfScenario, begins_anew_with_another_seed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -12,15 +12,15 @@
 namespace talus::example {
 
 /// By the gamma of single grains.
-inline ViewModel opened(const std::string& path) {
-  ViewModel model = ViewModel::open(path, {}, "", false, "talus view");
+inline view::ViewModel opened(const std::string& path) {
+  view::ViewModel model = view::ViewModel::open(path, {}, "", false, "talus view");
   model.state.map.l_min = 0.0;
   model.update(0.0);
   return model;
 }
 
 /// Updates until something holds.
-inline bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
+inline bool comes_true(view::ViewModel& model, const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!holds() && std::chrono::steady_clock::now() < end) {
     model.update(0.0);
@@ -29,8 +29,8 @@ inline bool comes_true(ViewModel& model, const std::function<bool()>& holds) {
   return holds();
 }
 
-inline const Plot& plot(const ViewModel& model, const std::string& name) {
-  return *std::ranges::find(model.plots(), name, &Plot::name);
+inline const view::Plot& plot(const view::ViewModel& model, const std::string& name) {
+  return *std::ranges::find(model.plots(), name, &view::Plot::name);
 }
 
 }  // namespace talus::example

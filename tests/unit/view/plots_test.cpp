@@ -11,7 +11,7 @@
 #include "core/trigonometry.h"
 #include "unit/view/example_bed.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 const Plot& plot(const std::vector<Plot>& plots, const std::string& name) {
@@ -69,7 +69,7 @@ TEST(Plots, leave_out_what_a_logarithm_cannot_show) {
 
 TEST(Plots, of_frames_are_over_degrees) {
   std::vector<Plot> plots = empty_plots();
-  const FrameRecord frame{
+  const analysis::FrameRecord frame{
       .tilt = radians(10.0),
       .thresholds = {{.overloaded_fraction = 0.25, .lc_mean = 1.5, .lc_max = 3.5, .largest_share = 0.5}}};
   plot_frames(std::vector{frame, frame}, std::vector{1.0, 2.0}, 0.5, {}, plots);
@@ -88,7 +88,7 @@ TEST(Plots, have_the_same_angle_left_on_either_side) {
 }
 
 TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
-  FrameRecord frame{.tilt = radians(18.0), .thresholds = {{}}};
+  analysis::FrameRecord frame{.tilt = radians(18.0), .thresholds = {{}}};
   ObservableRow row{};
   at(row, Observable::tilt) = radians(15.0);
   at(row, Observable::time) = 2.5;
@@ -110,10 +110,10 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
 }
 
 TEST(Plots, of_a_stored_analysis_leave_what_has_a_threshold) {
-  std::vector<Plot> plots = {plot_of_quantity(quantity_of(&FrameRecord::gamma_mean)),
-                             plot_of_quantity(quantity_of(&FrameThreshold::lc_mean))};
-  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .gamma_mean = 0.25}}, std::vector{1.0}, 0.5, {},
-              plots, true);
+  std::vector<Plot> plots = {plot_of_quantity(analysis::quantity_of(&analysis::FrameRecord::gamma_mean)),
+                             plot_of_quantity(analysis::quantity_of(&analysis::FrameThreshold::lc_mean))};
+  plot_frames(std::vector{analysis::FrameRecord{.tilt = radians(10.0), .gamma_mean = 0.25}}, std::vector{1.0},
+              0.5, {}, plots, true);
   EXPECT_EQ(plots[0].name, "gamma/mean");
   EXPECT_EQ(plots[0].series[0].y, std::vector{0.25});
   EXPECT_TRUE(plots[1].series[0].x.empty());
@@ -121,11 +121,11 @@ TEST(Plots, of_a_stored_analysis_leave_what_has_a_threshold) {
 }
 
 TEST(Plots, are_of_any_quantity) {
-  const Quantity made_up = {
-      &FrameRecord::critical_largest, "made_up", "T", "1", "made up", "", {"M", "Made up"}};
-  std::vector<Plot> plots = {plot_along_run("made_up", shown_title(made_up), {series_of(made_up)})};
-  plot_frames(std::vector{FrameRecord{.tilt = radians(10.0), .critical_largest = 7}}, std::vector{0.0}, 0.5,
-              {}, plots);
+  const analysis::Quantity made_up = {
+      &analysis::FrameRecord::critical_largest, "made_up", "T", "1", "made up", "", {"M", "Made up"}};
+  std::vector<Plot> plots = {plot_along_run("made_up", analysis::shown_title(made_up), {series_of(made_up)})};
+  plot_frames(std::vector{analysis::FrameRecord{.tilt = radians(10.0), .critical_largest = 7}},
+              std::vector{0.0}, 0.5, {}, plots);
   EXPECT_EQ(plots[0].title, "Made up");
   EXPECT_EQ(plots[0].series[0].name, "M");
   EXPECT_EQ(plots[0].series[0].y, std::vector{7.0});
@@ -185,4 +185,4 @@ TEST(Plots, of_many_steps_keep_the_largest_of_neighbours) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

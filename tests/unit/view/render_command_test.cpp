@@ -6,13 +6,13 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 RenderRequest shown(const char* map) {
   RenderRequest of;
   of.run = "runs/a.h5";
-  of.settings.layers = map_layers(map);
+  of.settings.layers = pictures::map_layers(map);
   of.settings.theta_c = radians(20.0);
   of.tilt = radians(12.25);
   return of;
@@ -26,7 +26,7 @@ RenderRequest shown_with_all(const char* map) {
   of.settings.l_min = 4.5;
   of.settings.length = 7.5;
   of.settings.joined_by_neighbours = true;
-  of.settings.colours = ColourMap::viridis;
+  of.settings.colours = render::ColourMap::viridis;
   of.settings.range_low = 0.1;
   of.settings.range_high = 0.6;
   return of;
@@ -86,7 +86,7 @@ TEST(RenderCommand, asks_for_the_flow) {
 TEST(RenderCommand, crops_in_diameters_and_never_beyond_the_part) {
   RenderRequest of = shown("gamma");
   of.mean_diameter = 0.01;
-  of.part = MapExtent{0.10001, 0.20009, -0.00501, 0.40009};
+  of.part = pictures::MapExtent{0.10001, 0.20009, -0.00501, 0.40009};
   EXPECT_EQ(render_command_line(of), "talus render runs/a.h5 --map gamma --at 12.25 --crop 10.01,-0.5,20,40");
 }
 
@@ -97,4 +97,4 @@ TEST(RenderCommand, quotes_for_the_shell) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -8,7 +8,7 @@
 #include "unit/view/example_bed.h"
 #include "view/frame_source.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 class ReplayOfBed : public testing::Test {
@@ -106,7 +106,7 @@ TEST_F(ReplayOfBed, keeps_two_frames_of_the_largest_beds) {
 
 TEST(ReplayOfNothing, says_that_there_are_no_frames) {
   const test::TemporaryFolder folder;
-  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), true);
+  io::RunStore store = io::RunStore::create(folder.path("run.h5"), example::header(), true);
   store.commit({}, example::checkpoint(0));
   try {
     RunFrames frames(folder.path("run.h5"));
@@ -118,4 +118,4 @@ TEST(ReplayOfNothing, says_that_there_are_no_frames) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

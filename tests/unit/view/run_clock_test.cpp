@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// Frames at 0, 1, 2, 3 rad, a second apart from 10 s on, and two of a flow at 13.5 and 14 s.
@@ -46,4 +46,4 @@ TEST(LinkedFrame, IsNoneWhereThereAreNoFrames) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

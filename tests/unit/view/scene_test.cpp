@@ -12,35 +12,35 @@
 #include "pictures/overload_rule.h"
 #include "unit/view/example_bed.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 struct Drawn {
-  PictureSeries pictures;
+  pictures::PictureSeries pictures;
   Frame frame = example::bed_frame(10.0, 4);
-  Clusters clusters;
-  FrameView map;
+  analysis::Clusters clusters;
+  render::FrameView map;
 
   Drawn() {
     pictures.run.statics = example::bed_statics();
-    settings().layers = {MapKind::gamma};
+    settings().layers = {pictures::MapKind::gamma};
     settings().theta_c = radians(20.0);
-    pictures.extent = bed_extent(pictures.run.statics);
-    extend(pictures.extent, bed());
-    clusters = overloaded_clusters(bed(), settings());
+    pictures.extent = pictures::bed_extent(pictures.run.statics);
+    pictures::extend(pictures.extent, bed());
+    clusters = pictures::overloaded_clusters(bed(), settings());
     map = draw_map(pictures, 0, frame, nullptr);
   }
-  MapSettings& settings() {
+  pictures::MapSettings& settings() {
     pictures.plan.maps.resize(1);
     return pictures.plan.maps[0];
   }
   BedFrame bed() const { return {frame, pictures.run.statics}; }
-  FrameView shown(const Overlay& overlay, const MapExtent& part) const {
-    FrameView view = shown_map(map, part, bed());
+  render::FrameView shown(const Overlay& overlay, const pictures::MapExtent& part) const {
+    render::FrameView view = shown_map(map, part, bed());
     add_overlay(view, bed(), overlay, clusters);
     return view;
   }
-  FrameView shown(const Overlay& overlay) const { return shown(overlay, pictures.extent); }
+  render::FrameView shown(const Overlay& overlay) const { return shown(overlay, pictures.extent); }
 };
 
 Overlay selection_of(Index grain) {
@@ -58,7 +58,7 @@ TEST(GrowingDiameters, are_round_steps_up_to_the_one_chosen) {
 
 TEST(Scene, is_the_map_where_nothing_is_selected) {
   const Drawn drawn;
-  const FrameView view = drawn.shown({});
+  const render::FrameView view = drawn.shown({});
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
   EXPECT_TRUE(view.lines.empty());
   EXPECT_FALSE(view.furniture);
@@ -67,7 +67,7 @@ TEST(Scene, is_the_map_where_nothing_is_selected) {
 
 TEST(Scene, has_the_grains_of_its_part) {
   const Drawn drawn;
-  const FrameView view = drawn.shown({}, {3.1, 4.9, 1.1, 2.9});
+  const render::FrameView view = drawn.shown({}, {3.1, 4.9, 1.1, 2.9});
   EXPECT_EQ(view.discs.size(), 4u);
   EXPECT_EQ(view.x_min, 3.1);
   EXPECT_EQ(view.y_max, 2.9);
@@ -75,9 +75,9 @@ TEST(Scene, has_the_grains_of_its_part) {
 
 TEST(Scene, rings_the_grain) {
   const Drawn drawn;
-  const FrameView view = drawn.shown(selection_of(15));
+  const render::FrameView view = drawn.shown(selection_of(15));
   ASSERT_EQ(view.lines.size(), 128u);
-  for (const Line& line : view.lines) {
+  for (const render::Line& line : view.lines) {
     const double distance = std::hypot(line.x0 - 5.5, line.y0 - 1.5);
     EXPECT_GT(distance, 0.5);
     EXPECT_LT(distance, 0.75);
@@ -88,10 +88,10 @@ TEST(Scene, draws_circles_through_the_periodic_edge) {
   const Drawn drawn;
   Overlay overlay = selection_of(10);  // at (0.5, 1.5)
   overlay.diameters = {3.0};
-  const FrameView view = drawn.shown(overlay);
-  const auto on_the_right = [](const Line& line) { return line.x0 > 8.9f && line.x1 > 8.9f; };
+  const render::FrameView view = drawn.shown(overlay);
+  const auto on_the_right = [](const render::Line& line) { return line.x0 > 8.9f && line.x1 > 8.9f; };
   EXPECT_GT(std::ranges::count_if(view.lines, on_the_right), 20);
-  for (const Line& line : view.lines) {
+  for (const render::Line& line : view.lines) {
     const double dx = line.x0 > 5.0f ? line.x0 - 10.5 : line.x0 - 0.5;
     const double distance = std::hypot(dx, line.y0 - 1.5);
     EXPECT_TRUE(std::abs(distance - 1.5) < 1e-5 || distance < 0.75);
@@ -103,15 +103,15 @@ TEST(Scene, tells_l_c_from_other_circles) {
   Overlay overlay = selection_of(15);
   overlay.diameters = {4.0};
   overlay.critical_length = 2.0;
-  const FrameView view = drawn.shown(overlay);
+  const render::FrameView view = drawn.shown(overlay);
   const auto colour_at_distance = [&view](double wanted) {
-    Colour colour = white;
-    for (const Line& line : view.lines)
+    render::Colour colour = render::white;
+    for (const render::Line& line : view.lines)
       if (std::abs(std::hypot(line.x0 - 5.5, line.y0 - 1.5) - wanted) < 1e-5) colour = line.colour;
     return colour;
   };
-  EXPECT_FALSE(colour_at_distance(1.0) == white);
-  EXPECT_FALSE(colour_at_distance(2.0) == white);
+  EXPECT_FALSE(colour_at_distance(1.0) == render::white);
+  EXPECT_FALSE(colour_at_distance(2.0) == render::white);
   EXPECT_FALSE(colour_at_distance(1.0) == colour_at_distance(2.0));
 }
 
@@ -122,13 +122,13 @@ TEST(Scene, outlines_the_cluster_and_leaves_its_grains) {
     if (i % example::columns != 0) drawn.frame.x[i] += 0.05;  // a gap on the right, closed on the left
   Overlay overlay;
   overlay.cluster = 0;
-  const FrameView view = drawn.shown(overlay);
+  const render::FrameView view = drawn.shown(overlay);
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
   for (std::size_t k = 0; k < view.discs.size(); ++k)
     EXPECT_TRUE(view.discs[k].fill == drawn.map.discs[k].fill);
   int right = 0, edge = 0;
-  for (const Line& line : view.lines) {
-    EXPECT_FALSE(is_gray(line.colour));
+  for (const render::Line& line : view.lines) {
+    EXPECT_FALSE(render::is_gray(line.colour));
     EXPECT_NEAR(line.x0, line.x1, 1e-6) << "across the line of centres";
     EXPECT_NEAR(std::abs(line.y0 - line.y1), 0.6, 1e-6);
     const bool at_right = std::abs(line.x0 - 1.025f) < 1e-5f;
@@ -142,7 +142,7 @@ TEST(Scene, outlines_the_cluster_and_leaves_its_grains) {
 TEST(Scene, draws_walls_where_they_are) {
   Drawn drawn;
   drawn.pictures.run.statics.periodic = false;
-  const FrameView view = drawn.shown({}, {-2.0, 12.0, -3.0, 6.0});
+  const render::FrameView view = drawn.shown({}, {-2.0, 12.0, -3.0, 6.0});
   ASSERT_EQ(view.lines.size(), 2u);
   EXPECT_EQ(view.lines[0].x0, 0.0f);
   EXPECT_EQ(view.lines[0].y0, 0.0f);
@@ -167,32 +167,33 @@ TEST(Scene, knows_when_a_map_is_another) {
   EXPECT_TRUE(changed([](Drawn& other) { other.pictures.since = 1; }));
   EXPECT_NE(own, source_of(drawn.pictures, 0, frame, frame));
   EXPECT_NE(own, source_of(drawn.pictures, 0, std::make_shared<const Frame>(drawn.frame), nullptr));
-  EXPECT_FALSE(changed([](Drawn& other) { meet(other.pictures, other.frame); })) << "it shows no clusters";
+  EXPECT_FALSE(changed([](Drawn& other) { pictures::meet(other.pictures, other.frame); }))
+      << "it shows no clusters";
 }
 
 TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
   Drawn drawn;
-  drawn.settings().layers = {MapKind::clusters};
+  drawn.settings().layers = {pictures::MapKind::clusters};
   const auto frame = std::make_shared<const Frame>(drawn.frame);
   const auto source = [&] { return source_of(drawn.pictures, 1, frame, nullptr); };
   const MapSource none = source();
-  meet(drawn.pictures, drawn.frame);
+  pictures::meet(drawn.pictures, drawn.frame);
   const MapSource one = source();
   EXPECT_NE(none, one) << "colours follow those of the first frame";
-  meet(drawn.pictures, drawn.frame);
+  pictures::meet(drawn.pictures, drawn.frame);
   const MapSource two = source();
   EXPECT_NE(one, two) << "the frame itself was met";
-  meet(drawn.pictures, drawn.frame);
+  pictures::meet(drawn.pictures, drawn.frame);
   EXPECT_EQ(two, source()) << "what comes later changes nothing";
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {
   Drawn drawn;
   drawn.settings().theta_c = radians(1.0);
-  const FrameView view = draw_map(drawn.pictures, 0, drawn.frame, nullptr);
+  const render::FrameView view = draw_map(drawn.pictures, 0, drawn.frame, nullptr);
   EXPECT_NE(view.title.find("angle of repose"), std::string::npos);
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

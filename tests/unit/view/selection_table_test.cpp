@@ -9,7 +9,7 @@
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 const double nan = std::nan("");
@@ -17,7 +17,7 @@ const std::vector<double> values = {3.0, nan, 1.0, 2.0, 1.0, 100.0};
 const std::vector<Index> grains = {0, 1, 2, 3, 4};
 
 TEST(TableOfGrains, values_that_are_not_there_do_not_count) {
-  const Statistics of = statistics_of(known_values(grains, values));
+  const Statistics of = talus::statistics_of(known_values(grains, values));
   EXPECT_EQ(of.count, 4);
   EXPECT_DOUBLE_EQ(of.mean, 1.75);
   EXPECT_DOUBLE_EQ(of.deviation, std::sqrt((1.5625 + 2 * 0.5625 + 0.0625) / 3.0));
@@ -32,7 +32,7 @@ TEST(TableOfGrains, is_sorted_with_those_without_a_value_at_its_end) {
 
 TEST(TableOfGrains, histograms_are_densities) {
   const std::vector<Index> all = {0, 1, 2, 3, 4, 5};
-  const Plot plot = histogram_of(grain_number("lc"), grains, all, values);
+  const Plot plot = histogram_of(analysis::grain_number("lc"), grains, all, values);
   ASSERT_EQ(plot.series.size(), 2u);
   EXPECT_EQ(plot.x_title, "lc in D");
   for (const PlotSeries& series : plot.series) {
@@ -42,8 +42,10 @@ TEST(TableOfGrains, histograms_are_densities) {
     EXPECT_EQ(series.x.front(), 1.0);
     EXPECT_EQ(series.x.back(), 100.0);
   }
-  EXPECT_TRUE(histogram_of(grain_number("lc"), grains, std::vector<Index>{1}, values).series.empty());
-  EXPECT_EQ(histogram_of(grain_number("lc"), grains, std::vector<Index>{0}, values).series.size(), 2u)
+  EXPECT_TRUE(
+      histogram_of(analysis::grain_number("lc"), grains, std::vector<Index>{1}, values).series.empty());
+  EXPECT_EQ(histogram_of(analysis::grain_number("lc"), grains, std::vector<Index>{0}, values).series.size(),
+            2u)
       << "one value has a bin, too";
 }
 
@@ -52,8 +54,9 @@ TEST(TableOfGrains, is_csv_with_units) {
   frame.time = 2.5;
   frame.tilt = radians(10.0);
   const std::vector<double> ids = {0, 1, 2, 3, 4, 5};
-  const std::vector<GrainNumber> numbers = {grain_number("id"), grain_number("lc")};
-  const auto values_of = [&](const GrainNumber& number) -> const std::vector<double>& {
+  const std::vector<analysis::GrainNumber> numbers = {analysis::grain_number("id"),
+                                                      analysis::grain_number("lc")};
+  const auto values_of = [&](const analysis::GrainNumber& number) -> const std::vector<double>& {
     return number.name == "id" ? ids : values;
   };
   const std::string tilt = "2.5,10";
@@ -62,4 +65,4 @@ TEST(TableOfGrains, is_csv_with_units) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

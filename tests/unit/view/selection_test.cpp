@@ -6,7 +6,7 @@
 
 #include "unit/view/example_bed.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 const RunStatics statics = example::bed_statics();
@@ -80,4 +80,4 @@ TEST(Selected, a_contact_is_known_by_its_key) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

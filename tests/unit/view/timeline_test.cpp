@@ -8,7 +8,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 /// Frames every 5 deg up to 25; rows every 0.4 deg, each ten steps after the one before. The volume is least
@@ -16,7 +16,7 @@ namespace {
 /// deg.
 struct ExampleRun {
   std::vector<ObservableRow> rows;
-  std::vector<FrameRecord> values;
+  std::vector<analysis::FrameRecord> values;
   std::vector<Command> commands = {{25, CommandKind::push, 3, 0.1, 0.0}};
   TimelineSource source;
 
@@ -79,7 +79,7 @@ TEST(Timeline, has_what_happened_in_its_order) {
 
 TEST(Timeline, has_the_rearrangements_of_an_analysis_by_their_size) {
   ExampleRun run;
-  const std::vector<EventRecord> events = {
+  const std::vector<analysis::EventRecord> events = {
       {.begin = radians(2.5), .energy = 1e-3, .centre_of_mass_strain = -1.0, .grains = 7},
       {.begin = radians(7.5), .energy = 10.0, .centre_of_mass_strain = 1.0},
       {.begin = radians(9.0), .energy = -1.0},
@@ -112,7 +112,7 @@ TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
   ExampleRun run;
   std::vector<double> tilts;
   std::vector<ObservableRow> rows;
-  std::vector<FrameRecord> values;
+  std::vector<analysis::FrameRecord> values;
   for (int k = 0; k < 30; ++k) {
     const double tilt = radians(5.0 - std::abs(5.0 - k / 3.0));
     tilts.push_back(tilt);
@@ -153,4 +153,4 @@ TEST(Timeline, is_empty_before_the_first_frame) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

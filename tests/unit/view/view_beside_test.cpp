@@ -13,7 +13,7 @@
 #include "unit/view/opened_view.h"
 #include "view/view_model.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using example::opened;
@@ -34,10 +34,10 @@ class TwoViews : public testing::Test {
 };
 
 TEST_F(TwoViews, another_map_of_the_same_frame) {
-  model_->state.beside = {.shown = true, .layers = {MapKind::pressure}};
+  model_->state.beside = {.shown = true, .layers = {pictures::MapKind::pressure}};
   model_->go_to(3);
   model_->update(0.0);
-  const FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
+  const render::FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
   EXPECT_EQ(first.discs.size(), second.discs.size());
   EXPECT_EQ(first.x_min, second.x_min);
   EXPECT_EQ(first.y_max, second.y_max);
@@ -51,9 +51,9 @@ TEST_F(TwoViews, another_map_of_the_same_frame) {
 TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
   model_->state.beside = {.shown = true, .minus = 0.0};
   model_->go_to(3);
-  const FrameView* first = &model_->first().annotated_map();
-  const FrameView* second = &model_->second().annotated_map();
-  const Disc *discs = first->discs.data(), *discs_beside = second->discs.data();
+  const render::FrameView* first = &model_->first().annotated_map();
+  const render::FrameView* second = &model_->second().annotated_map();
+  const render::Disc *discs = first->discs.data(), *discs_beside = second->discs.data();
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(model_->first().annotated_map().discs.data(), discs);
     EXPECT_EQ(model_->second().annotated_map().discs.data(), discs_beside);
@@ -117,7 +117,9 @@ TEST_F(TwoViews, the_angle_left_is_no_clock_where_one_has_not_failed) {
 TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
   model_->open_beside(other_);
   model_->update(0.0);
-  const auto end = [](const FrameView& view) { return view.legends.at(0).bars.at(0).ticks.back().label; };
+  const auto end = [](const render::FrameView& view) {
+    return view.legends.at(0).bars.at(0).ticks.back().label;
+  };
   EXPECT_EQ(end(model_->first().annotated_map()), end(model_->second().annotated_map()));
   EXPECT_EQ(end(model_->first().annotated_map()), "0.69") << "2 sin 20 deg, the larger of the two";
   model_->state.map.range_low = 0.0;
@@ -125,7 +127,7 @@ TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
   model_->update(0.0);
   EXPECT_EQ(end(model_->first().annotated_map()), "0.25");
   EXPECT_EQ(end(model_->second().annotated_map()), "0.25");
-  model_->state.beside.layers = {MapKind::pressure};
+  model_->state.beside.layers = {pictures::MapKind::pressure};
   model_->update(0.0);
   EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that is of another map";
   model_->state.map.range_low = model_->state.map.range_high = std::nullopt;
@@ -137,7 +139,7 @@ TEST_F(TwoViews, show_the_same_place) {
   model_->open_beside(other_);
   model_->state.camera = {3.0, 2.0, 2.0};
   model_->update(0.0);
-  const FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
+  const render::FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
   EXPECT_LT(first.x_max - first.x_min, 7.0);
   EXPECT_EQ(first.x_min, second.x_min);
   EXPECT_EQ(first.x_max, second.x_max);
@@ -170,7 +172,7 @@ TEST_F(TwoViews, a_run_that_is_computed_stands_alone) {
   std::ofstream(folder_.path("a.toml")) << "[bed]\nlength = 10\ndepth = 3\n";
   ViewModel live = opened(folder_.path("a.toml"));
   EXPECT_THROW(live.open_beside(path_), Error);
-  live.state.beside = {.shown = true, .layers = {MapKind::pressure}, .minus = 0.0};
+  live.state.beside = {.shown = true, .layers = {pictures::MapKind::pressure}, .minus = 0.0};
   EXPECT_FALSE(live.second().annotated_map().title.empty()) << "no frame to be minus yet";
 }
 
@@ -182,4 +184,4 @@ TEST_F(TwoViews, both_rest_while_another_run_is_opened) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

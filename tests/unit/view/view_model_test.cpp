@@ -21,7 +21,7 @@
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 using example::comes_true, example::opened, example::plot;
@@ -53,10 +53,10 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
   EXPECT_EQ(model_->seed(), 7u);
   EXPECT_EQ(model_->frame_count(), 8u);
   EXPECT_EQ(model_->frame_index(), 0u);
-  EXPECT_EQ(model_->state.map.layers, MapLayers{MapKind::gamma});
+  EXPECT_EQ(model_->state.map.layers, pictures::MapLayers{pictures::MapKind::gamma});
   EXPECT_TRUE(model_->theta_c_known());
   EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-6);
-  const FrameView view = model_->first().map(2.0);
+  const render::FrameView view = model_->first().map(2.0);
   EXPECT_FALSE(view.furniture);
   EXPECT_GE(view.discs.size(), 50u);
   const auto region = model_->first().part(2.0);
@@ -89,14 +89,14 @@ TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
 TEST_F(ViewOfRun, shows_any_quantity_that_it_has) {
   ASSERT_TRUE(wait_for_all());
   const auto offered = [this](const std::string& name) {
-    return std::ranges::count(model_->more_quantities(), name, &Quantity::name) == 1;
+    return std::ranges::count(model_->more_quantities(), name, &analysis::Quantity::name) == 1;
   };
   EXPECT_FALSE(offered("gamma/mean")) << "it has no analysis";
   EXPECT_FALSE(offered("gamma/density")) << "no number";
   model_->set_plot_axis(PlotAxis::time);
   for (const char* name : {"overloaded/fraction_of_all", "contacts/coordination_number"}) {
     ASSERT_TRUE(offered(name));
-    model_->add_plot(*std::ranges::find(quantities(), name, &Quantity::name));
+    model_->add_plot(*std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name));
     EXPECT_FALSE(offered(name));
     EXPECT_EQ(plot(*model_, name).x_title, "t in s");
     EXPECT_FALSE(plot(*model_, name).series[0].x.empty()) << name;
@@ -167,10 +167,10 @@ TEST_F(ViewOfRun, works_out_curves_anew_for_another_threshold) {
 
 TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   model_.reset();
-  const RunFile run = RunFile::open(path_);
-  Analysis analysis = analyse_run(run, parse_analysis_settings(single_grains), 1, {});
+  const io::RunFile run = io::RunFile::open(path_);
+  analysis::Analysis analysis = runs::analyse_run(run, runs::parse_analysis_settings(single_grains), 1, {});
   analysis.frames[3].thresholds[0].overloaded_fraction = 0.75;  // frame 3, first threshold: told apart
-  store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
+  io::store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
   model_.emplace(opened(path_));
   model_->update(0.0);  // at once
   ASSERT_EQ(plot(*model_, "overloaded").series[0].y.size(), 6u);
@@ -192,10 +192,10 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
 TEST_F(ViewOfRun, takes_no_lengths_that_end_elsewhere) {
   const double theta_c = model_->theta_c();
   model_.reset();
-  const RunFile run = RunFile::open(path_);
-  AnalysisParameters parameters = parse_analysis_settings(single_grains);
+  const io::RunFile run = io::RunFile::open(path_);
+  analysis::AnalysisParameters parameters = runs::parse_analysis_settings(single_grains);
   parameters.lc_factor = 2.0;
-  const Analysis analysis = analyse_run(run, parameters, 1, {});
+  const analysis::Analysis analysis = runs::analyse_run(run, parameters, 1, {});
   EXPECT_FALSE(find_threshold(analysis, {theta_c, 1.0, false, 0.0}).has_value());
   EXPECT_EQ(find_threshold(analysis, {theta_c, 2.0, false, 0.0}), 1u);
   EXPECT_FALSE(find_threshold(analysis, {theta_c, 2.0, false, 3.0}).has_value()) << "of single grains";
@@ -203,11 +203,12 @@ TEST_F(ViewOfRun, takes_no_lengths_that_end_elsewhere) {
 
 TEST_F(ViewOfRun, takes_no_analysis_of_means_over_frames) {
   model_.reset();
-  const RunFile run = RunFile::open(path_);
-  AnalysisParameters parameters;
+  const io::RunFile run = io::RunFile::open(path_);
+  analysis::AnalysisParameters parameters;
   parameters.averaging = 10.0;
-  store_analysis(path_, analyse_run(run, parameters, 1, {}), hash_text(state_hash(run.checkpoint().world)));
-  EXPECT_FALSE(read_usable_analysis(RunFile::open(path_)).has_value());
+  io::store_analysis(path_, runs::analyse_run(run, parameters, 1, {}),
+                     hash_text(state_hash(run.checkpoint().world)));
+  EXPECT_FALSE(read_usable_analysis(io::RunFile::open(path_)).has_value());
 }
 
 TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise) {
@@ -258,16 +259,16 @@ TEST_F(ViewOfRun, inspects_the_selected_grain) {
 
 TEST_F(ViewOfRun, draws_the_selection_and_its_cluster_where_it_is_asked_for) {
   model_->go_to(3);
-  const FrameView bare = model_->first().map(2.0);
+  const render::FrameView bare = model_->first().map(2.0);
   EXPECT_TRUE(bare.lines.empty());
   model_->state.selected = 10;
   model_->state.show_neighbourhoods = false;
-  const FrameView selected = model_->first().map(2.0);
+  const render::FrameView selected = model_->first().map(2.0);
   ASSERT_EQ(selected.discs.size(), bare.discs.size());
   for (std::size_t k = 0; k < bare.discs.size(); ++k)
     EXPECT_TRUE(selected.discs[k].fill == bare.discs[k].fill);
   EXPECT_GE(selected.lines.size(), 2u * 64u) << "a ring on white";
-  for (const Line& line : selected.lines)
+  for (const render::Line& line : selected.lines)
     EXPECT_LT(std::hypot(std::remainder(line.x0 - 0.5, 10.0), line.y0 - 1.5), 0.75)
         << "nothing about the cluster";
   model_->state.highlight_cluster = true;
@@ -301,21 +302,21 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   }
   example::write_run(folder_.path("two.h5"), 20.0, frames);
   ViewModel model = opened(folder_.path("two.h5"));
-  model.state.map.layers = {MapKind::clusters};
+  model.state.map.layers = {pictures::MapKind::clusters};
   model.state.map.joined_by_neighbours = true;
   model.go_to(1);
   const auto fill_at = [&model](float x) {
-    const FrameView view = model.first().map(2.0);
-    return std::ranges::find(view.discs, x, &Disc::x)->fill;
+    const render::FrameView view = model.first().map(2.0);
+    return std::ranges::find(view.discs, x, &render::Disc::x)->fill;
   };
-  const std::vector<Colour> palette = cluster_palette();
+  const std::vector<render::Colour> palette = pictures::cluster_palette();
   // As in the frame before, once that has been met; until then this frame is the first.
   EXPECT_TRUE(comes_true(model, [&] { return fill_at(6.5f) == palette[0]; }));
   EXPECT_TRUE(fill_at(1.5f) == palette[1]);
   // By contacts each column is a cluster of its own, too small for a colour; colours of others do not count.
   model.state.map.joined_by_neighbours = false;
-  EXPECT_TRUE(is_gray(fill_at(6.5f)));
-  EXPECT_TRUE(is_gray(fill_at(0.5f)));
+  EXPECT_TRUE(render::is_gray(fill_at(6.5f)));
+  EXPECT_TRUE(render::is_gray(fill_at(0.5f)));
 }
 
 TEST_F(ViewOfRun, brings_the_camera_back_to_the_bed) {
@@ -328,7 +329,7 @@ TEST_F(ViewOfRun, brings_the_camera_back_to_the_bed) {
 
 TEST_F(ViewOfRun, crops_to_the_camera) {
   model_->state.camera = {5.0, 2.0, 5.0};
-  const FrameView view = model_->first().map(1.0);
+  const render::FrameView view = model_->first().map(1.0);
   EXPECT_NEAR(view.x_max - view.x_min, 2.0 * 1.5, 1.01) << "not below 3 D";
   EXPECT_LT(view.discs.size(), 30u);
   EXPECT_NE(model_->render_command().find("--crop 3.5,0.5,6.5,3.5"), std::string::npos)
@@ -344,7 +345,7 @@ TEST_F(ViewOfRun, begins_at_an_angle_that_is_asked_for) {
 }
 
 TEST_F(ViewOfRun, measures_displacements_from_the_frame_before_or_since_an_angle) {
-  model_->state.map.layers = {MapKind::displacement};
+  model_->state.map.layers = {pictures::MapKind::displacement};
   model_->go_to(3);
   EXPECT_NE(model_->first().furnished_map().title.find("per degree"), std::string::npos);
   model_->state.since = radians(6.0);
@@ -387,16 +388,16 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
   model_.reset();
   const std::string path = folder_.path("unfinished.h5");
   {
-    RunStore store = RunStore::create(path, RunFile::open(path_).header(), true);
+    io::RunStore store = io::RunStore::create(path, io::RunFile::open(path_).header(), true);
     for (const double tilt : {0.0, 10.0}) {
-      Segment segment;
+      io::Segment segment;
       segment.frames = {example::bed_frame(tilt, 0), example::bed_frame(tilt + 5.0, 1)};
-      store.commit(segment, RunFile::open(path_).checkpoint());
+      store.commit(segment, io::RunFile::open(path_).checkpoint());
     }
   }
   ViewModel model = opened(path);
   ASSERT_TRUE(comes_true(model, [&] { return plot(model, "overloaded").series[0].x.size() == 4; }));
-  for (const auto& file : std::filesystem::directory_iterator(run_folder(path))) {
+  for (const auto& file : std::filesystem::directory_iterator(io::run_folder(path))) {
     if (file.path().filename().string().starts_with("segment_")) std::filesystem::remove(file);
   }
   model.play(true);
@@ -410,9 +411,9 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
 
 TEST_F(ViewOfRun, turned_shows_all_frames_in_one_size) {
   model_->state.map.turned = true;
-  const FrameView flat = model_->first().map(1.5);
+  const render::FrameView flat = model_->first().map(1.5);
   model_->go_to(5);
-  const FrameView steep = model_->first().map(1.5);
+  const render::FrameView steep = model_->first().map(1.5);
   EXPECT_NEAR(degrees(flat.turn), 0.0, 1e-6);
   EXPECT_NEAR(degrees(steep.turn), 25.0, 1e-5);
   EXPECT_EQ(flat.turn_max, steep.turn_max);
@@ -446,4 +447,4 @@ TEST(ViewOfNothing, says_what_is_missing) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -9,7 +9,7 @@
 #include "unit/view/opened_view.h"
 #include "view/scene.h"
 
-namespace talus {
+namespace talus::view {
 namespace {
 
 class SelectionInRun : public testing::Test {
@@ -103,7 +103,7 @@ TEST_F(SelectionInRun, it_is_drawn_by_lines_alone) {
   model_->select(std::vector<Index>{11, 12, 13});
   EXPECT_EQ(lines(), before + 3 * 32) << "a ring for each";
   EXPECT_EQ(model_->first().map(2.0).discs.size(), discs);
-  for (const Line& line : model_->first().map(2.0).lines)
+  for (const render::Line& line : model_->first().map(2.0).lines)
     if (line.colour == selection_colour) {
       EXPECT_LE(line.half_width, 0.051f) << "thin";
     }
@@ -123,4 +123,4 @@ TEST_F(SelectionInRun, what_is_not_there_is_not_drawn) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::view

@@ -5,7 +5,7 @@
 #include "base/errors.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::add_contact, test::add_grain, test::empty_packing, test::Packing;
@@ -82,4 +82,4 @@ TEST(ContactChanges, are_between_frames_of_the_same_grains) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

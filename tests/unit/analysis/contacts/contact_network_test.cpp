@@ -9,7 +9,7 @@
 #include "stress/stress_state.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -122,7 +122,7 @@ TEST(Networks, have_together_the_moments_of_the_grains) {
   packing.frame.contacts.fn = {1.0, 1.5, 2.5, 2.0, 2.0, 4.0};
   packing.frame.contacts.ft = {0.1, -0.2, 0.3, 0.0, 0.5, -0.5};
   test::moments_from_contacts(packing);
-  const Tensor2 whole = sum_of_moments(packing.frame.internal_moment, 0, packing.statics.free_count);
+  const Tensor2 whole = stress::sum_of_moments(packing.frame.internal_moment, 0, packing.statics.free_count);
   // With all contacts strong but one, its share is known from the whole.
   const FrameRecord result = found(take_networks, packing);
   double strong_trace = 0.0;
@@ -169,4 +169,4 @@ TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -81,4 +81,4 @@ TEST(WeakContacts, nothing_is_known_without_contacts) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -233,4 +233,4 @@ TEST(CoarseFields, are_empty_where_no_grain_is_near) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -167,4 +167,4 @@ TEST(LocalDeformation, of_a_bed_that_does_not_move_has_no_share) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

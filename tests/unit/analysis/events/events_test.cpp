@@ -9,7 +9,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using Places = std::vector<std::vector<std::size_t>>;
@@ -106,4 +106,4 @@ TEST(Movement, around_the_period_has_its_centre_there) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

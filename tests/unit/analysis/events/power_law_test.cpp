@@ -9,7 +9,7 @@
 
 #include "core/random.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// x = minimum (1 - u)^(-1 / (alpha - 1)): the inverse of the cumulative distribution.
@@ -84,4 +84,4 @@ TEST(ExponentialLaw, finds_the_mean_of_a_sample_beyond_its_shortest) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -84,4 +84,4 @@ TEST(FailureDistance, of_a_bed_without_contacts_is_not_known) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

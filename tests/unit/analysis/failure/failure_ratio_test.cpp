@@ -10,7 +10,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 TEST(FailureRatio, is_of_the_last_rows_before_it) {
@@ -32,4 +32,4 @@ TEST(FailureRatio, leaves_out_the_horizontal_bed) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -6,7 +6,7 @@
 
 #include "core/trigonometry.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 std::pair<std::size_t, std::size_t> rise(const std::vector<double>& tilts) {
@@ -81,4 +81,4 @@ TEST(LastRise, of_a_bed_that_slopes_to_the_other_side_is_mirrored) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -145,4 +145,4 @@ TEST(GrowthExponent, has_the_standard_error_of_a_slope) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -8,7 +8,7 @@
 
 #include "core/random.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using Graph = std::vector<std::vector<Index>>;
@@ -164,4 +164,4 @@ TEST(CorrelationLength, of_pairs) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -11,7 +11,7 @@
 #include "stress/stress_state.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -37,13 +37,14 @@ double ratio_within(const Packing& packing, Index centre, double l) {
     const Tensor2& moment = packing.frame.internal_moment[i];
     sum = {sum.xx + moment.xx, sum.xy + moment.xy, sum.yx + moment.yx, sum.yy + moment.yy};
   }
-  return stress_state(sum).ratio;
+  return stress::stress_state(sum).ratio;
 }
 
 double length_of(const Packing& packing, Index centre, const CoarseGrainingRule& rule) {
   const double first =
       rule.l_min > 0.0 ? ratio_within(packing, centre, rule.l_min) : packing.frame.gamma[centre];
-  if (std::isnan(packing.frame.gamma[centre]) || !is_overloaded(first, rule.threshold)) return std::nan("");
+  if (std::isnan(packing.frame.gamma[centre]) || !stress::is_overloaded(first, rule.threshold))
+    return std::nan("");
   std::vector<double> candidates = {rule.l_min};
   for (const auto& [distance, i] : neighbours_of(packing, centre))
     if (2.0 * distance > rule.l_min && 2.0 * distance <= rule.cut) candidates.push_back(2.0 * distance);
@@ -263,4 +264,4 @@ TEST(CoarseGraining, summary) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

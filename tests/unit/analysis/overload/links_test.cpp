@@ -7,7 +7,7 @@
 
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -63,4 +63,4 @@ TEST(NeighbourLinks, of_a_triangular_lattice) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

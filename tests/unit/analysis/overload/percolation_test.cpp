@@ -10,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -192,4 +192,4 @@ TEST(DirectedPaths, stay_in_the_set) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -10,7 +10,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -156,4 +156,4 @@ TEST(LocalSolidFraction, holes_count_as_far_as_a_ring_of_six_has_them) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

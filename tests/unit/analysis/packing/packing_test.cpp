@@ -7,7 +7,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -145,4 +145,4 @@ TEST(StressRatioDistribution, is_that_of_free_grains_that_carry_something) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -9,7 +9,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -146,4 +146,4 @@ TEST(ForceCorrelation, is_that_of_normal_forces_at_contact_points) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -7,7 +7,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 /// Contacts of the given directions (deg) between grains of no matter which place, with f_n = 1, 2, ...
@@ -65,4 +65,4 @@ TEST(DirectionPeaks, are_where_directions_concentrate) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

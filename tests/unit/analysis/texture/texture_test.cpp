@@ -7,7 +7,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -65,4 +65,4 @@ TEST(Texture, of_no_contacts_is_not_known) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

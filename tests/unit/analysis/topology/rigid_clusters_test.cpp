@@ -9,7 +9,7 @@
 #include "core/random.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -136,4 +136,4 @@ TEST(RigidClusters, of_a_bed_stand_on_its_floor) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -11,7 +11,7 @@
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
-namespace talus {
+namespace talus::analysis {
 namespace {
 
 using test::Packing;
@@ -139,4 +139,4 @@ TEST(Topology, change_is_from_the_frame_before_and_for_each_grain) {
 }
 
 }  // namespace
-}  // namespace talus
+}  // namespace talus::analysis

@@ -1,0 +1,64 @@
+#include <fmt/core.h>
+#include <vector>
+
+#include "exports/fields.h"
+#include "exports/writers.h"
+
+namespace talus::exports {
+namespace {
+
+/// Vectors have three components here, tensors four.
+std::size_t width_of(const analysis::FrameQuantity& field) {
+  return field.shape == analysis::FieldShape::vector ? 3 : analysis::components(field);
+}
+
+/// "pos:R:3:radius:R:1": names, kinds and numbers of columns.
+std::string properties(const std::vector<FieldColumn>& columns) {
+  std::string text = "species:S:1:pos:R:3";
+  for (const FieldColumn& column : columns)
+    text += fmt::format(":{}:{}:{}", xyz_name(column),
+                        column.field.number == analysis::FieldNumber::integer ? 'I' : 'R',
+                        width_of(column.field));
+  return text;
+}
+
+std::string box_line(const analysis::GrainSource& of, const std::vector<FieldColumn>& columns) {
+  const BedBounds bounds = bed_bounds(of);
+  const double d = of.statics.mean_diameter;
+  return fmt::format(
+      "Lattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" Properties={} pbc=\"{} F F\" Time={} tilt={} "
+      "step={} "
+      "frame={} mean_diameter={} units=\"lengths in mean diameters; all else SI, per metre of thickness\"\n",
+      (bounds.x_high - bounds.x_low) / d, (bounds.y_high - bounds.y_low) / d,
+      (bounds.z_high - bounds.z_low) / d, bounds.x_low / d, bounds.y_low / d, bounds.z_low / d,
+      properties(columns), of.statics.periodic ? 'T' : 'F', of.frame.time, of.frame.tilt, of.frame.step,
+      of.number, d);
+}
+
+void append_column(std::string& text, const FieldColumn& column, std::size_t row, double mean_diameter) {
+  const std::size_t width = analysis::components(column.field);
+  const bool is_length = column.field.unit == "m";
+  for (std::size_t c = 0; c < width; ++c) {
+    const double value = column.values[row * width + c];
+    text += ' ';
+    analysis::append_number(text, is_length ? value / mean_diameter : value,
+                            is_length ? analysis::FieldNumber::real : column.field.number);
+  }
+  if (column.field.shape == analysis::FieldShape::vector) text += " 0";
+}
+
+}  // namespace
+
+std::string xyz_text(const analysis::GrainSource& of) {
+  const double d = of.statics.mean_diameter;
+  const std::vector<FieldColumn> columns = grain_columns(of);
+  std::string text = fmt::format("{}\n{}", of.frame.grain_count(), box_line(of, columns));
+  for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
+    text += fmt::format("X {} {} 0", of.frame.x[i] / d, of.frame.y[i] / d);
+    for (const FieldColumn& column : columns) append_column(text, column, i, d);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace talus::exports

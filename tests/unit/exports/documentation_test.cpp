@@ -1,0 +1,92 @@
+/// docs/export.md has the tables of the program.
+
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+#include <fstream>
+#include <sstream>
+
+#include "exports/fields.h"
+#include "exports/formats.h"
+#include "exports/writers.h"
+#include "support/places.h"
+
+namespace talus::test {
+namespace {
+
+std::string page() {
+  std::ifstream file(test::source_folder() + "/docs/export.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+const char* text_of(exports::ExportOutput output) {
+  switch (output) {
+    case exports::ExportOutput::folder:
+      return "a folder";
+    case exports::ExportOutput::file:
+      return "a file";
+    case exports::ExportOutput::file_per_frame:
+      break;
+  }
+  return "a file, or a folder for several frames";
+}
+
+const char* text_of(analysis::FieldNumber number) {
+  switch (number) {
+    case analysis::FieldNumber::integer:
+      return "integer";
+    case analysis::FieldNumber::single:
+      return "single";
+    case analysis::FieldNumber::real:
+      break;
+  }
+  return "double";
+}
+
+const char* text_of(analysis::FieldShape shape) {
+  return shape == analysis::FieldShape::scalar   ? "1"
+         : shape == analysis::FieldShape::vector ? "x, y"
+                                                 : "xx, xy, yx, yy";
+}
+
+std::string rows_of(std::span<const exports::GridField> fields) {
+  std::string rows;
+  for (const exports::GridField& field : fields)
+    rows += fmt::format("| `{}` | {} | {} | {} |\n", field.name, text_of(field.shape), field.unit,
+                        field.definition);
+  return rows;
+}
+
+std::string rows_of(std::span<const analysis::FrameQuantity> fields) {
+  std::string rows;
+  for (const analysis::FrameQuantity& field : fields)
+    if (!field.name.empty() && analysis::is_of_frame(field))
+      rows += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", field.name,
+                          field.need == analysis::FrameNeed::threshold ? "_FACTOR" : "", text_of(field.shape),
+                          text_of(field.number), field.unit, field.definition);
+  return rows;
+}
+
+TEST(ExportPage, lists_the_formats) {
+  std::string rows;
+  for (const exports::FormatEntry& entry : exports::export_formats())
+    rows += fmt::format("| `{}` | {}{} | {} | {} |\n", entry.name, text_of(entry.output),
+                        entry.ending.empty() ? "" : fmt::format(", `{}`", entry.ending), entry.program,
+                        entry.help);
+  EXPECT_NE(page().find("|---|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
+}
+
+TEST(ExportPage, lists_the_fields) {
+  const std::string head = "|---|---|---|---|---|\n";
+  EXPECT_NE(page().find(head + rows_of(analysis::grain_quantities()) + "\n"), std::string::npos)
+      << rows_of(analysis::grain_quantities());
+  EXPECT_NE(page().find(head + rows_of(analysis::contact_quantities()) + "\n"), std::string::npos)
+      << rows_of(analysis::contact_quantities());
+  EXPECT_NE(page().find("|---|---|---|---|\n" + rows_of(exports::grid_fields()) + "\n"), std::string::npos)
+      << rows_of(exports::grid_fields());
+}
+
+}  // namespace
+}  // namespace talus::test

@@ -1,0 +1,180 @@
+/// The page of a bed that was made by hand.
+
+#include "exports/page/run_page.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "base/errors.h"
+#include "core/trigonometry.h"
+#include "exports/page/map_texts.h"
+#include "exports/page/page_run.h"
+#include "exports/page/tables.h"
+#include "pictures/layers.h"
+#include "runs/analysis_run.h"
+#include "support/exit_code.h"
+#include "support/temporary_folder.h"
+#include "unit/exports/unpacked.h"
+#include "unit/view/example_bed.h"
+
+namespace talus::exports {
+namespace {
+
+using Frames = std::vector<std::size_t>;
+
+class RunPage : public testing::Test {
+ protected:
+  void SetUp() override { write(22.0); }
+  void write(double theta_c) {
+    path_ = folder_.path("bed.h5");
+    example::write_bed_run(path_, theta_c);
+    file_.emplace(io::RunFile::open(path_));
+    analysis_ = runs::analyse_run(*file_, {}, 1, {});
+  }
+  std::string page(const Frames& frames) { return run_page(*file_, path_, analysis_, frames, {}); }
+  /// The text of an element of the page.
+  static std::string element(const std::string& page, const std::string& id) {
+    const auto begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
+    return page.substr(begin, page.find("</script>", begin) - begin);
+  }
+  std::vector<std::uint32_t> table(const std::string& page, const std::string& name, std::size_t rows,
+                                   std::size_t columns, int bytes = 2) {
+    return test::unpacked(element(page, "table-" + name), rows, columns, bytes);
+  }
+
+  test::TemporaryFolder folder_;
+  std::string path_;
+  std::optional<io::RunFile> file_;
+  analysis::Analysis analysis_;
+};
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(RunPage, holds_the_frames_that_are_asked_for) {
+  const std::string some = page({0, 3, 6});
+  EXPECT_NE(some.find("\"numbers\":[0,3,6]"), std::string::npos);
+  EXPECT_NE(some.find("\"of_tilt\":2"), std::string::npos) << "frame 6 is of the flow";
+  EXPECT_NE(some.find("\"tilts\":[0,15,24]"), std::string::npos);
+  const std::size_t grains = file_->header().statics.radius.size();
+  EXPECT_EQ(table(some, "x", grains, 3).size(), 3 * grains);
+}
+
+TEST_F(RunPage, holds_places_within_half_a_quantum) {
+  const Frames frames = {1, 2, 5};
+  const std::string text = page(frames);
+  const RunStatics& statics = file_->header().statics;
+  const auto x = table(text, "x", statics.radius.size(), 3), y = table(text, "y", statics.radius.size(), 3);
+  ASSERT_FALSE(x.empty());
+  const PageRun run = begin_page(*file_, analysis_, frames);
+  const PlaceQuantum across = places_of_period(statics.length),
+                     up = places_of_box(run.extent.y_min, run.extent.y_max);
+  for (std::size_t column = 0; column < frames.size(); ++column) {
+    const Frame frame = file_->frame(frames[column]);
+    for (std::size_t i = 0; i < statics.radius.size(); ++i) {
+      const double off = frame.x[i] - across.step * x[3 * i + column];
+      EXPECT_NEAR(off - statics.length * std::round(off / statics.length), 0.0, 0.5001 * across.step);
+      EXPECT_NEAR(up.low + up.step * y[3 * i + column], frame.y[i], 0.5001 * up.step);
+    }
+  }
+}
+
+TEST_F(RunPage, holds_clusters_and_values_of_grains) {
+  const Frames frames = {3};
+  const std::string text = page(frames);
+  const auto free_grains = static_cast<std::size_t>(file_->header().statics.free_count);
+  const auto clusters = table(text, "cluster", free_grains, 1);
+  const analysis::FrameThreshold& at = analysis_.frames[3].thresholds.front();
+  ASSERT_EQ(clusters.size(), free_grains);
+  for (std::size_t i = 0; i < free_grains; ++i)
+    EXPECT_EQ(clusters[i], at.cluster[i] < 0 ? no_code : static_cast<std::uint32_t>(at.cluster[i])) << i;
+  const auto lengths = table(text, "lc", free_grains, 1);
+  for (std::size_t i = 0; i < free_grains; ++i) {
+    if (at.cluster[i] < 0) {
+      EXPECT_EQ(lengths[i], no_code);
+    } else {
+      EXPECT_NEAR(lengths[i] / 100.0, static_cast<double>(at.lc[i]), 0.00501);
+    }
+  }
+}
+
+TEST_F(RunPage, says_what_the_pictures_say) {
+  const Frames frames = {2, 3};
+  const std::string text = std::regex_replace(page(frames), std::regex(R"(\\u003c)"), "<");
+  const PageRun run = begin_page(*file_, analysis_, frames);
+  std::size_t maps = 0;
+  for_each_frame(run, {}, [&](const PageFrame& frame) {
+    std::vector<pictures::MapKind> kinds = filling_maps(run);
+    kinds.insert(kinds.end(), {pictures::MapKind::forces, pictures::MapKind::critical});
+    for (const pictures::MapKind kind : kinds) {
+      pictures::MapSettings settings = run.settings;
+      settings.layers = {kind};
+      const render::FrameView view = pictures::make_map(frame.mapped(run), settings, run.extent);
+      EXPECT_NE(text.find("\"" + view.title + "\""), std::string::npos) << view.title;
+      EXPECT_NE(text.find("\"" + view.caption + "\""), std::string::npos) << view.caption;
+      for (const render::Bar& bar : view.legends[0].bars)
+        for (const render::BarTick& tick : bar.ticks)
+          EXPECT_NE(text.find("\"label\":\"" + tick.label + "\""), std::string::npos) << tick.label;
+      for (const render::Swatch& swatch : view.legends[0].swatches)
+        EXPECT_NE(text.find("\"label\":\"" + swatch.label + "\""), std::string::npos) << swatch.label;
+      ++maps;
+    }
+  });
+  EXPECT_GE(maps, 14U);
+}
+
+TEST_F(RunPage, needs_nothing_but_itself) {
+  const std::string text = page({0});
+  EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
+  const std::regex address(R"(https?:|//[a-z]+\.[a-z]|url\(|src=|@import|<link)");
+  std::string rest = text;
+  const std::string names = "http://www.w3.org/2000/svg";  // a name, which nothing is fetched from
+  for (auto at = rest.find(names); at != std::string::npos; at = rest.find(names))
+    rest.erase(at, names.size());
+  const std::smatch found = [&] {
+    std::smatch match;
+    std::regex_search(rest, match, address);
+    return match;
+  }();
+  EXPECT_TRUE(found.empty()) << found.str();
+  EXPECT_EQ(count_of(text, "{{"), 0U) << "all of the template is filled";
+  EXPECT_EQ(count_of(text, "<script"), count_of(text, "</script>"));
+  EXPECT_EQ(element(text, "data").find('<'), std::string::npos) << "no text of the run ends its element";
+}
+
+TEST_F(RunPage, is_small) {
+  // A byte or two for each number of a grain: what remains is the page itself.
+  const std::size_t frames = file_->all_frame_tilts().size();
+  Frames all(frames);
+  for (std::size_t k = 0; k < frames; ++k) all[k] = k;
+  EXPECT_LT(page(all).size(), 150'000U);
+}
+
+TEST_F(RunPage, is_the_same_each_time) { EXPECT_EQ(page({0, 3}), page({0, 3})); }
+
+TEST_F(RunPage, of_a_run_that_stands_has_no_clusters) {
+  write(std::nan(""));
+  const std::string text = page({0, 5});
+  EXPECT_EQ(text.find("\"name\":\"clusters\""), std::string::npos);
+  EXPECT_EQ(text.find("table-cluster\""), std::string::npos);
+  EXPECT_NE(text.find("(assumed)"), std::string::npos);
+  EXPECT_NE(text.find("the slope has not failed"), std::string::npos);
+  EXPECT_NE(text.find("\"theta_c\": null"), std::string::npos);
+}
+
+TEST_F(RunPage, names_events_that_lie_among_its_frames) {
+  EXPECT_NE(page({0, 1, 2, 3, 4}).find("\"name\":\"theta_c\""), std::string::npos);
+  EXPECT_EQ(page({0, 1}).find("\"name\":\"theta_c\""), std::string::npos) << "5 deg is far from it";
+}
+
+TEST_F(RunPage, stops_when_asked) {
+  const Watch watch{{}, [] { return true; }};
+  EXPECT_EQ(test::exit_code_of([&] { run_page(*file_, path_, analysis_, {0}, watch); }), ExitCode::stopped);
+}
+
+}  // namespace
+}  // namespace talus::exports
