@@ -8,6 +8,7 @@
 #include <functional>
 #include <iterator>
 
+#include "analysis/failure/place.h"
 #include "analysis/quantities.h"
 #include "base/errors.h"
 #include "base/visible_text.h"
@@ -34,8 +35,11 @@ std::vector<analysis::Quantity> rows_where(const std::function<bool(const analys
 }
 
 const std::vector<analysis::Quantity>& numbers_of_members() {
-  static const std::vector<analysis::Quantity> table =
-      rows_where([](const analysis::Quantity& quantity) { return analysis::is_number_of_run(quantity); });
+  static const std::vector<analysis::Quantity> table = rows_where([](const analysis::Quantity& quantity) {
+    return std::ranges::any_of(analysis::numbers_of_run(), [&](const analysis::NumberOfRun& number) {
+      return number.quantity == quantity.member;
+    });
+  });
   return table;
 }
 

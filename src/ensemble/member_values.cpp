@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "analysis/failure/last_rise.h"
+#include "analysis/failure/place.h"
 #include "analysis/quantities.h"
 #include "base/hash.h"
 #include "core/snapshot.h"
@@ -20,14 +21,12 @@ namespace {
 constexpr const char* angle_at_rest = "theta_r";
 constexpr std::array<const char*, 2> counted_steps = {"unconverged_steps_deposition", "unconverged_steps"};
 
-void add_numbers(std::vector<NamedNumber>& numbers, const analysis::Quantity& quantity,
-                 const analysis::Analysis& analysis, double mean_diameter) {
-  const analysis::Values values = analysis::values_of(quantity, analysis);
-  const auto* doubles = std::get_if<std::vector<double>>(&values);
-  if (doubles == nullptr) return;
-  for (std::size_t k = 0; k < doubles->size(); ++k)
-    numbers.push_back({element_name(quantity.name, k), analysis::scaled_unit(quantity.unit),
-                       analysis::scaled(quantity.unit, (*doubles)[k], mean_diameter)});
+/// How many there are of it: elements, or thresholds.
+std::size_t count_of(const analysis::NumberOfRun& number, const analysis::Analysis& analysis) {
+  const analysis::Quantity& quantity = analysis::quantity_of(number.quantity);
+  if (number.place == analysis::Place::run)
+    return std::get<std::vector<double>>(analysis::values_of(quantity, analysis)).size();
+  return analysis::needs_threshold(quantity) ? analysis.thresholds.size() : 1;
 }
 
 double result(const Figures& figures, const std::string& name) {
@@ -64,9 +63,13 @@ MemberNumbers member_numbers(const io::RunFile& run, const analysis::Analysis& a
                       runs::version_of(run.header().provenance),
                       result(end.timing, "deposition") + result(end.timing, "tilt"),
                       {}};
-  for (const analysis::Quantity& quantity : analysis::quantities())
-    if (analysis::is_number_of_run(quantity))
-      add_numbers(found.numbers, quantity, analysis, run.header().statics.mean_diameter);
+  for (const analysis::NumberOfRun& number : analysis::numbers_of_run()) {
+    const std::string& unit = analysis::quantity_of(number.quantity).unit;
+    for (std::size_t k = 0; k < count_of(number, analysis); ++k)
+      found.numbers.push_back({element_name(name_of(number), k), analysis::scaled_unit(unit),
+                               analysis::scaled(unit, analysis::number_at(analysis, number, k),
+                                                run.header().statics.mean_diameter)});
+  }
   found.numbers.push_back({angle_at_rest, "deg", degrees(result(end.results, angle_at_rest))});
   for (const char* name : counted_steps) found.numbers.push_back({name, "1", result(end.results, name)});
   return found;
@@ -74,8 +77,7 @@ MemberNumbers member_numbers(const io::RunFile& run, const analysis::Analysis& a
 
 std::vector<std::string> numbers_of_run() {
   std::vector<std::string> names;
-  for (const analysis::Quantity& quantity : analysis::quantities())
-    if (analysis::is_number_of_run(quantity)) names.push_back(quantity.name);
+  for (const analysis::NumberOfRun& number : analysis::numbers_of_run()) names.push_back(name_of(number));
   names.emplace_back(angle_at_rest);
   names.insert(names.end(), counted_steps.begin(), counted_steps.end());
   return names;

@@ -60,8 +60,8 @@ struct MemberResult {
   bool has_frames = true;  ///< its file has more than its analysis
 };
 
-/// All numbers of a complete run and its analysis, in the order of the table of quantities, then what the run
-/// found by itself (theta_r).
+/// All numbers of a complete run and its analysis (analysis/failure/place.h), then what the run found by
+/// itself (theta_r).
 MemberNumbers member_numbers(const io::RunFile& run, const analysis::Analysis& analysis);
 
 /// The frames up to theta_c, or all of a slope that has not failed. Where the tilt goes up and down, those of

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "analysis/quantities.h"
+#include "analysis/failure/place.h"
 
 namespace talus::ensemble {
 
@@ -64,8 +64,9 @@ struct PaperValue {
   double accuracy;
   std::string_view unit;  ///< "deg", "D", or "1"
   Relation relation;
-  std::string_view definition;      ///< how ours is measured
-  analysis::QuantityMember source;  ///< the quantity that it is read from
+  std::string_view definition;                   ///< how ours is measured
+  analysis::QuantityMember source;               ///< what it is read from, or made from, ...
+  analysis::Place place = analysis::Place::run;  ///< ... and where
 };
 
 /// One row for each quantity, in their order.
