@@ -20,12 +20,12 @@
 #include "base/errors.h"
 #include "base/paths.h"
 #include "base/text.h"
-#include "ensemble/reproduction_report.h"
-#include "ensemble/reproduction_values.h"
 #include "figures/agreement_figure.h"
 #include "figures/catalogue.h"
 #include "io/durable_file.h"
 #include "session/estimate.h"
+#include "studies/reproduction_report.h"
+#include "studies/reproduction_values.h"
 
 namespace talus::app {
 namespace {
@@ -40,18 +40,18 @@ struct ReproduceArguments {
 };
 
 /// Makes what is missing of members that are done, or is of another version.
-void complete(const ensemble::ReproductionPlan& plan) {
+void complete(const studies::ReproductionPlan& plan) {
   const std::vector<std::size_t> done = ensemble::done_members(plan);
   const CountDone progress = count_shown("analyses", false);
   for (std::size_t k = 0; k < done.size(); ++k) {
     progress(k, done.size());
-    if (!ensemble::is_measured(plan.members[done[k]])) ensemble::complete_readings(plan.members[done[k]]);
+    if (!studies::is_measured(plan.members[done[k]])) studies::complete_readings(plan.members[done[k]]);
   }
   progress(done.size(), done.size());
 }
 
 /// What is still to be run, and how long that may take.
-void announce(const ensemble::ReproductionPlan& plan, int jobs) {
+void announce(const studies::ReproductionPlan& plan, int jobs) {
   double seconds = 0.0;
   for (const ensemble::Member& member : plan.members) seconds += session::estimate(member.scenario).seconds;
   const std::vector<std::size_t> done = ensemble::done_members(plan);
@@ -61,7 +61,7 @@ void announce(const ensemble::ReproductionPlan& plan, int jobs) {
               session::duration_text(seconds / jobs).c_str(), jobs, jobs == 1 ? "" : "s");
 }
 
-std::vector<figures::RunGroup> open_groups(const ensemble::ReproductionPlan& plan) {
+std::vector<figures::RunGroup> open_groups(const studies::ReproductionPlan& plan) {
   std::vector<std::size_t> members = ensemble::done_members(plan);
   // By bed, so that groups come in the order of the plan: the paper's preparation first.
   std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
@@ -78,7 +78,7 @@ std::string command_of(const figures::Figure& figure, const std::string& folder)
 }
 
 /// `talus reproduce` that makes the chart.
-std::string command_of(const ensemble::ReproductionPlan& plan, const std::string& folder) {
+std::string command_of(const studies::ReproductionPlan& plan, const std::string& folder) {
   return fmt::format("talus reproduce{} --seeds {} -o {}", plan.quick ? " --quick" : "",
                      joined(plan.seeds, ","), folder);
 }
@@ -97,8 +97,8 @@ bool is_drawn(const figures::Figure& figure, std::span<const figures::RunGroup> 
 }
 
 /// Draws a figure, unless one with the same provenance and script is there, and returns it as a picture.
-ensemble::ReportPicture drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
-                              const std::string& folder, const FigureOptions& options) {
+studies::ReportPicture drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
+                             const std::string& folder, const FigureOptions& options) {
   try {
     if (!is_drawn(figure, groups, folder, options)) write_figure(figure, groups, folder, options);
   } catch (const Error&) {
@@ -108,8 +108,8 @@ ensemble::ReportPicture drawn(const figures::Figure& figure, std::span<const fig
   return {fmt::format("figures/{}.png", figure.name), figure.title, figure.caption, figure.wide};
 }
 
-std::vector<ensemble::ReportPicture>& part_of(ensemble::ReproductionPictures& pictures,
-                                              figures::Subject subject) {
+std::vector<studies::ReportPicture>& part_of(studies::ReproductionPictures& pictures,
+                                             figures::Subject subject) {
   switch (subject) {
     case figures::Subject::packing:
       return pictures.packing;
@@ -125,13 +125,13 @@ std::vector<ensemble::ReportPicture>& part_of(ensemble::ReproductionPictures& pi
 
 /// Draws the chart of agreement, and all figures of the catalogue that can be made of the complete, analysed
 /// runs.
-ensemble::ReproductionPictures draw_figures(const ensemble::ReproductionPlan& plan,
-                                            const ensemble::ReproductionResult& result,
-                                            const std::string& folder) {
+studies::ReproductionPictures draw_figures(const studies::ReproductionPlan& plan,
+                                           const studies::ReproductionResult& result,
+                                           const std::string& folder) {
   const std::vector<figures::RunGroup> groups = open_groups(plan);
   const std::string into = (fs::path(folder) / "figures").string();
   const auto catalogue = figures::figure_catalogue();
-  ensemble::ReproductionPictures pictures;
+  studies::ReproductionPictures pictures;
   const CountDone progress = count_shown("figures", false);
   progress(0, catalogue.size() + 1);
   if (const auto chart = figures::agreement_figure(result))
@@ -147,12 +147,12 @@ ensemble::ReproductionPictures draw_figures(const ensemble::ReproductionPlan& pl
   return pictures;
 }
 
-void write_report(const ensemble::ReproductionResult& result, const ensemble::ReproductionPictures& pictures,
+void write_report(const studies::ReproductionResult& result, const studies::ReproductionPictures& pictures,
                   const fs::path& folder) {
-  io::write_text(folder / "values.csv", ensemble::values_csv(result));
+  io::write_text(folder / "values.csv", studies::values_csv(result));
   io::write_text(folder / "report.html",
-                 ensemble::report_html(ensemble::reproduction_report(result, pictures), folder));
-  for (const std::string& item : ensemble::reproduction_summary(result)) print("- %s\n", item.c_str());
+                 studies::report_html(studies::reproduction_report(result, pictures), folder));
+  for (const std::string& item : studies::reproduction_summary(result)) print("- %s\n", item.c_str());
   print("The report is %s\n", (folder / "report.html").c_str());
 }
 
@@ -161,7 +161,7 @@ void reproduce(const ReproduceArguments& arguments) {
                              : arguments.quick         ? "reproduction-quick"
                                                        : "reproduction";
   const std::string seeds = !arguments.seeds.empty() ? arguments.seeds : arguments.quick ? "1" : "1-2";
-  const ensemble::ReproductionPlan plan = ensemble::plan_reproduction(arguments.quick, seeds, folder);
+  const studies::ReproductionPlan plan = studies::plan_reproduction(arguments.quick, seeds, folder);
   require_gnuplot();
   if (arguments.jobs > 0) announce(plan, arguments.jobs);
   const EnsembleView view =
@@ -173,7 +173,7 @@ void reproduce(const ReproduceArguments& arguments) {
     return;
   }
   complete(plan);
-  const ensemble::ReproductionResult result = ensemble::measure_members(plan);
+  const studies::ReproductionResult result = studies::measure_members(plan);
   write_report(result, draw_figures(plan, result, folder), folder);
   refuse_failures(plan, "left out of the report");
 }

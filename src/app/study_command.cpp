@@ -12,8 +12,8 @@
 #include "app/json.h"
 #include "app/terminal.h"
 #include "base/output_file.h"
-#include "ensemble/study_report.h"
 #include "io/durable_file.h"
+#include "studies/study_report.h"
 
 namespace talus::app {
 namespace {
@@ -29,19 +29,19 @@ struct StudyArguments {
   bool json = false;
 };
 
-Json runs_json(const ensemble::StudyResult& result) {
+Json runs_json(const studies::StudyResult& result) {
   Json runs = Json::object();
-  for (const ensemble::StudyOutcome& outcome : result.outcomes) {
+  for (const studies::StudyOutcome& outcome : result.outcomes) {
     Json& run = runs[result.plan.members[outcome.member].name];
-    for (std::size_t k = 0; k < ensemble::study_quantity_count; ++k)
-      run[ensemble::study_fields()[k].name] = outcome.figures[k];
+    for (std::size_t k = 0; k < studies::study_quantity_count; ++k)
+      run[studies::study_fields()[k].name] = outcome.figures[k];
     run["state_hash"] = outcome.state_hash;
     run["version"] = outcome.version;
   }
   return runs;
 }
 
-Json comparison_json(const ensemble::Comparison& found) {
+Json comparison_json(const studies::Comparison& found) {
   static const char* const words[] = {"unknown", "within error", "differs"};
   return {{"seeds", found.value.count},
           {"mean", found.value.mean},
@@ -51,12 +51,12 @@ Json comparison_json(const ensemble::Comparison& found) {
           {"verdict", words[static_cast<int>(verdict(found.difference))]}};
 }
 
-std::string study_json(const ensemble::StudyResult& result) {
+std::string study_json(const studies::StudyResult& result) {
   Json variations = Json::object();
   for (std::size_t v = 0; v < result.plan.variants.size(); ++v)
-    for (std::size_t k = 0; k < ensemble::study_quantity_count; ++k)
-      variations[result.plan.variants[v].name][ensemble::study_fields()[k].name] =
-          comparison_json(ensemble::compare(result, v, static_cast<ensemble::StudyQuantity>(k)));
+    for (std::size_t k = 0; k < studies::study_quantity_count; ++k)
+      variations[result.plan.variants[v].name][studies::study_fields()[k].name] =
+          comparison_json(studies::compare(result, v, static_cast<studies::StudyQuantity>(k)));
   return json_text({{"scenario", result.plan.scenario_file},
                     {"reference_deg", result.reference},
                     {"variations", variations},
@@ -64,8 +64,8 @@ std::string study_json(const ensemble::StudyResult& result) {
 }
 
 void study(const StudyArguments& arguments) {
-  const ensemble::StudyPlan plan = ensemble::plan_study(arguments.scenario, arguments.settings,
-                                                        arguments.axes, arguments.seeds, arguments.folder);
+  const studies::StudyPlan plan = studies::plan_study(arguments.scenario, arguments.settings, arguments.axes,
+                                                      arguments.seeds, arguments.folder);
   const std::filesystem::path folder = arguments.folder;
   for (const char* table : {"study.csv", "study.md"})
     output_target((folder / table).string(), {true, {arguments.scenario}});
@@ -77,10 +77,10 @@ void study(const StudyArguments& arguments) {
     print_text(ensemble_text(view));  // others are to compute it
     return;
   }
-  const ensemble::StudyResult result = ensemble::read_study(plan, arguments.reference);
-  io::write_text(folder / "study.csv", ensemble::study_csv(result));
-  io::write_text(folder / "study.md", ensemble::study_markdown(result));
-  print("%s\n", (arguments.json ? study_json(result) : ensemble::study_markdown(result)).c_str());
+  const studies::StudyResult result = studies::read_study(plan, arguments.reference);
+  io::write_text(folder / "study.csv", studies::study_csv(result));
+  io::write_text(folder / "study.md", studies::study_markdown(result));
+  print("%s\n", (arguments.json ? study_json(result) : studies::study_markdown(result)).c_str());
   refuse_failures(plan, "left out of the tables");
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// A table of words and numbers as text: aligned, CSV, Markdown. Reports print it as HTML
-/// (ensemble/report_document.h).
+/// (studies/report_document.h).
 
 #include <string>
 #include <string_view>

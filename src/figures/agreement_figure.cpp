@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/text.h"
-#include "ensemble/reproduction_report.h"
 #include "figures/group_table.h"
 #include "scenario/text.h"
+#include "studies/reproduction_report.h"
 
 namespace talus::figures {
 namespace {
@@ -48,22 +48,22 @@ Chart empty_chart(const std::string& name, std::vector<std::string> series) {
 }
 
 /// Whether anything is said of the value: the paper has a number, and ours can be compared with it.
-bool is_charted(const ensemble::PaperValue& paper, const ensemble::Judgement& judgement) {
-  return paper.relation == ensemble::Relation::equals &&
-         judgement.agreement != ensemble::Agreement::not_comparable;
+bool is_charted(const studies::PaperValue& paper, const studies::Judgement& judgement) {
+  return paper.relation == studies::Relation::equals &&
+         judgement.agreement != studies::Agreement::not_comparable;
 }
 
 /// A row of one value, for beds of a depth; the row is left out where nothing can be said in any series.
-void add_row(Chart& chart, const ensemble::PaperValue& paper, const std::string& label,
-             std::span<const std::pair<ensemble::Spread, double>> ours_and_depths) {
+void add_row(Chart& chart, const studies::PaperValue& paper, const std::string& label,
+             std::span<const std::pair<studies::Spread, double>> ours_and_depths) {
   bool charted = false;
   const double row = static_cast<double>(chart.rows.size()) + 1.0;
   for (std::size_t s = 0; s < ours_and_depths.size(); ++s) {
     const auto& [ours, depth] = ours_and_depths[s];
-    const ensemble::Judgement judgement = ensemble::judge(paper, ours, depth);
+    const studies::Judgement judgement = studies::judge(paper, ours, depth);
     if (!is_charted(paper, judgement)) continue;
     charted = true;
-    const bool occurs = judgement.agreement != ensemble::Agreement::absent;
+    const bool occurs = judgement.agreement != studies::Agreement::absent;
     const double values[] = {row,
                              static_cast<double>(s) + 1.0,
                              occurs ? ours.values.mean : not_a_number,
@@ -71,7 +71,7 @@ void add_row(Chart& chart, const ensemble::PaperValue& paper, const std::string&
                              paper.value,
                              judgement.tolerance,
                              occurs ? judgement.difference / judgement.tolerance : not_a_number,
-                             judgement.agreement == ensemble::Agreement::agrees ? 1.0 : 0.0};
+                             judgement.agreement == studies::Agreement::agrees ? 1.0 : 0.0};
     for (std::size_t k = 0; k < chart.table.columns.size(); ++k)
       chart.table.columns[k].values.push_back(values[k]);
   }
@@ -83,47 +83,47 @@ void add_row(Chart& chart, const ensemble::PaperValue& paper, const std::string&
                                                            : fmt::format(" {}", paper.unit)));
 }
 
-std::vector<std::size_t> beds_of(const ensemble::ReproductionPlan& plan, bool periodic) {
+std::vector<std::size_t> beds_of(const studies::ReproductionPlan& plan, bool periodic) {
   std::vector<std::size_t> beds;
   for (std::size_t b = 0; b < plan.variants.size(); ++b)
-    if (ensemble::is_periodic(plan.variants[b]) == periodic) beds.push_back(b);
+    if (studies::is_periodic(plan.variants[b]) == periodic) beds.push_back(b);
   return beds;
 }
 
-double depth_of(const ensemble::ReproductionResult& result, std::size_t bed) {
+double depth_of(const studies::ReproductionResult& result, std::size_t bed) {
   return result.plan.variants[bed].scenario.bed.depth;
 }
 
 /// Rows of beds between walls, which are all poured: as the first preparation is.
-void add_wall_rows(Chart& chart, const ensemble::ReproductionResult& result) {
-  for (const ensemble::PaperValue& general : ensemble::wall_values())
+void add_wall_rows(Chart& chart, const studies::ReproductionResult& result) {
+  for (const studies::PaperValue& general : studies::wall_values())
     for (const std::size_t b : beds_of(result.plan, false)) {
       const ensemble::Variant& bed = result.plan.variants[b];
-      const std::pair<ensemble::Spread, double> ours{ensemble::spread_of(result, b, general.quantity),
-                                                     bed.scenario.bed.depth};
-      add_row(chart, ensemble::paper_value_of_walls(general.quantity, ensemble::depth_over_length(bed)),
+      const std::pair<studies::Spread, double> ours{studies::spread_of(result, b, general.quantity),
+                                                    bed.scenario.bed.depth};
+      add_row(chart, studies::paper_value_of_walls(general.quantity, studies::depth_over_length(bed)),
               fmt::format("walls, L = {} D: {}", scenario::short_text(bed.scenario.bed.length), general.name),
               {&ours, 1});
     }
-  const std::vector<ensemble::WallPoint> points = ensemble::wall_points(result);
+  const std::vector<studies::WallPoint> points = studies::wall_points(result);
   if (points.size() < 2) return;
-  const ensemble::WallFit fit = ensemble::fit_wall_law(points);
+  const studies::WallFit fit = studies::fit_wall_law(points);
   const int count = static_cast<int>(points.size());
-  const std::pair<ensemble::Spread, double> ours{
-      ensemble::Spread{count, {count, fit.k, fit.error, fit.error}, false}, ensemble::paper_depth};
-  const ensemble::PaperValue& paper = ensemble::paper_value(ensemble::PaperQuantity::wall_coefficient);
+  const std::pair<studies::Spread, double> ours{
+      studies::Spread{count, {count, fit.k, fit.error, fit.error}, false}, studies::paper_depth};
+  const studies::PaperValue& paper = studies::paper_value(studies::PaperQuantity::wall_coefficient);
   add_row(chart, paper, "walls: " + std::string(paper.name), {&ours, 1});
 }
 
-Chart packing_chart(const ensemble::ReproductionResult& result) {
+Chart packing_chart(const studies::ReproductionResult& result) {
   const std::vector<std::size_t> beds = beds_of(result.plan, true);
   std::vector<std::string> series;
-  for (const std::size_t b : beds) series.push_back(ensemble::preparation_text(result.plan.variants[b]));
+  for (const std::size_t b : beds) series.push_back(studies::preparation_text(result.plan.variants[b]));
   Chart chart = empty_chart("packing", std::move(series));
-  for (const ensemble::PaperValue& paper : ensemble::packing_values()) {
-    std::vector<std::pair<ensemble::Spread, double>> ours;
+  for (const studies::PaperValue& paper : studies::packing_values()) {
+    std::vector<std::pair<studies::Spread, double>> ours;
     for (const std::size_t b : beds)
-      ours.emplace_back(ensemble::spread_of(result, b, paper.quantity, ensemble::base_readings().back()),
+      ours.emplace_back(studies::spread_of(result, b, paper.quantity, studies::base_readings().back()),
                         depth_of(result, b));
     add_row(chart, paper, std::string(paper.name), ours);
   }
@@ -131,16 +131,16 @@ Chart packing_chart(const ensemble::ReproductionResult& result) {
   return chart;
 }
 
-Chart chain_chart(const ensemble::ReproductionResult& result) {
+Chart chain_chart(const studies::ReproductionResult& result) {
   std::vector<std::string> series;
-  for (const ensemble::Reading& reading : ensemble::base_readings()) series.push_back(reading.base);
+  for (const studies::Reading& reading : studies::base_readings()) series.push_back(reading.base);
   Chart chart = empty_chart("chain", std::move(series));
   const std::size_t bed = beds_of(result.plan, true).front();
-  for (const ensemble::PaperValue& paper : ensemble::chain_values()) {
-    std::vector<std::pair<ensemble::Spread, double>> ours;
-    for (const ensemble::Reading& reading : ensemble::base_readings())
-      ours.emplace_back(ensemble::spread_of(result, bed, paper.quantity, reading), depth_of(result, bed));
-    if (paper.quantity == ensemble::PaperQuantity::theta_d_by_dilation) ours.resize(1);  // needs no reading
+  for (const studies::PaperValue& paper : studies::chain_values()) {
+    std::vector<std::pair<studies::Spread, double>> ours;
+    for (const studies::Reading& reading : studies::base_readings())
+      ours.emplace_back(studies::spread_of(result, bed, paper.quantity, reading), depth_of(result, bed));
+    if (paper.quantity == studies::PaperQuantity::theta_d_by_dilation) ours.resize(1);  // needs no reading
     add_row(chart, paper, std::string(paper.name), ours);
   }
   return chart;
@@ -184,7 +184,7 @@ void add_chart(Figure& figure, const Chart& chart) {
 
 }  // namespace
 
-std::optional<Figure> agreement_figure(const ensemble::ReproductionResult& result) {
+std::optional<Figure> agreement_figure(const studies::ReproductionResult& result) {
   const Chart packing = packing_chart(result), chain = chain_chart(result);
   if (packing.rows.empty() && chain.rows.empty()) return std::nullopt;
   Figure figure;
@@ -196,7 +196,7 @@ std::optional<Figure> agreement_figure(const ensemble::ReproductionResult& resul
       "(b) Overloaded grains, their lengths and theta_d, in the periodic bed of the paper's preparation, by "
       "reading of \"overloaded\". Arrows: beyond the axis. A cross at the right: it does not occur. Numbers "
       "at the right are the paper's.";
-  for (const ensemble::ReproducedOutcome& outcome : result.outcomes)
+  for (const studies::ReproducedOutcome& outcome : result.outcomes)
     figure.runs.push_back(result.plan.members[outcome.member].path);
   figure.wide = true;
   const double rows = static_cast<double>(std::max(packing.rows.size(), chain.rows.size()));

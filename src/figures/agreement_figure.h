@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "ensemble/reproduction.h"
 #include "figures/figure.h"
+#include "studies/reproduction.h"
 
 namespace talus::figures {
 
@@ -14,6 +14,6 @@ namespace talus::figures {
 /// comparison (judge), so that values within -1 ... 1 agree. Values of which the paper gives no number, and
 /// those that cannot be compared, are left out; what does not occur in any run stands beside the axis. No
 /// figure where nothing is left.
-std::optional<Figure> agreement_figure(const ensemble::ReproductionResult& result);
+std::optional<Figure> agreement_figure(const studies::ReproductionResult& result);
 
 }  // namespace talus::figures

@@ -2,16 +2,16 @@
 #include <array>
 #include <fmt/core.h>
 
-#include "ensemble/paper_values.h"
 #include "figures/group_table.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
+#include "studies/paper_values.h"
 
 namespace talus::figures {
 namespace {
 
-using enum ensemble::PaperQuantity;
+using enum studies::PaperQuantity;
 
 /// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
 std::vector<std::string> factors_of(const runs::RunView& run) {
@@ -57,10 +57,10 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
 
 /// The paper's values of a quantity, at 0, theta_d and theta_c.
 Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const std::array<ensemble::PaperQuantity, 3>& quantities) {
+                    const std::array<studies::PaperQuantity, 3>& quantities) {
   Column column{name, unit, meaning, {}};
-  for (const ensemble::PaperQuantity quantity : quantities)
-    column.values.push_back(ensemble::paper_value(quantity).value);
+  for (const studies::PaperQuantity quantity : quantities)
+    column.values.push_back(studies::paper_value(quantity).value);
   return column;
 }
 
@@ -68,7 +68,7 @@ Column tilts_of_the_paper() {
   return {"theta",
           "deg",
           "tilt",
-          {0.0, ensemble::paper_value(theta_d_by_jump).value, ensemble::paper_value(theta_c).value}};
+          {0.0, studies::paper_value(theta_d_by_jump).value, studies::paper_value(theta_c).value}};
 }
 
 constexpr std::string_view paper_text =
@@ -112,10 +112,10 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
       figure, groups,
       {{"mean", &analysis::FrameThreshold::lc_mean}, {"max", &analysis::FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
-  const std::array<ensemble::PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
+  const std::array<studies::PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
   double top = 0.0;  // of all that is shown of the largest lengths
-  for (const ensemble::PaperQuantity quantity : largest)
-    top = std::max(top, ensemble::paper_value(quantity).value);
+  for (const studies::PaperQuantity quantity : largest)
+    top = std::max(top, studies::paper_value(quantity).value);
   int shown = 0;
   for (const RunGroup& group : groups) {
     const RunChoice runs = group.periodic() ? runs_with_threshold(group) : RunChoice{};

@@ -5,11 +5,11 @@
 
 #include "core/statistics.h"
 #include "core/trigonometry.h"
-#include "ensemble/wall_fit.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
+#include "studies/wall_fit.h"
 
 namespace talus::figures {
 namespace {
@@ -80,7 +80,7 @@ double mean_depth(const runs::RunView& run) {
   return run.analysis.frames.at(repose_frame(run)).volume / length / run.statics.mean_diameter;
 }
 
-WallGroup wall_group(const RunChoice& runs, std::vector<ensemble::WallPoint>& points) {
+WallGroup wall_group(const RunChoice& runs, std::vector<studies::WallPoint>& points) {
   WallGroup result;
   std::vector<double> ratios, squares;
   for (const runs::RunView* run : runs) {
@@ -112,7 +112,7 @@ void add_row(Table& table, const std::vector<double>& row) {
   for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
 }
 
-std::string plus_minus(const ensemble::WallFit& fit) {
+std::string plus_minus(const studies::WallFit& fit) {
   return rounded_text(fit.k, 2) + (std::isnan(fit.error) ? "" : " ± " + rounded_text(fit.error, 2));
 }
 
@@ -155,7 +155,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   figure.name = "fig07-wall-ratio";
   figure.title = "Shear stress at failure over the length between walls (paper, Fig. 7)";
   Table table = empty_wall_table();
-  std::vector<ensemble::WallPoint> points;
+  std::vector<studies::WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
     RunChoice runs = failed_runs(group);
@@ -170,7 +170,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
     for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   }
   if (points.empty()) return std::nullopt;
-  const ensemble::WallFit fit = ensemble::fit_wall_law(points);
+  const studies::WallFit fit = studies::fit_wall_law(points);
   const double depth = statistics_of(depths).mean;
   figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "unit/ensemble/like_the_paper.h"
+#include "unit/studies/like_the_paper.h"
 
 namespace talus::figures {
 namespace {
@@ -31,7 +31,7 @@ std::vector<double> values_in(const Table& table, std::size_t row, const std::st
 }
 
 TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
-  const Figure figure = agreement_figure(ensemble::like_the_paper(0.0)).value();
+  const Figure figure = agreement_figure(studies::like_the_paper(0.0)).value();
   ASSERT_EQ(figure.tables.size(), 2u);
   for (const Table& table : figure.tables) {
     EXPECT_FALSE(table.columns.front().values.empty());
@@ -43,10 +43,10 @@ TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
 }
 
 TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
-  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
-  ensemble::set_everywhere(result, ensemble::PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
-  ensemble::set_everywhere(result, ensemble::PaperQuantity::overloaded_at_0,
-                           {std::numeric_limits<double>::quiet_NaN()});
+  studies::ReproductionResult result = studies::like_the_paper(0.0);
+  studies::set_everywhere(result, studies::PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
+  studies::set_everywhere(result, studies::PaperQuantity::overloaded_at_0,
+                          {std::numeric_limits<double>::quiet_NaN()});
   const Figure figure = agreement_figure(result).value();
   const std::size_t theta_c = row_of(figure, "packing", "θ_c");
   EXPECT_EQ(values_in(figure.tables[0], theta_c, "score"), std::vector<double>(3, -2.0));
@@ -57,7 +57,7 @@ TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
 }
 
 TEST(AgreementFigure, leaves_out_what_cannot_be_compared) {
-  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
+  studies::ReproductionResult result = studies::like_the_paper(0.0);
   for (ensemble::Variant& bed : result.plan.variants)
     bed.scenario.bed.depth = 20.0;  // lengths end at the depth
   const Figure figure = agreement_figure(result).value();
@@ -66,9 +66,9 @@ TEST(AgreementFigure, leaves_out_what_cannot_be_compared) {
 }
 
 TEST(AgreementFigure, needs_something_to_compare) {
-  ensemble::ReproductionResult result = ensemble::like_the_paper(0.0);
-  std::erase_if(result.outcomes, [&](const ensemble::ReproducedOutcome& outcome) {
-    return ensemble::is_periodic(result.plan.variants[result.plan.members[outcome.member].variant]);
+  studies::ReproductionResult result = studies::like_the_paper(0.0);
+  std::erase_if(result.outcomes, [&](const studies::ReproducedOutcome& outcome) {
+    return studies::is_periodic(result.plan.variants[result.plan.members[outcome.member].variant]);
   });
   const Figure figure = agreement_figure(result).value();
   EXPECT_FALSE(figure.tables[0].columns.front().values.empty()) << "beds between walls";

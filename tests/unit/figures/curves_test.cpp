@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "analysis/overload/coarse_graining.h"
-#include "ensemble/paper_values.h"
-#include "ensemble/wall_fit.h"
 #include "figures/catalogue.h"
 #include "figures/group_table.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "stress/overload.h"
+#include "studies/paper_values.h"
+#include "studies/wall_fit.h"
 #include "unit/figures/example_figure_run.h"
 
 namespace talus::figures {
@@ -272,7 +272,7 @@ TEST_F(Curves, OfLengthsHaveTheCutOfEachBedAndAllThatThePaperFound) {
   EXPECT_NEAR(std::stod(variable(*figure, "cut_1")), 6.0, 1e-12);
   EXPECT_NEAR(std::stod(variable(*figure, "cut_2")), 10.0, 1e-12);
   EXPECT_GE(std::stod(variable(*figure, "top")),
-            ensemble::paper_value(ensemble::PaperQuantity::lc_max_after_jump).value)
+            studies::paper_value(studies::PaperQuantity::lc_max_after_jump).value)
       << "the cut of a shallow bed must not drop the paper's crosses";
 }
 

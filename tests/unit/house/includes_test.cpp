@@ -34,10 +34,12 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"problems",
      {"analysis/", "base/", "core/", "dynamics/", "io/", "runs/", "scenario/", "session/", "solver/"}},
     {"pictures", {"analysis/", "base/", "core/", "io/", "render/", "stress/"}},
-    {"ensemble", {"analysis/", "base/", "core/", "io/", "runs/", "scenario/", "session/", "stress/"}},
+    {"ensemble", {"analysis/", "base/", "core/", "io/", "runs/", "scenario/", "session/"}},
+    {"studies",
+     {"analysis/", "base/", "core/", "ensemble/", "io/", "runs/", "scenario/", "session/", "stress/"}},
     {"figures",
      {"analysis/", "base/", "core/", "ensemble/", "pictures/", "render/frame_view.h", "runs/", "scenario/",
-      "session/", "stress/"}},
+      "session/", "stress/", "studies/"}},
     {"exports",
      {"analysis/", "base/", "core/", "io/", "pictures/", "runs/", "scenario/", "session/", "stress/",
       "view/"}},
@@ -48,7 +50,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"render", {"base/"}},
     {"app",
      {"analysis/", "base/", "core/", "ensemble/", "exports/", "figures/", "gui/", "io/", "pictures/",
-      "problems/", "render/", "runs/", "scenario/", "session/", "view/"}},
+      "problems/", "render/", "runs/", "scenario/", "session/", "studies/", "view/"}},
 };
 
 /// Headers of other projects, and the only places that include them.

@@ -1,0 +1,153 @@
+#include "studies/measured_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "analysis/failure/failure_ratio.h"
+#include "core/trigonometry.h"
+#include "studies/wall_fit.h"
+
+namespace talus::studies {
+namespace {
+
+using enum PaperQuantity;
+
+/// A run that has failed.
+struct FailedRun {
+  const runs::RunView& run;
+  analysis::FramesOfRise rise;
+  std::size_t at_theta_c;  ///< the last frame up to it
+
+  const analysis::FrameRecord& frame(std::size_t k) const { return *rise.frames.at(k); }
+  std::size_t frame_at(double tilt) const { return analysis::frame_not_after(rise, tilt).value_or(0); }
+};
+
+FailedRun failed_run(const runs::RunView& run) {
+  FailedRun of{run, analysis::last_rise(run.analysis.frames), 0};
+  of.at_theta_c = of.frame_at(run.analysis.theta_c);
+  return of;
+}
+
+/// Mean of `value(frame)` over the frames of the last half degree up to theta_c.
+template <typename Value>
+double mean_before_failure(const FailedRun& of, const Value& value) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k <= of.at_theta_c; ++k) {
+    if (k < of.at_theta_c && of.frame(k).tilt < of.run.analysis.theta_c - radians(analysis::failure_window))
+      continue;
+    sum += value(k);
+    ++count;
+  }
+  return sum / count;
+}
+
+double stress_ratio(const FailedRun& of) {
+  return mean_before_failure(
+      of, [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.frame(k).tilt); });
+}
+
+/// Of sigma_xx between the lower and the upper half of the bed, over their mean.
+double gradient(const FailedRun& of) {
+  return mean_before_failure(of, [&](std::size_t k) {
+    const std::vector<double>& sections = of.frame(k).section_sigma_xx;
+    const auto half = static_cast<std::ptrdiff_t>(sections.size() / 2);
+    const double upper = std::accumulate(sections.begin(), sections.begin() + half, 0.0);
+    const double lower = std::accumulate(sections.end() - half, sections.end(), 0.0);
+    return 2.0 * (lower - upper) / (lower + upper);
+  });
+}
+
+/// Where the bed dilates, and how much it contracted before. The range of the minimum of the strain says
+/// whether either is more than noise.
+double contracted(const FailedRun& of) {
+  const double onset = of.run.analysis.dilation[0];
+  if (std::isnan(onset)) return -of.frame(of.at_theta_c).volume_strain;
+  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + analysis::same_tilt) return not_known;
+  return -of.frame(of.frame_at(onset)).volume_strain;
+}
+
+double dilated(const FailedRun& of) {
+  const double onset = of.run.analysis.dilation[0];
+  if (std::isnan(onset)) return not_known;
+  return of.frame(of.at_theta_c).volume_strain - of.frame(of.frame_at(onset)).volume_strain;
+}
+
+/// The onset of dilation; where its range begins at the first tilt, the end of this range as an upper bound.
+Measured dilation_tilt(const FailedRun& of) {
+  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + analysis::same_tilt)
+    return {degrees(of.run.analysis.dilation_high[0]), true};
+  return {degrees(of.run.analysis.dilation[0])};
+}
+
+double peak(const FailedRun& of, std::size_t which) { return degrees(of.frame(0).direction_peak[which]); }
+
+/// A direction near 180 deg is one near 0.
+double wrapped(double angle) { return angle > 90.0 ? angle - 180.0 : angle; }
+
+/// What is more than one number of the run; nothing for what is one.
+std::optional<Measured> derived(const FailedRun& of, PaperQuantity quantity) {
+  switch (quantity) {
+    case normals_near_0:
+      return Measured{wrapped(peak(of, 0))};
+    case normals_near_60:
+      return Measured{peak(of, 1)};
+    case normals_near_120:
+      return Measured{peak(of, 2)};
+    case stress_ratio_over_sine:
+      return Measured{stress_ratio(of)};
+    case contraction:
+      return Measured{contracted(of)};
+    case dilation:
+      return Measured{dilated(of)};
+    case theta_d_by_dilation:
+      return dilation_tilt(of);
+    case wall_gradient:
+      return Measured{gradient(of)};
+    case wall_coefficient:
+      return Measured{not_known};
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor,
+                 Population population) {
+  using analysis::FrameThreshold;
+  if (std::isnan(run.analysis.theta_c)) return {not_known};
+  if (const auto found = derived(failed_run(run), quantity)) return *found;
+  analysis::NumberOfRun number = {paper_value(quantity).source, paper_value(quantity).place};
+  const bool of_all = population == Population::all;
+  if (of_all && number.quantity == analysis::QuantityMember(&FrameThreshold::overloaded_fraction))
+    number.quantity = &FrameThreshold::overloaded_fraction_of_all;
+  const analysis::Quantity& row = analysis::quantity_of(number.quantity);
+  const std::size_t f = analysis::needs_threshold(row) ? factor : 0;
+  const double value =
+      analysis::scaled(row.unit, analysis::number_at(run.analysis, number, f), run.statics.mean_diameter);
+  if (std::isnan(value)) return {not_known};
+  // What lies beyond the cut of the paper's data processing is not known to the paper.
+  if (quantity == lc_max_after_jump) return {std::min(value, paper_lc_cut)};
+  const bool at_percolation = quantity == theta_d_by_percolation || quantity == overloaded_at_percolation;
+  return {value, at_percolation && std::isnan(run.analysis.thresholds[f].percolation_error)};
+}
+
+MeasuredValues measure_all(const runs::RunView& run, std::size_t factor, Population population) {
+  MeasuredValues all{};
+  for (std::size_t q = 0; q < quantity_count; ++q)
+    all[q] = measure(run, static_cast<PaperQuantity>(q), factor, population);
+  return all;
+}
+
+WallPoint wall_point(const runs::RunView& run) {
+  const double ratio = measure(run, shear_over_tangent_of_walls, 0, Population::carrying).value;
+  if (std::isnan(ratio)) return {not_known, not_known};
+  const double volume =
+      analysis::number_at(run.analysis, {&analysis::FrameRecord::volume, analysis::Place::theta_c});
+  return {volume / (run.statics.length * run.statics.length), ratio};
+}
+
+}  // namespace talus::studies

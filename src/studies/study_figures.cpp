@@ -1,0 +1,152 @@
+#include "studies/study_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/failure/last_rise.h"
+#include "analysis/quantities.h"
+#include "core/trigonometry.h"
+#include "runs/analysis_input.h"
+#include "stress/overload.h"
+
+namespace talus::studies {
+namespace {
+
+/// Tilts are sums in radians: two that are meant to be equal differ by less than this, deg.
+constexpr double same_angle = 1e-6;
+
+double figure(const Figures& figures, std::string_view name) {
+  return find_value(figures, name).value_or(not_known);
+}
+
+/// Mean displacement of the free grains along the bed between two frames, m.
+double mean_displacement(const Frame& from, const Frame& to, const RunStatics& statics) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i)
+    sum += to.x[i] - from.x[i] + (to.image[i] - from.image[i]) * statics.length;
+  return sum / statics.free_count;
+}
+
+/// A quantity of the bed at an angle.
+struct BedField {
+  std::string name;
+  std::optional<analysis::QuantityMember> member;  ///< its row in the table of quantities; creep has none
+  std::string note;                                ///< that a study adds to the definition
+};
+
+/// In the order of StudyQuantity.
+const std::vector<BedField>& bed_fields() {
+  static const std::vector<BedField> fields = {
+      {"volume_strain", &analysis::FrameRecord::volume_strain, ""},
+      {"centre_of_mass_strain", &analysis::FrameRecord::centre_of_mass_strain, ""},
+      {"creep", std::nullopt,
+       "mean displacement downslope of the free grains since the tilt began, over the depth of the bed"},
+      {"overloaded_fraction", &analysis::FrameThreshold::overloaded_fraction,
+       "; overloaded are those that have, with their first neighbours, gamma >= sin(theta_c), theta_c that "
+       "of the same run"},
+      {"stress_ratio", &analysis::FrameRecord::stress_ratio, ""},
+      {"coordination_number", &analysis::FrameRecord::coordination_number, ""},
+  };
+  return fields;
+}
+
+StudyField field_of(const BedField& bed, StudyGroup group) {
+  const bool first = group == StudyGroup::at_reference;
+  const std::string name = bed.name + (first ? "_at_reference" : "_at_theta_c");
+  if (!bed.member) return {name, "Creep in % of H", group, 100.0, first ? bed.note : "the same at theta_c"};
+  const analysis::Quantity& quantity = analysis::quantity_of(*bed.member);
+  return {name, analysis::shown_title(quantity), group, analysis::shown(quantity, 1.0, 1.0),
+          first ? quantity.definition + bed.note : "the same at theta_c"};
+}
+
+/// Sets the quantities of the bed at an angle, in deg, from `first` on in the order of StudyQuantity.
+void measure_bed(const io::RunFile& run, const std::vector<ObservableRow>& rows, double angle, double theta_c,
+                 StudyQuantity first, StudyFigures& figures) {
+  const double highest = radians(angle + same_angle);
+  const auto row = std::find_if(rows.rbegin(), rows.rend(), [&](const ObservableRow& candidate) {
+    return at(candidate, Observable::tilt) <= highest;
+  });
+  const analysis::SeriesPart rise = analysis::last_rise(run.frame_tilts());
+  const std::vector<double> tilts = analysis::magnitudes(run.frame_tilts(), rise);
+  const auto above = std::upper_bound(tilts.begin(), tilts.end(), highest);
+  if (row == rows.rend() || above == tilts.begin()) return;
+  const Frame frame = runs::analysed_frame(run, analysis::AnalysisParameters(),
+                                           rise.first + static_cast<std::size_t>(above - tilts.begin()) - 1);
+  const RunStatics& statics = run.header().statics;
+  const auto value = [&](const BedField& field) {
+    if (!field.member) return mean_displacement(run.frame(0), frame, statics) / statics.depth;
+    if (const auto& observable = analysis::quantity_of(*field.member).display.observable)
+      return at(*row, *observable);
+    return std::isnan(theta_c)
+               ? not_known
+               : stress::count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
+  };
+  std::ranges::transform(bed_fields(), figures.begin() + static_cast<std::ptrdiff_t>(first), value);
+}
+
+void measure_solver(const io::RunFile& run, StudyFigures& figures) {
+  double steps = 0.0, iterations = 0.0;
+  for (const StepRow& row : run.steps()) {
+    if (at(row, StepField::phase) != 1.0) continue;
+    ++steps;
+    iterations += at(row, StepField::iterations);
+  }
+  const io::Checkpoint& end = run.checkpoint();
+  at(figures, StudyQuantity::residual_max_rest) = figure(end.results, "residual_max_rest");
+  at(figures, StudyQuantity::residual_max_moving) = figure(end.results, "residual_max_moving");
+  at(figures, StudyQuantity::unconverged_share) = figure(end.results, "unconverged_steps") / steps;
+  at(figures, StudyQuantity::iterations_per_step) = iterations / steps;
+  at(figures, StudyQuantity::wall_seconds) = figure(end.timing, "deposition") + figure(end.timing, "tilt");
+}
+
+}  // namespace
+
+const std::vector<StudyField>& study_fields() {
+  static const std::vector<StudyField> fields = [] {
+    using enum StudyGroup;
+    const analysis::Quantity& repose = analysis::quantity_of(&analysis::Analysis::theta_c);
+    std::vector<StudyField> all = {
+        {"theta_c_deg", analysis::shown_title(repose), slope, 1.0, repose.definition}};
+    for (const StudyGroup group : {at_reference, at_theta_c})
+      for (const BedField& bed : bed_fields()) all.push_back(field_of(bed, group));
+    const StudyField of_solver[] = {
+        {"residual_max_rest", "worst residual at rest", solver, 1.0,
+         "worst natural-map residual eta of a step of the tilt at rest"},
+        {"residual_max_moving", "while moving", solver, 1.0, "the same of the other steps"},
+        {"unconverged_share", "not converged, in % of steps", solver, 100.0,
+         "share of the steps of the tilt that missed the tolerance asked of them"},
+        {"iterations_per_step", "iterations a step", solver, 1.0,
+         "mean iterations of the solver in a step of the tilt"},
+        {"wall_s", "wall time in s", solver, 1.0,
+         "time spent in the steps of deposition and tilt, on one thread"},
+    };
+    all.insert(all.end(), std::begin(of_solver), std::end(of_solver));
+    return all;
+  }();
+  return fields;
+}
+
+RunReach reach(const io::RunFile& run) {
+  const double theta_c = degrees(figure(run.checkpoint().results, "theta_c"));
+  if (!run.has_program()) return {theta_c, degrees(run.checkpoint().world.tilt)};
+  const std::vector<double> tilts =
+      analysis::magnitudes(run.frame_tilts(), analysis::last_rise(run.frame_tilts()));
+  return {theta_c, tilts.empty() ? 0.0 : degrees(tilts.back())};
+}
+
+StudyFigures study_figures(const io::RunFile& run, double reference) {
+  StudyFigures figures;
+  figures.fill(not_known);
+  const auto [theta_c, end] = reach(run);
+  at(figures, StudyQuantity::theta_c) = theta_c;
+  const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(run.observables());
+  const double last = std::isnan(theta_c) ? end : theta_c;
+  if (reference <= last + same_angle)
+    measure_bed(run, rows, reference, theta_c, StudyQuantity::volume_strain_at_reference, figures);
+  if (!std::isnan(theta_c))
+    measure_bed(run, rows, theta_c, theta_c, StudyQuantity::volume_strain_at_theta_c, figures);
+  measure_solver(run, figures);
+  return figures;
+}
+
+}  // namespace talus::studies
