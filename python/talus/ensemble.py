@@ -15,6 +15,7 @@ from talus.checked_file import read_text, text_hash
 from talus.errors import Error, WrongType, check_text, short
 from talus.manifest import is_sealed
 from talus.optional import need
+from talus.places import numbers_at_places
 from talus.run import Run, as_path
 from talus.run import open as open_run
 from talus.schema import DATA_SETS
@@ -31,7 +32,7 @@ MOST_VARIANTS = 10000
 LARGEST_SEED = 2**63 - 1
 LONGEST_NAME = 255  # bytes, of a folder
 #: As "theta_c:0.2": a number of a run, and the standard error that is asked of its mean.
-PRECISION = re.compile(r"[\w/]+(\[\d+\])?:((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?)", re.IGNORECASE | re.ASCII)
+PRECISION = re.compile(r"[\w/]+(?:@\w+)?(\[\d+\])?:((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?)", re.IGNORECASE | re.ASCII)
 
 
 class Mean(NamedTuple):
@@ -121,6 +122,8 @@ def numbers_of(run: Run) -> tuple[dict[str, float], dict[str, str]]:
             for k, value in enumerate(np.atleast_1d(run.analysis[name])):
                 numbers[numbered(name, k)] = float(value)
                 units[numbered(name, k)] = run.analysis.unit(name)
+    for name, (value, unit) in numbers_at_places(run).items():
+        numbers[name], units[name] = value, unit
     for name, unit in FOUND.items():
         numbers[name], units[name] = run.results.get(name, np.nan), unit
     return numbers, units

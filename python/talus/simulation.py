@@ -94,10 +94,14 @@ def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
 
 
 def _settings(*mappings: Mapping[str, Any]) -> list[str]:
-    """All of them as `--set` has them; of keys that are there several times, the last."""
+    """All of them as `--set` has them; of keys that are there several times, the last. Throws WrongType for what TOML
+    cannot write."""
     values: dict[str, str] = {}
     for keys in mappings:
-        values |= _values(keys)
+        try:
+            values |= _values(keys)
+        except RecursionError:
+            raise WrongType(f"{short(keys)}: a list or a table contains itself, or has too many others in it") from None
     return [f"{key}={value}" for key, value in values.items()]
 
 

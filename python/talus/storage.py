@@ -11,6 +11,7 @@ import numpy as np
 from talus.checked_file import CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text
 from talus.errors import Error
 from talus.manifest import NAME, StoredFile, parse_manifest, replaces_packed
+from talus.trial_walk import require_walkable
 
 SERIES = ("frames/", "contacts/", "observables/", "steps/", "commands/")
 STATE = ("checkpoint/", "results/", "provenance/timing/")
@@ -174,6 +175,7 @@ class Storage:
         if path not in self._identities:
             self._identities[path] = check_stored(path, stored.size, stored.hash)
         sizes = stored.sizes | ({"N": self.grains} if path in self.parts and not self.complete else {})
+        require_walkable(path, self._identities[path])
         self._open_file = CheckedFile(path, self._identities[path], sizes)
         return self._open_file
 

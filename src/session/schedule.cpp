@@ -83,6 +83,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     const std::string name = std::string("warnings_").append(guard_names[k]);
     all.push_back({results, name, &s.warnings.steps[k], where_not_zero});
     all.push_back({results, name + "_first_step", &s.warnings.first[k], where_not_zero});
+    all.push_back({reals, std::string("broken_").append(guard_names[k]), &s.broken[k], where_not_zero});
   }
   if (follows) {
     all.push_back({integers, "flow_steps", &s.flow_steps});

@@ -65,6 +65,7 @@ struct Schedule {
   std::optional<double> angle_at_rest;  ///< rad, of the free surface after failure
   SolverRecord record;
   GuardWarnings warnings;
+  GuardValues broken{};  ///< of the guards that the last step has broken, and that stop the run; else 0
   RunSeconds seconds;
 };
 

@@ -171,9 +171,15 @@ void Session::record_start() {
   segment_.frames.push_back(make_frame(world_, law()));
 }
 
+void Session::refuse_to_pass_a_guard() const {
+  for (std::size_t k = 0; k < guard_count; ++k)
+    if (const double value = schedule_.broken[k]; value != 0.0 && schedule_.phase != Phase::done)
+      throw Error(ExitCode::bad_data,
+                  guard_message(static_cast<Guard>(k), value, guard_limits(scenario_)[k], world_.step));
+}
+
 const dynamics::StepReport& Session::advance() {
-  if (!broken_guard_.empty() && schedule_.phase != Phase::done)
-    throw Error(ExitCode::bad_data, broken_guard_);
+  refuse_to_pass_a_guard();
   const BeforeStep before = before_step();
   try {
     if (schedule_.phase == Phase::deposition)
@@ -331,8 +337,8 @@ void Session::watch() {
     if (values[k] <= limits[k]) continue;
     if (scenario_.guards.action == scenario::GuardAction::warn) {
       if (schedule_.warnings.steps[k]++ == 0) schedule_.warnings.first[k] = world_.step;
-    } else if (broken_guard_.empty()) {
-      broken_guard_ = guard_message(static_cast<Guard>(k), values[k], limits[k], world_.step);
+    } else {
+      schedule_.broken[k] = values[k];
     }
   }
 }
@@ -366,7 +372,6 @@ double Session::tilt_rate() const {
 Session Session::copy() const {
   Session other(scenario_, checkpoint(0.0));
   other.report_ = report_;
-  other.broken_guard_ = broken_guard_;
   return other;
 }
 

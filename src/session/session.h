@@ -33,9 +33,9 @@ class Session {
   void record_start();
 
   /// Takes one step; what it records goes to segment(). Does nothing once done.
-  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and
-  /// Error(internal) where the step before has broken a guard of the scenario whose action is to stop: its
-  /// state is whole, to be looked at.
+  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and where the
+  /// step before has broken a guard of the scenario whose action is to stop: its state is whole, to be looked
+  /// at, and neither a copy nor a resumed run goes past it.
   const dynamics::StepReport& advance();
 
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
@@ -102,6 +102,7 @@ class Session {
   bool is_at_rest() const { return schedule_.quiet_steps >= dynamics::rest_steps; }
   bool have_all_arrived() const;
   void take_step();
+  void refuse_to_pass_a_guard() const;
   void watch();
   void advance_deposition();
   void begin_tilt();
@@ -122,7 +123,6 @@ class Session {
   Schedule schedule_;
   std::vector<dynamics::Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world
   io::Segment segment_;
-  std::string broken_guard_;  ///< why the next step is not taken
 
   int threads_ = 1;
   dynamics::StepReport report_;

@@ -5,6 +5,7 @@ import contextlib
 import os
 import random
 import shutil
+import signal
 import tracemalloc
 
 import h5py
@@ -15,6 +16,7 @@ from conftest import ROOT
 from resealed import change_manifest, reseal_folder, seal, sealed, sealed_text
 
 import talus
+from talus import trial_walk
 
 KEPT = ROOT / "tests/runs/schema_4.h5"
 HUGE = 1 << 40
@@ -265,7 +267,7 @@ def test_lines_of_an_ensemble_are_those_that_talus_writes(tmp_path, lines):
         talus.open_ensemble(tmp_path)
 
 
-@pytest.mark.parametrize("line", ["keep all", "keep analysis", "keep 0", f"keep {1:030}", "until theta_c:0.2",
+@pytest.mark.parametrize("line", ["keep all", "keep analysis", "keep 0", f"keep {1:030}", "until theta_c:0.2", "until lc/max@theta_d[1]:0.5",
                                   "until theta_c:1e-3", "until theta_d/dilation_low:.5", "until threshold[1]:2", "until theta_c:inf",
                                   f"variant 0 {'x' * 255}", f"variant 0 {'é' * 127}"])
 def test_lines_that_talus_writes_are_taken(tmp_path, line):
@@ -374,6 +376,33 @@ def use_spoilt(seed, folder):
     except talus.Error:
         return True
     return False
+
+
+@pytest.mark.chosen
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only a child process survives")
+@pytest.mark.parametrize("changes", [{647: 0x0E}, {2480: 0x0E}, {642: 143, 721: 226}])
+def test_a_file_that_hdf5_crashes_on_is_an_error(tmp_path, changes):
+    """Addresses of lists of links that lie outside the file: HDF5 reads there."""
+    data = bytearray(KEPT.read_bytes())
+    assert data[647] == data[2480] == data[642] == 0xFF, "no addresses"
+    for at, value in changes.items():
+        data[at] = value
+    path = tmp_path / "run.h5"
+    path.write_bytes(data)
+    with pytest.raises(talus.Error, match="HDF5 cannot walk through it"):
+        talus.open(seal(path))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only a child process survives")
+def test_a_crash_of_the_trial_walk_is_an_error_and_a_file_is_walked_through_once(tmp_path, monkeypatch):
+    path = shutil.copy(KEPT, tmp_path / "run.h5")
+    with monkeypatch.context() as crashing:
+        crashing.setattr(trial_walk, "walk", lambda _: os.kill(os.getpid(), signal.SIGSEGV))
+        with pytest.raises(talus.Error, match="HDF5 crashes on it, or hangs"):
+            talus.open(path)
+    talus.open(path).close()
+    monkeypatch.setattr(os, "fork", None)
+    talus.open(path).close()
 
 
 @pytest.mark.chosen

@@ -132,6 +132,9 @@ def test_frames_of_files_have_the_same_names(tmp_path):
 @pytest.mark.chosen
 def test_what_is_wrong_is_said(tmp_path):
     sim = bed()
+    endless, endless_table = [], {}
+    endless.append(endless)
+    endless_table["bed"] = endless_table
     sim.record(tmp_path / "run.h5")
     for wrong, code in [(lambda: sim["overload"], 64), (lambda: sim.tilt_to(float("nan")), 64), (lambda: sim.step(-1), 64),
                         (lambda: sim.push(10**6, (0, 0)), 64), (lambda: sim.draw("gama"), 64), (lambda: sim.grains["nope"], 64),
@@ -146,7 +149,8 @@ def test_what_is_wrong_is_said(tmp_path):
                   lambda: sim.push(2**40, (0, 0)), lambda: sim.drag(1, ("a", 0)), lambda: sim.draw(3), lambda: sim.draw(nope=1),
                   lambda: sim.draw(length="a"), lambda: sim[3], lambda: sim.grains[3], lambda: talus.Simulation(3.0),
                   lambda: talus.Simulation({3: 4}), lambda: talus.Simulation({"bed.length": object()}), lambda: pickle.dumps(sim),
-                  lambda: setattr(sim, "friction", "a"), lambda: talus.Simulation("")]:
+                  lambda: setattr(sim, "friction", "a"), lambda: talus.Simulation(""), lambda: sim.analyse_with(l_min=endless),
+                  lambda: talus.Simulation({"bed": endless}), lambda: talus.Simulation(endless_table)]:
         with pytest.raises((talus.Error, TypeError)):
             wrong()
     sim.run()

@@ -67,6 +67,24 @@ TEST(Guards, stop_after_a_whole_step) {
   EXPECT_THROW(while (true) resumed.advance(), Error) << "nor does a resumed one get by";
 }
 
+TEST(Guards, are_not_passed_by_a_resumed_run_or_a_copy) {
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.overlap = 1e-9;
+  Session session(scenario);
+  EXPECT_THROW(while (true) session.advance(), Error);
+  Session again(scenario, session.checkpoint(0.0));
+  Session copy = session.copy();
+  for (Session* stopped : {&session, &again, &copy}) {
+    try {
+      stopped->advance();
+      FAIL() << "a step was taken";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("guards.overlap allows 1e-09"), std::string::npos);
+    }
+    EXPECT_EQ(stopped->world().step, session.world().step);
+  }
+}
+
 TEST(Guards, warn_counts_what_they_let_pass) {
   scenario::Scenario scenario = small_bed();
   scenario.guards.action = scenario::GuardAction::warn;

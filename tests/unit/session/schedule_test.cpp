@@ -33,6 +33,7 @@ Schedule full_schedule() {
   s.angle_at_rest = 0.28;
   s.record = {21, 22, 23, 1e-6, 2e-5};
   s.warnings = {{31, 32, 33, 34}, {41, 42, 43, 44}};
+  s.broken = {51.5, 52.5, 53.5, 54.5};
   s.seconds.deposition = 1.5;
   s.seconds.tilt = 2.5;
   s.seconds.stages.fill(0.25);
@@ -112,7 +113,8 @@ TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
             (std::vector<std::string>{"tilt_since", "last_tilt_step", "unconverged_in_a_row", "flow_steps",
                                       "unconverged_flow"}));
   EXPECT_EQ(added(names(full.reals), plain.reals.size()),
-            (std::vector<std::string>{"friction", "tilt_rate", "tilt_from"}));
+            (std::vector<std::string>{"friction", "tilt_rate", "tilt_from", "broken_velocity",
+                                      "broken_overlap", "broken_energy", "broken_unconverged"}));
   EXPECT_EQ(
       added(names(full.results), plain.results.size()),
       (std::vector<std::string>{"warnings_velocity", "warnings_velocity_first_step", "warnings_overlap",

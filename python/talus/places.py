@@ -1,0 +1,52 @@
+"""Numbers of frames at places on the way to failure, as `members.csv` has them: "overloaded/fraction@theta_c"."""
+
+import numpy as np
+
+from talus.run import Run, last_rise
+from talus.table import numbered
+
+#: The same table is in src/analysis/failure/place.cpp.
+PLACES = {
+    "packing/solid_fraction": ("0", "theta_c"),
+    "contacts/coordination_number": ("0", "theta_d", "theta_c"),
+    "packing/stress_ratio": ("0", "theta_d", "theta_c"),
+    "packing/volume_strain": ("theta_d", "theta_c"),
+    "packing/centre_of_mass_strain": ("theta_d", "theta_c"),
+    "overloaded/fraction": ("0", "theta_d", "percolation", "theta_c"),
+    "overloaded/fraction_of_all": ("0", "theta_d", "percolation", "theta_c"),
+    "lc/mean": ("0", "theta_d", "theta_c"),
+    "lc/max": ("0", "before_theta_d", "theta_d", "theta_c"),
+}
+#: The number of the run, or of each threshold, that is the tilt of a place.
+TILTS = {"theta_c": "theta_c", "theta_d": "theta_d/lc_jump", "before_theta_d": "theta_d/lc_jump",
+         "percolation": "theta_d/percolation"}
+SAME_TILT = 1e-9  # rad
+
+
+def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
+    """Values and units of a run that is analysed; NaN where it does not get to the place."""
+    tilts = run.storage.read("frames/tilt")[: run.frames_of_tilt]
+    first, end = last_rise(tilts)
+    rise = np.abs(tilts[first:end])
+    found = {}
+    for name, places in PLACES.items():
+        if name not in run.analysis:  # a slope that has not failed has no thresholds
+            continue
+        columns = np.reshape(run.analysis[name], (len(tilts), -1)).T
+        for place in places:
+            for f, column in enumerate(columns):
+                k = _frame_at(run, rise, place, f)
+                value = float(column[first + k]) if 0 <= k < len(rise) else np.nan
+                found[numbered(f"{name}@{place}", f)] = value, run.analysis.unit(name)
+    return found
+
+
+def _frame_at(run: Run, rise: np.ndarray, place: str, f: int) -> int:
+    """The last frame of a rise that is not after the tilt of a place; -1 where there is none."""
+    if place == "0":
+        return 0
+    if not run.storage.has("analysis/" + TILTS[place]):
+        return -1
+    tilts = np.atleast_1d(run.storage.read("analysis/" + TILTS[place]))
+    tilt = tilts[min(f, len(tilts) - 1)]
+    return -1 if np.isnan(tilt) else int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1 - (place == "before_theta_d")
