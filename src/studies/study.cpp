@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "ensemble/axes.h"
 #include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_reader.h"
 #include "ensemble/member_state.h"
 #include "ensemble/until.h"
 #include "io/run_file.h"
@@ -59,8 +60,11 @@ StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
   if (reaches.empty())
     throw Error(ExitCode::bad_data, "no run of the study is complete; nothing can be compared");
   result.reference = reference.value_or(common_angle(reaches));
-  for (StudyOutcome& outcome : result.outcomes)
-    outcome.figures = study_figures(io::RunFile::open(plan.members[outcome.member].path), result.reference);
+  for (StudyOutcome& outcome : result.outcomes) {
+    const ensemble::Member& member = plan.members[outcome.member];
+    outcome.figures = study_figures(io::RunFile::open(member.path), ensemble::analysed_member(member, known),
+                                    result.reference);
+  }
   return result;
 }
 

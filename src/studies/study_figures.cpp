@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include "analysis/failure/last_rise.h"
+#include "analysis/failure/place.h"
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
-#include "runs/analysis_input.h"
-#include "stress/overload.h"
 
 namespace talus::studies {
 namespace {
@@ -59,29 +58,28 @@ StudyField field_of(const BedField& bed, StudyGroup group) {
           first ? quantity.definition + bed.note : "the same at theta_c"};
 }
 
-/// Sets the quantities of the bed at an angle, in deg, from `first` on in the order of StudyQuantity.
-void measure_bed(const io::RunFile& run, const std::vector<ObservableRow>& rows, double angle, double theta_c,
-                 StudyQuantity first, StudyFigures& figures) {
-  const double highest = radians(angle + same_angle);
-  const auto row = std::find_if(rows.rbegin(), rows.rend(), [&](const ObservableRow& candidate) {
-    return at(candidate, Observable::tilt) <= highest;
-  });
+/// The last place of a series that is not after an angle, deg; none where it begins later.
+std::optional<std::size_t> place_not_after(const std::vector<double>& theta, double angle) {
+  const auto after = std::ranges::upper_bound(theta, angle + same_angle);
+  return after == theta.begin() ? std::nullopt
+                                : std::optional(static_cast<std::size_t>(after - theta.begin() - 1));
+}
+
+double value_at(const ensemble::MemberSeries& series, const std::string& name, double angle) {
+  const auto found = std::ranges::find(series.series, name, &ensemble::NamedSeries::name);
+  const auto k = place_not_after(series.theta, angle);
+  return found != series.series.end() && k ? found->values[*k] : not_known;
+}
+
+/// Over the depth of the bed, from the first frame of the tilt to the last one not after an angle, deg.
+double creep_at(const io::RunFile& run, double angle) {
   const analysis::SeriesPart rise = analysis::last_rise(run.frame_tilts());
-  const std::vector<double> tilts = analysis::magnitudes(run.frame_tilts(), rise);
-  const auto above = std::upper_bound(tilts.begin(), tilts.end(), highest);
-  if (row == rows.rend() || above == tilts.begin()) return;
-  const Frame frame = runs::analysed_frame(run, analysis::AnalysisParameters(),
-                                           rise.first + static_cast<std::size_t>(above - tilts.begin()) - 1);
+  std::vector<double> theta;
+  for (const double tilt : analysis::magnitudes(run.frame_tilts(), rise)) theta.push_back(degrees(tilt));
+  const auto k = place_not_after(theta, angle);
   const RunStatics& statics = run.header().statics;
-  const auto value = [&](const BedField& field) {
-    if (!field.member) return mean_displacement(run.frame(0), frame, statics) / statics.depth;
-    if (const auto& observable = analysis::quantity_of(*field.member).display.observable)
-      return at(*row, *observable);
-    return std::isnan(theta_c)
-               ? not_known
-               : stress::count_overloaded({frame, statics}, sine(radians(theta_c))).fraction();
-  };
-  std::ranges::transform(bed_fields(), figures.begin() + static_cast<std::ptrdiff_t>(first), value);
+  if (!k || !run.has_frames()) return not_known;
+  return mean_displacement(run.frame(0), run.frame(rise.first + *k), statics) / statics.depth;
 }
 
 void measure_solver(const io::RunFile& run, StudyFigures& figures) {
@@ -134,17 +132,25 @@ RunReach reach(const io::RunFile& run) {
   return {theta_c, tilts.empty() ? 0.0 : degrees(tilts.back())};
 }
 
-StudyFigures study_figures(const io::RunFile& run, double reference) {
+StudyFigures study_figures(const io::RunFile& run, const ensemble::MemberResult& member, double reference) {
   StudyFigures figures;
   figures.fill(not_known);
   const auto [theta_c, end] = reach(run);
   at(figures, StudyQuantity::theta_c) = theta_c;
-  const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(run.observables());
   const double last = std::isnan(theta_c) ? end : theta_c;
-  if (reference <= last + same_angle)
-    measure_bed(run, rows, reference, theta_c, StudyQuantity::volume_strain_at_reference, figures);
-  if (!std::isnan(theta_c))
-    measure_bed(run, rows, theta_c, theta_c, StudyQuantity::volume_strain_at_theta_c, figures);
+  for (std::size_t k = 0; k < bed_fields().size(); ++k) {
+    const BedField& field = bed_fields()[k];
+    const std::string name = field.member ? analysis::quantity_of(*field.member).name : "";
+    auto& at_reference = figures[static_cast<std::size_t>(StudyQuantity::volume_strain_at_reference) + k];
+    auto& at_theta_c = figures[static_cast<std::size_t>(StudyQuantity::volume_strain_at_theta_c) + k];
+    if (reference <= last + same_angle)
+      at_reference = field.member ? value_at(member.series, name, reference) : creep_at(run, reference);
+    if (!std::isnan(theta_c))
+      at_theta_c = field.member
+                       ? ensemble::number_called(member.numbers,
+                                                 analysis::name_of({*field.member, analysis::Place::theta_c}))
+                       : creep_at(run, theta_c);
+  }
   measure_solver(run, figures);
   return figures;
 }

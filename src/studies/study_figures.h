@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ensemble/member_values.h"
 #include "io/run_file.h"
 
 namespace talus::studies {
@@ -59,10 +60,10 @@ struct RunReach {
 };
 RunReach reach(const io::RunFile& run);
 
-/// The figures with the bed at `reference` deg, and at theta_c. Scalars are those of the last row of
-/// observables with a tilt not above the angle; creep and overloaded grains those of the last such frame.
-/// Creep is the mean displacement downslope of the free grains since the tilt began, over the nominal depth
-/// of the bed. A run that failed before `reference`, or did not reach it, has no values there.
-StudyFigures study_figures(const io::RunFile& run, double reference);
+/// The figures with the bed at `reference` deg, and at theta_c: each is that of the last frame with a tilt
+/// not above the angle, `member` what the analysis of the run says of it. Creep is the mean displacement
+/// downslope of the free grains since the tilt began, over the nominal depth of the bed; there is none of a
+/// run without frames. A run that failed before `reference`, or did not reach it, has no values there.
+StudyFigures study_figures(const io::RunFile& run, const ensemble::MemberResult& member, double reference);
 
 }  // namespace talus::studies
