@@ -23,9 +23,9 @@ TEST(Precision, is_a_quantity_and_an_error) {
   EXPECT_EQ(precision.error, 0.25);
   EXPECT_EQ(parse_precision("theta_d/lc_jump[1]:0.25").quantity, "theta_d/lc_jump[1]");
   EXPECT_EQ(parse_precision("lc/max@theta_d[1]:0.5").quantity, "lc/max@theta_d[1]");
-  for (const char* text :
-       {"", "theta_c", "theta_c:", ":0.2", "theta_c:-1", "theta_c:0", "theta_c:x", "theta_c:0.2x",
-        "theta_c[\nkeep analysis\n:1", "theta_c[:1", "theta_c[]:1", "theta_c[x]:1", "theta_c[1]]:1", "lc/max:1", "lc/max@theta_x:1"})
+  for (const char* text : {"", "theta_c", "theta_c:", ":0.2", "theta_c:-1", "theta_c:0", "theta_c:x",
+                           "theta_c:0.2x", "theta_c[\nkeep analysis\n:1", "theta_c[:1", "theta_c[]:1",
+                           "theta_c[x]:1", "theta_c[1]]:1", "lc/max:1", "lc/max@theta_x:1"})
     EXPECT_EQ(test::exit_code_of([&] { parse_precision(text); }), ExitCode::usage) << text;
 }
 
