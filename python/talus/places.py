@@ -28,7 +28,9 @@ def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
     tilts = run.storage.read("frames/tilt")[: run.frames_of_tilt]
     first, end = last_rise(tilts)
     rise = np.abs(tilts[first:end])
-    found = {}
+    found: dict[str, tuple[float, str]] = {}
+    if not len(tilts):
+        return found
     for name, places in PLACES.items():
         if name not in run.analysis:  # a slope that has not failed has no thresholds
             continue
@@ -42,11 +44,15 @@ def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
 
 
 def _frame_at(run: Run, rise: np.ndarray, place: str, f: int) -> int:
-    """The last frame of a rise that is not after the tilt of a place; -1 where there is none."""
+    """The place in a rise: the frame of the tilt, or up to theta_c; -1, or one beyond the last, where there is none."""
     if place == "0":
         return 0
     if not run.storage.has("analysis/" + TILTS[place]):
         return -1
     tilts = np.atleast_1d(run.storage.read("analysis/" + TILTS[place]))
-    tilt = tilts[min(f, len(tilts) - 1)]
-    return -1 if np.isnan(tilt) else int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1 - (place == "before_theta_d")
+    tilt = tilts[min(f, len(tilts) - 1)] if len(tilts) else np.nan
+    if np.isnan(tilt):
+        return -1
+    if place == "theta_c":
+        return int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1
+    return int(np.searchsorted(rise, tilt - SAME_TILT)) - (place == "before_theta_d")  # of a hold the first frame

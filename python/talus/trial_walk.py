@@ -15,6 +15,8 @@ from talus.errors import Error
 
 #: A walk takes some milliseconds.
 MAX_SECONDS = 60.0
+#: How the child ends: the file is sound, h5py refuses it, or the system lacks something.
+WALKED, MALFORMED, NOT_KNOWN = 0, 1, 2
 _walked: set[Identity] = set()
 
 
@@ -45,11 +47,17 @@ def _in_child(path: Path) -> None:
             import resource
 
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the C library has a word for its end
         signal.setitimer(signal.ITIMER_REAL, MAX_SECONDS)
-        walk(path)
-        os._exit(0)
-    os._exit(1)
+        try:
+            walk(path)
+            os._exit(WALKED)
+        except MemoryError:
+            os._exit(NOT_KNOWN)
+        except OSError as error:  # what HDF5 says of a file has no number
+            os._exit(NOT_KNOWN if error.errno else MALFORMED)
+    os._exit(MALFORMED)
 
 
 def require_walkable(path: Path, identity: Identity) -> None:
@@ -59,7 +67,10 @@ def require_walkable(path: Path, identity: Identity) -> None:
         return
     with phil, warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # threads: the child calls nothing but HDF5, whose lock is ours
-        child = os.fork()
+        try:
+            child = os.fork()
+        except OSError:  # too many processes, or too little memory
+            return
         if child == 0:
             _in_child(path)
     try:
@@ -71,6 +82,8 @@ def require_walkable(path: Path, identity: Identity) -> None:
             os.kill(child, signal.SIGKILL)
             os.waitpid(child, 0)
         raise
+    if os.WIFEXITED(status) and os.WEXITSTATUS(status) == NOT_KNOWN:
+        return  # whoever opens the file says what is missing
     if status != 0:
         what = "crashes on it, or hangs" if os.WIFSIGNALED(status) else "cannot walk through it"
         raise Error(f"{path}: HDF5 {what}: the file is malformed, although its hash is right; restore it from a copy")

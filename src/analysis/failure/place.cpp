@@ -47,9 +47,12 @@ std::vector<NumberOfRun> make_numbers() {
 
 std::optional<std::size_t> frame_at(const Analysis& analysis, const FramesOfRise& rise, Place place,
                                     std::size_t f) {
-  const auto of_threshold = [&](double RunThreshold::*tilt) {
-    return f < analysis.thresholds.size() ? frame_not_after(rise, analysis.thresholds[f].*tilt)
-                                          : std::nullopt;
+  const std::optional<std::size_t> none;
+  const auto of_threshold = [&](double RunThreshold::*tilt) -> std::optional<std::size_t> {
+    // Of a hold it is the first frame: there the run changes, and stays at that tilt.
+    if (f >= analysis.thresholds.size() || std::isnan(analysis.thresholds[f].*tilt)) return none;
+    const auto at = std::ranges::lower_bound(rise.tilts, analysis.thresholds[f].*tilt - same_tilt);
+    return at == rise.tilts.end() ? none : std::optional(static_cast<std::size_t>(at - rise.tilts.begin()));
   };
   switch (place) {
     case Place::run:
