@@ -38,21 +38,22 @@ def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
         for place in places:
             for f, column in enumerate(columns):
                 k = _frame_at(run, rise, place, f)
-                value = float(column[first + k]) if 0 <= k < len(rise) else np.nan
+                value = float(column[first + k]) if k >= 0 else np.nan
                 found[numbered(f"{name}@{place}", f)] = value, run.analysis.unit(name)
     return found
 
 
 def _frame_at(run: Run, rise: np.ndarray, place: str, f: int) -> int:
-    """The place in a rise: the frame of the tilt, or up to theta_c; -1, or one beyond the last, where there is none."""
+    """The last frame of a rise that is not after the tilt of a place, of those at one tilt the first; -1: none."""
     if place == "0":
-        return 0
+        return 0 if len(rise) else -1
     if not run.storage.has("analysis/" + TILTS[place]):
         return -1
     tilts = np.atleast_1d(run.storage.read("analysis/" + TILTS[place]))
     tilt = tilts[min(f, len(tilts) - 1)] if len(tilts) else np.nan
     if np.isnan(tilt):
         return -1
-    if place == "theta_c":
-        return int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1
-    return int(np.searchsorted(rise, tilt - SAME_TILT)) - (place == "before_theta_d")  # of a hold the first frame
+    last = int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1
+    if last < 0:
+        return -1
+    return int(np.searchsorted(rise, rise[last] - SAME_TILT)) - (place == "before_theta_d")

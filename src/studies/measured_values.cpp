@@ -21,7 +21,10 @@ struct FailedRun {
   std::size_t at_theta_c;  ///< the last frame up to it
 
   const analysis::FrameRecord& frame(std::size_t k) const { return *rise.frames.at(k); }
-  std::size_t frame_at(double tilt) const { return analysis::frame_not_after(rise, tilt).value_or(0); }
+  double tilt(std::size_t k) const { return rise.tilts.at(k); }
+  std::size_t frame_at(double theta) const {
+    return analysis::frame_not_after(rise.tilts, theta).value_or(0);
+  }
 };
 
 FailedRun failed_run(const runs::RunView& run) {
@@ -36,7 +39,7 @@ double mean_before_failure(const FailedRun& of, const Value& value) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t k = 0; k <= of.at_theta_c; ++k) {
-    if (k < of.at_theta_c && of.frame(k).tilt < of.run.analysis.theta_c - radians(analysis::failure_window))
+    if (k < of.at_theta_c && of.tilt(k) < of.run.analysis.theta_c - radians(analysis::failure_window))
       continue;
     sum += value(k);
     ++count;
@@ -45,8 +48,8 @@ double mean_before_failure(const FailedRun& of, const Value& value) {
 }
 
 double stress_ratio(const FailedRun& of) {
-  return mean_before_failure(
-      of, [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.frame(k).tilt); });
+  return mean_before_failure(of,
+                             [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.tilt(k)); });
 }
 
 /// Of sigma_xx between the lower and the upper half of the bed, over their mean.
@@ -65,7 +68,7 @@ double gradient(const FailedRun& of) {
 double contracted(const FailedRun& of) {
   const double onset = of.run.analysis.dilation[0];
   if (std::isnan(onset)) return -of.frame(of.at_theta_c).volume_strain;
-  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + analysis::same_tilt) return not_known;
+  if (of.run.analysis.dilation_low[0] <= of.tilt(0) + analysis::same_tilt) return not_known;
   return -of.frame(of.frame_at(onset)).volume_strain;
 }
 
@@ -77,7 +80,7 @@ double dilated(const FailedRun& of) {
 
 /// The onset of dilation; where its range begins at the first tilt, the end of this range as an upper bound.
 Measured dilation_tilt(const FailedRun& of) {
-  if (of.run.analysis.dilation_low[0] <= of.frame(0).tilt + analysis::same_tilt)
+  if (of.run.analysis.dilation_low[0] <= of.tilt(0) + analysis::same_tilt)
     return {degrees(of.run.analysis.dilation_high[0]), true};
   return {degrees(of.run.analysis.dilation[0])};
 }

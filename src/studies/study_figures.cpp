@@ -58,16 +58,9 @@ StudyField field_of(const BedField& bed, StudyGroup group) {
           first ? quantity.definition + bed.note : "the same at theta_c"};
 }
 
-/// The last place of a series that is not after an angle, deg; none where it begins later.
-std::optional<std::size_t> place_not_after(const std::vector<double>& theta, double angle) {
-  const auto after = std::ranges::upper_bound(theta, angle + same_angle);
-  return after == theta.begin() ? std::nullopt
-                                : std::optional(static_cast<std::size_t>(after - theta.begin() - 1));
-}
-
 double value_at(const ensemble::MemberSeries& series, const std::string& name, double angle) {
   const auto found = std::ranges::find(series.series, name, &ensemble::NamedSeries::name);
-  const auto k = place_not_after(series.theta, angle);
+  const auto k = analysis::frame_not_after(series.theta, angle);
   return found != series.series.end() && k ? found->values[*k] : not_known;
 }
 
@@ -76,7 +69,7 @@ double creep_at(const io::RunFile& run, double angle) {
   const analysis::SeriesPart rise = analysis::last_rise(run.frame_tilts());
   std::vector<double> theta;
   for (const double tilt : analysis::magnitudes(run.frame_tilts(), rise)) theta.push_back(degrees(tilt));
-  const auto k = place_not_after(theta, angle);
+  const auto k = analysis::frame_not_after(theta, angle);
   const RunStatics& statics = run.header().statics;
   if (!k || !run.has_frames()) return not_known;
   return mean_displacement(run.frame(0), run.frame(rise.first + *k), statics) / statics.depth;

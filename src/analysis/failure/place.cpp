@@ -47,12 +47,9 @@ std::vector<NumberOfRun> make_numbers() {
 
 std::optional<std::size_t> frame_at(const Analysis& analysis, const FramesOfRise& rise, Place place,
                                     std::size_t f) {
-  const std::optional<std::size_t> none;
-  const auto of_threshold = [&](double RunThreshold::*tilt) -> std::optional<std::size_t> {
-    // Of a hold it is the first frame: there the run changes, and stays at that tilt.
-    if (f >= analysis.thresholds.size() || std::isnan(analysis.thresholds[f].*tilt)) return none;
-    const auto at = std::ranges::lower_bound(rise.tilts, analysis.thresholds[f].*tilt - same_tilt);
-    return at == rise.tilts.end() ? none : std::optional(static_cast<std::size_t>(at - rise.tilts.begin()));
+  const auto of_threshold = [&](double RunThreshold::*tilt) {
+    return f < analysis.thresholds.size() ? frame_not_after(rise.tilts, analysis.thresholds[f].*tilt)
+                                          : std::nullopt;
   };
   switch (place) {
     case Place::run:
@@ -68,7 +65,7 @@ std::optional<std::size_t> frame_at(const Analysis& analysis, const FramesOfRise
     case Place::percolation:
       return of_threshold(&RunThreshold::percolation);
     case Place::theta_c:
-      return frame_not_after(rise, analysis.theta_c);
+      return frame_not_after(rise.tilts, analysis.theta_c);
   }
   return std::nullopt;
 }
@@ -84,10 +81,10 @@ std::span<const NumberOfRun> numbers_of_run() {
   return numbers;
 }
 
-std::optional<std::size_t> frame_not_after(const FramesOfRise& rise, double tilt) {
-  const auto after = std::ranges::upper_bound(rise.tilts, tilt + same_tilt);
-  if (std::isnan(tilt) || after == rise.tilts.begin()) return std::nullopt;
-  return static_cast<std::size_t>(after - rise.tilts.begin() - 1);
+std::optional<std::size_t> frame_not_after(std::span<const double> tilts, double tilt) {
+  const auto after = std::ranges::upper_bound(tilts, tilt + same_tilt);
+  if (std::isnan(tilt) || after == tilts.begin()) return std::nullopt;
+  return static_cast<std::size_t>(std::ranges::lower_bound(tilts, *(after - 1) - same_tilt) - tilts.begin());
 }
 
 double number_at(const Analysis& analysis, const NumberOfRun& number, std::size_t f) {

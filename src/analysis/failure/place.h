@@ -12,8 +12,8 @@
 
 namespace talus::analysis {
 
-/// Where in a run a number is read. Frames are those of the last rise of the tilt; they exist once, so that a
-/// place between two frames is the one before it.
+/// Where in a run a number is read. Frames are those of the last rise of the tilt; of those at one tilt,
+/// where it is held, the first: what came later may be flow.
 enum class Place {
   run,             ///< nowhere: there is one number in the run, or one for each threshold
   start,           ///< the first frame
@@ -34,12 +34,12 @@ std::string name_of(const NumberOfRun& number);
 /// All of them: the numbers of the run itself in the order of the table of quantities, then those at places.
 std::span<const NumberOfRun> numbers_of_run();
 
-/// Tilts are multiples of a step up to rounding: two that are meant to be equal differ by less, rad.
+/// Tilts are multiples of a step up to rounding: two that are meant to be equal differ by less, in any unit.
 inline constexpr double same_tilt = 1e-9;
 
-/// The last frame of a rise that is not after a tilt (rad), up to rounding: an index into its frames; none
-/// where the rise begins later, or the tilt is not known.
-std::optional<std::size_t> frame_not_after(const FramesOfRise& rise, double tilt);
+/// Of ascending tilts the first that equals the last one not after `tilt`: an index; none where they begin
+/// later, or `tilt` is not known.
+std::optional<std::size_t> frame_not_after(std::span<const double> tilts, double tilt);
 
 /// The number in the unit of the table of quantities, at threshold f where it depends on one. NaN where the
 /// run does not have it: it has not failed, there is no jump, or no such threshold.

@@ -186,6 +186,8 @@ TEST(StudyResult, is_that_of_the_members_that_are_done) {
   EXPECT_EQ(found.reference, 2.0);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::creep_at_reference), 0.75 / 2 / 0.5);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::volume_strain_at_reference), -0.03);
+  EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::overloaded_fraction_at_reference), 1.0)
+      << "by the analysis: gamma is 0.1, above sin(2.5 deg)";
 }
 
 TEST(StudyResult, without_a_member_that_is_done_is_refused) {

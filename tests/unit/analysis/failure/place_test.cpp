@@ -64,9 +64,10 @@ TEST(NumberOfRun, is_of_the_last_rise_and_as_if_tilted_to_one_side) {
   EXPECT_EQ(number_at(analysis, {&FrameRecord::sigma_t_over_n, Place::theta_c}), -0.1 * 3);
 }
 
-TEST(NumberOfRun, at_theta_d_is_that_of_the_first_frame_of_a_hold) {
+TEST(NumberOfRun, is_that_of_the_first_frame_of_a_hold) {
   Analysis analysis = made_up();
   analysis.frames[3].tilt = radians(10.0);
+  EXPECT_EQ(overloaded(analysis, Place::theta_c), 2.0);
   EXPECT_EQ(overloaded(analysis, Place::theta_d), 2.0);
   EXPECT_EQ(overloaded(analysis, Place::before_theta_d), 1.0);
 }
