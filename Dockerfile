@@ -9,7 +9,7 @@ FROM debian:12
 # What the program is linked with, what draws maps, movies and figures, and what the Python package reads and draws with.
 RUN apt-get update \
  && apt-get install -y --no-install-recommends \
-      libfmt9 libgcc-s1 libglfw3 libhdf5-103-1 libpng16-16 libstdc++6 libtomlplusplus3 libxxhash0 zlib1g \
+      libcairo2 libfmt9 libfreetype6 libgcc-s1 libglfw3 libhdf5-103-1 libpng16-16 libstdc++6 libtomlplusplus3 libxxhash0 zlib1g \
       libosmesa6 ffmpeg gnuplot-nox \
       python3-h5py python3-xxhash python3-matplotlib \
  && rm -rf /var/lib/apt/lists/*

@@ -111,6 +111,25 @@ TextLine set_text(const Font& font, std::string_view text, double em) {
   return line;
 }
 
+std::vector<TextRun> text_runs(std::string_view text) {
+  std::vector<TextRun> runs;
+  std::size_t count = 0;
+  bool subscript = false;
+  for (std::size_t position = 0; position < text.size();) {
+    const std::size_t start = position;
+    if (next_code_point(text, position) == U'_' && !subscript) {
+      subscript = true;
+      continue;
+    }
+    if (runs.empty() || runs.back().subscript != subscript) runs.push_back({{}, subscript, count, 0});
+    runs.back().text += text.substr(start, position - start);
+    ++runs.back().count;
+    ++count;
+    subscript = false;
+  }
+  return runs;
+}
+
 std::vector<std::string> breakable_pieces(std::string_view text) {
   static constexpr std::array<std::string_view, 8> between = {"=", "≥", "≤", "<", ">", "×", "−", "/"};
   static constexpr std::array<std::string_view, 5> after = {"D", "D,", "D;", "%", "deg"};

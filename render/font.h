@@ -46,6 +46,14 @@ struct TextLine {
 /// Throws Error(internal) at a code point that is not listed in font_code_points(), and at malformed UTF-8.
 TextLine set_text(const Font& font, std::string_view text, double em);
 
+/// A part of a line that is of one size, as documents write it.
+struct TextRun {
+  std::string text;  ///< UTF-8, without the marks of subscripts
+  bool subscript = false;
+  std::size_t first = 0, count = 0;  ///< its glyphs in the line
+};
+std::vector<TextRun> text_runs(std::string_view text);
+
 /// The pieces of a text between which a line may end: its words, but "l = 10 D" as one and "95 % of" as two.
 std::vector<std::string> breakable_pieces(std::string_view text);
 

@@ -81,18 +81,20 @@ struct Trace {
   std::string event_label;                                  ///< "θ_c"
 };
 
-/// One map of the bed with its furniture. Coordinates are those of the bed's frame, in metres.
+/// One map of the bed with its furniture, or furniture alone, where x_max is not above x_min. Coordinates are
+/// those of the bed's frame, in metres.
 struct FrameView {
   std::vector<Disc> discs;  ///< in drawing order; copies across a periodic edge included
   std::vector<Line> lines;  ///< above them
   double x_min = 0.0, x_max = 0.0, y_min = 0.0,
          y_max = 0.0;  ///< what is shown; everything is cut at its edges
   double turn = 0.0;   ///< rad: the bed is drawn turned clockwise by it, so that it slopes down to the right
-  double turn_max = 0.0;        ///< rad, >= turn >= 0: the picture has room for all turns up to this one
-  bool coloured = false;        ///< a picture in colour, even if everything in it is gray
-  bool transparent = false;     ///< nothing behind the discs, instead of white
-  bool furniture = true;        ///< false: the bed alone fills the picture; what follows is not drawn
-  double letters = 90.0;        ///< so many font sizes are as wide as the picture
+  double turn_max = 0.0;     ///< rad, >= turn >= 0: the picture has room for all turns up to this one
+  bool coloured = false;     ///< a picture in colour, even if everything in it is gray
+  bool transparent = false;  ///< nothing behind the discs, instead of white
+  bool furniture = true;     ///< false: the bed alone fills the picture; what follows is not drawn
+  double letters = 90.0;     ///< so many font sizes are as wide as the picture
+  double most_letters = std::numeric_limits<double>::infinity();  ///< of a smaller type it is not drawn
   bool left_wall = false;       ///< a wall stands at x_min, and is drawn as a line
   bool right_wall = false;      ///< the same at x_max
   bool floor_line = false;      ///< y_min is a smooth floor, drawn as a line
@@ -103,6 +105,7 @@ struct FrameView {
   std::string scale_label;      ///< "10 D"; if empty, neither scale bar nor arrow is drawn
   std::vector<Legend> legends;  ///< of the layers, below the bed
   std::vector<Trace> traces;    ///< below the legends, one below the other
+  double trace_height = 5.0;    ///< of the frame of each, in font sizes
 };
 
 }  // namespace talus::render

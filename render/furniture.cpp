@@ -9,31 +9,9 @@
 namespace talus::render {
 namespace {
 
-void add_text(Furniture& furniture, const PlacedText& text, double em, const Font& font,
-              const GlyphAtlas& atlas) {
-  const double base_line = std::round(text.box.y + text_ascent * em);
-  for (const Glyph& glyph : set_text(font, text.text, em).glyphs) {
-    const std::vector<stbtt_packedchar>& glyphs = glyph.subscript ? atlas.subscript : atlas.plain;
-    auto x = static_cast<float>(text.box.x + glyph.x);
-    auto y = static_cast<float>(base_line + (glyph.subscript ? std::round(subscript_drop * em) : 0.0));
-    stbtt_aligned_quad quad;
-    stbtt_GetPackedQuad(glyphs.data(), atlas.size, atlas.size, static_cast<int>(glyph.code), &x, &y, &quad,
-                        0);
-    const FurnitureVertex a{quad.x0, quad.y0, quad.s0, quad.t0, black},
-        b{quad.x1, quad.y0, quad.s1, quad.t0, black};
-    const FurnitureVertex c{quad.x0, quad.y1, quad.s0, quad.t1, black},
-        d{quad.x1, quad.y1, quad.s1, quad.t1, black};
-    furniture.triangles.insert(furniture.triangles.end(), {a, b, c, c, b, d});
-  }
-}
-
 void add_bar(Furniture& furniture, const PlacedBar& bar, double em, double line) {
   add_frame(furniture, bar.box, line);
-  const std::size_t pieces = bar.colours.size() - 1;
-  const double width = bar.box.width / static_cast<double>(pieces);
-  for (std::size_t k = 0; k < pieces; ++k)
-    add_gradient(furniture, {bar.box.x + static_cast<double>(k) * width, bar.box.y, width, bar.box.height},
-                 bar.colours[k], bar.colours[k + 1]);
+  furniture.areas.push_back({bar.box, bar.colours});
   const double length = std::round(0.3 * em);
   for (double tick : bar.ticks)
     add_area(furniture, {std::round(tick - 0.5 * line), bar.box.bottom(), line, length}, black);
@@ -101,8 +79,9 @@ void add_turned_edges(Furniture& furniture, const FrameView& view, const Window&
 
 }  // namespace
 
-Furniture furnish(const FrameView& view, const Layout& layout, const Font& font, const GlyphAtlas& atlas) {
+Furniture furnish(const FrameView& view, const Layout& layout) {
   Furniture furniture;
+  furniture.texts = layout.texts;
   const double line = std::max(1.0, std::round(layout.em / 12.0));  // px, whole: crisp
   if (view.turn_max == 0.0)
     add_upright_edges(furniture, view, layout.bed.box, 2.0 * line);
@@ -113,7 +92,6 @@ Furniture furnish(const FrameView& view, const Layout& layout, const Font& font,
   const double fall = view.tilt - view.turn;  // between gravity and straight down in the picture
   add_arrow(furniture, layout.arrow, std::sin(fall), std::cos(fall), line);
   for (const PlacedTrace& trace : layout.traces) add_trace(furniture, trace, layout.em, line);
-  for (const PlacedText& text : layout.texts) add_text(furniture, text, layout.em, font, atlas);
   for (const PlacedSwatch& swatch : layout.swatches) add_swatch(furniture, swatch);
   return furniture;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The furniture of a picture as what a target draws: triangles, lines and discs.
+/// The furniture of a picture as what a target draws: areas, texts, lines and discs.
 
 #include <vector>
 
@@ -9,12 +9,13 @@
 namespace talus::render {
 
 struct Furniture {
-  std::vector<FurnitureVertex> triangles;
+  std::vector<Area> areas;
+  std::vector<PlacedText> texts;
   std::vector<Line>
       lines;  ///< in px: x from the left, y upwards from the top, so that a plain camera draws them
   std::vector<Disc> discs;  ///< the same
 };
 
-Furniture furnish(const FrameView& view, const Layout& layout, const Font& font, const GlyphAtlas& atlas);
+Furniture furnish(const FrameView& view, const Layout& layout);
 
 }  // namespace talus::render

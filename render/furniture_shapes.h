@@ -5,18 +5,8 @@
 
 namespace talus::render {
 
-/// A plain rectangle whose colour runs from left to right.
-inline void add_gradient(Furniture& furniture, const Box& box, const Colour& left, const Colour& right) {
-  const auto corner = [](double x, double y, const Colour& colour) {
-    return FurnitureVertex{static_cast<float>(x), static_cast<float>(y), -1.0f, 0.0f, colour};
-  };
-  const FurnitureVertex a = corner(box.x, box.y, left), b = corner(box.right(), box.y, right);
-  const FurnitureVertex c = corner(box.x, box.bottom(), left), d = corner(box.right(), box.bottom(), right);
-  furniture.triangles.insert(furniture.triangles.end(), {a, b, c, c, b, d});
-}
-
 inline void add_area(Furniture& furniture, const Box& box, const Colour& colour) {
-  add_gradient(furniture, box, colour, colour);
+  furniture.areas.push_back({box, {colour}});
 }
 
 /// A frame of lines around a box, outside of it.

@@ -1,6 +1,7 @@
 #include "render/gl_target.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <string>
 
@@ -11,8 +12,40 @@
 namespace talus::render {
 namespace {
 
+/// A corner of a triangle: a glyph of the atlas, or a plain area where u < 0.
+struct Vertex {
+  float x, y;  ///< px from the left and from the top
+  float u, v;  ///< in the atlas
+  Colour colour;
+};
+
 static_assert(sizeof(Disc) == 6 * sizeof(float) && sizeof(Line) == 6 * sizeof(float) &&
-              sizeof(FurnitureVertex) == 5 * sizeof(float));
+              sizeof(Vertex) == 5 * sizeof(float));
+
+void add_rectangle(std::vector<Vertex>& triangles, const Box& box, const Colour& left, const Colour& right) {
+  const auto corner = [](double x, double y, const Colour& colour) {
+    return Vertex{static_cast<float>(x), static_cast<float>(y), -1.0f, 0.0f, colour};
+  };
+  const Vertex a = corner(box.x, box.y, left), b = corner(box.right(), box.y, right);
+  const Vertex c = corner(box.x, box.bottom(), left), d = corner(box.right(), box.bottom(), right);
+  triangles.insert(triangles.end(), {a, b, c, c, b, d});
+}
+
+void add_text(std::vector<Vertex>& triangles, const PlacedText& text, const Font& font,
+              const GlyphAtlas& atlas) {
+  const double base_line = base_line_of(text, atlas.em);
+  for (const Glyph& glyph : set_text(font, text.text, atlas.em).glyphs) {
+    const std::vector<stbtt_packedchar>& glyphs = glyph.subscript ? atlas.subscript : atlas.plain;
+    auto x = static_cast<float>(text.box.x + glyph.x);
+    auto y = static_cast<float>(base_line + (glyph.subscript ? std::round(subscript_drop * atlas.em) : 0.0));
+    stbtt_aligned_quad quad;
+    stbtt_GetPackedQuad(glyphs.data(), atlas.size, atlas.size, static_cast<int>(glyph.code), &x, &y, &quad,
+                        0);
+    const Vertex a{quad.x0, quad.y0, quad.s0, quad.t0, black}, b{quad.x1, quad.y0, quad.s1, quad.t0, black};
+    const Vertex c{quad.x0, quad.y1, quad.s0, quad.t1, black}, d{quad.x1, quad.y1, quad.s1, quad.t1, black};
+    triangles.insert(triangles.end(), {a, b, c, c, b, d});
+  }
+}
 
 class GlTarget final : public TextureTarget {
  public:
@@ -72,13 +105,24 @@ class GlTarget final : public TextureTarget {
     draw_instances(lines_, GL_TRIANGLE_STRIP, 4, lines.size(), window);
   }
 
-  void draw_triangles(std::span<const FurnitureVertex> triangles, const GlyphAtlas& atlas) override {
-    prepare_atlas(atlas);
-    gl_.Disable(GL_SCISSOR_TEST);
-    fill_batch(gl_, triangles_, triangles);
-    set_size(triangles_);
-    gl_.BindTexture(GL_TEXTURE_2D, atlas_);
-    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
+  void draw_areas(std::span<const Area> areas) override {
+    std::vector<Vertex> triangles;
+    for (const Area& area : areas) {
+      const std::size_t pieces = std::max<std::size_t>(1, area.colours.size() - 1);
+      const double width = area.box.width / static_cast<double>(pieces);
+      for (std::size_t k = 0; k < pieces; ++k)
+        add_rectangle(triangles,
+                      {area.box.x + static_cast<double>(k) * width, area.box.y, width, area.box.height},
+                      area.colours[k], area.colours[std::min(k + 1, area.colours.size() - 1)]);
+    }
+    draw_triangles(triangles);
+  }
+
+  void draw_texts(std::span<const PlacedText> texts, double em) override {
+    prepare_atlas(em);
+    std::vector<Vertex> triangles;
+    for (const PlacedText& text : texts) add_text(triangles, text, font_, glyphs_);
+    draw_triangles(triangles);
   }
 
   unsigned texture() const override { return picture_; }
@@ -91,6 +135,14 @@ class GlTarget final : public TextureTarget {
   }
 
  private:
+  void draw_triangles(std::span<const Vertex> triangles) {
+    gl_.Disable(GL_SCISSOR_TEST);
+    fill_batch(gl_, triangles_, triangles);
+    set_size(triangles_);
+    gl_.BindTexture(GL_TEXTURE_2D, atlas_);
+    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
+  }
+
   void prepare_picture(int width, int height, PixelFormat format) {
     const bool same = width == width_ && height == height_ && format == format_;
     if (same) return;
@@ -107,11 +159,11 @@ class GlTarget final : public TextureTarget {
     format_ = format;
   }
 
-  void prepare_atlas(const GlyphAtlas& atlas) {
-    if (atlas.em == atlas_em_) return;
+  void prepare_atlas(double em) {
+    if (em == glyphs_.em) return;
+    glyphs_ = bake_glyphs(em);
     gl_.DeleteTextures(1, &atlas_);
-    atlas_ = make_texture(gl_, atlas.size, atlas.size, 1, atlas.coverage.data(), GL_LINEAR);
-    atlas_em_ = atlas.em;
+    atlas_ = make_texture(gl_, glyphs_.size, glyphs_.size, 1, glyphs_.coverage.data(), GL_LINEAR);
   }
 
   void set_size(const Batch& batch) {
@@ -184,8 +236,9 @@ class GlTarget final : public TextureTarget {
   GLuint picture_ = 0;
   int width_ = 0, height_ = 0;
   PixelFormat format_ = PixelFormat::gray;
-  GLuint atlas_ = 0;
-  double atlas_em_ = 0.0;
+  Font font_ = embedded_font();
+  GlyphAtlas glyphs_;
+  GLuint atlas_ = 0;  ///< the glyphs as a texture
 };
 
 }  // namespace

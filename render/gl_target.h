@@ -9,7 +9,7 @@
 namespace talus::render {
 
 /// A target whose picture is a texture of the context, which can be drawn there.
-class TextureTarget : public Target {
+class TextureTarget : public ImageTarget {
  public:
   /// The texture with the picture drawn last, row 0 at the top; it changes with its size and format. Gray
   /// pictures have their one channel in red.

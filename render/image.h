@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace talus::render {
@@ -19,6 +21,10 @@ struct Image {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   }
 };
+
+/// Keywords with their texts, kept in the file of a picture beside it. Keywords have 1 to 79 characters; both
+/// are printable ASCII.
+using PictureTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// Images of the same width and number of channels, one below the other. Throws Error(internal) if they
 /// differ.

@@ -109,12 +109,6 @@ std::vector<Group> legend_groups(const std::vector<Legend>& legends, double room
   return groups;
 }
 
-/// Moves what stands above the bed down to one that begins lower.
-void move_down(Layout& layout, double by) {
-  for (PlacedText& text : layout.texts) text.box.y += by;
-  if (layout.arrow.width > 0.0) layout.arrow.y += by;
-}
-
 /// px: by how much a turned bed can move up beside the texts above it, which its slope leaves room for.
 double room_above(const Layout& layout, const FrameView& view, const Window& bed) {
   const Point foot = bed.camera.project(view.x_min, view.y_min),
@@ -142,12 +136,13 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   layout.em = em;
   const double side = std::ceil(margin * em);
   const double available = width - 2.0 * side;
-  const double scale = place_bed(view, 0.0, 0.0, available).camera.scale;
+  const bool has_bed = view.x_max > view.x_min;
+  const double scale = has_bed ? place_bed(view, 0.0, 0.0, available).camera.scale : 1.0;
   const double room = broken ? available : std::numeric_limits<double>::infinity();
 
   const Group title = text_group(view.title, room, em, font);
   // Where nothing below shows gravity, the caption does.
-  const bool arrow_above = view.scale_label.empty() && !view.caption.empty();
+  const bool arrow_above = has_bed && view.scale_label.empty() && !view.caption.empty();
   const Group caption = arrow_above ? text_with_arrow_group(view.caption, room, em, font)
                                     : text_group(view.caption, room, em, font, true);
   const Group scale_and_arrow = scale_group(view, scale, em, font);
@@ -160,17 +155,19 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   double y = std::ceil(0.5 * em);
   if (title.height + caption.height > 0.0)
     y = std::ceil(add_rows(layout, {title}, caption, y, side) + 0.4 * em);
-  if (limits.own_turn && view.turn > 0.0)
-    y -= room_above(layout, view, place_bed(view, side, y, available, true));
-  move_down(layout, std::max(y, limits.bed_top) - y);
-  layout.bed = place_bed(view, side, std::max(y, limits.bed_top), available, limits.own_turn);
-  y = layout.bed.box.bottom();
+  if (has_bed) {
+    if (limits.own_turn && view.turn > 0.0)
+      y -= room_above(layout, view, place_bed(view, side, y, available, true));
+    move_by(layout, 0.0, std::max(y, limits.bed_top) - y);
+    layout.bed = place_bed(view, side, std::max(y, limits.bed_top), available, limits.own_turn);
+    y = layout.bed.box.bottom();
+  }
   if (!legends.empty() || scale_and_arrow.height > 0.0)
     y = add_rows(layout, legends, scale_and_arrow, std::ceil(y + 0.6 * em), side);
   if (!view.traces.empty()) {
     y = std::max(std::ceil(y + 0.6 * em), limits.traces_top);
     layout.traces_top = y;
-    y = add_traces(layout, view.traces, {side, width - side, y, broken}, font);
+    y = add_traces(layout, view.traces, {side, width - side, y, broken, view.trace_height}, font);
     if (y < 0.0) return std::nullopt;
   }
   layout.height = checked_height(width, std::ceil(y + 0.5 * em));
@@ -178,6 +175,33 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
 }
 
 }  // namespace
+
+double base_line_of(const PlacedText& text, double em) { return std::round(text.box.y + text_ascent * em); }
+
+void move_by(Layout& layout, double x, double y) {
+  const auto move = [x, y](auto& place) {
+    place.x += x;
+    place.y += y;
+  };
+  for (PlacedText& text : layout.texts) move(text.box);
+  for (PlacedSwatch& swatch : layout.swatches) move(swatch.box);
+  for (PlacedBar& bar : layout.bars) {
+    move(bar.box);
+    for (double& tick : bar.ticks) tick += x;
+  }
+  for (Box* box : {&layout.scale_bar, &layout.arrow, &layout.bed.box})
+    if (box->width > 0.0) move(*box);
+  layout.bed.camera.origin_x += x;
+  layout.bed.camera.origin_y += y;
+  for (PlacedTrace& trace : layout.traces) {
+    move(trace.box);
+    move(trace.mark);
+    for (Point& point : trace.curve) move(point);
+    for (double& tick : trace.x_ticks) tick += x;
+    for (double& tick : trace.y_ticks) tick += y;
+    trace.event += x;
+  }
+}
 
 Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits) {
   if (width < smallest_width || width > largest_side)
@@ -189,11 +213,12 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
   const double wanted_em = std::max(10.0, std::round(width / view.letters));
   for (const bool broken : {false, true})
     for (double em = std::min(wanted_em, limits.largest_em);
-         em >= (broken ? smallest_em : least_unbroken * wanted_em); em -= 0.5)
+         em >= std::max(width / view.most_letters, broken ? smallest_em : least_unbroken * wanted_em);
+         em -= 0.5)
       if (std::optional<Layout> layout = lay_out_with(view, width, em, broken, font, limits)) return *layout;
-  throw Error(
-      ExitCode::usage,
-      fmt::format("width = {}: caption and legend of this map do not fit; ask for a larger width", width));
+  throw Error(ExitCode::usage,
+              fmt::format("width = {}: caption and legend of this map do not fit; ask for a larger width{}",
+                          width, std::isfinite(view.most_letters) ? " in print" : ""));
 }
 
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits) {

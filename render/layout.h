@@ -47,6 +47,8 @@ struct PlacedText {
   Box box;
   std::string text;
 };
+/// px from the top: where the letters of a text stand, on a whole pixel.
+double base_line_of(const PlacedText& text, double em);
 
 struct PlacedBar {
   Box box;
@@ -99,6 +101,9 @@ struct LayoutLimits {
 /// the font shrinks a little, then lines are broken, then it shrinks as far as can be read.
 /// Throws Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
 Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits = {});
+
+/// Moves all of a layout, by whole pixels.
+void move_by(Layout& layout, double x, double y);
 
 /// Limits with which the beds of pictures are level, and so are their traces, beside or after each other.
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits);

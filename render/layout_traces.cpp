@@ -9,7 +9,6 @@ namespace talus::render {
 namespace {
 
 // In units of the font size.
-constexpr double frame_height = 5.0;
 constexpr double label_gap = 0.4;
 constexpr double gap_below_frame = 0.65;  // the lowest label beside it reaches half a line below it
 constexpr double narrowest_frame = 8.0;
@@ -122,7 +121,7 @@ double add_traces(Layout& layout, const std::vector<Trace>& traces, const TraceR
     const Box last_line =
         title.texts.empty() ? Box{frame_left, y, 0.0, line_height * em} : layout.texts.back().box;
     const Box box{frame_left, std::ceil(title_bottom + 0.3 * em), std::floor(right - frame_left),
-                  std::round(frame_height * em)};
+                  std::round(room.frame_height * em)};
     layout.traces.push_back(place_trace(trace, box));
     add_event_label(layout, trace, layout.traces.back(), last_line, right, font);
     add_y_labels(layout, trace, layout.traces.back(), font);

@@ -11,6 +11,7 @@ namespace talus::render {
 struct TraceRoom {
   double left = 0.0, right = 0.0, top = 0.0;
   bool broken = false;
+  double frame_height = 5.0;  ///< in font sizes
 };
 
 /// Lays out traces one below the other; the last has the labels of all. Labels that would touch are left out.

@@ -4,6 +4,8 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <csetjmp>
 #include <fmt/core.h>
 #include <new>
@@ -77,7 +79,7 @@ void check(const std::string& keyword, const std::string& text) {
 }
 
 /// As libpng takes texts; it does not change them.
-std::vector<PngEntry> texts_for_libpng(const PngTexts& texts) {
+std::vector<PngEntry> texts_for_libpng(const PictureTexts& texts) {
   std::vector<PngEntry> result;
   for (const auto& [keyword, text] : texts) {
     check(keyword, text);
@@ -93,7 +95,7 @@ std::vector<PngEntry> texts_for_libpng(const PngTexts& texts) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image, const PngTexts& texts) {
+std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& texts, double printed_width) {
   check(image);
   std::vector<PngEntry> entries = texts_for_libpng(texts);
   std::vector<std::uint8_t> bytes;
@@ -103,11 +105,24 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PngTexts& texts) 
   const bool encoded = info && encode(png, info, image, entries, bytes);
   png_destroy_write_struct(&png, &info);
   if (!encoded) throw std::bad_alloc();
+  if (printed_width > 0.0) print_at(bytes, printed_width);
   return bytes;
 }
 
-void write_png(const std::string& path, const Image& image, const PngTexts& texts) {
-  const std::vector<std::uint8_t> bytes = encode_png(image, texts);
+void print_at(std::vector<std::uint8_t>& png, double printed_width) {
+  constexpr std::size_t header_end = 33, width_at = 16;  // of the signature and the chunk IHDR
+  if (png.size() < header_end || png[1] != 'P' || png[2] != 'N' || png[3] != 'G') return;
+  const auto dots = static_cast<png_uint_32>(std::lround(png_get_uint_32(&png[width_at]) / printed_width));
+  std::array<std::uint8_t, 21> chunk = {0, 0, 0, 9, 'p', 'H', 'Y', 's'};
+  png_save_uint_32(&chunk[8], dots);
+  png_save_uint_32(&chunk[12], dots);
+  chunk[16] = PNG_RESOLUTION_METER;
+  png_save_uint_32(&chunk[17], static_cast<png_uint_32>(crc32(0, &chunk[4], 13)));
+  png.insert(png.begin() + header_end, chunk.begin(), chunk.end());
+}
+
+void write_png(const std::string& path, const Image& image, const PictureTexts& texts, double printed_width) {
+  const std::vector<std::uint8_t> bytes = encode_png(image, texts, printed_width);
   OutputFile file(path);
   file.write(bytes);
   file.commit();

@@ -1,29 +1,26 @@
 #pragma once
-/// Draws views into images.
+/// Draws views and sheets into images.
 
 #include <memory>
 
 #include "render/context.h"
 #include "render/font.h"
-#include "render/frame_view.h"
 #include "render/image.h"
-#include "render/layout.h"
+#include "render/sheet.h"
 #include "render/target.h"
 
 namespace talus::render {
-
-/// Whether a view is drawn in gray, in colour, or in colour on a transparent background.
-PixelFormat pixel_format(const FrameView& view);
 
 /// Owns its target. Use it on the thread that made the context.
 class Renderer {
  public:
   explicit Renderer(std::unique_ptr<Context> context);
-  explicit Renderer(std::unique_ptr<Target> target);
+  explicit Renderer(std::unique_ptr<ImageTarget> target);
 
   /// The picture of a view, `width` px wide, laid out by lay_out. The same view gives the same bits.
   /// Throws Error as lay_out and the target do.
   Image draw(const FrameView& view, int width, const LayoutLimits& limits = {});
+  Image draw(const Sheet& sheet);
 
   /// Draws without reading the picture back: it stays in the target, with the size of the returned layout.
   Layout paint(const FrameView& view, int width, const LayoutLimits& limits = {});
@@ -31,9 +28,8 @@ class Renderer {
   const Font& font() const { return font_; }
 
  private:
-  std::unique_ptr<Target> target_;
+  std::unique_ptr<ImageTarget> target_;
   Font font_;
-  GlyphAtlas atlas_;
 };
 
 }  // namespace talus::render

@@ -1,20 +1,20 @@
 #pragma once
-/// What pictures are drawn on: an OpenGL context (gl_target.h), or in tests a list of what was drawn.
+/// What pictures are drawn on: an OpenGL context (gl_target.h), a document of vectors (pdf_target.h,
+/// svg_target.h), or in tests a list of what was drawn.
 
 #include <span>
+#include <vector>
 
-#include "render/font.h"
 #include "render/frame_view.h"
 #include "render/image.h"
 #include "render/layout.h"
 
 namespace talus::render {
 
-/// A corner of a triangle: a glyph of the atlas, or a plain area where u < 0.
-struct FurnitureVertex {
-  float x, y;  ///< px from the left and from the top
-  float u, v;  ///< in the atlas
-  Colour colour;
+/// A rectangle without a rim.
+struct Area {
+  Box box;
+  std::vector<Colour> colours;  ///< from left to right, evenly spaced; only one: plain
 };
 
 enum class PixelFormat {
@@ -33,7 +33,14 @@ class Target {
   /// What is seen through a window: cut at its edges.
   virtual void draw_discs(std::span<const Disc> discs, const Window& window) = 0;
   virtual void draw_lines(std::span<const Line> lines, const Window& window) = 0;
-  virtual void draw_triangles(std::span<const FurnitureVertex> triangles, const GlyphAtlas& atlas) = 0;
+  virtual void draw_areas(std::span<const Area> areas) = 0;
+  /// Black, in a font size of `em` px.
+  virtual void draw_texts(std::span<const PlacedText> texts, double em) = 0;
+};
+
+/// A target of pixels.
+class ImageTarget : public Target {
+ public:
   /// The picture. Throws Error(internal) if drawing failed.
   virtual Image end() = 0;
 };

@@ -1,7 +1,11 @@
-/// `talus animate`: a map of a run as a movie.
+/// `talus animate`: maps of a run as a movie.
 
+#include <cmath>
 #include <cstdio>
+#include <fmt/core.h>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "app/choices.h"
 #include "app/commands.h"
@@ -12,6 +16,7 @@
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "pictures/run_movie.h"
+#include "render/layout.h"
 
 namespace talus::app {
 namespace {
@@ -19,8 +24,8 @@ namespace {
 struct AnimateArguments {
   std::string run;
   pictures::MapOptions maps;
-  pictures::MovieTiming timing;
-  std::string output;
+  pictures::MovieAsked movie;
+  std::string size, aspect;
   bool overwrite = false;
   bool quiet = false;
 };
@@ -29,52 +34,115 @@ bool is_movie_name(const std::string& path) {
   return path.ends_with(".mp4") || path.ends_with(".webm") || path.ends_with(".gif");
 }
 
+/// Two numbers with a sign between them, as "1920x1080" and "16:9".
+std::optional<std::pair<double, double>> two_numbers(const std::string& text, char between) {
+  const std::size_t middle = text.find(between);
+  double first = 0.0, second = 0.0;
+  if (middle == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, middle), first) ||
+      !CLI::detail::lexical_cast(text.substr(middle + 1), second) || !(first > 0.0) || !(second > 0.0) ||
+      !std::isfinite(first * second))
+    return std::nullopt;
+  return std::pair{first, second};
+}
+
+/// The width and the height, px, of --size, or of --width and --aspect.
+std::pair<int, int> movie_size(const AnimateArguments& arguments) {
+  std::pair<double, double> size{arguments.maps.width, 0.0};
+  if (!arguments.size.empty()) {
+    const auto found = two_numbers(arguments.size, 'x');
+    if (!found)
+      throw Error(ExitCode::usage,
+                  "--size " + arguments.size + ": expected WIDTHxHEIGHT in pixels, as 1920x1080");
+    size = *found;
+  } else if (!arguments.aspect.empty()) {
+    const auto found = two_numbers(arguments.aspect, ':');
+    if (!found)
+      throw Error(ExitCode::usage, "--aspect " + arguments.aspect + ": expected two numbers, as 16:9");
+    size.second = std::round(size.first * found->second / found->first);
+  }
+  const auto possible = [](double side) {
+    return side >= render::smallest_width && side <= render::largest_side;
+  };
+  if (!possible(size.first) || (size.second != 0.0 && !possible(size.second)))
+    throw Error(ExitCode::usage,
+                fmt::format("a movie of {} x {} px: expected {} ... {} px on each side", size.first,
+                            size.second, render::smallest_width, render::largest_side));
+  return {static_cast<int>(size.first), static_cast<int>(size.second)};
+}
+
 pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
   pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
-  if (plan.maps.size() > 1)
-    throw Error(ExitCode::usage, "--map: a movie shows one map, or two overlaid as in gamma+forces");
+  plan.width = movie_size(arguments).first;
+  if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width && arguments.movie.height == 0)
+    throw Error(ExitCode::usage,
+                fmt::format("a width of {} px: each of {} maps beside each other takes {} px or more",
+                            plan.width, plan.maps.size(), render::smallest_width));
   if (arguments.maps.transparent)
     throw Error(ExitCode::usage,
                 "--transparent: a movie has no transparency; talus render draws single pictures with it");
-  if (!is_movie_name(arguments.output))
-    throw Error(ExitCode::usage, arguments.output + ": expected a name that ends in .mp4, .webm or .gif");
+  if (!is_movie_name(arguments.movie.output))
+    throw Error(ExitCode::usage,
+                arguments.movie.output + ": expected a name that ends in .mp4, .webm or .gif");
   return plan;
 }
 
-void animate(const AnimateArguments& arguments) {
+/// What would make a movie smooth whose frames each show more than one moment.
+void note_coarse_frames(const pictures::MovieAsked& asked, int times) {
+  if (times < 2 || !asked.timing.speed) return;
+  print(
+      "each frame of the run is shown up to %d times; a run with output.frame_every = %.2g would give every "
+      "frame of the movie its own\n",
+      times, *asked.timing.speed / asked.timing.fps);
+}
+
+void animate(AnimateArguments& arguments) {
+  pictures::MovieAsked& movie = arguments.movie;
+  movie.height = movie_size(arguments).second;
   const pictures::MapPlan plan = plan_movie(arguments);
-  output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
+  output_target(movie.output, output_of_run(arguments.run, arguments.overwrite));
   pictures::DrawnRun run =
       pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
-  prepare_folder_of(arguments.output);
-  const std::size_t count = pictures::draw_movie(run, arguments.timing, arguments.output,
-                                                 {count_shown("animating", arguments.quiet), asked_to_stop});
-  if (!arguments.quiet)
-    print("%s: %zu frames, %.3g s\n", arguments.output.c_str(), count,
-          static_cast<double>(count) / arguments.timing.fps);
+  prepare_folder_of(movie.output);
+  const pictures::MovieDrawn drawn =
+      pictures::draw_movie(run, movie, {count_shown("animating", arguments.quiet), asked_to_stop});
+  if (arguments.quiet) return;
+  print("%s: %zu frames, %.3g s\n", movie.output.c_str(), drawn.frames,
+        static_cast<double>(drawn.frames) / movie.timing.fps);
+  note_coarse_frames(movie, drawn.most_times);
 }
 
 }  // namespace
 
 void add_animate_command(CLI::App& app) {
   auto arguments = std::make_shared<AnimateArguments>();
-  CLI::App* command = app.add_subcommand("animate", "Draw a map of a run as a movie (needs ffmpeg)");
+  CLI::App* command = app.add_subcommand("animate", "Draw maps of a run as a movie (needs ffmpeg)");
   add_run_argument(*command, arguments->run);
   command
-      ->add_option("--every", arguments->timing.every,
+      ->add_option("--every", arguments->movie.timing.every,
                    "Degrees of tilt between frames of the run that are drawn [all frames]")
       ->check(in_range(1e-6, 90.0));
-  command->add_option("--fps", arguments->timing.fps, "Frames a second")
+  command->add_option("--fps", arguments->movie.timing.fps, "Frames a second")
       ->capture_default_str()
       ->check(in_range(0.1, 120.0));
   command
-      ->add_option(
-          "--speed", arguments->timing.speed,
-          "Degrees of tilt a second: the time of the movie follows the tilt, and its end is held for "
-          "a second [each frame of the run is shown once]")
+      ->add_option("--speed", arguments->movie.timing.speed,
+                   "Degrees of tilt a second: the time of the movie follows the tilt [each frame of the run "
+                   "is shown once]")
       ->check(in_range(1e-3, 1000.0));
   command
-      ->add_option("-o,--output", arguments->output,
+      ->add_option("--hold", arguments->movie.timing.hold,
+                   "Seconds for which the first and the last frame stay [with --speed the last for 1]")
+      ->check(in_range(0.0, 60.0));
+  CLI::Option* size = command->add_option("--size", arguments->size,
+                                          "Width and height in pixels, as 1920x1080 for a projector: the "
+                                          "maps, and the curves of --trace beside them, fill it "
+                                          "[as --width and the bed have it]");
+  command
+      ->add_option("--aspect", arguments->aspect,
+                   "Width over height, as 16:9: the height that goes with --width")
+      ->excludes(size);
+  command
+      ->add_option("-o,--output", arguments->movie.output,
                    "Movie to write: FILE.mp4, FILE.webm or FILE.gif; its folder is made where missing")
       ->required();
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");

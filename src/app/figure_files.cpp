@@ -57,7 +57,8 @@ void draw_maps(const figures::Figure& figure, const fs::path& folder, double wid
 }
 
 /// gnuplot draws into memory, as it ends well even where it could not write all.
-void draw(const figures::Figure& figure, const fs::path& folder) {
+/// PNG files say how wide they are printed, in cm.
+void draw(const figures::Figure& figure, const fs::path& folder, double width) {
   std::vector<std::pair<std::string, MemoryFile>> drawings;
   for (const char* ending : endings) {
     const std::string path = (folder / (figure.name + ending)).string();
@@ -70,7 +71,13 @@ void draw(const figures::Figure& figure, const fs::path& folder) {
   for (const auto& [path, made] : drawings) {
     io::remove_file(path);
     OutputFile file(path);
-    made.copy_to(file);
+    if (path.ends_with(".png")) {
+      std::vector<std::uint8_t> bytes = made.bytes();
+      render::print_at(bytes, 0.01 * width);
+      file.write(bytes);
+    } else {
+      made.copy_to(file);
+    }
     file.commit();
   }
 }
@@ -97,7 +104,7 @@ void write_figure(const figures::Figure& figure, std::span<const figures::RunGro
   io::write_text((workshop.path / (figure.name + ".json")).string(),
                  provenance_json(figure, groups, options.command_line));
   draw_maps(figure, workshop.path, width);
-  draw(figure, workshop.path);
+  draw(figure, workshop.path, width);
   for (const std::string& name : figure_files(figure))
     give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
 }

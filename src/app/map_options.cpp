@@ -90,8 +90,14 @@ void add_frame_options(CLI::App& command, pictures::MapOptions& options) {
       .add_option(
           "--printed", options.printed,
           "How wide the picture will be printed, in cm, as 8.6 for a column: its letters have 8 points "
-          "there [letters for a screen]")
+          "there, unless --for says otherwise, and the file says its resolution [as --for]")
       ->check(in_range(4.0, 200.0));
+  command
+      .add_option("--for", options.purpose,
+                  "What the letters are for: paper (8 points, 17.8 cm wide), slide (16 points, 33.9 cm) or "
+                  "poster (24 "
+                  "points, 40 cm) [a screen; of PDF and SVG: paper]")
+      ->check(one_of({"paper", "slide", "poster"}));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "pictures/panel.h"
-#include "render/layout.h"
+#include "render/document.h"
 
 namespace talus::app {
 namespace {
@@ -19,21 +19,20 @@ namespace {
 struct PanelArguments {
   std::string run;
   pictures::MapOptions maps;
-  std::vector<std::string> at;
-  std::string output;
-  bool overwrite = false;
+  pictures::PanelAsked panel;
   bool quiet = false;
 };
 
 pictures::MapPlan plan_panel(const PanelArguments& arguments) {
-  pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
+  const std::string& output = arguments.panel.output;
+  if (!output.ends_with(".png") && !render::is_document(output))
+    throw Error(ExitCode::usage, output + ": expected a name that ends in .png, .pdf or .svg");
+  pictures::MapOptions options = arguments.maps;
+  options.document = render::is_document(output);
+  pictures::MapPlan plan = pictures::plan_maps(options);
   if (!plan.traces.empty())
     throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; see talus render");
-  if (!arguments.output.ends_with(".png"))
-    throw Error(ExitCode::usage, arguments.output + ": expected a name that ends in .png");
-  plan.width /= static_cast<int>(plan.maps.size());
-  for (pictures::MapSettings& map : plan.maps) map.printed /= static_cast<double>(plan.maps.size());
-  if (plan.width < render::smallest_width)
+  if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width)
     throw Error(ExitCode::usage,
                 fmt::format("--width {}: each of {} maps beside each other takes {} px or more",
                             arguments.maps.width, plan.maps.size(), render::smallest_width));
@@ -42,14 +41,14 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
 
 void make_panel(const PanelArguments& arguments) {
   const pictures::MapPlan plan = plan_panel(arguments);
-  output_target(arguments.output, output_of_run(arguments.run, true));
+  const std::string& output = arguments.panel.output;
+  output_target(output, output_of_run(arguments.run, true));
   pictures::DrawnRun run =
       pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
-  prepare_folder_of(arguments.output);
-  const pictures::PanelDrawn drawn =
-      pictures::draw_panel(run, arguments.at, arguments.output, arguments.overwrite);
+  prepare_folder_of(output);
+  const pictures::PanelDrawn drawn = pictures::draw_panel(run, arguments.panel);
   if (!arguments.quiet)
-    print("%s: %zu angle%s%s\n", arguments.output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
+    print("%s: %zu angle%s%s\n", output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
           drawn.there_before ? ", there before" : "");
 }
 
@@ -61,14 +60,18 @@ void add_panel_command(CLI::App& app) {
       "panel", "Draw a bed at several angles in one picture, a column for each map of --map");
   add_run_argument(*command, arguments->run);
   command
-      ->add_option("--at", arguments->at,
+      ->add_option("--at", arguments->panel.at,
                    "Angles in degrees, repose for the last frame before failure, and frames by number "
                    "(frame42), with commas: --at 0,5,10,15,repose")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->required();
-  command->add_option("-o,--output", arguments->output, "Picture to write: FILE.png")->required();
-  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
+  command->add_option("--title", arguments->panel.title, "Text above all maps");
+  command
+      ->add_option("-o,--output", arguments->panel.output,
+                   "Picture to write: FILE.png, or FILE.pdf or FILE.svg, which stay sharp at any size")
+      ->required();
+  command->add_flag("--overwrite", arguments->panel.overwrite, "Replace an existing file");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
   command->callback([arguments] { make_panel(*arguments); });

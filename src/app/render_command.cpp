@@ -1,4 +1,4 @@
-/// `talus render`: maps of a run as PNG files.
+/// `talus render`: maps of a run as PNG, PDF or SVG files.
 
 #include <cstdio>
 #include <filesystem>
@@ -37,11 +37,13 @@ void render(const RenderArguments& arguments) {
   const std::string folder = arguments.folder.empty() ? default_folder(arguments.run) : arguments.folder;
   const CountDone reading = count_shown("reading", arguments.quiet);
   const Watch rendering = {count_shown("rendering", arguments.quiet), asked_to_stop};
-  const pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
+  pictures::MapOptions options = arguments.maps;
+  options.document = arguments.frames.ending != "png";
+  const pictures::MapPlan plan = pictures::plan_maps(options);
   pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
   const pictures::FrameChoice choice = pictures::choose_frames(run, arguments.frames);
   const std::vector<pictures::PictureFile> missing =
-      pictures::files_to_draw(run, choice, folder, arguments.overwrite);
+      pictures::files_to_draw(run, choice, folder, arguments.frames.ending, arguments.overwrite);
   for (const pictures::PictureFile& file : missing)
     output_target(file.path, output_of_run(arguments.run, true));
   if (!missing.empty()) pictures::draw_files(run, missing, folder, rendering);
@@ -56,7 +58,8 @@ void render(const RenderArguments& arguments) {
 
 void add_render_command(CLI::App& app) {
   auto arguments = std::make_shared<RenderArguments>();
-  CLI::App* command = app.add_subcommand("render", "Draw maps of a run as PNG files, without a display");
+  CLI::App* command =
+      app.add_subcommand("render", "Draw maps of a run as PNG, PDF or SVG files, without a display");
   add_run_argument(*command, arguments->run);
   CLI::Option* at =
       command
@@ -75,6 +78,10 @@ void add_render_command(CLI::App& app) {
                     "Also all frames of the flow after failure, where the run has followed it");
   command->add_option("-o,--output", arguments->folder,
                       "Folder of the pictures, created if it is missing [RUN-maps]");
+  command
+      ->add_option("--format", arguments->frames.ending, "png, or pdf or svg, which stay sharp at any size")
+      ->capture_default_str()
+      ->check(one_of({"png", "pdf", "svg"}));
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace pictures of other runs or options; those that are right are kept anyway");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");

@@ -44,6 +44,8 @@ constexpr ValueWord value_words[] = {
     {"--printed", "CM"},
     {"--width", "PX"},
     {"--size", "WIDTHxHEIGHT"},
+    {"--aspect", "W:H"},
+    {"--hold", "S"},
     {"--scale", "FACTOR"},
     {"--threshold", "FACTOR"},
     {"--fps", "1/S"},

@@ -187,6 +187,19 @@ void MemoryFile::copy_to(OutputFile& file) const {
   copy(file_, name_, file);
 }
 
+std::vector<std::uint8_t> MemoryFile::bytes() const {
+  const off_t size = ::lseek(file_.get(), 0, SEEK_END);
+  if (size <= 0) throw Error(ExitCode::io_error, name_ + ": nothing was written");
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got =
+        ::pread(file_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+    if (got <= 0) throw system_error(ExitCode::io_error, "read", name_, errno);
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
+}
+
 std::string parent_folder(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;

@@ -72,6 +72,8 @@ class MemoryFile {
   std::string path() const;
   /// Throws Error(io_error) if nothing was written, and as OutputFile::write.
   void copy_to(OutputFile& file) const;
+  /// The same as bytes. Throws as copy_to.
+  std::vector<std::uint8_t> bytes() const;
 
  private:
   std::string name_;

@@ -25,6 +25,8 @@ struct MapOptions {
   bool turned = false;
   bool transparent = false;
   bool bare = false;
+  bool document = false;          ///< PDF or SVG: for paper, if nothing else is said
+  std::string purpose;            ///< paper, slide or poster; empty: a screen, unless it is printed
   std::optional<double> printed;  ///< cm
 };
 

@@ -27,6 +27,24 @@ std::optional<Crop> parse_crop(const std::vector<double>& values) {
   return crop;
 }
 
+/// How wide pictures for a purpose are, and how large their letters.
+struct Purpose {
+  std::string name;
+  double printed, points;
+};
+const Purpose purposes[] = {{"paper", 17.8, 8.0}, {"slide", 33.9, 16.0}, {"poster", 40.0, 24.0}};
+
+void print(MapSettings& settings, const MapOptions& options) {
+  if (options.printed) settings.printed = *options.printed;
+  if (options.purpose.empty() && !options.document) return;
+  const std::string name = options.purpose.empty() ? "paper" : options.purpose;
+  const auto found = std::ranges::find(purposes, name, &Purpose::name);
+  if (found == std::end(purposes))
+    refuse(fmt::format("--for {}: expected paper, slide or poster", visible_word(options.purpose)));
+  settings.printed = options.printed.value_or(found->printed);
+  settings.points = found->points;
+}
+
 /// What all maps have in common.
 MapSettings common_settings(const MapOptions& options) {
   MapSettings settings;
@@ -37,7 +55,7 @@ MapSettings common_settings(const MapOptions& options) {
   settings.turned = options.turned;
   settings.transparent = options.transparent;
   settings.furniture = !options.bare;
-  settings.printed = options.printed.value_or(settings.printed);
+  print(settings, options);
   if (options.joined && *options.joined != "contacts" && *options.joined != "neighbours")
     refuse(fmt::format("--joined {}: expected contacts or neighbours{}", visible_word(*options.joined),
                        did_you_mean(*options.joined, {"contacts", "neighbours"})));
@@ -82,8 +100,8 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
     refuse("--joined: it is for the map clusters and the trace of the largest one");
   if (options.bare && !options.traces.empty())
     refuse("--trace and --bare do not go together: traces are furniture");
-  if (options.bare && options.printed)
-    refuse("--printed and --bare do not go together: a bed alone has no letters");
+  if (options.bare && !options.purpose.empty())
+    refuse("--for and --bare do not go together: a bed alone has no letters");
 }
 
 }  // namespace

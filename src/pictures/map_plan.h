@@ -25,6 +25,8 @@ struct MapPlan {
   std::optional<double> since;  ///< rad
   std::optional<render::ContextKind> context;
   int width = 0;  ///< px
+  /// m: of the picture in print; of one for a screen 0.
+  double page_width() const { return maps.empty() ? 0.0 : maps[0].printed / 100.0; }
 };
 
 /// Throws Error(usage) where an option names something that does not exist, or two do not go together.

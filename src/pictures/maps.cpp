@@ -161,8 +161,9 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
   return layer;
 }
 
-/// Of letters in print, as in figures.
-constexpr double printed_points = 8.0, points_per_cm = 72.0 / 2.54;
+constexpr double points_per_cm = 72.0 / 2.54;
+/// Letters in print are smaller by no more where they have no room.
+constexpr double smallest_points = 7.0 / 8.0;
 
 std::string caption_of(const Frame& frame, const MapSettings& settings) {
   std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
@@ -230,7 +231,10 @@ render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings
   add_surroundings(view, frame);
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
-  if (settings.printed > 0.0) view.letters = settings.printed * points_per_cm / printed_points;
+  if (settings.printed > 0.0) {
+    view.letters = settings.printed * points_per_cm / settings.points;
+    view.most_letters = view.letters / smallest_points;
+  }
   // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
   view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
   view.tilt = frame.frame.tilt;

@@ -62,7 +62,8 @@ struct MapSettings : OverloadRule {
   double tilt_max = 0.0;         ///< rad, of all frames that are to have the size of this one
   bool furniture = true;
   bool transparent = false;
-  double printed = 0.0;  ///< cm, how wide the picture is printed; 0: it is for a screen
+  double printed = 0.0;  ///< cm, how wide the picture is printed or projected; 0: it is for a screen
+  double points = 8.0;   ///< size of its letters there
   bool operator==(const MapSettings&) const = default;
 };
 

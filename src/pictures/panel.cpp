@@ -5,58 +5,118 @@
 
 #include "base/text.h"
 #include "pictures/frame_choice.h"
-#include "render/arrange.h"
-#include "render/renderer.h"
+#include "pictures/picture_files.h"
 
 namespace talus::pictures {
 namespace {
 
-/// The beds of a panel, row by row: a title stands where it differs from the one above it, legend and scale
-/// below the last.
-std::vector<std::vector<render::FrameView>> panel_views(DrawnRun& run, const FrameChoice& choice) {
-  std::vector<std::vector<render::FrameView>> rows;
-  std::vector<std::string> above(run.series.plan.maps.size());
-  for (std::size_t frame : choice) {
-    std::vector<render::FrameView>& row = rows.emplace_back();
-    for (std::size_t map = 0; map < above.size(); ++map) {
-      render::FrameView& view = row.emplace_back(picture(run, frame, map));
-      if (view.title == above[map])
-        view.title.clear();
-      else
-        above[map] = view.title;
-      if (frame == choice.back()) continue;
-      view.scale_label.clear();
-      view.legends.clear();
+using Rows = std::vector<std::vector<render::FrameView>>;
+
+/// The parts of a text that commas separate, and a text of some of them.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find(", ", start), text.size());
+    parts.push_back(text.substr(start, end - start));
+    start = end + 2;
+  }
+  return parts;
+}
+
+std::string text_of(const std::vector<std::string>& parts) {
+  return joined(parts, ", ", [](const std::string& part) { return part; });
+}
+
+/// Takes the parts that all texts begin with out of them.
+std::string take_beginning(const std::vector<std::string*>& texts) {
+  std::vector<std::string> common = parts_of(*texts.front());
+  for (const std::string* text : texts) {
+    const std::vector<std::string> parts = parts_of(*text);
+    common.erase(std::ranges::mismatch(common, parts).in1, common.end());
+  }
+  for (std::string* text : texts) {
+    std::vector<std::string> parts = parts_of(*text);
+    parts.erase(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(common.size()));
+    *text = text_of(parts);
+  }
+  return text_of(common);
+}
+
+/// Takes what follows the first part out of the captions: the angle of repose, which is that of the run.
+std::string take_rest(Rows& maps) {
+  std::string rest;
+  for (std::vector<render::FrameView>& row : maps)
+    for (render::FrameView& view : row) {
+      const std::size_t end = std::min(view.caption.find(", "), view.caption.size());
+      if (end < view.caption.size()) rest = view.caption.substr(end + 2);
+      view.caption.erase(end);
     }
+  return rest;
+}
+
+/// A row of texts without beds.
+render::FrameView heading(const render::FrameView& like, const std::string& title,
+                          const std::string& caption) {
+  render::FrameView view;
+  view.letters = like.letters;
+  view.most_letters = like.most_letters;
+  view.transparent = like.transparent;
+  view.title = title;
+  view.caption = caption;
+  return view;
+}
+
+/// "(a)", "(b)", ..., "(z)", "(aa)", ...
+std::string letter(std::size_t k) {
+  constexpr std::size_t letters = 26;
+  std::string text;
+  for (std::size_t left = k + 1; left > 0; left = (left - 1) / letters)
+    text.insert(text.begin(), static_cast<char>('a' + (left - 1) % letters));
+  return "(" + text + ")";
+}
+
+bool same_legends(const std::vector<render::Legend>& a, const std::vector<render::Legend>& b) {
+  const auto same_bar = [](const render::Bar& x, const render::Bar& y) {
+    return x.title == y.title && x.low == y.low && x.high == y.high && x.colours == y.colours;
+  };
+  const auto same_swatch = [](const render::Swatch& x, const render::Swatch& y) {
+    return x.label == y.label && x.fill == y.fill && x.rim == y.rim;
+  };
+  return std::ranges::equal(a, b, [&](const render::Legend& x, const render::Legend& y) {
+    return std::ranges::equal(x.bars, y.bars, same_bar) &&
+           std::ranges::equal(x.swatches, y.swatches, same_swatch);
+  });
+}
+
+/// Legends below the last row only, and of neighbours that have the same one below the first; the scale bar
+/// below the last.
+void share_furniture(Rows& maps) {
+  for (std::size_t row = 0; row < maps.size(); ++row)
+    for (std::size_t column = 0; column < maps[row].size(); ++column) {
+      render::FrameView& view = maps[row][column];
+      const bool last = row + 1 == maps.size();
+      if (!last || column + 1 < maps[row].size()) view.scale_label.clear();
+      if (!last) view.legends.clear();
+      if (column > 0 && last && same_legends(view.legends, maps[row][0].legends)) view.legends.clear();
+      if (column > 0 && view.caption == maps[row][0].caption) view.caption.clear();
+    }
+}
+
+Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
+  Rows rows;
+  for (const std::size_t frame : choice) {
+    std::vector<render::FrameView>& row = rows.emplace_back();
+    for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
+      row.push_back(picture(run, frame, map));
   }
   return rows;
 }
 
-/// All in one pixel format.
-render::Image draw_rows(std::vector<std::vector<render::FrameView>>& rows, const MapPlan& plan) {
-  render::Renderer renderer(render::make_context(plan.context));
-  bool coloured = false;
-  for (const std::vector<render::FrameView>& row : rows)
-    for (const render::FrameView& view : row)
-      coloured = coloured || render::pixel_format(view) == render::PixelFormat::colour;
-  const std::vector<render::LayoutLimits> limits = level_rows(rows, plan.width, renderer.font());
-  std::vector<render::Image> images;
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    std::vector<render::Image> columns;
-    for (render::FrameView& view : rows[row]) {
-      view.coloured = coloured;
-      columns.push_back(renderer.draw(view, plan.width, limits[row]));
-    }
-    images.push_back(render::beside(columns));
-  }
-  return render::stacked(images);
-}
-
-PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const std::vector<std::string>& at,
-                         const std::string& output) {
+PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const PanelAsked& asked) {
   const PictureSeries& series = run.series;
   PictureKey key;
   key.add("panel", std::to_string(series.plan.maps.size()));
+  key.add("title", asked.title);
   for (const std::size_t k : choice)
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map)
       key.add("bed", picture_key(series, k, map));
@@ -64,35 +124,52 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const s
       joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.met.instants[k].tilt); });
   const std::string maps =
       joined(series.plan.maps, " ", [](const MapSettings& map) { return layers_name(map.layers); });
-  return {key.text(), picture_request("panel " + joined(at, " "), series, series.asked.maps, output),
+  return {key.text(),
+          picture_request("panel " + joined(asked.at, " ") + asked.title, series, series.asked.maps,
+                          asked.output),
           picture_source(series.path, fmt::format("frames at {} deg, {}", angles, maps))};
 }
 
 }  // namespace
 
-std::vector<render::LayoutLimits> level_rows(std::vector<std::vector<render::FrameView>>& rows, int width,
-                                             const render::Font& font) {
-  render::LayoutLimits common;
-  common.own_turn = true;
-  for (std::vector<render::FrameView>& row : rows)
-    for (render::FrameView& view : row) {
-      view.letters /= static_cast<double>(row.size());
-      common.largest_em = std::min(common.largest_em, render::lay_out(view, width, font).em);
-    }
-  std::vector<render::LayoutLimits> limits;
-  for (const std::vector<render::FrameView>& row : rows)
-    limits.push_back(render::level(row, width, font, common));
-  return limits;
+Rows panel_rows(Rows maps, const std::string& title) {
+  const std::size_t columns = maps.front().size();
+  const bool one_row = maps.size() == 1;
+  const std::string common = one_row && title.empty() ? "" : take_rest(maps);
+  std::vector<render::FrameView> headings;
+  for (std::size_t column = 0; column < columns; ++column) {
+    std::vector<std::string*> titles;
+    for (std::vector<render::FrameView>& row : maps) titles.push_back(&row[column].title);
+    headings.push_back(heading(maps[0][column], one_row ? "" : take_beginning(titles), ""));
+  }
+  share_furniture(maps);
+  const bool several = maps.size() * columns > 1;
+  for (std::size_t k = 0; several && k < maps.size() * columns; ++k) {
+    std::string& text = maps[k / columns][k % columns].title;
+    text = letter(k) + (text.empty() ? "" : " ") + text;
+  }
+  Rows rows;
+  if (title.empty())
+    headings.back().caption = common;
+  else
+    rows.push_back({heading(headings[0], title, common)});
+  rows.push_back(std::move(headings));
+  std::erase_if(rows, [](const std::vector<render::FrameView>& row) {
+    return std::ranges::all_of(
+        row, [](const render::FrameView& view) { return view.title.empty() && view.caption.empty(); });
+  });
+  std::ranges::move(maps, std::back_inserter(rows));
+  return rows;
 }
 
-PanelDrawn draw_panel(DrawnRun& run, const std::vector<std::string>& at, const std::string& output,
-                      bool overwrite) {
-  const FrameChoice choice = frames_at(run.file.frame_tilts(), at, run.theta_c());
+PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked) {
+  const FrameChoice choice = frames_at(run.file.frame_tilts(), asked.at, run.theta_c());
   fit_to_frames(run, choice);
-  const PictureMarks marks = panel_marks(run, choice, at, output);
-  if (is_drawn(output, marks, overwrite)) return {choice.size(), true};
-  std::vector<std::vector<render::FrameView>> rows = panel_views(run, choice);
-  render::write_png(output, draw_rows(rows, run.series.plan), picture_texts(marks));
+  const PictureMarks marks = panel_marks(run, choice, asked);
+  if (is_drawn(asked.output, marks, asked.overwrite)) return {choice.size(), true};
+  const render::Sheet sheet = render::sheet_of_rows(panel_rows(panel_maps(run, choice), asked.title),
+                                                    run.series.plan.width, render::embedded_font());
+  write_sheet(asked.output, sheet, run.series.plan, picture_texts(marks));
   return {choice.size(), false};
 }
 

@@ -5,23 +5,29 @@
 #include <vector>
 
 #include "pictures/picture_marks.h"
-#include "render/layout.h"
+#include "render/sheet.h"
 
 namespace talus::pictures {
 
-/// Draws the frames nearest to the angles of `at` (frames_at), each as wide as the plan says, into a PNG
-/// file. Returns how many there are, and whether the file was there before. Throws as frames_at and is_drawn
-/// do.
+struct PanelAsked {
+  std::vector<std::string> at;  ///< as in frames_at
+  std::string title;            ///< above all; empty: none
+  std::string output;           ///< FILE.png, FILE.pdf or FILE.svg
+  bool overwrite = false;
+};
+
+/// Draws the frames nearest to the angles, a row for each, on a sheet as wide as the plan says. Returns how
+/// many there are, and whether the file was there before. Throws as frames_at, sheet_of_rows and is_drawn do.
 struct PanelDrawn {
   std::size_t angles = 0;
   bool there_before = false;
 };
-PanelDrawn draw_panel(DrawnRun& run, const std::vector<std::string>& at, const std::string& output,
-                      bool overwrite);
+PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked);
 
-/// The layout of a panel of pictures of that width: the letters of all have one size, which goes by the width
-/// of the panel, and the beds and traces of a row are level. Returns the limits of each row.
-std::vector<render::LayoutLimits> level_rows(std::vector<std::vector<render::FrameView>>& rows, int width,
-                                             const render::Font& font);
+/// The rows of a panel from its maps (at least one row, all of the same length): what all rows of a column
+/// say in their titles and what all captions say stands once above them, with `title` over it; legends that
+/// are the same, and the scale bar, stand once below. Maps have letters (a), (b), ... if there are several.
+std::vector<std::vector<render::FrameView>> panel_rows(std::vector<std::vector<render::FrameView>> maps,
+                                                       const std::string& title);
 
 }  // namespace talus::pictures

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <optional>
 #include <utility>
 
 #include "base/errors.h"
 #include "base/output_file.h"
 #include "core/trigonometry.h"
 #include "pictures/background_tasks.h"
+#include "render/document.h"
+#include "render/png.h"
 #include "render/renderer.h"
 
 namespace talus::pictures {
@@ -21,12 +24,14 @@ constexpr std::size_t pictures_waiting = 2;
 /// "gamma_012.00.png" for frame k of the tilt, "gamma_flow_002.3500s.png" for one of the flow after failure,
 /// with the time since the last frame of the tilt; of a run with a programme, which comes to an angle several
 /// times, "gamma_00042_012.00.png" with the number of the frame: names sort by time.
-std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals) {
+std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals,
+                         const std::string& ending) {
   const FrameInstant &instant = series.met.instants[k], &highest = series.met.instants[series.met.highest];
   const std::string name = layers_name(series.plan.maps[map].layers);
-  if (series.has_program) return fmt::format("{}_{:05}_{}.png", name, k, angle_name(instant.tilt, 2));
-  if (k <= series.met.highest) return fmt::format("{}_{}.png", name, angle_name(instant.tilt, decimals));
-  return fmt::format("{}_flow_{:08.4f}s.png", name, instant.time - highest.time);
+  if (series.has_program) return fmt::format("{}_{:05}_{}.{}", name, k, angle_name(instant.tilt, 2), ending);
+  if (k <= series.met.highest)
+    return fmt::format("{}_{}.{}", name, angle_name(instant.tilt, decimals), ending);
+  return fmt::format("{}_flow_{:08.4f}s.{}", name, instant.time - highest.time, ending);
 }
 
 }  // namespace
@@ -49,8 +54,9 @@ FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked) {
 }
 
 PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
-                         std::size_t k, std::size_t map, int decimals) {
-  const std::string path = (std::filesystem::path(folder) / picture_name(series, k, map, decimals)).string();
+                         std::size_t k, std::size_t map, int decimals, const std::string& ending) {
+  const std::string path =
+      (std::filesystem::path(folder) / picture_name(series, k, map, decimals, ending)).string();
   PictureMarks marks = {picture_key(series, k, map),
                         picture_request(command, series, {&series.asked.maps[map], 1}, path),
                         picture_source(series, k, map)};
@@ -58,22 +64,31 @@ PictureFile picture_file(const PictureSeries& series, const std::string& command
 }
 
 std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
-                                       bool overwrite) {
+                                       const std::string& ending, bool overwrite) {
   fit_to_frames(run, choice);
   const PictureSeries& series = run.series;
   const int decimals = series.has_program ? 2 : angle_decimals(run.file.frame_tilts(), choice);
   std::vector<PictureFile> files;
   for (const std::size_t k : choice)
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map) {
-      PictureFile file = picture_file(series, "render", folder, k, map, decimals);
+      PictureFile file = picture_file(series, "render", folder, k, map, decimals, ending);
       if (!is_drawn(file.path, file.marks, overwrite)) files.push_back(std::move(file));
     }
   return files;
 }
 
+void write_sheet(const std::string& path, const render::Sheet& sheet, const MapPlan& plan,
+                 const render::PictureTexts& texts) {
+  if (render::is_document(path)) return render::write_document(path, sheet, plan.page_width(), texts);
+  render::Renderer renderer(render::make_context(plan.context));
+  render::write_png(path, renderer.draw(sheet), texts, plan.page_width());
+}
+
 void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std::string& folder,
                 const Watch& watch) {
-  render::Renderer renderer(render::make_context(run.series.plan.context));
+  const MapPlan& plan = run.series.plan;
+  const render::Font font = render::embedded_font();
+  std::optional<render::Renderer> renderer;
   BackgroundTasks writer(pictures_waiting);  // while one is encoded and written, the next is drawn
   for (std::size_t done = 0; done < files.size(); ++done) {
     const PictureFile& file = files[done];
@@ -85,11 +100,18 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
               "stopped after {} of {} pictures; repeat the command, and those that are there are kept", done,
               files.size()));
     }
-    render::Image image = renderer.draw(picture(run, file.frame, file.map), run.series.plan.width);
+    render::Sheet sheet = render::sheet_of(picture(run, file.frame, file.map), plan.width, font);
+    if (!renderer && !render::is_document(file.path)) renderer.emplace(render::make_context(plan.context));
     if (done == 0) prepare_folder(folder);
-    writer.post([&file, drawn = std::move(image)] {
-      render::write_png(file.path, drawn, picture_texts(file.marks));
-    });
+    if (render::is_document(file.path)) {
+      writer.post([&file, &plan, sheet = std::move(sheet)] {
+        write_sheet(file.path, sheet, plan, picture_texts(file.marks));
+      });
+    } else {
+      writer.post([&file, &plan, image = renderer->draw(sheet)] {
+        render::write_png(file.path, image, picture_texts(file.marks), plan.page_width());
+      });
+    }
     if (watch.progress) watch.progress(done + 1, files.size());
   }
   writer.finish();

@@ -1,5 +1,5 @@
 #pragma once
-/// Maps of a run as PNG files in a folder.
+/// Maps of a run as files in a folder.
 
 #include <string>
 #include <vector>
@@ -7,6 +7,7 @@
 #include "core/watch.h"
 #include "pictures/frame_choice.h"
 #include "pictures/picture_marks.h"
+#include "render/sheet.h"
 
 namespace talus::pictures {
 
@@ -15,6 +16,7 @@ struct FramesAsked {
   std::vector<std::string> at;  ///< as in frames_at; none: by `every`
   double every = 1.0;           ///< deg; the last frame before failure is added
   bool flow = false;            ///< also all frames after failure
+  std::string ending = "png";   ///< of the files: png, pdf or svg
 };
 
 /// Frames of the tilt, ascending, and then those of the flow. Throws as frames_at does, and Error(bad_data)
@@ -30,12 +32,17 @@ struct PictureFile {
 
 /// Of map `map` of frame k, as `command` draws it into the folder. Names sort by time.
 PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
-                         std::size_t k, std::size_t map, int decimals);
+                         std::size_t k, std::size_t map, int decimals, const std::string& ending = "png");
 
 /// Of all maps of the frames chosen, those that are not in the folder yet; all maps of a frame, then the next
 /// frame. Fits the ranges of motion to them. Throws as is_drawn does.
 std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
-                                       bool overwrite);
+                                       const std::string& ending, bool overwrite);
+
+/// Writes a sheet into the file that its name asks for: pixels, with their resolution where the plan is for
+/// print, or a document.
+void write_sheet(const std::string& path, const render::Sheet& sheet, const MapPlan& plan,
+                 const render::PictureTexts& texts);
 
 /// Draws them, and makes the folder where it is missing once there is something to put there. Throws
 /// Error(stopped) where it was stopped, with the pictures so far whole.

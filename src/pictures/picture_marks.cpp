@@ -9,6 +9,7 @@
 #include "base/version.h"
 #include "core/trigonometry.h"
 #include "pictures/texts.h"
+#include "render/document.h"
 
 namespace talus::pictures {
 namespace {
@@ -75,6 +76,7 @@ void add_settings(PictureKey& key, const MapSettings& settings, int width, const
   key.add("furniture", settings.furniture);
   key.add("transparent", settings.transparent);
   key.add("printed", settings.printed);
+  key.add("points", settings.points);
   key.add("width", width);
   key.add("extent", std::vector{extent.x_min, extent.x_max, extent.y_min, extent.y_max});
 }
@@ -118,14 +120,14 @@ std::string picture_source(const PictureSeries& series, std::size_t k, std::size
 
 std::string picture_source(const std::string& run, const std::string& shown) {
   std::string source = fmt::format("{}, {}", std::filesystem::path(run).filename().string(), shown);
-  for (char& c : source)  // PNG texts are ASCII
-    if (c < ' ' || c > '~') c = '?';
+  for (char& c : source)  // texts of pictures are ASCII, and those of documents end at these
+    if (c < ' ' || c > '~' || c == ';' || c == '<' || c == '(' || c == ')' || c == '\\') c = '?';
   return source;
 }
 
 std::string tilt_text(double tilt) { return fmt::format("{:.3f}", degrees(tilt)); }
 
-render::PngTexts picture_texts(const PictureMarks& marks) {
+render::PictureTexts picture_texts(const PictureMarks& marks) {
   return {{"Software", version_text()},
           {"Source", marks.source},
           {key_word, marks.key},
@@ -135,8 +137,9 @@ render::PngTexts picture_texts(const PictureMarks& marks) {
 bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite) {
   output_target(path);
   if (!is_there(path)) return false;
-  if (render::png_text(path, key_word) == marks.key) return true;
-  if (overwrite || render::png_text(path, request_word) == marks.request) return false;
+  const auto text_of = render::is_document(path) ? render::document_text : render::png_text;
+  if (text_of(path, key_word) == marks.key) return true;
+  if (overwrite || text_of(path, request_word) == marks.request) return false;
   throw Error(
       ExitCode::cannot_create,
       path +

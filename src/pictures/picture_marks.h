@@ -50,7 +50,7 @@ std::string picture_source(const std::string& run, const std::string& shown);
 std::string tilt_text(double tilt);
 
 /// The texts of a PNG: its marks, and what made it.
-render::PngTexts picture_texts(const PictureMarks& marks);
+render::PictureTexts picture_texts(const PictureMarks& marks);
 
 /// Whether the file is a picture with this key. One with this request and another key is out of date, and to
 /// be replaced. Throws Error(cannot_create) where it is anything else, unless `overwrite`.

@@ -6,9 +6,9 @@
 
 #include "base/errors.h"
 #include "core/trigonometry.h"
-#include "render/arrange.h"
 #include "render/movie.h"
 #include "render/renderer.h"
+#include "render/sheet.h"
 
 namespace talus::pictures {
 
@@ -43,45 +43,65 @@ std::vector<double> clock_tilts(const PictureSeries& series) {
   return clock;
 }
 
+/// The maps of a frame beside each other. Of several, the first has the angle, the last the scale bar, and
+/// the curves stand once, in a view of their own.
+std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, bool curves_apart) {
+  std::vector<render::FrameView> views;
+  for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
+    views.push_back(picture(run, frame, map));
+  for (std::size_t map = 1; map < views.size(); ++map) {
+    views[map].caption.clear();
+    views[map - 1].scale_label.clear();
+  }
+  if (!curves_apart || views.front().traces.empty()) return views;
+  render::FrameView curves;
+  curves.letters = views.front().letters;
+  curves.most_letters = views.front().most_letters;
+  curves.traces = views.front().traces;
+  for (render::FrameView& view : views) view.traces.clear();
+  views.push_back(std::move(curves));
+  return views;
+}
+
 /// What all frames of a movie have in common.
 struct MovieFormat {
-  render::LayoutLimits limits;  ///< font size, and where the bed stands
-  int height = 0;               ///< px
+  render::Arrangement arrangement;
+  bool curves_apart = false;
   bool coloured = false;
 };
 
-/// The smallest font size, the lowest bed, the largest height, and colour where one of the frames has it:
-/// captions and legends of some are longer than those of others.
-MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, const render::Font& font) {
+/// Captions and legends of some frames are longer than those of others, and one of them may have colour.
+MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, int height,
+                          const render::Font& font) {
   MovieFormat format;
-  std::vector<render::FrameView> views;
+  format.curves_apart = height > 0 || run.series.plan.maps.size() > 1;
+  std::vector<std::vector<render::FrameView>> pictures;
   for (const MovieFrame& frame : frames) {
-    render::FrameView& view = views.emplace_back(picture(run, frame.frame, 0));
-    format.limits.largest_em =
-        std::min(format.limits.largest_em, render::lay_out(view, run.series.plan.width, font).em);
-    format.coloured = format.coloured || render::pixel_format(view) == render::PixelFormat::colour;
-    // The layout needs no more of it.
-    view.discs = {};
-    view.lines = {};
-    for (render::Trace& trace : view.traces) trace.x = trace.y = {};
+    std::vector<render::FrameView>& views =
+        pictures.emplace_back(movie_views(run, frame.frame, format.curves_apart));
+    for (render::FrameView& view : views) {
+      format.coloured = format.coloured || render::pixel_format(view) == render::PixelFormat::colour;
+      // The layout needs no more of it.
+      view.discs = {};
+      view.lines = {};
+      for (render::Trace& trace : view.traces) trace.x = trace.y = {};
+    }
   }
-  format.limits = render::level(views, run.series.plan.width, font, format.limits);
-  for (const render::FrameView& view : views)
-    format.height =
-        std::max(format.height, render::lay_out(view, run.series.plan.width, font, format.limits).height);
+  format.arrangement = render::arrange(std::move(pictures), run.series.plan.width, height, font);
   return format;
 }
 
-void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, double fps, const std::string& output,
+void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, const MovieAsked& asked,
                 const Watch& watch) {
-  const int width = run.series.plan.width;
   render::Renderer renderer(render::make_context(run.series.plan.context));
-  const MovieFormat format = common_format(run, frames, renderer.font());
-  render::Movie movie(output, width, format.height, format.coloured ? 3 : 1, fps);
+  const MovieFormat format = common_format(run, frames, asked.height, renderer.font());
+  render::Movie movie(asked.output, format.arrangement.width, format.arrangement.height,
+                      format.coloured ? 3 : 1, asked.timing.fps);
   for (std::size_t k = 0; k < frames.size() && !watch.stopped(); ++k) {
-    render::FrameView view = picture(run, frames[k].frame, 0);
-    view.coloured = format.coloured;
-    const render::Image image = render::padded(renderer.draw(view, width, format.limits), format.height);
+    std::vector<render::FrameView> views = movie_views(run, frames[k].frame, format.curves_apart);
+    for (render::FrameView& view : views) view.coloured = format.coloured;
+    const render::Image image =
+        renderer.draw(render::arranged(std::move(views), format.arrangement, renderer.font()));
     for (int shown = 0; shown < frames[k].times && !watch.stopped(); ++shown) movie.add(image);
     if (watch.progress) watch.progress(k + 1, frames.size());
   }
@@ -93,7 +113,12 @@ void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, double fps
 std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const MovieTiming& timing) {
   std::vector<MovieFrame> frames;
   for (std::size_t k : frames_every(clock, timing.every)) frames.push_back({k, 1});
-  if (!timing.speed) return frames;
+  const auto held = [&timing](double seconds) { return static_cast<int>(std::lround(timing.fps * seconds)); };
+  if (!timing.speed) {
+    frames.front().times += held(timing.hold.value_or(0.0));
+    frames.back().times += held(timing.hold.value_or(0.0));
+    return frames;
+  }
 
   // The movie frame from which on a frame of the run may be seen; a little early, so that round-off in an
   // angle does not cost it a frame.
@@ -104,29 +129,31 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
   };
   for (std::size_t k = 0; k + 1 < frames.size(); ++k)
     frames[k].times = static_cast<int>(first_seen(frames[k + 1]) - first_seen(frames[k]));
-  frames.back().times = 1 + static_cast<int>(std::lround(timing.fps));
+  frames.back().times = 1 + held(timing.hold.value_or(1.0));
   std::erase_if(frames, [](const MovieFrame& frame) { return frame.times == 0; });
+  frames.front().times += held(timing.hold.value_or(0.0));
   return frames;
 }
 
-std::size_t draw_movie(DrawnRun& run, const MovieTiming& timing, const std::string& output,
-                       const Watch& watch) {
-  const std::vector<MovieFrame> frames = movie_frames(clock_tilts(run.series), timing);
+MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch) {
+  const std::vector<MovieFrame> frames = movie_frames(clock_tilts(run.series), asked.timing);
   FrameChoice shown;  // one range for all, each of which counts once however long it is shown
-  std::size_t count = 0;
+  MovieDrawn drawn;
   for (const MovieFrame& frame : frames) {
     shown.push_back(frame.frame);
-    count += static_cast<std::size_t>(frame.times);
+    drawn.frames += static_cast<std::size_t>(frame.times);
   }
+  for (std::size_t k = 1; k + 1 < frames.size(); ++k)
+    drawn.most_times = std::max(drawn.most_times, frames[k].times);
   fit_to_frames(run, shown);
   try {
-    make_movie(run, frames, timing.fps, output, watch);
+    make_movie(run, frames, asked, watch);
   } catch (const Error&) {
     if (!watch.stopped()) throw;  // Ctrl-C ends ffmpeg too: that is no error of the movie
   }
   if (watch.stopped())
     throw Error(ExitCode::stopped, "stopped; the movie was not finished, and nothing of it is kept");
-  return count;
+  return drawn;
 }
 
 }  // namespace talus::pictures

@@ -64,7 +64,9 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"--map", "coarse", "--l-min", "0"}, "gamma of grains"},
       {{"--map", "gamma", "--l-min", "-1"}, "--l-min"},
       {{"--map", "gamma", "--bare", "--trace", "overloaded"}, "--bare"},
-      {{"--map", "gamma", "--bare", "--printed", "8.6"}, "--bare"},
+      {{"--map", "gamma", "--bare", "--for", "slide"}, "--bare"},
+      {{"--map", "gamma", "--for", "slides"}, "did you mean 'slide'?"},
+      {{"--map", "gamma", "--format", "eps"}, "svg"},
       {{"--map", "gamma", "--printed", "1"}, "--printed"},
       {{"--map", "gamma", "--width", "1000000"}, "--width"},
       {{"--map", "gamma", "--width", "20"}, "--width"},
@@ -76,13 +78,19 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
   }
   const std::vector<std::pair<Words, std::string>> others = {
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--transparent"}, "transparen"},
-      {{"animate", "none.h5", "--map", "gamma,forces", "-o", "x.mp4"}, "one map"},
+      {{"animate", "none.h5", "--map", "gamma,forces", "-o", "x.mp4", "--width", "300"}, "2 maps"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920"}, "WIDTHxHEIGHT"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920x-1080"}, "WIDTHxHEIGHT"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920x100"}, "on each side"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--aspect", "16/9"}, "16:9"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--aspect", "16:9", "--size", "300x300"},
+       "--aspect"},
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.avi"}, ".webm"},
       {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--trace", "overloaded"},
        "--trace"},
       {{"panel", "none.h5", "--map", "gamma,overloaded,forces", "--at", "0", "-o", "x.png", "--width", "500"},
        "--width 500"},
-      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.jpg"}, ".png"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.jpg"}, ".svg"},
       {{"run", "none.toml", "--map", "gamma"}, "--frames"},
       {{"run", "none.toml", "--frames", "maps"}, "--map"},
       {{"run", "none.toml", "--frames", "maps", "--map", "gamm"}, "gamma"},
@@ -346,6 +354,9 @@ TEST_F(MapCommands, a_movie_follows_the_tilt) {
   ASSERT_EQ(timed.exit_code, 0) << timed.err;
   EXPECT_NE(timed.out.find("41 frames, 4.1 s"), std::string::npos) << timed.out;
   EXPECT_EQ(talus(movie + Words{"-o", "a.gif"}).exit_code, 73);
+  const Outcome held = talus(movie + Words{"--speed", "0.5", "--hold", "0.5", "-o", "c.webm"});
+  EXPECT_NE(held.out.find("41 frames, 4.1 s"), std::string::npos) << held.out << "half a second at each end";
+  EXPECT_NE(held.out.find("output.frame_every = 0.05"), std::string::npos) << held.out;
 }
 
 TEST_F(MapCommands, a_run_without_frames_has_no_maps) {

@@ -13,11 +13,12 @@ struct Recording {
   std::vector<std::vector<render::Disc>> discs;  ///< of each draw, in order
   std::vector<std::vector<render::Line>> lines;
   std::vector<render::Window> disc_windows, line_windows;
-  std::vector<std::vector<render::FurnitureVertex>> triangles;
+  std::vector<render::Area> areas;
+  std::vector<render::PlacedText> texts;
 };
 
 /// Fills the recording of its owner. Pictures come out blank.
-class RecordingTarget final : public render::Target {
+class RecordingTarget final : public render::ImageTarget {
  public:
   explicit RecordingTarget(Recording& recording) : recording_(recording) {}
 
@@ -38,9 +39,11 @@ class RecordingTarget final : public render::Target {
     recording_.lines.emplace_back(lines.begin(), lines.end());
     recording_.line_windows.push_back(window);
   }
-  void draw_triangles(std::span<const render::FurnitureVertex> triangles,
-                      const render::GlyphAtlas&) override {
-    recording_.triangles.emplace_back(triangles.begin(), triangles.end());
+  void draw_areas(std::span<const render::Area> areas) override {
+    recording_.areas.insert(recording_.areas.end(), areas.begin(), areas.end());
+  }
+  void draw_texts(std::span<const render::PlacedText> texts, double) override {
+    recording_.texts.insert(recording_.texts.end(), texts.begin(), texts.end());
   }
   render::Image end() override {
     ++recording_.ended;

@@ -201,7 +201,7 @@ TEST(Layout, ATraceMayBeEmptyFlatOrBroken) {
   EXPECT_NEAR(layout.traces.at(1).curve.at(0).y, layout.traces[1].box.y + 0.5 * layout.traces[1].box.height,
               1e-9);
   EXPECT_TRUE(std::isnan(layout.traces.at(2).mark.y));
-  const Furniture furniture = furnish(view, layout, font, bake_glyphs(layout.em));
+  const Furniture furniture = furnish(view, layout);
   for (const Line& line : furniture.lines) EXPECT_TRUE(std::isfinite(line.y0) && std::isfinite(line.y1));
   for (const Disc& disc : furniture.discs) EXPECT_TRUE(std::isfinite(disc.y));
 }
@@ -214,7 +214,7 @@ TEST(Layout, GravityArrowPointsAlongGravity) {
     view.turn = turn;
     view.turn_max = turn;
     const Layout layout = lay_out(view, 1600, font);
-    const Line shaft = furnish(view, layout, font, bake_glyphs(layout.em)).lines.at(0);
+    const Line shaft = furnish(view, layout).lines.at(0);
     EXPECT_NEAR(std::atan2(shaft.x1 - shaft.x0, shaft.y0 - shaft.y1), view.tilt - turn, 1e-5);  // y upwards
   }
 }

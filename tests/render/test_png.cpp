@@ -27,7 +27,7 @@ Image pattern(int width, int height, int channels = 1) {
   return image;
 }
 
-ExitCode code_of_writing(const std::string& path, const Image& image, const PngTexts& texts = {}) {
+ExitCode code_of_writing(const std::string& path, const Image& image, const PictureTexts& texts = {}) {
   return test::exit_code_of([&] { write_png(path, image, texts); });
 }
 
@@ -64,6 +64,23 @@ TEST(Png, KeepsTexts) {
   EXPECT_EQ(png_text(path, "None"), "");
   EXPECT_EQ(png_text(path, "Ke"), std::nullopt);
   EXPECT_EQ(png_text(path, ""), std::nullopt);
+}
+
+TEST(Png, SaysHowWideItIsPrinted) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("a.png");
+  write_png(path, pattern(1016, 20), {{"Key", "text"}}, 0.086);
+  EXPECT_EQ(test::read_png(path).pixels, pattern(1016, 20).pixels);
+  EXPECT_EQ(png_text(path, "Key"), "text") << "its checksums are right";
+  const std::vector<std::uint8_t> plain = encode_png(pattern(1016, 20)),
+                                  printed = encode_png(pattern(1016, 20), {}, 0.086);
+  const std::string bytes(printed.begin(), printed.end());
+  const std::string wanted = std::string("pHYs\0\0\x2E\x26\0\0\x2E\x26\1", 13);  // 11814 per metre
+  EXPECT_NE(bytes.find(wanted), std::string::npos);
+  EXPECT_EQ(printed.size(), plain.size() + 21);
+  std::vector<std::uint8_t> none = {1, 2, 3};
+  print_at(none, 0.1);
+  EXPECT_EQ(none.size(), 3u);
 }
 
 TEST(Png, ReadsTextsOfOthers) {
@@ -131,7 +148,7 @@ TEST(Png, RefusesWhatItCannotHold) {
   cut.pixels.pop_back();
   for (const Image& image : {two, cut, Image{}}) EXPECT_EQ(code_of_writing(path, image), ExitCode::internal);
   const std::string long_key(80, 'k');
-  for (const auto& [key, text] : PngTexts{{"", "a"}, {long_key, "a"}, {"k\n", "a"}, {"k", "\xCE\xB8"}})
+  for (const auto& [key, text] : PictureTexts{{"", "a"}, {long_key, "a"}, {"k\n", "a"}, {"k", "\xCE\xB8"}})
     EXPECT_EQ(code_of_writing(path, pattern(4, 4), {{key, text}}), ExitCode::internal) << key;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }

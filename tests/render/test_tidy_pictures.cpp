@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
-#include "pictures/panel.h"
 #include "pictures/traces.h"
 #include "render/map_bed.h"
 #include "render/renderer.h"
@@ -167,7 +166,7 @@ TEST(TidyPictures, of_one_grain_and_of_many) {
   }
 }
 
-/// Rows of two maps at growing angles, as draw_panel makes them.
+/// Rows of two maps at growing angles, as panels have them.
 std::vector<std::vector<FrameView>> panel_of(const Bed& bed, const std::vector<std::string>& maps,
                                              bool turned, bool traced) {
   std::vector<std::vector<FrameView>> rows;
@@ -200,7 +199,8 @@ TEST(TidyPictures, of_panels_whose_rows_are_level) {
         for (const bool traced : {false, true})
           for (const int width : {200, 400, 550, 800, 1600}) {
             std::vector<std::vector<FrameView>> rows = panel_of(bed_of(length, depth), maps, turned, traced);
-            const std::vector<LayoutLimits> limits = pictures::level_rows(rows, width, font);
+            const std::vector<LayoutLimits> limits =
+                level_rows(rows, width * static_cast<int>(maps.size()), font);
             for (std::size_t r = 0; r < rows.size(); ++r) {
               const Layout first = lay_out(rows[r][0], width, font, limits[r]);
               for (const FrameView& view : rows[r]) {
@@ -240,14 +240,14 @@ TEST(TidyPictures, panels_have_letters_that_go_by_the_width_of_all_columns) {
   const Font font = embedded_font();
   std::vector<std::vector<FrameView>> rows =
       panel_of(bed_of(60.0, 30.0), {"gamma", "displacement"}, false, false);
-  const std::vector<LayoutLimits> limits = pictures::level_rows(rows, 1600, font);
+  const std::vector<LayoutLimits> limits = level_rows(rows, 1600 * static_cast<int>(rows[0].size()), font);
   EXPECT_EQ(lay_out(rows[0][0], 1600, font, limits[0]).em, 36.0) << "3200 px over 90";
 }
 
 TEST(TidyPictures, rows_of_a_turned_panel_are_as_high_as_their_turn) {
   const Font font = embedded_font();
   std::vector<std::vector<FrameView>> rows = panel_of(bed_of(200.0, 40.0), {"gamma"}, true, false);
-  const std::vector<LayoutLimits> limits = pictures::level_rows(rows, 1600, font);
+  const std::vector<LayoutLimits> limits = level_rows(rows, 1600 * static_cast<int>(rows[0].size()), font);
   const Window flat = lay_out(rows[0][0], 1600, font, limits[0]).bed;
   const Window steep = lay_out(rows[2][0], 1600, font, limits[2]).bed;
   EXPECT_EQ(flat.camera.scale, steep.camera.scale);

@@ -64,6 +64,7 @@ const std::vector<Home> homes = {
     {"GL/glcorearb.h", "render/gl_loader.h"},
     {"GL/osmesa.h", "render/context_osmesa.cpp"},
     {"GLFW/", "src/gui/window.cpp"},
+    {"cairo-", "render/pdf_target.cpp"},
     {"fmt/core.h", ""},  // any room
     {"hdf5", "src/io/hdf5_handle.h"},
     {"imgui", "src/gui/"},

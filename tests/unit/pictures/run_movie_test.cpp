@@ -37,6 +37,17 @@ TEST(MovieFrames, with_a_speed_each_shows_the_last_one_before_its_angle) {
       << "the one at 1.7 is never the last; the end is held for a second";
 }
 
+TEST(MovieFrames, stay_at_both_ends_where_that_is_asked_for) {
+  MovieTiming timing;
+  timing.fps = 2.0;
+  timing.hold = 1.0;
+  EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
+  timing.speed = 2.0;
+  EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
+  timing.hold = 0.0;
+  EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 1, 2}));
+}
+
 TEST(MovieFrames, are_as_many_as_angle_and_speed_say) {
   MovieTiming timing;
   timing.fps = 30.0;

@@ -1,0 +1,81 @@
+/// What the maps of a panel share.
+
+#include "pictures/panel.h"
+
+#include <gtest/gtest.h>
+
+#include <fmt/core.h>
+
+namespace talus::pictures {
+namespace {
+
+render::FrameView map_of(const std::string& title, int angle, const std::string& legend) {
+  render::FrameView view;
+  view.x_max = 1.0;
+  view.title = title;
+  view.caption = fmt::format("θ = {}.00°, θ_c = 20.00°", angle);
+  view.scale_label = "10 D";
+  view.legends = {{{}, {{render::Swatch::Kind::disc, render::white, render::black, 0.25, legend}}}};
+  return view;
+}
+
+/// Two maps at two angles.
+std::vector<std::vector<render::FrameView>> four_maps(const std::string& second_legend) {
+  std::vector<std::vector<render::FrameView>> maps;
+  for (const int angle : {5, 10})
+    maps.push_back({map_of("Overloaded grains, l = 3 D, p_o = 0." + std::to_string(angle), angle, "black"),
+                    map_of("Stress ratio", angle, second_legend)});
+  return maps;
+}
+
+TEST(PanelRows, say_once_what_all_say) {
+  const auto rows = panel_rows(four_maps("gray"), "");
+  ASSERT_EQ(rows.size(), 3u) << "headings, and two angles";
+  EXPECT_EQ(rows[0][0].title, "Overloaded grains, l = 3 D");
+  EXPECT_EQ(rows[0][0].caption, "");
+  EXPECT_EQ(rows[0][1].title, "Stress ratio");
+  EXPECT_EQ(rows[0][1].caption, "θ_c = 20.00°");
+  EXPECT_EQ(rows[1][0].title, "(a) p_o = 0.5");
+  EXPECT_EQ(rows[1][0].caption, "θ = 5.00°");
+  EXPECT_EQ(rows[1][1].title, "(b)");
+  EXPECT_EQ(rows[1][1].caption, "") << "that of its row";
+  EXPECT_EQ(rows[2][0].title, "(c) p_o = 0.10");
+  EXPECT_TRUE(rows[1][0].legends.empty() && rows[1][1].legends.empty());
+  EXPECT_EQ(rows[2][0].legends.size(), 1u);
+  EXPECT_EQ(rows[2][1].legends.size(), 1u);
+  EXPECT_EQ(rows[2][0].scale_label, "");
+  EXPECT_EQ(rows[2][1].scale_label, "10 D");
+}
+
+TEST(PanelRows, have_one_legend_where_both_maps_have_the_same) {
+  const auto rows = panel_rows(four_maps("black"), "");
+  EXPECT_EQ(rows[2][0].legends.size(), 1u);
+  EXPECT_TRUE(rows[2][1].legends.empty());
+}
+
+TEST(PanelRows, have_a_title_above_all) {
+  const auto rows = panel_rows(four_maps("gray"), "A bed, seed 1");
+  ASSERT_EQ(rows.size(), 4u);
+  ASSERT_EQ(rows[0].size(), 1u);
+  EXPECT_EQ(rows[0][0].title, "A bed, seed 1");
+  EXPECT_EQ(rows[0][0].caption, "θ_c = 20.00°");
+  EXPECT_EQ(rows[1][1].caption, "");
+}
+
+TEST(PanelRows, of_one_map_are_as_that_map) {
+  const auto rows = panel_rows({{map_of("Stress ratio", 5, "black")}}, "");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0][0].title, "Stress ratio");
+  EXPECT_EQ(rows[0][0].caption, "θ = 5.00°, θ_c = 20.00°");
+}
+
+TEST(PanelRows, are_lettered_beyond_z) {
+  std::vector<std::vector<render::FrameView>> maps;
+  for (int row = 0; row < 28; ++row) maps.push_back({map_of("Stress ratio", row, "black")});
+  const auto rows = panel_rows(std::move(maps), "");
+  EXPECT_EQ(rows[26][0].title, "(z)");
+  EXPECT_EQ(rows[27][0].title, "(aa)");
+}
+
+}  // namespace
+}  // namespace talus::pictures
