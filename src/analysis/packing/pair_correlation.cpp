@@ -136,8 +136,7 @@ class PairSums {
 
   /// Counts the pairs of a point with a block of points in.
   void add_block(std::size_t i, std::size_t first, std::size_t last) {
-    constexpr std::size_t piece = 64;
-    std::array<std::int32_t, piece> bin{};
+    std::array<std::int32_t, piece>& bin = bin_;
     const float x = x_[i], y = y_[i], in_bins = static_cast<float>(1.0 / width_), error = error_;
     const float beyond = static_cast<float>(bins_) + 0.5F;
     const double deviation = rows_.deviation[i];
@@ -163,7 +162,7 @@ class PairSums {
   const Sum& of(std::size_t bin) const { return sums_[bin]; }
 
  private:
-  static constexpr std::size_t lanes = 4;
+  static constexpr std::size_t lanes = 4, piece = 64;
   static constexpr std::int32_t not_sure = -1;
 
   std::size_t exact_bin(std::size_t i, std::size_t j) const {
@@ -175,9 +174,10 @@ class PairSums {
   const SortedRows& rows_;
   double reach_, width_;  ///< m
   int bins_;
-  float error_ = 1.0F;        ///< that a distance in single precision has at most, in bins
-  std::vector<float> x_, y_;  ///< of the rows, and a few beyond their end
-  std::vector<Sum> sums_;     ///< of the bins, and of all pairs that are too far apart
+  float error_ = 1.0F;                     ///< that a distance in single precision has at most, in bins
+  std::vector<float> x_, y_;               ///< of the rows, and a few beyond their end
+  std::array<std::int32_t, piece> bin_{};  ///< of the pairs of a piece; memory to work in
+  std::vector<Sum> sums_;                  ///< of the bins, and of all pairs that are too far apart
 };
 
 /// Counts the pairs of the points of a row with those of another one at or above it, or within it.
