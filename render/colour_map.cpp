@@ -1,25 +1,23 @@
 #include "render/colour_map.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fmt/core.h>
-#include <string>
 
 #include "base/errors.h"
-#include "base/nearest_word.h"
-#include "base/visible_text.h"
 #include "render/embedded.h"
 
 namespace talus::render {
 namespace {
 
-struct Name {
-  ColourMap map;
-  std::string_view name;
-};
-constexpr std::array names = {Name{ColourMap::gray, "gray"}, Name{ColourMap::viridis, "viridis"},
-                              Name{ColourMap::cividis, "cividis"}, Name{ColourMap::diverging, "diverging"}};
+/// In the order of ColourMap.
+constexpr std::array<std::string_view, 14> names = {
+    "gray",   "viridis",   "cividis",   "magma",   "inferno",   "plasma",   "diverging",
+    "gray_r", "viridis_r", "cividis_r", "magma_r", "inferno_r", "plasma_r", "diverging_r"};
+constexpr std::size_t one_way_count = names.size() / 2;  // without those that are reversed
+
+std::size_t place_of(ColourMap map) { return static_cast<std::size_t>(map); }
 
 /// Colours from end to end, evenly spaced.
 using ColourTable = std::vector<Colour>;
@@ -83,39 +81,42 @@ ColourTable table_of(std::size_t size, const Function& colour) {
 }
 
 const ColourTable& table(ColourMap map) {
-  static const std::array<ColourTable, names.size()> tables = {
-      table_of(256, gray), parse_table(embedded::viridis), parse_table(embedded::cividis),
+  static const std::array<ColourTable, one_way_count> tables = {
+      table_of(256, gray),          parse_table(embedded::viridis), parse_table(embedded::cividis),
+      parse_table(embedded::magma), parse_table(embedded::inferno), parse_table(embedded::plasma),
       table_of(511, diverging)};  // odd, so that it has a middle
-  return tables.at(static_cast<std::size_t>(map));
+  return tables.at(place_of(map) % one_way_count);
 }
 
 }  // namespace
 
 std::span<const ColourMap> colour_maps() {
-  static constexpr std::array maps = {ColourMap::gray, ColourMap::viridis, ColourMap::cividis,
+  static constexpr std::array maps = {ColourMap::gray,     ColourMap::viridis, ColourMap::cividis,
+                                      ColourMap::magma,    ColourMap::inferno, ColourMap::plasma,
                                       ColourMap::diverging};
   return maps;
 }
 
-std::string_view colour_map_name(ColourMap map) {
-  for (const Name& known : names)
-    if (known.map == map) return known.name;
-  return "";
+ColourMap reversed(ColourMap map) {
+  return static_cast<ColourMap>((place_of(map) + one_way_count) % names.size());
 }
 
-ColourMap colour_map(std::string_view name) {
-  std::string list;
-  for (const Name& known : names) {
-    if (known.name == name) return known.map;
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", known.name);
-  }
-  throw Error(ExitCode::usage, fmt::format("--colours {}: expected one of {}{}", visible_word(name), list,
-                                           did_you_mean(name, names_of(names))));
+bool is_reversed(ColourMap map) { return place_of(map) >= one_way_count; }
+
+ColourMap one_way(ColourMap map) { return is_reversed(map) ? reversed(map) : map; }
+
+std::string_view colour_map_name(ColourMap map) { return names.at(place_of(map)); }
+
+std::optional<ColourMap> colour_map(std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<ColourMap>(found - names.begin());
 }
 
 Colour colour_at(ColourMap map, double share) {
   const ColourTable& colours = table(map);
-  const double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // 0 for NaN too
+  double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // 0 for NaN too
+  if (is_reversed(map)) place = 1.0 - place;
   return colours[static_cast<std::size_t>(std::lround(place * static_cast<double>(colours.size() - 1)))];
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/choices.h"
 #include "base/text.h"
+#include "pictures/cluster_colours.h"
 #include "render/layout.h"
 
 namespace talus::app {
@@ -12,6 +13,8 @@ namespace {
 std::string list_of_traces() { return joined(pictures::trace_kinds(), ", ", pictures::trace_name); }
 
 std::string list_of_colours() { return joined(render::colour_maps(), ", ", render::colour_map_name); }
+
+std::string list_of_palettes() { return joined(pictures::cluster_palettes, " or ", pictures::palette_name); }
 
 void add_live_options(CLI::App& command, pictures::MapOptions& options) {
   command
@@ -37,7 +40,9 @@ void add_live_options(CLI::App& command, pictures::MapOptions& options) {
           "first neighbours, 0 for the grain alone [3]")
       ->check(in_range(0.0, 100.0));
   command.add_option("--colours", options.colours,
-                     fmt::format("Colours of the bar: {} [each map its own]", list_of_colours()));
+                     fmt::format("Colours of the bar: {}, reversed with _r, as gray_r [each map its own]; of "
+                                 "clusters: {} [muted]; one of each with a comma",
+                                 list_of_colours(), list_of_palettes()));
   command
       .add_option("--context", options.context,
                   "What draws it: osmesa, egl, or auto for the first of them that works")

@@ -11,6 +11,7 @@
 #include "app/terminal.h"
 #include "base/text.h"
 #include "base/text_table.h"
+#include "pictures/cluster_colours.h"
 #include "pictures/map_kind.h"
 #include "pictures/traces.h"
 #include "render/colour_map.h"
@@ -67,10 +68,10 @@ void print_maps() {
   print_text(fmt::format(
       "{}\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several "
       "pictures.\n\n{}\n"
-      "--colours: {}\n\ntalus render, panel, animate, view and run --frames draw them; docs/maps.md shows "
-      "each.\n",
-      aligned_text(maps), aligned_text(traces),
-      joined(render::colour_maps(), ", ", render::colour_map_name)));
+      "--colours: {}, with _r from the other end;\nof clusters: {}\n\n"
+      "talus render, panel, animate, view and run --frames draw them; docs/maps.md shows each.\n",
+      aligned_text(maps), aligned_text(traces), joined(render::colour_maps(), ", ", render::colour_map_name),
+      joined(pictures::cluster_palettes, " or ", pictures::palette_name)));
 }
 
 }  // namespace

@@ -65,12 +65,19 @@ void next_overlay(Gui& gui, ImWchar) {
   say_map(gui);
 }
 
-/// Its own, then each colour map.
+/// The bar's own, then each colour map; of clusters without a bar the next palette.
 void next_colours(Gui& gui, ImWchar) {
-  std::optional<render::ColourMap>& colours = gui.model.state.map.colours;
+  pictures::MapSettings& map = gui.model.state.map;
+  if (pictures::shows(map.layers, pictures::MapKind::clusters) && !pictures::has_bar(map.layers)) {
+    const std::size_t count = pictures::cluster_palettes.size();
+    map.palette = pictures::cluster_palettes.at((static_cast<std::size_t>(map.palette) + 1) % count);
+    return say(gui, fmt::format("Colours of clusters: {}.", pictures::palette_name(map.palette)));
+  }
+  std::optional<render::ColourMap>& colours = map.colours;
   const auto all = render::colour_maps();
   const std::size_t next =
-      colours ? static_cast<std::size_t>(std::ranges::find(all, *colours) - all.begin()) + 1 : 0;
+      colours ? static_cast<std::size_t>(std::ranges::find(all, render::one_way(*colours)) - all.begin()) + 1
+              : 0;
   colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
   say(gui, fmt::format("Colours of the bar: {}.",
                        colours ? render::colour_map_name(*colours) : std::string_view("those of the map")));

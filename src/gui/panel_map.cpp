@@ -36,17 +36,34 @@ void choose_layers(Gui& gui) {
   }
 }
 
+void choose_palette(Gui& gui) {
+  pictures::MapSettings& map = gui.model.state.map;
+  std::vector<std::string> names;
+  for (const pictures::ClusterPalette palette : pictures::cluster_palettes)
+    names.emplace_back(pictures::palette_name(palette));
+  int chosen = static_cast<int>(map.palette);
+  if (named_choice(gui, "palette", "clusters", names, chosen))
+    map.palette = pictures::cluster_palettes.at(static_cast<std::size_t>(chosen));
+}
+
 void choose_colours(Gui& gui) {
   pictures::MapSettings& map = gui.model.state.map;
+  if (pictures::shows(map.layers, pictures::MapKind::clusters)) choose_palette(gui);
+  bool reversed = map.colours && render::is_reversed(*map.colours);
   std::vector<std::string> names = {"its own"};
   for (const render::ColourMap colours : render::colour_maps())
     names.emplace_back(render::colour_map_name(colours));
   int chosen = 0;
   for (std::size_t k = 0; k < render::colour_maps().size(); ++k)
-    if (map.colours == render::colour_maps()[k]) chosen = static_cast<int>(k) + 1;
-  if (!named_choice(gui, "colours", "colours", names, chosen)) return;
-  map.colours.reset();
-  if (chosen > 0) map.colours = render::colour_maps()[static_cast<std::size_t>(chosen - 1)];
+    if (map.colours && render::one_way(*map.colours) == render::colour_maps()[k])
+      chosen = static_cast<int>(k) + 1;
+  if (named_choice(gui, "colours", "colours", names, chosen)) {
+    map.colours.reset();
+    if (chosen > 0) map.colours = render::colour_maps()[static_cast<std::size_t>(chosen - 1)];
+    if (reversed && map.colours) map.colours = render::reversed(*map.colours);
+  }
+  if (map.colours && named_checkbox(gui, "reversed", "reversed", reversed, "the bar from its other end"))
+    map.colours = render::reversed(*map.colours);
 }
 
 /// The ends of the bar, instead of those of the map.

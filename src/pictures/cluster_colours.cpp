@@ -36,12 +36,26 @@ std::size_t least_worn(const std::vector<Index>& worn) {
 
 }  // namespace
 
-std::vector<render::Colour> cluster_palette() {
+std::string_view palette_name(ClusterPalette palette) {
+  return palette == ClusterPalette::muted ? "muted" : "contrast";
+}
+
+std::vector<render::Colour> cluster_palette(ClusterPalette palette) {
+  // Vermillion, sky blue and yellow of Okabe and Ito and of Tol, indigo and a purple, with the lightness L*
+  // in steps of 10 or more from each other, from white, and from the gray of small clusters.
+  if (palette == ClusterPalette::contrast)
+    return {{196, 82, 0}, {51, 34, 136}, {136, 204, 238}, {140, 36, 104}, {240, 228, 66}};
   // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart. Yellow is
   // left out, as it is too light; a violet and a brown stand for indigo and wine, on which the black rim of a
   // cluster that spans could not be seen.
   return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {115, 100, 215},
           {153, 153, 51}, {136, 204, 238}, {150, 85, 70},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
+}
+
+render::Colour spanning_rim(const render::Colour& fill) {
+  constexpr double dark_luma = 78.0;
+  return render::luma(fill) < dark_luma ? render::gray(0.25)
+                                        : render::black;  // white would be lost in the ground
 }
 
 std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& clusters) {

@@ -1,6 +1,7 @@
 #include "pictures/map_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <iterator>
@@ -85,8 +86,6 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
     refuse("--range: its unit is that of one map; ask for the maps one by one");
   if (!options.range.empty() && !has_bar(plan.maps[0].layers))
     refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
-  if (!options.colours.empty() && std::ranges::none_of(plan.maps, draws_bar))
-    refuse("--colours: no map that is asked for has a bar; --colours is for those that do");
   if (options.length && !any_layer(plan, is_coarse))
     refuse("--length: it is for the maps " + maps_that(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
@@ -102,6 +101,47 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
     refuse("--trace and --bare do not go together: traces are furniture");
   if (options.bare && !options.purpose.empty())
     refuse("--for and --bare do not go together: a bed alone has no letters");
+}
+
+[[noreturn]] void refuse_colours(std::string_view name) {
+  // Known from other programs, but not offered.
+  constexpr std::array uneven = {"turbo", "jet", "rainbow", "hsv"};
+  const bool is_uneven = std::ranges::find(uneven, name) != uneven.end();
+  std::vector<std::string> names;
+  for (const render::ColourMap map : render::colour_maps()) {
+    names.emplace_back(render::colour_map_name(map));
+    names.emplace_back(render::colour_map_name(render::reversed(map)));
+  }
+  for (const ClusterPalette palette : cluster_palettes) names.emplace_back(palette_name(palette));
+  refuse(fmt::format(
+      "--colours {}: {}expected one of {}, each also reversed, as gray_r; for clusters {}{}",
+      visible_word(std::string(name)),
+      is_uneven ? "its lightness rises and falls, so that it shows edges where the values have none; " : "",
+      joined(render::colour_maps(), ", ", render::colour_map_name),
+      joined(cluster_palettes, " or ", palette_name),
+      is_uneven ? std::string() : did_you_mean(std::string(name), names)));
+}
+
+/// The colours of bars and of clusters; one of each at most.
+void choose_colours(std::string_view words, MapPlan& plan) {
+  for (std::string_view rest = words; !rest.empty();) {
+    const auto comma = std::min(rest.find(','), rest.size());
+    const std::string_view word = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    const auto palette = std::ranges::find(cluster_palettes, word, palette_name);
+    if (palette != cluster_palettes.end()) {
+      if (!shows(plan, MapKind::clusters))
+        refuse(fmt::format("--colours {}: it is for the map clusters", word));
+      for (MapSettings& map : plan.maps) map.palette = *palette;
+      continue;
+    }
+    const std::optional<render::ColourMap> colours = render::colour_map(word);
+    if (!colours) refuse_colours(word);
+    if (std::ranges::none_of(plan.maps, draws_bar))
+      refuse(fmt::format("--colours {}: no map that is asked for has a bar", word));
+    for (MapSettings& map : plan.maps)
+      if (has_bar(map.layers)) map.colours = colours;
+  }
 }
 
 }  // namespace
@@ -121,11 +161,7 @@ MapPlan plan_maps(const MapOptions& options) {
   if (options.since) plan.since = radians(*options.since);
   plan.width = options.width;
   refuse_idle_options(options, plan);
-  if (!options.colours.empty()) {
-    const render::ColourMap colours = render::colour_map(options.colours);
-    for (MapSettings& map : plan.maps)
-      if (has_bar(map.layers)) map.colours = colours;
-  }
+  choose_colours(options.colours, plan);
   plan.context = render::context_kind(options.context);
   return plan;
 }

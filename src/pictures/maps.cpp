@@ -88,8 +88,9 @@ std::string joint_title(std::span<const MapLayer> layers) {
 render::Colour colour_over(const MapSettings& settings, std::size_t k) {
   const MapKind kind = settings.layers[k];
   const render::ColourMap own = is_signed(kind) ? render::ColourMap::diverging : render::ColourMap::gray;
+  const render::ColourMap colours = choice_of(settings, k).colours.value_or(own);
   const bool light = kind == MapKind::clusters || kind == MapKind::rigid ||
-                     choice_of(settings, k).colours.value_or(own) == render::ColourMap::diverging;
+                     render::one_way(colours) == render::ColourMap::diverging;
   return light ? render::black : render::Colour{255, 60, 130};
 }
 

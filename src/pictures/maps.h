@@ -53,7 +53,8 @@ inline constexpr double assumed_theta_c = 20.0;
 struct MapSettings : OverloadRule {
   MapLayers layers;                          ///< one map, or two: the second is drawn over the first
   std::optional<render::ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
-  std::optional<double> range_low;           ///< of the bar of that layer, in the unit of its title
+  ClusterPalette palette = ClusterPalette::muted;
+  std::optional<double> range_low;  ///< of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
   MotionRanges motion;           ///< of maps of motion where no range is chosen
   bool theta_c_assumed = false;  ///< the caption says so

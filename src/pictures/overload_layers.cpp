@@ -29,12 +29,14 @@ render::Swatch disc_swatch(const render::Colour& fill, const render::Colour& rim
 }
 
 /// A colour for each cluster.
-std::vector<render::Colour> colours_of(std::span<const ClusterColour> cluster_colours) {
-  const std::vector<render::Colour> palette = cluster_palette();
+std::vector<render::Colour> colours_of(std::span<const ClusterColour> cluster_colours,
+                                       ClusterPalette chosen) {
+  const std::vector<render::Colour> palette = cluster_palette(chosen);
   std::vector<render::Colour> colours;
   for (const ClusterColour& colour : cluster_colours)
-    colours.push_back(colour.palette_index < 0 ? render::gray(uncoloured_shade)
-                                               : palette[static_cast<std::size_t>(colour.palette_index)]);
+    colours.push_back(colour.palette_index < 0
+                          ? render::gray(uncoloured_shade)
+                          : palette[static_cast<std::size_t>(colour.palette_index) % palette.size()]);
   return colours;
 }
 
@@ -51,7 +53,8 @@ std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning
                                               std::span<const render::Colour> colours, bool periodic) {
   const std::string across = periodic ? "spans the period" : "spans wall to wall";
   const auto swatch = [&](Index cluster, const std::string& label) {
-    return disc_swatch(colours[static_cast<std::size_t>(cluster)], render::black, label);
+    const render::Colour& fill = colours[static_cast<std::size_t>(cluster)];
+    return disc_swatch(fill, spanning_rim(fill), label);
   };
   std::vector<render::Swatch> swatches;
   const bool both = spanning.floor_to_surface >= 0 && spanning.floor_to_surface == spanning.across;
@@ -98,7 +101,8 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
   ClusterColours tracker = of.tracker != nullptr ? *of.tracker : ClusterColours();
   const std::vector<render::Colour> colours = colours_of(
       of.cluster_colours.empty() ? tracker.next(clusters)
-                                 : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()));
+                                 : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()),
+      settings.palette);
   MapLayer layer;
   layer.title = clusters_title(clusters, settings);
   for (const Index label : clusters.label) {
@@ -108,7 +112,7 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
     }
     const bool spans = label == spanning.floor_to_surface || label == spanning.across;
     const render::Colour fill = colours[static_cast<std::size_t>(label)];
-    layer.looks.push_back({fill, spans ? render::black : rim_of(fill)});
+    layer.looks.push_back({fill, spans ? spanning_rim(fill) : rim_of(fill)});
   }
   const GrainLook other = outline_look();
   layer.legend.swatches = spanning_swatches(spanning, colours, of.statics.periodic);

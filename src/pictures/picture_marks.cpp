@@ -60,6 +60,8 @@ void add_run(PictureKey& key, const io::RunHeader& header) {
 void add_settings(PictureKey& key, const MapSettings& settings, int width, const MapExtent& extent) {
   key.add("layers", layers_name(settings.layers));
   key.add("colours", settings.colours ? std::string(render::colour_map_name(*settings.colours)) : "");
+  if (settings.palette != ClusterPalette::muted)
+    key.add("palette", std::string(palette_name(settings.palette)));
   key.add("range_low", settings.range_low ? std::vector{*settings.range_low} : std::vector<double>{});
   key.add("range_high", settings.range_high ? std::vector{*settings.range_high} : std::vector<double>{});
   for (const auto& [kind, ranges] : settings.motion.fitting)

@@ -12,9 +12,15 @@ namespace {
 
 constexpr double lightest_rim = 0.45;  // shade of gray
 constexpr double rim_darkness = 0.6;   // of the channels of a colour
+constexpr double dark_luma = 60.0;     // below it a darker rim cannot be seen
+constexpr double rim_lightness = 0.2;  // of a dark colour: the share of white in its rim
 constexpr int most_steps = 5;          // between ticks of a bar
 
 std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
+
+std::uint8_t lightened(std::uint8_t channel) {
+  return static_cast<std::uint8_t>(std::lerp(static_cast<double>(channel), 255.0, rim_lightness));
+}
 
 /// These multiples of the powers of ten between the ends; of many decades, every second, third, ... power.
 /// All are written as powers if one of them has to be.
@@ -49,7 +55,8 @@ std::vector<render::BarTick> round_shares(const Scale& scale) {
 
 render::Colour rim_of(const render::Colour& fill) {
   if (render::is_gray(fill)) return render::gray(std::max(1.0 - fill.red / 255.0, lightest_rim));
-  return {darkened(fill.red), darkened(fill.green), darkened(fill.blue), fill.alpha};
+  const auto shade = render::luma(fill) < dark_luma ? lightened : darkened;
+  return {shade(fill.red), shade(fill.green), shade(fill.blue), fill.alpha};
 }
 
 GrainLook outline_look() { return {render::white, render::gray(0.25), false}; }

@@ -18,7 +18,8 @@ struct GrainLook {
   bool marked = true;  ///< false: the layer has nothing to say of it, and marks nothing over another layer
 };
 
-/// The rim of a grain: darker than its fill, and never lighter than a gray that shows a white grain on white.
+/// The rim of a grain: darker than its fill, and never lighter than a gray that shows a white grain on white;
+/// of a dark colour, on which no darker one is seen, lighter. Black has a black one.
 render::Colour rim_of(const render::Colour& fill);
 
 /// A grain that only shows where it is.

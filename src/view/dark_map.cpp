@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pictures/cluster_colours.h"
+
 namespace talus::view {
 namespace {
 
@@ -37,13 +39,13 @@ bool keeps_grains(const render::FrameView& map) {
   });
 }
 
-/// The rim of a grain whose fill is that on a dark ground. A black one marks a cluster that spans: it stays
-/// if its colour is so light that it would not be seen mirrored.
+/// The rim of a grain whose fill is that on a dark ground. One that marks a cluster that spans stays if it is
+/// light, or if the colour is so light that a mirrored black one would not be seen.
 render::Colour rim_on_dark(const render::Colour& fill, const render::Colour& rim) {
   constexpr double light_luma = 110.0;
-  if (render::luma(fill) < dark_luma) return light_rim;
-  const bool marks = rim == render::black && !render::is_gray(fill);
-  return marks && render::luma(fill) > light_luma ? render::black : mirrored(rim);
+  const bool marks = rim == pictures::spanning_rim(fill) && !render::is_gray(fill);
+  if (marks && (rim != render::black || render::luma(fill) > light_luma)) return rim;
+  return render::luma(fill) < dark_luma ? light_rim : mirrored(rim);
 }
 
 void mirror(render::Disc& disc, bool keep) {

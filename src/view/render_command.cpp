@@ -61,8 +61,13 @@ std::string render_command_line(const RenderRequest& shown) {
     add("--since", number(degrees(*shown.since)));
   if (settings.joined_by_neighbours && pictures::shows(layers, pictures::MapKind::clusters))
     add("--joined", "neighbours");
+  std::vector<std::string_view> colours;
   if (pictures::has_bar(layers) && settings.colours)
-    add("--colours", std::string(render::colour_map_name(*settings.colours)));
+    colours.push_back(render::colour_map_name(*settings.colours));
+  if (pictures::shows(layers, pictures::MapKind::clusters) &&
+      settings.palette != pictures::ClusterPalette::muted)
+    colours.push_back(pictures::palette_name(settings.palette));
+  if (!colours.empty()) add("--colours", joined(colours, ","));
   if (const std::optional<pictures::ScaleRange> range = range_of(shown))
     add("--range", fmt::format("{},{}", number(range->low), number(range->high)));
   if (shown.part) add("--crop", crop_text(*shown.part, shown.mean_diameter));

@@ -101,8 +101,9 @@ double rim_contrast(render::Renderer& renderer, const render::FrameView& view, c
 
 TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
   render::Renderer renderer(render::make_context(render::ContextKind::osmesa));
-  std::vector<render::Colour> fills = pictures::cluster_palette();
-  fills.push_back(render::gray(0.4));  // of clusters without a colour
+  std::vector<render::Colour> fills = {render::gray(0.4)};  // of clusters without a colour
+  for (const pictures::ClusterPalette palette : pictures::cluster_palettes)
+    for (const render::Colour& fill : pictures::cluster_palette(palette)) fills.push_back(fill);
   for (const view::Theme theme : view::themes())
     for (const render::Colour& fill : fills)
       for (const double radius : {8.0, 30.0}) {
@@ -111,7 +112,8 @@ TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
         view.coloured = view.transparent = true;
         view.x_max = 200.0;
         view.y_max = 100.0;
-        view.discs.push_back({100.5f, 49.5f, static_cast<float>(radius), fill, render::black, 0.0f});
+        view.discs.push_back(
+            {100.5f, 49.5f, static_cast<float>(radius), fill, pictures::spanning_rim(fill), 0.0f});
         if (theme == view::Theme::dark) view = view::on_dark_ground(view);
         const render::Colour shown = view.discs[0].fill;
         EXPECT_GE(rim_contrast(renderer, view, shown, gui::palette_of(theme).ground), 3.0)

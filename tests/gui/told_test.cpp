@@ -24,6 +24,23 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
   EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "as talus render --at frame3";
 }
 
+TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
+  std::optional<render::ColourMap>& colours = model_.state.map.colours;
+  gui_.key('m');
+  gui_.key('m');
+  EXPECT_EQ(colours, render::ColourMap::viridis);
+  gui_.click("reversed");
+  EXPECT_EQ(colours, render::ColourMap::viridis_r);
+  gui_.key('m');
+  EXPECT_EQ(colours, render::ColourMap::cividis);
+  model_.state.map.layers = {pictures::MapKind::clusters};
+  gui_.frame();
+  gui_.key('m');
+  EXPECT_EQ(model_.state.map.palette, pictures::ClusterPalette::contrast);
+  EXPECT_EQ(colours, render::ColourMap::cividis) << "as before, for maps with a bar";
+  gui_.place("palette");
+}
+
 /// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how
 /// many times a grain that carries nothing was told.
 int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -114,6 +115,26 @@ TEST(ClusterPalette, IsDarkerThanWhiteAndOfDifferentColours) {
   }
 }
 
+/// L* of CIELAB, 0 ... 100, of a colour of sRGB.
+double lightness(const Colour& colour) {
+  const auto linear = [](double channel) {
+    const double c = channel / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 116.0 * std::cbrt(0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) +
+                           0.0722 * linear(colour.blue)) -
+         16.0;
+}
+
+TEST(ClusterPalette, OfContrastIsToldApartInGrayPrint) {
+  std::vector<Colour> all = pictures::cluster_palette(pictures::ClusterPalette::contrast);
+  all.push_back(gray(0.4));  // of small clusters
+  all.push_back(white);
+  std::ranges::sort(all, {}, lightness);
+  for (std::size_t k = 1; k < all.size(); ++k)
+    EXPECT_GT(lightness(all[k]), lightness(all[k - 1]) + 10.0) << k;
+}
+
 /// A column of three overloaded grains from floor to surface with a force between them, twelve more in a row
 /// at the bottom that join by forces, and beside it three grains that are not overloaded.
 Packing bed_with_clusters() {
@@ -163,6 +184,18 @@ TEST(ClustersMap, TakesTheColoursThatAreGiven) {
                                             settings_of("clusters"), test::extent_of(packing));
   EXPECT_EQ(view.discs[0].fill, pictures::cluster_palette()[5]);
   EXPECT_EQ(view.discs[12].fill, gray(0.4));
+}
+
+TEST(ClustersMap, OfAnotherPaletteRepeatsItAndMarksDarkClustersByALightRim) {
+  const Packing packing = bed_with_clusters();
+  const std::vector<pictures::ClusterColour> colours = {{7, 6}, {8, -1}};
+  pictures::MapSettings settings = settings_of("clusters");
+  settings.palette = pictures::ClusterPalette::contrast;
+  const FrameView view = pictures::make_map({{packing.frame, packing.statics}, nullptr, true, colours},
+                                            settings, test::extent_of(packing));
+  const Colour dark = pictures::cluster_palette(settings.palette).at(1);
+  EXPECT_EQ(view.discs[0].fill, dark);
+  EXPECT_GT(luma(view.discs[0].rim), luma(dark) + 100.0) << "the row spans";
 }
 
 TEST(OverloadedClusters, AreJoinedByForcesOrByNeighbours) {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 
-#include "base/errors.h"
 #include "render/colour_map.h"
 
 namespace talus::render {
@@ -33,6 +33,16 @@ TEST(ColourMap, HasKnownColours) {
                              {ColourMap::cividis, 0.0, {0, 34, 78}},
                              {ColourMap::cividis, 127.0 / 255.0, {124, 123, 120}},
                              {ColourMap::cividis, 1.0, {254, 232, 56}},
+                             {ColourMap::magma, 0.0, {0, 0, 4}},
+                             {ColourMap::magma, 127.0 / 255.0, {181, 54, 122}},
+                             {ColourMap::magma, 1.0, {252, 253, 191}},
+                             {ColourMap::inferno, 127.0 / 255.0, {186, 54, 85}},
+                             {ColourMap::inferno, 1.0, {252, 255, 164}},
+                             {ColourMap::plasma, 0.0, {13, 8, 135}},
+                             {ColourMap::plasma, 127.0 / 255.0, {203, 70, 121}},
+                             {ColourMap::plasma, 1.0, {240, 249, 33}},
+                             {ColourMap::gray_r, 0.0, black},
+                             {ColourMap::plasma_r, 0.0, {240, 249, 33}},
                              {ColourMap::diverging, 0.0, {24, 66, 125}},
                              {ColourMap::diverging, 0.5, {247, 247, 247}},
                              {ColourMap::diverging, 1.0, {201, 95, 20}}}) {
@@ -47,10 +57,11 @@ TEST(ColourMap, HasKnownColours) {
 }
 
 TEST(ColourMap, LumaOfTheOneSidedMapsRunsOneWay) {
-  for (ColourMap map : {ColourMap::gray, ColourMap::viridis, ColourMap::cividis}) {
+  for (ColourMap map : {ColourMap::gray, ColourMap::viridis, ColourMap::cividis, ColourMap::magma,
+                        ColourMap::inferno, ColourMap::plasma, ColourMap::viridis_r}) {
     const std::vector<Colour> ramp = colour_ramp(map);
     ASSERT_EQ(ramp.size(), 256u);
-    const double sign = map == ColourMap::gray ? -1.0 : 1.0;
+    const double sign = map == ColourMap::gray || is_reversed(map) ? -1.0 : 1.0;
     for (std::size_t k = 1; k < ramp.size(); ++k)
       EXPECT_GT(sign * (luma(ramp[k]) - luma(ramp[k - 1])), -0.5) << colour_map_name(map) << ", step " << k;
     EXPECT_GT(sign * (luma(ramp.back()) - luma(ramp.front())), 150.0) << colour_map_name(map);
@@ -76,16 +87,26 @@ TEST(ColourMap, StaysAtItsEndsOutOfRange) {
 }
 
 TEST(ColourMap, IsFoundByItsName) {
-  ASSERT_EQ(colour_maps().size(), 4u);
-  for (ColourMap map : colour_maps()) EXPECT_EQ(colour_map(colour_map_name(map)), map);
-  for (const char* name : {"", "jet", "Gray", "grays"}) try {
-      colour_map(name);
-      ADD_FAILURE() << name << " accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage);
-      EXPECT_NE(std::string(error.what()).find("gray, viridis, cividis, diverging"), std::string::npos)
-          << error.what();
-    }
+  ASSERT_EQ(colour_maps().size(), 7u);
+  for (ColourMap map : colour_maps()) {
+    const std::string name(colour_map_name(map));
+    EXPECT_EQ(colour_map(name), map);
+    EXPECT_EQ(colour_map(name + "_r"), reversed(map));
+  }
+  for (const char* name : {"", "jet", "turbo", "Gray", "grays", "_r", "gray_r_r"})
+    EXPECT_FALSE(colour_map(name)) << name;
+}
+
+TEST(ColourMap, ReversedRunsFromTheOtherEnd) {
+  for (ColourMap map : colour_maps()) {
+    EXPECT_FALSE(is_reversed(map));
+    EXPECT_TRUE(is_reversed(reversed(map)));
+    EXPECT_EQ(reversed(reversed(map)), map);
+    EXPECT_EQ(one_way(reversed(map)), map);
+    std::vector<Colour> ramp = colour_ramp(map);
+    std::ranges::reverse(ramp);
+    EXPECT_EQ(colour_ramp(reversed(map)), ramp) << colour_map_name(map);
+  }
 }
 
 }  // namespace

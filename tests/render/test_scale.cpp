@@ -66,6 +66,14 @@ TEST(Rim, ShowsAWhiteGrainAndIsDarkerThanAColour) {
   EXPECT_EQ(pictures::rim_of(gray(0.8)), gray(0.8));
   const Colour yellow{240, 230, 40};
   EXPECT_LT(luma(pictures::rim_of(yellow)), 0.7 * luma(yellow));
+  EXPECT_EQ(pictures::rim_of(black), black);
+}
+
+TEST(Rim, IsLighterThanADarkColour) {
+  for (const ColourMap map : {ColourMap::viridis, ColourMap::inferno, ColourMap::plasma}) {
+    const Colour dark = colour_at(map, 0.02);
+    EXPECT_GT(luma(pictures::rim_of(dark)), luma(dark) + 40.0) << colour_map_name(map);
+  }
 }
 
 TEST(Scale, TakesWhatWasChosen) {

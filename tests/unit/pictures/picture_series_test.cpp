@@ -224,6 +224,8 @@ TEST(PictureSeries, keys_tell_frames_and_settings_apart) {
   add("rotation", [](MapOptions& o) { o.since = 0.0; });
   add("coarse", [](MapOptions& o) { o.length = 3.0; });
   add("coarse", [](MapOptions& o) { o.length = 4.0; });
+  add("clusters", [](MapOptions&) {});
+  add("clusters", [](MapOptions& o) { o.colours = "contrast"; });
   add("overloaded", [](MapOptions&) {});
   add("overloaded", [](MapOptions& o) { o.threshold = 2.0; });
   add("overloaded", [](MapOptions& o) { o.l_min = 0.0; });

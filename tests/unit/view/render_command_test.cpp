@@ -41,10 +41,12 @@ TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
   of.settings.turned = true;
   of.settings.transparent = true;
   of.settings.printed = 8.6;
-  EXPECT_EQ(render_command_line(of),
-            "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --l-min 4.5 --threshold 2 "
-            "--length 7.5 "
-            "--joined neighbours --colours viridis --range 0.1,0.6 --turned --transparent --printed 8.6");
+  of.settings.palette = pictures::ClusterPalette::contrast;
+  EXPECT_EQ(
+      render_command_line(of),
+      "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --l-min 4.5 --threshold 2 "
+      "--length 7.5 "
+      "--joined neighbours --colours viridis,contrast --range 0.1,0.6 --turned --transparent --printed 8.6");
 }
 
 /// `talus render` refuses options that do nothing.
