@@ -1,27 +1,37 @@
 #include "render/image.h"
 
+#include <algorithm>
 #include <fmt/core.h>
-#include <string>
 
 #include "base/errors.h"
 
 namespace talus::render {
+namespace {
 
-Image stacked(const std::vector<Image>& images) {
-  Image stack;
+std::uint8_t ground(int channels) { return channels == 4 ? 0 : 255; }
+
+}  // namespace
+
+Image beside(const std::vector<Image>& images) {
+  Image row;
   for (const Image& image : images) {
-    if (stack.height == 0) {
-      stack.width = image.width;
-      stack.channels = image.channels;
-    }
-    if (image.width != stack.width || image.channels != stack.channels)
-      throw Error(ExitCode::internal,
-                  fmt::format("an image of {} px and {} channels cannot be stacked on {} px and {}",
-                              image.width, image.channels, stack.width, stack.channels));
-    stack.height += image.height;
-    stack.pixels.insert(stack.pixels.end(), image.pixels.begin(), image.pixels.end());
+    if (row.width == 0) row.channels = image.channels;
+    if (image.channels != row.channels)
+      throw Error(ExitCode::internal, fmt::format("images of {} and {} channels beside each other",
+                                                  row.channels, image.channels));
+    row.width += image.width;
+    row.height = std::max(row.height, image.height);
   }
-  return stack;
+  row.pixels.assign(row.row_bytes() * static_cast<std::size_t>(row.height), ground(row.channels));
+  std::size_t left = 0;  // bytes
+  for (const Image& image : images) {
+    for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
+      std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(y * image.row_bytes()),
+                  image.row_bytes(),
+                  row.pixels.begin() + static_cast<std::ptrdiff_t>(y * row.row_bytes() + left));
+    left += image.row_bytes();
+  }
+  return row;
 }
 
 }  // namespace talus::render

@@ -26,8 +26,9 @@ struct Image {
 /// are printable ASCII.
 using PictureTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// Images of the same width and number of channels, one below the other. Throws Error(internal) if they
+/// Images with the same number of channels from left to right, their upper edges level. The background below
+/// shorter ones is white, or transparent if there is an alpha channel. Throws Error(internal) if the channels
 /// differ.
-Image stacked(const std::vector<Image>& images);
+Image beside(const std::vector<Image>& images);
 
 }  // namespace talus::render

@@ -29,7 +29,7 @@
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "pictures/map_kind.h"
-#include "render/arrange.h"
+#include "render/image.h"
 #include "render/png.h"
 #include "scenario/scenario.h"
 

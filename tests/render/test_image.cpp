@@ -1,3 +1,5 @@
+/// Pictures put beside each other.
+
 #include <gtest/gtest.h>
 
 #include "base/errors.h"
@@ -6,28 +8,22 @@
 namespace talus::render {
 namespace {
 
-TEST(Image, StacksFromTopToBottom) {
-  const Image top{2, 1, 3, {1, 2, 3, 4, 5, 6}},
-      bottom{2, 2, 3, {7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}};
-  const Image stack = stacked({top, bottom});
-  EXPECT_EQ(stack.width, 2);
-  EXPECT_EQ(stack.height, 3);
-  EXPECT_EQ(stack.channels, 3);
-  EXPECT_EQ(stack.pixels,
-            (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}));
-  EXPECT_EQ(stacked({top}).pixels, top.pixels);
-  EXPECT_EQ(stacked({}).height, 0);
+TEST(Image, images_stand_beside_each_other_on_white_ground) {
+  const Image a{1, 2, 1, {10, 20}}, b{2, 1, 1, {30, 40}};
+  const Image row = beside({a, b});
+  EXPECT_EQ(row.width, 3);
+  EXPECT_EQ(row.height, 2);
+  EXPECT_EQ(row.pixels, (std::vector<std::uint8_t>{10, 30, 40, 20, 255, 255}));
 }
 
-TEST(Image, StacksOnlyWhatFits) {
-  const Image gray{2, 1, 1, {0, 0}}, wider{3, 1, 1, {0, 0, 0}}, colour{2, 1, 3, {0, 0, 0, 0, 0, 0}};
-  for (const Image& other : {wider, colour}) try {
-      stacked({gray, other});
-      ADD_FAILURE() << "accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::internal);
-    }
+TEST(Image, ground_is_clear_where_images_are) {
+  const Image a{1, 1, 4, {1, 2, 3, 4}};
+  const Image higher{1, 2, 4, {1, 2, 3, 4, 0, 0, 0, 0}};
+  EXPECT_EQ(beside({a, higher}).pixels,
+            (std::vector<std::uint8_t>{1, 2, 3, 4, 1, 2, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
+
+TEST(Image, channels_must_agree) { EXPECT_THROW(beside({{1, 1, 1, {0}}, {1, 1, 3, {0, 0, 0}}}), Error); }
 
 }  // namespace
 }  // namespace talus::render
