@@ -4,7 +4,7 @@
 # `highest`. Lengths in cm.
 map_gap = 0.25
 map_cm(beside) = smaller((width - map_gap) / (beside * in_group) - map_gap, aspect * ((highest - below) / ceil(1.0 * map_groups / beside) - strip))
-lay_out_maps = 'highest = width > 12 ? 1.25 * width : 2.4 * width; beside = 1; \
+lay_out_maps = 'highest = asked_height > 0 ? asked_height : width > 12 ? 1.25 * width : 2.4 * width; beside = 1; \
   do for [n = 2:map_groups] { if (n * in_group * map_need <= width && map_cm(n) > 1.02 * map_cm(beside)) { beside = n } }; \
   map_width = map_cm(beside); map_height = map_width / aspect; map_rows = int((map_groups + beside - 1) / beside); \
   map_pitch = larger(map_width + map_gap, smaller(map_need, (width - map_gap) / (beside * in_group))); \

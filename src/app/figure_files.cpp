@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/figure_text.h"
 #include "app/gnuplot.h"
 #include "base/descriptor.h"
 #include "base/errors.h"
@@ -88,15 +87,14 @@ std::vector<std::string> figure_files(const figures::Figure& figure) {
 
 void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                   const std::string& folder, const FigureOptions& options) {
-  const double width = figure_width(figure, options.columns);
   prepare_folder(folder);
   const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
   for (const figures::Table& table : figure.tables)
     io::write_text((workshop.path / figures::file_of(figure, table)).string(), csv_text(table));
-  io::write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, width));
+  io::write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, options.size));
   io::write_text((workshop.path / (figure.name + ".json")).string(),
                  provenance_json(figure, groups, options.command_line));
-  draw_maps(figure, workshop.path, width);
+  draw_maps(figure, workshop.path, figure_width(figure, options.size));
   draw(figure, workshop.path);
   for (const std::string& name : figure_files(figure))
     give_name((workshop.path / name).string(), (fs::path(folder) / name).string());

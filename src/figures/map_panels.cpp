@@ -43,11 +43,15 @@ pictures::MapSettings map_of(const runs::RunView& run, pictures::MapKind kind, d
   return settings;
 }
 
-Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> maps) {
+Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> maps, const FrameWords& at) {
   Panels panels;
-  const analysis::FramesOfRise rise = runs::last_rise_of(run);
-  panels.choice = panel_frames(rise.tilts, theta_c_of(run));
-  for (std::size_t& frame : panels.choice) frame += rise.first;
+  if (at.empty()) {
+    const analysis::FramesOfRise rise = runs::last_rise_of(run);
+    panels.choice = panel_frames(rise.tilts, theta_c_of(run));
+    for (std::size_t& frame : panels.choice) frame += rise.first;
+  } else {
+    panels.choice = frames_of_run(run, at);
+  }
   panels.pictures.run = run.file->header();
   panels.pictures.plan.maps = std::move(maps);
   panels.pictures.extent = pictures::bed_extent(panels.pictures.run.statics);
@@ -69,15 +73,16 @@ std::string listed(const Panels& panels, const char* separator) {
 }
 
 /// What both captions end with.
-std::string bed_text(const FailedGroup& failed, const Panels& panels) {
+std::string bed_text(const FailedGroup& failed, const Panels& panels, bool of_paper) {
   const double theta_c = theta_c_of(failed.first());
-  std::string text = fmt::format(
-      "; {}. From top to bottom theta = {} deg, the last of them the frame before failure at theta_c = {} "
-      "deg",
-      first_run_text(failed), listed(panels, ", "), angle_text(theta_c));
+  std::string text =
+      fmt::format("; {}. From top to bottom theta = {} deg, {}theta_c = {} deg", first_run_text(failed),
+                  listed(panels, ", "), of_paper ? "the last of them the frame before failure at " : "",
+                  angle_text(theta_c));
   std::string beyond;
   for (const double tilt : paper_tilts)
-    if (radians(tilt) >= theta_c) beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
+    if (of_paper && radians(tilt) >= theta_c)
+      beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
   if (!beyond.empty()) text += fmt::format("; the paper's {} deg lies beyond it and is left out", beyond);
   return fmt::format(
       "{}. The bed is shown in its own frame, with the direction of gravity; hatched grains are the floor. "
@@ -162,18 +167,19 @@ pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double thet
   return choice;
 }
 
-std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
+std::optional<Figure> gamma_maps(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const double gamma_c = failed->first().analysis.gamma_c;
   const Panels panels =
-      read_panels(failed->first(), {map_of(failed->first(), pictures::MapKind::gamma, 1.0)});
+      read_panels(failed->first(), {map_of(failed->first(), pictures::MapKind::gamma, 1.0)}, at);
   Figure figure = panel_figure(*failed, panels, 0.2);
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
   figure.caption = fmt::format(
       "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} on, linear gray between{}",
-      rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3), bed_text(*failed, panels));
+      rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3),
+      bed_text(*failed, panels, at.empty()));
   set_variable(figure, "gamma_c", gamma_c);
   set_variable(figure, "white_below", pictures::white_below);
   Column mean{"gamma_mean", "1", analysis::quantity_of(&analysis::FrameRecord::gamma_mean).definition, {}};
@@ -190,7 +196,7 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   return figure;
 }
 
-std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
+std::optional<Figure> overload_maps(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const analysis::Analysis& analysis = failed->first().analysis;
@@ -198,12 +204,12 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   std::vector<pictures::MapSettings> maps;
   for (const analysis::RunThreshold& threshold : thresholds)
     maps.push_back(map_of(failed->first(), pictures::MapKind::overloaded, threshold.factor));
-  const Panels panels = read_panels(failed->first(), std::move(maps));
+  const Panels panels = read_panels(failed->first(), std::move(maps), at);
   Figure figure = panel_figure(*failed, panels, 0.5);
   figure.name = "fig13-overloaded-maps";
   figure.title = "Maps of the overloaded grains (paper, Fig. 13)";
-  figure.caption =
-      "Overloaded grains in black, each column for another threshold of gamma" + bed_text(*failed, panels);
+  figure.caption = "Overloaded grains in black, each column for another threshold of gamma" +
+                   bed_text(*failed, panels, at.empty());
   figure.tables = {{"", {tilt_column(panels)}}};
   std::string factors, limits;
   for (std::size_t f = 0; f < thresholds.size(); ++f) {
