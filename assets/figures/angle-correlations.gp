@@ -25,8 +25,8 @@ do for [second = 2:angles] {
     y_to = value(sprintf("high_%d", second))
     x_bare = triangle && second < angles
     y_bare = triangle && first > 1
-    if (!x_bare) { x_title = value(sprintf("title_%d", first)) . " (deg)" }
-    if (!y_bare) { y_title = value(sprintf("title_%d", second)) . " (deg)" }
+    if (!x_bare) { x_title = value(sprintf("title_%d", first)) . " (°)" }
+    if (!y_bare) { y_title = value(sprintf("title_%d", second)) . " (°)" }
     eval axes
     do for [g = 1:groups] {
       coefficient = value(sprintf("r_%d_%d_%d", first, second, g))

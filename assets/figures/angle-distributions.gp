@@ -7,7 +7,7 @@ eval open_page
 do for [k = 1:panels] {
   eval place(k)
   y_from = 0
-  x_title = value(sprintf("title_%d", k)) . " (deg)"
+  x_title = value(sprintf("title_%d", k)) . " (°)"
   if (first_in_row(k)) { y_title = "share of the runs" }
   eval axes
   set label 100 letter(k) at graph 0.04, graph 0.92 left

@@ -54,13 +54,14 @@ high_end(low, high) = high <= 0 && -high < wider(low, high) ? (high == low ? 1 :
 log_low_end(low, high) = high > low ? low / (high / low) ** 0.05 : low / 2
 log_high_end(low, high) = high > low ? high * (high / low) ** 0.05 : high * 2
 
-# "Title in %" and "title (s)" with a power of ten before the unit, or at the end.
+# "title (s)", also of "title in s" as quantities have it: units stand in parentheses. A power of ten before the unit, or at the end.
 power_unit(power) = sprintf("10^{%s}", signed(sprintf("%d", power)))
 last_word(text) = words(text) > 0 ? word(text, words(text)) : ""
 before_last(text) = text[1:strlen(text) - strlen(last_word(text))]
-with_power(text, power) = power == 0 ? text : words(text) > 2 && word(text, words(text) - 1) eq "in" ? \
-  before_last(text) . power_unit(power) . " " . last_word(text) : \
-  last_word(text)[1:1] eq "(" ? before_last(text) . "(" . power_unit(power) . " " . last_word(text)[2:*] : text . " (" . power_unit(power) . ")"
+has_in(text) = words(text) > 2 && word(text, words(text) - 1) eq "in"
+with_unit(text) = has_in(text) ? text[1:strlen(before_last(text)) - 4] . " (" . last_word(text) . ")" : text
+with_power(text, power) = power_before_unit(with_unit(text), power)
+power_before_unit(text, power) = power == 0 ? text : last_word(text)[1:1] eq "(" ? before_last(text) . "(" . power_unit(power) . " " . last_word(text)[2:*] : text . " (" . power_unit(power) . ")"
 
 most_panels = 1000
 if (pass == 0) {
@@ -86,7 +87,10 @@ title_points = 8
 heading_points = 7
 # So many panels, so many beside each other in two columns and in one, each so high (cm).
 grid(panels, wide, narrow, panel_cm) = grid_of(panels, smaller(panels, width > 12 ? wide : narrow), panel_cm)
-grid_of(panels, columns, panel_cm) = sprintf("panel_columns = %d; panel_rows = %d; height = %g + grid_above + grid_below", \
+# A height that is asked for is shared among the panels, if they have room for their texts then.
+stretches = 0
+least_row_cm = 3
+grid_of(panels, columns, panel_cm) = sprintf("stretches = 1; panel_columns = %d; panel_rows = %d; height = %g + grid_above + grid_below", \
   columns, int((panels + columns - 1) / columns), panel_cm * int((panels + columns - 1) / columns))
 place_at(k, left, right, bottom, top) = sprintf("panel_k = %d; panel_at = %.9g; panel_from = %.9g; panel_width = %.9g; panel_height = %.9g; ", k, left, bottom, right - left, top - bottom) . \
   sprintf("set lmargin at screen %.9g; set rmargin at screen %.9g; set bmargin at screen %.9g; set tmargin at screen %.9g; ", left / width, right / width, bottom / height, top / height) . \
@@ -116,7 +120,7 @@ set_titles = 'unset label 91; unset label 92; unset label 93; \
     set label 91 x_title at graph 0.5, screen (panel_from - 0.7) / height center font fitted(x_title, title_points, panel_width + 2 * larger(panel_right, x_overhang)) }; \
   if (strlen(y_title) > 0) { y_title = with_power(y_title, y_power); \
     set label 92 y_title at screen (panel_at - tick_room - number_gap - 0.5 * title_room) / width, graph 0.5 center rotate by 90 font fitted(y_title, title_points, panel_height + panel_top + 0.3) }; \
-  if (strlen(heading) > 0) { if (strlen(y_title) == 0) { heading = with_power(heading, y_power) }; \
+  if (strlen(heading) > 0) { heading = with_power(heading, strlen(y_title) == 0 ? y_power : 0); \
     text_to_break = heading; break_cm = panel_width + 0.7 * tick_room; break_points = heading_points; eval break_text; \
     do for [l = 1:3] { eval sprintf("unset label %d", 92 + l) }; \
     do for [l = 1:smaller(text_lines, 3)] { set label 92 + l broken[l] at screen (panel_at - 0.7 * tick_room) / width, screen (panel_from + panel_height + 0.34 + 0.3 * (text_lines - l)) / height left font sprintf(",%g", heading_points) } }'

@@ -11,7 +11,7 @@ do for [k = 1:panels] {
   x_from = 1.04 * theta_max
   x_to = 0
   y_top = exists(sprintf("top_%d", k)) ? value(sprintf("top_%d", k)) : NaN
-  x_title = "{/:Italic θ_c} − {/:Italic θ} (deg)"
+  x_title = "{/:Italic θ_c} − {/:Italic θ} (°)"
   heading = letter(k) . " " . value(sprintf("title_%d", k))
   eval axes
   ordinate = value(sprintf("quantity_%d", k))

@@ -34,7 +34,7 @@ do for [k = 1:3] {
   x_from = 0
   x_to = 1.04 * theta_max
   y_from = 0
-  x_title = "{/:Italic θ} (deg)"
+  x_title = "{/:Italic θ} (°)"
   y_title = titles[k]
   eval axes
   set label 2 sprintf("(%s)", letters[k:k]) at graph 0.04, graph 0.93 left

@@ -15,8 +15,8 @@ unset colorbox
 set style fill solid 1 noborder  # of the scale of colours
 names = "theta volume_strain coordination critical " . (has_overload ? "overloaded" : "stress_ratio") . " anisotropy volume_strain coordination critical"
 array titles[9]
-titles[1] = "{/:Italic θ} in °"
-titles[2] = "Volume strain in %"
+titles[1] = "{/:Italic θ} (°)"
+titles[2] = "Volume strain (%)"
 titles[3] = "Coordination number {/:Italic z}"
 titles[4] = "Critical contacts {/:Italic ν}"
 titles[5] = has_overload ? "Overloaded fraction {/:Italic p_o}" : "Stress ratio {/:Italic Γ}"
@@ -29,7 +29,7 @@ do for [k = 1:6] {
   name = word(names, k)
   factor = name eq "volume_strain" ? 100 : 1
   heading = letter(k) . " " . titles[k]
-  x_title = k == 1 ? "time since the tilt began (s)" : "{/:Italic θ} (deg)"
+  x_title = k == 1 ? "time since the tilt began (s)" : "{/:Italic θ} (°)"
   eval axes
   if (k == 1 && cycles > 1) {
     bar = smaller(6, 0.5 * width)

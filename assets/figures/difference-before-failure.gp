@@ -12,7 +12,7 @@ do for [k = 1:panels] {
   eval place(k)
   x_from = 1.04 * theta_max
   x_to = 0
-  x_title = "{/:Italic θ_c} − {/:Italic θ} (deg)"
+  x_title = "{/:Italic θ_c} − {/:Italic θ} (°)"
   heading = letter(k) . " " . value(sprintf("title_%d", k))
   eval axes
   name = value(sprintf("quantity_%d", k))

@@ -12,7 +12,7 @@ do for [k = 1:panels] {
   eval place(k)
   x_from = 0
   x_to = 1.04 * theta_max
-  x_title = "{/:Italic θ} (deg)"
+  x_title = "{/:Italic θ} (°)"
   heading = letter(k) . " " . value(sprintf("title_%d", k))
   eval axes
   name = value(sprintf("quantity_%d", k))

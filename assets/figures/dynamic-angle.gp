@@ -9,7 +9,7 @@ if (flow) {
   entry = add_line("linecolor rgb \"#1f4e79\" dashtype solid linewidth 1", "surface velocity (e)")
 }
 eval open_page
-array titles[4] = ["{/:Italic θ_c} (deg)", "{/:Italic θ_d} ({/:Italic l_c} max) (deg)", "{/:Italic θ_d} (percolation) (deg)", "{/:Italic θ_d} (dilation) (deg)"]
+array titles[4] = ["{/:Italic θ_c} (°)", "{/:Italic θ_d} ({/:Italic l_c} max) (°)", "{/:Italic θ_d} (percolation) (°)", "{/:Italic θ_d} (dilation) (°)"]
 last = word(factors, words(factors))
 first_of = sprintf("theta_c lc_jump_%s percolation_%s dilation_volume", word(factors, 1), word(factors, 1))
 second_of = sprintf("theta_c lc_jump_%s percolation_%s dilation_centre", last, last)
@@ -21,7 +21,7 @@ do for [panel = 1:4] {
   y_from = lowest
   y_to = highest
   x_title = titles[panel]
-  if (first_in_row(panel)) { y_title = "{/:Italic θ_r} (deg)" } else { y_bare = 1 }
+  if (first_in_row(panel)) { y_title = "{/:Italic θ_r} (°)" } else { y_bare = 1 }
   eval axes
   set label 1 letter(panel) at graph 0.05, graph 0.93 left
   one = word(first_of, panel)
@@ -51,7 +51,7 @@ if (flow) {
   y_from = low_end(angle_min, angle_max)
   y_to = high_end(angle_min, angle_max)
   x_title = "time since failure (s)"
-  y_title = "{/:Italic θ} (deg)"
+  y_title = "{/:Italic θ} (°)"
   eval axes
   set ytics nomirror
   eval "set y2range [0:v_top]; set y2tics (" . tick_list(0, last_tick(v_top, v_step), v_step, v_power) . ") textcolor rgb '#1f4e79'"

@@ -14,7 +14,7 @@ do for [k = 1:4] {
     x_log = 1
     x_from = k == 1 ? energy_from : waiting_from
     x_to = k == 1 ? energy_to : waiting_to
-    x_title = k == 1 ? "energy released {/:Italic E} / ({/:Italic mgD})" : "waiting angle (deg)"
+    x_title = k == 1 ? "energy released {/:Italic E} / ({/:Italic mgD})" : "waiting angle (°)"
     y_log = 1
     # Room below the curves for what their laws are.
     y_from = 0.7 / events_most * 10 ** (-0.16 * groups)
@@ -23,7 +23,7 @@ do for [k = 1:4] {
   } else {
     x_from = 0
     x_to = 1.03 * theta_max
-    x_title = "{/:Italic θ} (deg)"
+    x_title = "{/:Italic θ} (°)"
     y_log = k == 3
     y_plain = k == 4
     y_from = k == 3 ? energy_from : -largest_change

@@ -9,7 +9,7 @@ do for [t = 1:thresholds] {
   x_to = 1.04 * (theta_max > 21 ? theta_max : 21)
   y_from = 0
   y_to = 1
-  x_title = "{/:Italic θ} (deg)"
+  x_title = "{/:Italic θ} (°)"
   y_title = "{/:Italic p_o}"
   eval axes
   ordinate = "p_o_" . value(sprintf("factor_%d", t))

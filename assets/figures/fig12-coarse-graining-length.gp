@@ -21,7 +21,7 @@ do for [row = 1:2] {
     y_from = 0
     if (row == 2) { y_to = 1.2 * top }
     if (row == 1 && pass > 0) { y_to = high_end(0, highest) }
-    x_title = "{/:Italic θ} (deg)"
+    x_title = "{/:Italic θ} (°)"
     y_title = "{/:Italic ℓ_c}^{" . length . "} / {/:Italic D}"
     eval axes
     ordinate = length . "_" . value(sprintf("factor_%d", t))

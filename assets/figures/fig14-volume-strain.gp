@@ -9,7 +9,7 @@ do for [row = 1:3] {
   eval place(row)
   x_from = theta_max > 15 ? -0.02 * theta_max : -0.3
   x_to = 1.04 * (theta_max > 15 ? theta_max : 15)
-  x_title = "{/:Italic θ} (deg)"
+  x_title = "{/:Italic θ} (°)"
   set label 1 letter(row) at graph 0.03, graph 0.9
   if (row < 3) {
     y_title = "{/:Italic ε_" . "Vy"[row:row] . "}"

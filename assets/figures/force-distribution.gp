@@ -1,8 +1,7 @@
 data = figure . ".csv"
-states = "start repose"
 positive(name) = column(name) > 0 ? column(name) : NaN
 eval grid(2, 2, 1, width > 12 ? 7 : 5.5)
-do for [s = 1:2] { entry = add_curve(sprintf("linetype %d", s), "{/:Italic θ} = " . value("theta_" . word(states, s)) . "°") }
+do for [s = 1:words(states)] { entry = add_curve(sprintf("linetype %d", s), "{/:Italic θ} = " . word(tilts, s) . "°") }
 eval open_page
 do for [panel = 1:2] {
   eval place(panel)
@@ -16,8 +15,8 @@ do for [panel = 1:2] {
   y_title = "{/:Italic P}({/:Italic f} / ⟨{/:Italic f} ⟩)"
   eval axes
   set label 1 letter(panel) at graph 0.96, graph 0.93 right
-  plot for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))):(column("density_" . word(states, s) . "_error")) with yerrorlines linetype s, \
-    for [s = 1:2] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))) with linespoints linetype s
+  plot for [s = 1:words(states)] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))):(column("density_" . word(states, s) . "_error")) with yerrorlines linetype s, \
+    for [s = 1:words(states)] data using (sqrt(column("force_from") * column("force_to"))):(positive("density_" . word(states, s))) with linespoints linetype s
   eval seen
 }
 eval close_page

@@ -50,7 +50,8 @@ draw_key = 'unset border; unset tics; unset key; set lmargin at screen 0; set rm
   unset arrow; unset label; unset object; set autoscale; set border 31 linewidth 1; set tics in scale 0.6,0.3'
 
 # Opens the page, when its grid and its key are known.
-open_page = 'if (entries > 0) { eval lay_out_key }; eval set_terminal; set multiplot; if (entries > 0) { eval draw_key }; unset key; eval sprintf("set tics font \",%g\"", tick_points)'
+open_page = 'if (entries > 0) { eval lay_out_key }; \
+  if (asked_height > 0 && stretches) { height = larger(asked_height, key_height + grid_above + grid_below + least_row_cm * panel_rows) }; eval set_terminal; set multiplot; if (entries > 0) { eval draw_key }; unset key; eval sprintf("set tics font \",%g\"", tick_points)'
 close_page = 'unset multiplot'
 
 # The same where each panel g has the name of group g above it, on as many lines as it needs: place_headed instead of place.

@@ -1,21 +1,4 @@
 
-# Pictures of a bed in a grid: groups of `in_group` of them, `map_groups` in number, each group below a strip of text, each picture
-# with room for `map_need` of text. As many groups beside each other as make the pictures largest on a page no higher than
-# `highest`. Lengths in cm.
-map_gap = 0.25
-map_cm(beside) = smaller((width - map_gap) / (beside * in_group) - map_gap, aspect * ((highest - below) / ceil(1.0 * map_groups / beside) - strip))
-lay_out_maps = 'highest = width > 12 ? 1.25 * width : 2.4 * width; beside = 1; \
-  do for [n = 2:map_groups] { if (n * in_group * map_need <= width && map_cm(n) > 1.02 * map_cm(beside)) { beside = n } }; \
-  map_width = map_cm(beside); map_height = map_width / aspect; map_rows = int((map_groups + beside - 1) / beside); \
-  map_pitch = larger(map_width + map_gap, smaller(map_need, (width - map_gap) / (beside * in_group))); \
-  height = below + map_rows * (strip + map_height); \
-  maps_from = 0.5 * (width - beside * in_group * map_pitch + map_gap)'
-map_left(i, f) = maps_from + ((i - 1) % beside * in_group + f - 1) * map_pitch
-map_base(i) = height - ((i - 1) / beside + 1) * (strip + map_height)
-place_map(i, f) = place_at(0, map_left(i, f), map_left(i, f) + map_width, map_base(i), map_base(i) + map_height)
-# In the strip above picture (i, 1): letter, angle, and the direction of gravity.
-said_of_map(i, theta) = sprintf("set label 1 '%s {/:Italic θ} = %s°' at screen %g, screen %g left font ',%g'; ", letter(i), theta, map_left(i, 1) / width, (map_base(i) + map_height + strip - 0.27) / height, map_points) . \
-  gravity(map_left(i, 1) + text_cm(sprintf("%s θ = %s°", letter(i), theta), map_points) + 0.45, map_base(i) + map_height + strip - 0.27, theta * rad)
 # An arrow 0.45 cm long with its middle there, and its name.
 gravity(x, y, tilt) = sprintf("set arrow 1 from screen %g, screen %g to screen %g, screen %g head filled size screen %g, 18 linewidth 1; ", \
   (x - 0.22 * sin(tilt)) / width, (y + 0.22 * cos(tilt)) / height, (x + 0.22 * sin(tilt)) / width, (y - 0.22 * cos(tilt)) / height, 0.16 / width) . \

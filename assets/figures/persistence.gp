@@ -24,7 +24,7 @@ do for [panel = 2:3] {
   x_from = 0
   x_to = 1.1 * theta_c
   y_from = 0
-  x_title = "{/:Italic θ} (deg)"
+  x_title = "{/:Italic θ} (°)"
   y_title = panel == 2 ? "total persistence per grain" : "change from frame to frame"
   eval axes
   set label 1 letter(panel)

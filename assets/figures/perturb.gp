@@ -32,7 +32,7 @@ do for [panel = 1:2] {
   eval place(panel)
   x_from = 0
   y_log = 1
-  x_title = "{/:Italic θ_c} − {/:Italic θ} (deg)"
+  x_title = "{/:Italic θ_c} − {/:Italic θ} (°)"
   y_title = panel == 1 ? "{/:Italic v} / ({/:Italic gD})^{1/2}" : "{/:Italic E} / {/:Italic mgD}"
   eval axes
   set label 1 letter(panel) at graph 0.04, graph 0.93

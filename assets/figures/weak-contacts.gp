@@ -1,7 +1,6 @@
 data = figure . ".csv"
-states = "start repose"
 eval grid(1, 1, 1, height)
-do for [s = 1:2] { entry = add_curve(sprintf("linetype %d", s), "{/:Italic θ} = " . value("theta_" . word(states, s)) . "°") }
+do for [s = 1:words(states)] { entry = add_curve(sprintf("linetype %d", s), "{/:Italic θ} = " . word(tilts, s) . "°") }
 entry = add_line("linestyle 103", "coherent: from here on")
 eval open_page
 eval place(1)
@@ -15,7 +14,7 @@ eval axes
 set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead linestyle 104
 set arrow 2 from coherent, graph 0 to coherent, graph 1 nohead linestyle 103
 middle = '(0.5 * (column("mobilised_from") + column("mobilised_to")))'
-plot for [s = 1:2] data using @middle:(column("fabric_" . word(states, s))):(column("fabric_" . word(states, s) . "_error")) with yerrorlines linetype s, \
-  for [s = 1:2] data using @middle:(column("fabric_" . word(states, s))) with linespoints linetype s
+plot for [s = 1:words(states)] data using @middle:(column("fabric_" . word(states, s))):(column("fabric_" . word(states, s) . "_error")) with yerrorlines linetype s, \
+  for [s = 1:words(states)] data using @middle:(column("fabric_" . word(states, s))) with linespoints linetype s
 eval seen
 eval close_page

@@ -7,13 +7,16 @@
 #include <optional>
 #include <utility>
 
-#include "app/figure_text.h"
 #include "app/gnuplot.h"
 #include "base/descriptor.h"
 #include "base/errors.h"
 #include "base/locked_file.h"
 #include "base/output_file.h"
+#include "base/version.h"
 #include "io/durable_file.h"
+#include "pictures/maps.h"
+#include "pictures/panel.h"
+#include "render/document.h"
 #include "render/png.h"
 #include "render/renderer.h"
 
@@ -22,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double dots_per_cm = figures::map_resolution / 2.54;
+constexpr double dots_per_cm = 400.0 / 2.54;
 constexpr const char* endings[] = {".pdf", ".svg", ".png"};
 
 /// A folder that vanishes with all that is still in it. One that a kill left is replaced.
@@ -45,15 +48,29 @@ struct Workshop {
   std::optional<Descriptor> lock;
 };
 
-void draw_maps(const figures::Figure& figure, const fs::path& folder, double width) {
-  static std::mutex drawing;  // the memory of one picture at a time
-  if (figure.maps.empty()) return;
+/// A figure of maps is a panel, on a page of its own width that is no higher than asked for, or than a page
+/// with a caption.
+void draw_maps(const figures::Figure& figure, const fs::path& folder, const FigureSize& size) {
+  static std::mutex drawing;        // the memory of one picture at a time
+  constexpr double highest = 1.4;  // over the width
   const std::lock_guard one_at_a_time(drawing);
+  const double width = figure_width(figure, size);
+  std::vector<std::vector<render::FrameView>> maps = figure.maps;
+  for (std::vector<render::FrameView>& row : maps)
+    for (render::FrameView& view : row) pictures::print_letters(view, width, 8.0);
+  const auto pixels = [](double cm) { return static_cast<int>(std::lround(cm * dots_per_cm)); };
+  const render::Sheet sheet = pictures::panel_sheet(maps, "", pixels(width),
+                                                    pixels(size.height > 0.0 ? size.height : highest * width),
+                                                    render::embedded_font());
   render::Renderer renderer(render::make_context(std::nullopt));
-  for (const figures::FigureMap& map : figure.maps)
-    render::write_png(
-        (folder / figures::file_of(figure, map)).string(),
-        renderer.draw(map.view, static_cast<int>(std::lround(map.width * width * dots_per_cm))));
+  for (const char* ending : endings) {
+    const std::string path = (folder / (figure.name + ending)).string();
+    if (render::is_document(path))
+      render::write_document(path, sheet, 0.01 * width,
+                             {{"Software", version_text()}, {"Source", figure.title}});
+    else
+      render::write_png(path, renderer.draw(sheet), {{"Software", version_text()}}, 0.01 * width);
+  }
 }
 
 /// gnuplot draws into memory, as it ends well even where it could not write all.
@@ -88,23 +105,25 @@ std::vector<std::string> figure_files(const figures::Figure& figure) {
   std::vector<std::string> names;
   for (const char* ending : endings) names.push_back(figure.name + ending);
   for (const figures::Table& table : figure.tables) names.push_back(figures::file_of(figure, table));
-  for (const figures::FigureMap& map : figure.maps) names.push_back(figures::file_of(figure, map));
-  for (const char* ending : {".gp", ".json"}) names.push_back(figure.name + ending);
+  if (figure.maps.empty()) names.push_back(figure.name + ".gp");
+  names.push_back(figure.name + ".json");
   return names;
 }
 
 void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                   const std::string& folder, const FigureOptions& options) {
-  const double width = figure_width(figure, options.columns);
   prepare_folder(folder);
   const Workshop workshop(fs::path(folder) / (figure.name + temporary_ending));
   for (const figures::Table& table : figure.tables)
     io::write_text((workshop.path / figures::file_of(figure, table)).string(), csv_text(table));
-  io::write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, width));
+  if (figure.maps.empty())
+    io::write_text((workshop.path / (figure.name + ".gp")).string(), gnuplot_text(figure, options.size));
   io::write_text((workshop.path / (figure.name + ".json")).string(),
                  provenance_json(figure, groups, options.command_line));
-  draw_maps(figure, workshop.path, width);
-  draw(figure, workshop.path, width);
+  if (figure.maps.empty())
+    draw(figure, workshop.path, figure_width(figure, options.size));
+  else
+    draw_maps(figure, workshop.path, options.size);
   for (const std::string& name : figure_files(figure))
     give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
 }

@@ -5,14 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "app/figure_text.h"
 #include "figures/figure.h"
 #include "figures/run_group.h"
 
 namespace talus::app {
 
 struct FigureOptions {
-  int columns = 0;           ///< 1 or 2: 8.6 or 17.8 cm wide; 0: the figure's own width
-  std::string command_line;  ///< of the program, for the provenance
+  FigureSize size{};
+  std::string command_line{};  ///< of the program, for the provenance
 };
 
 /// The names of all files of a figure: what is drawn, its tables and maps, its script and its provenance.

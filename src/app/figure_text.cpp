@@ -70,16 +70,17 @@ std::string provenance_json(const figures::Figure& figure, std::span<const figur
          "\n";
 }
 
-double figure_width(const figures::Figure& figure, int columns) {
-  return column_widths[columns > 0 ? columns - 1 : figure.wide ? 1 : 0];
+double figure_width(const figures::Figure& figure, const FigureSize& size) {
+  return size.width > 0.0 ? size.width : column_widths[figure.wide ? 1 : 0];
 }
 
-std::string gnuplot_text(const figures::Figure& figure, double width) {
+std::string gnuplot_text(const figures::Figure& figure, const FigureSize& size) {
+  const double width = figure_width(figure, size);
   std::string text = fmt::format(
       "# {0}\n# To draw it again as PDF, SVG and PNG: gnuplot {1}.gp\n\nfigure = \"{1}\"\nwidth = {2}  # "
-      "cm\nheight = {3}\n",
+      "cm\nheight = {3}\nasked_height = {4}  # cm; 0: as its panels need\n",
       figure.title, figure.name, scenario::short_text(width),
-      scenario::short_text(width * figure.height_over_width));
+      scenario::short_text(width * figure.height_over_width), scenario::short_text(size.height));
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
   for (const std::string_view part : common_scripts)
     text += fmt::format("\n{}", figures::figure_script(part));

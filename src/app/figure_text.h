@@ -18,13 +18,18 @@ std::string csv_text(const figures::Table& table);
 std::string provenance_json(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                             const std::string& command_line);
 
-/// cm; of one column and of two.
+/// cm; of one column of a journal and of two.
 inline constexpr double column_widths[] = {8.6, 17.8};
-/// The width of a figure, for 1 or 2 columns; 0: its own.
-double figure_width(const figures::Figure& figure, int columns);
+/// cm; 0: the figure's own.
+struct FigureSize {
+  double width = 0.0;
+  double height = 0.0;
+};
+/// The width of a figure in that size, cm.
+double figure_width(const figures::Figure& figure, const FigureSize& size);
 
 /// A script that needs nothing but the tables and maps beside it: the figure's variables, the common style
 /// and its own script. It draws FIGURE.pdf, FIGURE.svg and FIGURE.png in the folder where it is run.
-std::string gnuplot_text(const figures::Figure& figure, double width);
+std::string gnuplot_text(const figures::Figure& figure, const FigureSize& size = {});
 
 }  // namespace talus::app

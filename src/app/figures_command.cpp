@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
@@ -34,7 +35,8 @@ struct FiguresArguments {
   std::vector<std::string> settings;
   runs::AnalysisOptions analysis;
   bool quiet = false;
-  int columns = 0;  ///< 0: each figure's own
+  std::vector<std::string> at;
+  std::string size;
   std::string folder;
   bool overwrite = false;
 };
@@ -88,12 +90,33 @@ bool is_there(figures::Material material, std::span<const figures::RunGroup> gro
       groups, [&](const figures::RunGroup& group) { return std::ranges::any_of(group.runs, has); });
 }
 
+/// "8.6" or "17.8x10", cm; each figure's own of "".
+FigureSize parse_size(const std::string& text) {
+  constexpr double narrowest = 8.0, lowest = 4.0, largest = 60.0;
+  if (text.empty()) return {};
+  double sides[2] = {0.0, 0.0};
+  const char *at = text.data(), *const end = at + text.size();
+  for (int k = 0; k < 2; ++k) {
+    const auto [next, error] = std::from_chars(at, end, sides[k]);
+    const double least = k == 0 ? narrowest : lowest;
+    if (error != std::errc() || !(sides[k] >= least && sides[k] <= largest)) break;
+    if (next == end) return {sides[0], sides[1]};
+    if (*next != 'x') break;
+    at = next + 1;
+  }
+  throw Error(
+      ExitCode::usage,
+      fmt::format("--size {}: expected a width in cm from {} to {}, or WIDTHxHEIGHT with a height from {}",
+                  visible_word(text), narrowest, largest, lowest));
+}
+
 /// The figures that can be made of the runs; the others are named with what they need.
 std::vector<figures::Figure> make_figures(const std::vector<figures::FigureRecipe>& recipes,
-                                          std::span<const figures::RunGroup> groups) {
+                                          std::span<const figures::RunGroup> groups,
+                                          const figures::FrameWords& at) {
   std::vector<figures::Figure> figures;
   for (const figures::FigureRecipe& recipe : recipes)
-    if (auto figure = recipe.make(groups))
+    if (auto figure = recipe.make(groups, at))
       figures.push_back(std::move(*figure));
     else
       print_error("%s", fmt::format("left out: {} needs {}{}\n", recipe.name, recipe.needs,
@@ -119,7 +142,7 @@ void write_figures(const std::vector<figures::Figure>& figures, std::span<const 
       lock.unlock();
       try {
         stop_if_asked();
-        write_figure(figure, groups, arguments.folder, {arguments.columns, command_line()});
+        write_figure(figure, groups, arguments.folder, {parse_size(arguments.size), command_line()});
       } catch (...) {
         lock.lock();
         next = figures.size();  // no others are begun
@@ -137,13 +160,16 @@ void write_figures(const std::vector<figures::Figure>& figures, std::span<const 
 
 void make(const FiguresArguments& arguments) {
   const std::vector<figures::FigureRecipe> recipes = chosen_recipes(arguments.only);
+  parse_size(arguments.size);
+  if (!arguments.at.empty() && std::ranges::none_of(recipes, &figures::FigureRecipe::shows_frames))
+    throw Error(ExitCode::usage, "--at: no figure that is asked for shows single frames");
   runs::parse_analysis_settings(arguments.settings);  // before anything is read
   require_gnuplot();
   runs::AnalysisOptions analysis = arguments.analysis;
   if (!arguments.quiet) analysis.progress = count_shown("analysis", false);
   FigureInput input = read_figure_input(arguments.runs, arguments.settings, analysis);
   const std::vector<figures::RunGroup> groups = figures::group_runs(std::move(input.runs));
-  const std::vector<figures::Figure> figures = make_figures(recipes, groups);
+  const std::vector<figures::Figure> figures = make_figures(recipes, groups, arguments.at);
   const std::filesystem::path folder = arguments.folder;
   const OutputRule rule{arguments.overwrite, input.files};
   for (const figures::Figure& figure : figures)
@@ -183,9 +209,16 @@ void add_figures_command(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option("--columns", arguments->columns,
-                   "Width of the figures: 1 column (8.6 cm) or 2 (17.8 cm); default: each figure's own")
-      ->check(in_range(1, 2));
+      ->add_option(
+          "--at", arguments->at,
+          "Figures of single frames: those at these angles in degrees, repose for the last one before "
+          "failure, or frame42, with commas: --at 5,10,repose [those of the paper]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option(
+      "--size", arguments->size,
+      "Width of the figures in cm, or WIDTHxHEIGHT: a column of a journal has 8.6, a page 17.8 "
+      "[each figure's own]");
   command
       ->add_option("--set", arguments->settings,
                    "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")

@@ -104,7 +104,7 @@ void report(const PerturbArguments& arguments, const ensemble::EnsemblePlan& pla
   print_text(text);
   try {
     require_gnuplot();
-    write_figure(figure, groups, arguments.folder, {.columns = 0, .command_line = command_line()});
+    write_figure(figure, groups, arguments.folder, {.command_line = command_line()});
   } catch (const Error& error) {
     if (error.code() != ExitCode::unavailable) throw;
     print_error("talus: warning: the figure is left out: %s\n", error.what());

@@ -93,7 +93,7 @@ bool is_drawn(const figures::Figure& figure, std::span<const figures::RunGroup> 
   const auto there = [&](const std::string& file) { return is_there((folder / file).string()); };
   return std::ranges::all_of(figure_files(figure), there) &&
          holds(folder / (figure.name + ".json"), provenance_json(figure, groups, options.command_line)) &&
-         holds(folder / (figure.name + ".gp"), gnuplot_text(figure, figure_width(figure, options.columns)));
+         holds(folder / (figure.name + ".gp"), gnuplot_text(figure, options.size));
 }
 
 /// Draws a figure, unless one with the same provenance and script is there, and returns it as a picture.
@@ -135,13 +135,13 @@ studies::ReproductionPictures draw_figures(const studies::ReproductionPlan& plan
   const CountDone progress = count_shown("figures", false);
   progress(0, catalogue.size() + 1);
   if (const auto chart = figures::agreement_figure(result))
-    pictures.agreement.push_back(drawn(*chart, groups, into, {0, command_of(plan, folder)}));
+    pictures.agreement.push_back(drawn(*chart, groups, into, {{}, command_of(plan, folder)}));
   for (std::size_t k = 0; k < catalogue.size(); ++k) {
     progress(k + 1, catalogue.size() + 1);
     stop_if_asked();
     if (const auto figure = catalogue[k].make(groups))
       part_of(pictures, catalogue[k].subject)
-          .push_back(drawn(*figure, groups, into, {0, command_of(*figure, into)}));
+          .push_back(drawn(*figure, groups, into, {{}, command_of(*figure, into)}));
   }
   progress(catalogue.size() + 1, catalogue.size() + 1);
   return pictures;

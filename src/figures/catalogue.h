@@ -7,6 +7,7 @@
 
 #include "figures/figure.h"
 #include "figures/run_group.h"
+#include "figures/shown_frames.h"
 
 namespace talus::figures {
 
@@ -20,14 +21,30 @@ enum class Material {
 /// What a figure is about.
 enum class Subject { packing, overload, walls, further };
 
+/// Makes a figure; no value where there is no run of the kind it needs.
+struct FigureMaker {
+  using Plain = std::optional<Figure>(std::span<const RunGroup>);
+  using OfFrames = std::optional<Figure>(std::span<const RunGroup>, const FrameWords&);
+  constexpr FigureMaker(Plain& make) : plain(&make) {}
+  constexpr FigureMaker(OfFrames& make) : of_frames(&make) {}
+  /// `at`: the frames of a figure that shows single ones, instead of its own.
+  std::optional<Figure> operator()(std::span<const RunGroup> groups, const FrameWords& at = {}) const {
+    return of_frames != nullptr ? of_frames(groups, at) : plain(groups);
+  }
+
+  Plain* plain = nullptr;
+  OfFrames* of_frames = nullptr;
+};
+
 struct FigureRecipe {
   std::string_view name;   ///< Figure::name
   std::string_view title;  ///< Figure::title
   Material material;
   Subject subject;
   std::string_view needs;  ///< "a periodic bed that has failed": what a message says where it cannot be made
-  /// No value where there is no run of the kind it needs.
-  std::optional<Figure> (*make)(std::span<const RunGroup> groups);
+  FigureMaker make;
+
+  bool shows_frames() const { return make.of_frames != nullptr; }
 };
 
 std::span<const FigureRecipe> figure_catalogue();

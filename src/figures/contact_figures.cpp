@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "analysis/contacts/weak_contacts.h"
+#include "base/text.h"
 #include "core/statistics.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
@@ -12,53 +13,41 @@
 namespace talus::figures {
 namespace {
 
-/// The two states that are compared: the first frame of each run, and its last before theta_c.
-struct State {
-  std::string name, text;
-  std::vector<std::size_t> frames;
-};
+/// The states that are compared unless others are asked for.
+const FrameWords both_ends = {"frame0", "repose"};
 
-std::vector<State> states_of(const RunChoice& runs) {
-  State start{"_start", " at the start of the tilt", {}};
-  State repose{"_repose", " at the last frame before theta_c", {}};
-  for (const runs::RunView* run : runs) {
-    start.frames.push_back(0);
-    repose.frames.push_back(repose_frame(*run));
-  }
-  return {start, repose};
-}
+using States = std::span<const ShownFrames>;
 
-/// Adds the means of a quantity, at both states, to a table.
-void add_means(Table& table, const RunChoice& runs, std::vector<double> analysis::FrameRecord::*member,
+/// Adds the means of a quantity, at each state, to a table.
+void add_means(Table& table, States states, std::vector<double> analysis::FrameRecord::*member,
                const Column& column) {
-  for (const State& state : states_of(runs))
-    for (Column& mean : row_means(runs, state.frames, member,
-                                  {column.name + state.name, column.unit, column.meaning + state.text, {}}))
+  for (const ShownFrames& state : states)
+    for (Column& mean :
+         row_means(state.at.runs, state.at.frames, member,
+                   {column.name + "_" + state.name, column.unit, column.meaning + " " + state.text, {}}))
       table.columns.push_back(std::move(mean));
 }
 
-double mean_tilt(const RunChoice& runs, const State& state) {
-  double sum = 0.0;
-  for (std::size_t r = 0; r < runs.size(); ++r)
-    sum += runs[r]->analysis.frames[state.frames[r]].tilt / static_cast<double>(runs.size());
-  return sum;
-}
-
-/// A figure of these runs, with the angles of the two states for its script.
-Figure figure_of(const FailedGroup& failed) {
+/// A figure of these runs, with the names of the states and their angles for its script.
+Figure figure_of(const FailedGroup& failed, States states) {
   Figure figure;
   for (const runs::RunView* run : failed.runs) figure.runs.push_back(run->path);
-  for (const State& state : states_of(failed.runs))
-    set_variable(figure, "theta" + state.name, gnuplot_quoted(angle_text(mean_tilt(failed.runs, state))));
+  set_variable(figure, "states", gnuplot_string(joined(states, " ", &ShownFrames::name)));
+  set_variable(figure, "tilts", gnuplot_string(joined(states, " ", [](const ShownFrames& state) {
+                 return angle_text(mean_tilt(state.at));
+               })));
   return figure;
 }
 
-std::string states_text(const FailedGroup& failed) {
-  const std::vector<State> states = states_of(failed.runs);
+std::string states_text(const FailedGroup& failed, States states) {
   const bool several = failed.runs.size() > 1;
-  return fmt::format(" at theta = {} deg and at the last frame before failure (theta = {} deg{}): {}{} of {}",
-                     angle_text(mean_tilt(failed.runs, states[0])),
-                     angle_text(mean_tilt(failed.runs, states[1])), several ? " in the mean" : "",
+  return fmt::format(" {}: {}{} of {}",
+                     joined(states, ", ",
+                            [&](const ShownFrames& state) {
+                              return fmt::format("{} (theta = {} deg{})", state.text,
+                                                 angle_text(mean_tilt(state.at)),
+                                                 several ? " in the mean" : "");
+                            }),
                      several ? "mean of " : "", runs_text(failed.runs.size()), failed.group->label);
 }
 
@@ -92,79 +81,83 @@ std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t
   return {std::move(mean), std::move(error)};
 }
 
-std::optional<Figure> contact_directions(std::span<const RunGroup> groups) {
+std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
-  Figure figure = figure_of(*failed);
+  const std::vector<ShownFrames> states = shown_frames(failed->runs, at, both_ends);
+  Figure figure = figure_of(*failed, states);
   figure.name = "contact-directions";
   figure.title = "Directions of contact normals";
   figure.caption = fmt::format(
       "Probability density of the direction of contact normals, to the bed,{}. Filled: each contact counted "
       "once; outlined: weighted with its normal force; thin circle: uniform, 1/pi per rad. A normal and its "
       "opposite are one direction; 0, 60 and 120 deg are marked.",
-      states_text(*failed));
+      states_text(*failed, states));
   figure.wide = true;
-  figure.height_over_width = 0.48;
+  figure.height_over_width = 0.48 * std::ceil(0.5 * static_cast<double>(states.size()));
   const std::vector<double>& edges = failed->first().analysis.direction_edge;
   Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
-  add_means(table, failed->runs, &analysis::FrameRecord::direction_density,
+  add_means(table, states, &analysis::FrameRecord::direction_density,
             {"density", "1/rad", "probability density of the direction", {}});
-  add_means(table, failed->runs, &analysis::FrameRecord::direction_density_by_force,
+  add_means(table, states, &analysis::FrameRecord::direction_density_by_force,
             {"by_force", "1/rad", "the same, contacts weighted with f_n,", {}});
   figure.tables = {std::move(table)};
   return figure;
 }
 
-std::optional<Figure> force_distribution(std::span<const RunGroup> groups) {
+std::optional<Figure> force_distribution(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
-  Figure figure = figure_of(*failed);
+  const std::vector<ShownFrames> states = shown_frames(failed->runs, at, both_ends);
+  Figure figure = figure_of(*failed, states);
   figure.name = "force-distribution";
   figure.title = "Distribution of the normal forces";
   figure.caption = fmt::format(
       "Probability density of the normal force f over its mean <f>,{}{}; (a) semilogarithmic, (b) double "
       "logarithmic.",
-      states_text(*failed), error_text);
+      states_text(*failed, states), error_text);
   figure.wide = true;
   figure.height_over_width = 0.4;
   const std::vector<double>& edges = failed->first().analysis.force_edge;
   Table table{"", edge_columns(edges, 1.0, {"force", "1", "the normal force over its mean", {}})};
-  add_means(table, failed->runs, &analysis::FrameRecord::force_density,
+  add_means(table, states, &analysis::FrameRecord::force_density,
             {"density", "1", "probability density of f over <f>", {}});
   figure.tables = {std::move(table)};
   return figure;
 }
 
-std::optional<Figure> correlations(std::span<const RunGroup> groups) {
+std::optional<Figure> correlations(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
-  Figure figure = figure_of(*failed);
+  const std::vector<ShownFrames> states = shown_frames(failed->runs, at, both_ends);
+  Figure figure = figure_of(*failed, states);
   figure.name = "correlations";
   figure.title = "Correlation of forces and stresses over distance";
   figure.caption = fmt::format(
       "Correlation of the normal forces, of the stress ratio gamma of grains and of their mean stress, over "
       "distance,{}{}. Forces and mean stresses are over the mean of their layer of 2 D.",
-      states_text(*failed), error_text);
+      states_text(*failed, states), error_text);
   figure.wide = true;
   figure.height_over_width = 0.4;
   Column distance{"r", "D", "distance between two contact points, or two centres", {}};
   for (const double r : failed->first().analysis.correlation_distance)
     distance.values.push_back(r / failed->first().statics.mean_diameter);
   Table table{"", {std::move(distance)}};
-  add_means(table, failed->runs, &analysis::FrameRecord::normal_force_correlation,
+  add_means(table, states, &analysis::FrameRecord::normal_force_correlation,
             {"force", "1", "correlation of normal forces", {}});
-  add_means(table, failed->runs, &analysis::FrameRecord::gamma_correlation,
+  add_means(table, states, &analysis::FrameRecord::gamma_correlation,
             {"gamma", "1", "correlation of gamma", {}});
-  add_means(table, failed->runs, &analysis::FrameRecord::mean_stress_correlation,
+  add_means(table, states, &analysis::FrameRecord::mean_stress_correlation,
             {"stress", "1", "correlation of the mean stress of grains", {}});
   figure.tables = {std::move(table)};
   return figure;
 }
 
-std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups) {
+std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_group_with_distributions(groups);
   if (!failed) return std::nullopt;
-  Figure figure = figure_of(*failed);
+  const std::vector<ShownFrames> states = shown_frames(failed->runs, at, both_ends);
+  Figure figure = figure_of(*failed, states);
   figure.name = "weak-contacts";
   figure.title = "Directions of weak contacts over their mobilised friction";
   figure.caption = fmt::format(
@@ -173,11 +166,11 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups) {
       "friction,{}{}. Below 0 they stand across the force chains. Weak contacts right of the dashed line "
       "count "
       "as coherent.",
-      states_text(*failed), error_text);
+      states_text(*failed, states), error_text);
   figure.height_over_width = 0.7;
   const std::vector<double>& edges = failed->first().analysis.mobilisation_edge;
   Table table{"", edge_columns(edges, 1.0, {"mobilised", "1", "the mobilised friction", {}})};
-  add_means(table, failed->runs, &analysis::FrameRecord::weak_fabric_by_friction,
+  add_means(table, states, &analysis::FrameRecord::weak_fabric_by_friction,
             {"fabric", "1", "fabric of weak contacts along the strong ones", {}});
   figure.tables = {std::move(table)};
   set_variable(figure, "coherent", analysis::coherent_mobilisation);

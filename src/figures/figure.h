@@ -1,6 +1,6 @@
 #pragma once
 /// A figure as data: its tables, its maps, and what they were made from. A gnuplot script of the same name,
-/// assets/figures/NAME.gp, draws it; nothing here draws.
+/// assets/figures/NAME.gp, draws it, unless it is a panel of maps; nothing here draws.
 
 #include <fmt/core.h>
 #include <string>
@@ -27,16 +27,6 @@ struct Table {
   bool in_blocks = false;  ///< an empty line wherever the first column changes: gnuplot begins another curve
 };
 
-/// A map that the renderer draws to FIGURE-NAME.png, for the script to place.
-struct FigureMap {
-  std::string name;
-  render::FrameView view;
-  double width = 1.0;  ///< of the map over that of the figure, at map_resolution
-};
-
-/// Dots per inch of a map as wide as its figure.
-inline constexpr double map_resolution = 300.0;
-
 struct Figure {
   std::string name;     ///< "fig09-overloaded-fraction": that of its script and of all its files
   std::string title;    ///< "Overloaded fraction over tilt (paper, Fig. 9)"
@@ -46,19 +36,17 @@ struct Figure {
   double height_over_width = 0.75;
   std::vector<Table> tables;
   std::size_t groups = 0;  ///< groups of runs that have a table
-  std::vector<FigureMap> maps;
+  /// A figure of maps, which no script draws: a row for each frame, a column for each map.
+  std::vector<std::vector<render::FrameView>> maps;
   /// What the script has to know beside the tables: gnuplot names and values ("gamma_c", "0.23"; texts in
   /// double quotes).
   std::vector<std::pair<std::string, std::string>> variables;
   std::string script = {};  ///< of assets/figures; empty: that of its name
 };
 
-/// The files of a table and of a map, beside FIGURE.gp.
+/// The file of a table, beside those of the figure.
 inline std::string file_of(const Figure& figure, const Table& table) {
   return fmt::format("{}{}{}.csv", figure.name, table.name.empty() ? "" : "-", table.name);
-}
-inline std::string file_of(const Figure& figure, const FigureMap& map) {
-  return fmt::format("{}-{}.png", figure.name, map.name);
 }
 
 }  // namespace talus::figures

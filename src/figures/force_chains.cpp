@@ -57,9 +57,10 @@ double add_contact_map(Figure& figure, const BedFrame& bed) {
   return map_height;
 }
 
-std::string frame_text(const FailedGroup& failed, const Frame& frame) {
-  return fmt::format("{}, at theta = {} deg, the last frame before failure at theta_c = {} deg",
-                     first_run_text(failed), angle_text(frame.tilt), angle_text(theta_c_of(failed.first())));
+std::string frame_text(const FailedGroup& failed, const Frame& frame, bool last = true) {
+  return fmt::format("{}, at theta = {} deg, {}theta_c = {} deg", first_run_text(failed),
+                     angle_text(frame.tilt), last ? "the last frame before failure at " : "",
+                     angle_text(theta_c_of(failed.first())));
 }
 
 std::vector<FrameColumn> critical_columns() {
@@ -97,20 +98,20 @@ Table force_table(const BedFrame& bed) {
   return table;
 }
 
-std::optional<Figure> force_chains(std::span<const RunGroup> groups) {
+std::optional<Figure> force_chains(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const runs::RunView& run = failed->first();
-  const Frame frame = run.file->frame(repose_frame(run));
+  const Frame frame = run.file->frame(at.empty() ? repose_frame(run) : frames_of_run(run, at).front());
   Figure figure;
   figure.name = "force-chains";
-  figure.title = "Force chains just before failure";
+  figure.title = at.empty() ? "Force chains just before failure" : "Force chains";
   figure.caption = fmt::format(
       "Normal forces as lines between the centres of grains, their width proportional to the force, in ten "
       "classes of half the mean force, the last of them open; black: above the mean (strong network), gray: "
       "up to it (weak); {}. Contacts across the periodic edge are cut there. The thin line is the free "
       "surface.",
-      frame_text(*failed, frame));
+      frame_text(*failed, frame, at.empty()));
   figure.runs = {run.path};
   figure.height_over_width =
       add_contact_map(figure, {frame, run.file->header().statics}) + room_for_legend / page_width;

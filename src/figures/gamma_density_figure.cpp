@@ -2,33 +2,28 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "base/text.h"
 #include "core/statistics.h"
-#include "core/trigonometry.h"
 #include "figures/group_table.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
-#include "scenario/text.h"
 
 namespace talus::figures {
 namespace {
 
-constexpr double angles[] = {0.0, 10.0, 15.0};  // deg, as in the paper
+const FrameWords paper_angles = {"0", "10", "15"};
 
-/// gamma, and its density at each angle that at least half of the runs reach.
-std::vector<Column> density_columns(const RunChoice& runs) {
+/// gamma, and its density in each of the frames that at least half of the runs reach.
+std::vector<Column> density_columns(const RunChoice& runs, std::span<const ShownFrames> shown) {
   Column gamma{"gamma", "1", "middle of the bin", {}};
   const std::vector<double>& edges = runs.front()->analysis.gamma_edge;
   for (std::size_t b = 0; b + 1 < edges.size(); ++b) gamma.values.push_back(0.5 * (edges[b] + edges[b + 1]));
   std::vector<Column> columns = {std::move(gamma)};
-  for (const double angle : angles) {
-    const auto [at_angle, frames] = frames_at_angle(runs, radians(angle));
-    const std::string text = scenario::short_text(angle);
-    const std::string meaning = fmt::format("probability density of gamma at {} deg, ", text);
-    Column mean{"density_" + text, "1", meaning + runs_text(at_angle.size()), {}};
-    if (2 * at_angle.size() >= runs.size()) {
-      for (Column& column :
-           row_means(at_angle, frames, &analysis::FrameRecord::gamma_density, std::move(mean)))
+  for (const ShownFrames& frames : shown) {
+    const std::string meaning = fmt::format("probability density of gamma {}, ", frames.text);
+    Column mean{"density_" + frames.name, "1", meaning + runs_text(frames.at.runs.size()), {}};
+    if (2 * frames.at.runs.size() >= runs.size()) {
+      for (Column& column : row_means(frames.at.runs, frames.at.frames, &analysis::FrameRecord::gamma_density,
+                                      std::move(mean)))
         columns.push_back(std::move(column));
     } else {
       mean.values.assign(edges.size() - 1, std::nan(""));
@@ -46,11 +41,11 @@ double mean_gamma_c(const RunChoice& runs) {
   return statistics_of(all).mean;
 }
 
-/// Whether any bed has a density at the angle.
-bool is_shown(const Figure& figure, const std::string& angle) {
+/// Whether any bed has a density in the frames of that name.
+bool is_shown(const Figure& figure, const std::string& name) {
   return std::ranges::any_of(figure.tables, [&](const Table& table) {
     return std::ranges::any_of(table.columns, [&](const Column& column) {
-      return column.name == "density_" + angle &&
+      return column.name == "density_" + name &&
              std::ranges::any_of(column.values, [](double value) { return !std::isnan(value); });
     });
   });
@@ -58,14 +53,14 @@ bool is_shown(const Figure& figure, const std::string& angle) {
 
 }  // namespace
 
-std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
+std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   Figure figure;
+  std::vector<ShownFrames> shown;
   figure.name = "fig08-stress-ratio-density";
   figure.title = "Distribution of the stress ratio of grains (paper, Fig. 8)";
   figure.caption =
       "Probability density of the stress ratio gamma = q/p of the grains that carry something, periodic "
-      "beds, "
-      "at theta = 0, 10 and 15 deg; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
+      "beds; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
       "prints, and 2 Gamma_c, each the mean over the runs. Means over the runs of a bed, of which at least "
       "half "
       "stand at an angle that is shown; bands: the standard error of the mean, where there are several runs.";
@@ -73,15 +68,14 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups) {
     const RunChoice runs = with_distributions(runs_with_threshold(group));
     if (!group.periodic() || runs.empty()) continue;
     if (figure.tables.empty()) figure.caption.append(" ").append(reading_caption(*runs.front()));
-    add_group_table(figure, group, runs, density_columns(runs));
+    shown = shown_frames(runs, at, paper_angles);
+    add_group_table(figure, group, runs, density_columns(runs, shown));
     set_variable(figure, fmt::format("gamma_c_{}", figure.groups), mean_gamma_c(runs));
     set_variable(figure, fmt::format("several_{}", figure.groups), runs.size() > 1 ? 1.0 : 0.0);
   }
   if (figure.tables.empty()) return std::nullopt;
-  std::vector<std::string> shown;
-  for (const double angle : angles)
-    if (is_shown(figure, scenario::short_text(angle))) shown.push_back(scenario::short_text(angle));
-  set_variable(figure, "angles", gnuplot_string(joined(shown, " ")));
+  std::erase_if(shown, [&](const ShownFrames& frames) { return !is_shown(figure, frames.name); });
+  set_shown_frames(figure, shown);
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
   return figure;
 }

@@ -18,13 +18,6 @@ namespace {
 
 constexpr double paper_tilts[] = {0.0, 5.0, 10.0, 15.0};  // deg
 
-// Of the layout, in a figure 17.8 cm wide; its script has them as variables.
-constexpr double figure_width = 17.8;               // cm
-constexpr double label_width = 1.9;                 // cm, for the angles left of the panels
-constexpr double column_gap = 0.3;                  // cm
-constexpr double legend_height = 1.3;               // cm
-constexpr double largest_height_over_width = 1.25;  // a page, with its caption
-
 /// The frames of the panels, and their pictures.
 struct Panels {
   pictures::FrameChoice choice;
@@ -38,16 +31,20 @@ pictures::MapSettings map_of(const runs::RunView& run, pictures::MapKind kind, d
   settings.layers = {kind};
   settings.theta_c = theta_c_of(run);
   settings.threshold_factor = factor * (run.analysis.gamma_c / sine(settings.theta_c));
-  settings.range_high = 2.0 * run.analysis.gamma_c;
-  settings.furniture = false;
+  if (std::abs(run.analysis.gamma_c / sine(settings.theta_c) - 1.0) > 1e-9)
+    settings.range_high = 2.0 * run.analysis.gamma_c;
   return settings;
 }
 
-Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> maps) {
+Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> maps, const FrameWords& at) {
   Panels panels;
-  const analysis::FramesOfRise rise = runs::last_rise_of(run);
-  panels.choice = panel_frames(rise.tilts, theta_c_of(run));
-  for (std::size_t& frame : panels.choice) frame += rise.first;
+  if (at.empty()) {
+    const analysis::FramesOfRise rise = runs::last_rise_of(run);
+    panels.choice = panel_frames(rise.tilts, theta_c_of(run));
+    for (std::size_t& frame : panels.choice) frame += rise.first;
+  } else {
+    panels.choice = frames_of_run(run, at);
+  }
   panels.pictures.run = run.file->header();
   panels.pictures.plan.maps = std::move(maps);
   panels.pictures.extent = pictures::bed_extent(panels.pictures.run.statics);
@@ -69,15 +66,16 @@ std::string listed(const Panels& panels, const char* separator) {
 }
 
 /// What both captions end with.
-std::string bed_text(const FailedGroup& failed, const Panels& panels) {
+std::string bed_text(const FailedGroup& failed, const Panels& panels, bool of_paper) {
   const double theta_c = theta_c_of(failed.first());
-  std::string text = fmt::format(
-      "; {}. From top to bottom theta = {} deg, the last of them the frame before failure at theta_c = {} "
-      "deg",
-      first_run_text(failed), listed(panels, ", "), angle_text(theta_c));
+  std::string text =
+      fmt::format("; {}. From top to bottom theta = {} deg, {}theta_c = {} deg", first_run_text(failed),
+                  listed(panels, ", "), of_paper ? "the last of them the frame before failure at " : "",
+                  angle_text(theta_c));
   std::string beyond;
   for (const double tilt : paper_tilts)
-    if (radians(tilt) >= theta_c) beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
+    if (of_paper && radians(tilt) >= theta_c)
+      beyond.append(beyond.empty() ? "" : " and ").append(rounded_text(tilt, 0));
   if (!beyond.empty()) text += fmt::format("; the paper's {} deg lies beyond it and is left out", beyond);
   return fmt::format(
       "{}. The bed is shown in its own frame, with the direction of gravity; hatched grains are the floor. "
@@ -85,39 +83,16 @@ std::string bed_text(const FailedGroup& failed, const Panels& panels) {
       text, reading_caption(failed.first()));
 }
 
-/// cm, of so many side by side.
-double panel_width_of(std::size_t columns) {
-  const auto count = static_cast<double>(columns);
-  return (figure_width - label_width - (count - 1.0) * column_gap) / count;
-}
-
-/// Map `map` of panel k, to be printed at that resolution (dpi).
-FigureMap panel_map(const std::string& number, const Panels& panels, std::size_t k, std::size_t map,
-                    double resolution) {
-  return {"panel" + number, pictures::picture(panels.pictures, k, panels.frames[k], nullptr, map),
-          panel_width_of(panels.pictures.plan.maps.size()) / figure_width * resolution / map_resolution};
-}
-
-/// A figure with the layout of the panels, a column for each map, each panel with a line of text above.
-Figure panel_figure(const FailedGroup& failed, const Panels& panels, double text_height) {
-  const RunStatics& statics = panels.pictures.run.statics;
-  const double aspect = statics.length / (panels.pictures.extent.y_max - panels.pictures.extent.y_min);
-  const double panel_width = panel_width_of(panels.pictures.plan.maps.size());
-  const double row = panel_width / aspect + text_height;
-  const double height = static_cast<double>(panels.frames.size()) * row + legend_height;
-
+/// A row of maps for each panel.
+Figure panel_figure(const FailedGroup& failed, const Panels& panels) {
   Figure figure;
   figure.runs = {failed.first().path};
   figure.wide = true;
-  figure.height_over_width = std::min(height / figure_width, largest_height_over_width);
-  set_variable(figure, "tilts", gnuplot_quoted(listed(panels, " ")));
-  set_variable(figure, "aspect", aspect);
-  set_variable(figure, "bed_length", statics.length / statics.mean_diameter);
-  set_variable(figure, "walls", statics.periodic ? 0.0 : 1.0);
-  set_variable(figure, "label_width", label_width);
-  set_variable(figure, "column_gap", column_gap);
-  set_variable(figure, "text_height", text_height);
-  set_variable(figure, "legend_height", legend_height);
+  for (std::size_t k = 0; k < panels.frames.size(); ++k) {
+    std::vector<render::FrameView>& row = figure.maps.emplace_back();
+    for (std::size_t map = 0; map < panels.pictures.plan.maps.size(); ++map)
+      row.push_back(pictures::picture(panels.pictures, k, panels.frames[k], nullptr, map));
+  }
   return figure;
 }
 
@@ -162,26 +137,24 @@ pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double thet
   return choice;
 }
 
-std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
+std::optional<Figure> gamma_maps(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const double gamma_c = failed->first().analysis.gamma_c;
   const Panels panels =
-      read_panels(failed->first(), {map_of(failed->first(), pictures::MapKind::gamma, 1.0)});
-  Figure figure = panel_figure(*failed, panels, 0.2);
+      read_panels(failed->first(), {map_of(failed->first(), pictures::MapKind::gamma, 1.0)}, at);
+  Figure figure = panel_figure(*failed, panels);
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
   figure.caption = fmt::format(
       "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} on, linear gray between{}",
-      rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3), bed_text(*failed, panels));
-  set_variable(figure, "gamma_c", gamma_c);
-  set_variable(figure, "white_below", pictures::white_below);
+      rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3),
+      bed_text(*failed, panels, at.empty()));
   Column mean{"gamma_mean", "1", analysis::quantity_of(&analysis::FrameRecord::gamma_mean).definition, {}};
   Column share_white{"white", "1", "share of these grains that are white", {}};
   Column share_black{"black", "1", "share of them that are black", {}};
   for (std::size_t k = 0; k < panels.frames.size(); ++k) {
     const BedFrame bed{panels.frames[k], panels.pictures.run.statics};
-    figure.maps.push_back(panel_map(std::to_string(k + 1), panels, k, 0, 300.0));
     mean.values.push_back(failed->first().analysis.frames.at(panels.choice[k]).gamma_mean);
     share_white.values.push_back(1.0 - share_from(bed, pictures::white_below));
     share_black.values.push_back(share_from(bed, 2.0 * gamma_c));
@@ -190,7 +163,7 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups) {
   return figure;
 }
 
-std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
+std::optional<Figure> overload_maps(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const analysis::Analysis& analysis = failed->first().analysis;
@@ -198,27 +171,16 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups) {
   std::vector<pictures::MapSettings> maps;
   for (const analysis::RunThreshold& threshold : thresholds)
     maps.push_back(map_of(failed->first(), pictures::MapKind::overloaded, threshold.factor));
-  const Panels panels = read_panels(failed->first(), std::move(maps));
-  Figure figure = panel_figure(*failed, panels, 0.5);
+  const Panels panels = read_panels(failed->first(), std::move(maps), at);
+  Figure figure = panel_figure(*failed, panels);
   figure.name = "fig13-overloaded-maps";
   figure.title = "Maps of the overloaded grains (paper, Fig. 13)";
-  figure.caption =
-      "Overloaded grains in black, each column for another threshold of gamma" + bed_text(*failed, panels);
+  figure.caption = "Overloaded grains in black, each column for another threshold of gamma" +
+                   bed_text(*failed, panels, at.empty());
   figure.tables = {{"", {tilt_column(panels)}}};
-  std::string factors, limits;
-  for (std::size_t f = 0; f < thresholds.size(); ++f) {
-    factors += fmt::format(" {}", rounded_text(thresholds[f].factor, 3));
-    limits += fmt::format(" {}", rounded_text(thresholds[f].gamma, 3));
+  for (std::size_t f = 0; f < thresholds.size(); ++f)
     for (Column& column : threshold_columns(analysis, panels, f))
       figure.tables[0].columns.push_back(std::move(column));
-    for (std::size_t k = 0; k < panels.frames.size(); ++k) {
-      figure.maps.push_back(panel_map(fmt::format("{}-{}", f + 1, k + 1), panels, k, f, 400.0));
-      set_variable(figure, fmt::format("p_o_{}_{}", f + 1, k + 1),
-                   analysis.frames.at(panels.choice[k]).thresholds[f].overloaded_fraction);
-    }
-  }
-  set_variable(figure, "factors", gnuplot_quoted(factors));
-  set_variable(figure, "thresholds", gnuplot_quoted(limits));
   return figure;
 }
 

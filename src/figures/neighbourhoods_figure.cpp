@@ -19,7 +19,7 @@
 namespace talus::figures {
 namespace {
 
-constexpr double shown_tilt = 10.0;  // deg
+constexpr double paper_tilt = 10.0;  // deg
 
 /// What is drawn: a grain of a frame.
 struct Shown {
@@ -28,15 +28,14 @@ struct Shown {
   Index grain = 0;
 };
 
-/// The typical grain of the frame nearest to 10 deg that has one, up to the last before theta_c: of a small
-/// bed some frames have none.
-std::optional<Shown> shown_grain(const runs::RunView& run) {
+/// The typical grain of the frame nearest to this tilt (rad) that has one, up to the last before theta_c: of
+/// a small bed some frames have none.
+std::optional<Shown> shown_grain(const runs::RunView& run, double tilt) {
   const RunStatics& statics = run.file->header().statics;
   std::vector<std::size_t> nearest(repose_frame(run) + 1);
   std::iota(nearest.begin(), nearest.end(), std::size_t{0});
-  std::ranges::stable_sort(nearest, {}, [&run](std::size_t k) {
-    return std::abs(run.analysis.frames.at(k).tilt - radians(shown_tilt));
-  });
+  std::ranges::stable_sort(
+      nearest, {}, [&run, tilt](std::size_t k) { return std::abs(run.analysis.frames.at(k).tilt - tilt); });
   for (const std::size_t k : nearest) {
     Frame frame = runs::analysed_frame(*run.file, runs::from_facts(run.analysis.parameters), k);
     const auto grain = typical_grain({frame, statics}, run.analysis.frames.at(k).thresholds);
@@ -131,20 +130,22 @@ Table grains_around(const BedFrame& bed, Index centre, double distance) {
   return table;
 }
 
-std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups) {
+std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto failed = first_failed_group(groups);
   if (!failed) return std::nullopt;
   const runs::RunView& run = failed->first();
   const RunStatics& statics = run.file->header().statics;
   const double diameter = statics.mean_diameter;
-  const auto found = shown_grain(run);
+  const double tilt =
+      at.empty() ? radians(paper_tilt) : run.analysis.frames.at(frames_of_run(run, at)[0]).tilt;
+  const auto found = shown_grain(run, tilt);
   if (!found) return std::nullopt;
   const auto& [k, frame, grain] = *found;
   const BedFrame bed{frame, statics};
 
   std::vector<double> lengths;  // D
-  for (const analysis::FrameThreshold& at : run.analysis.frames.at(k).thresholds)
-    lengths.push_back(at.lc[grain] / diameter);
+  for (const analysis::FrameThreshold& threshold : run.analysis.frames.at(k).thresholds)
+    lengths.push_back(threshold.lc[grain] / diameter);
   const double shown = largest_shown(*std::ranges::max_element(lengths), run.analysis.lc_cut / diameter);
   Figure figure;
   figure.name = "fig11-neighbourhoods";

@@ -4,18 +4,16 @@
 
 #include "analysis/overload/coarse_graining.h"
 #include "core/statistics.h"
-#include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
-#include "scenario/text.h"
 
 namespace talus::figures {
 namespace {
 
-constexpr double tilts_compared[] = {0.0, 15.0};  // deg
+const FrameWords frames_compared = {"0", "15", "repose"};
 
 /// Diameters, D: the grain alone, then from the first neighbours on; not above `largest`.
 std::vector<double> scales_up_to(double largest) {
@@ -55,45 +53,44 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
   return {std::move(mean), std::move(error)};
 }
 
-std::vector<Column> scale_columns(const RunChoice& runs) {
+std::vector<Column> scale_columns(const RunChoice& runs, std::span<const ShownFrames> shown) {
   const RunStatics& statics = runs.front()->file->header().statics;
   const std::vector<double> scales = scales_up_to(analysis::length_cut(statics, 0.0) / statics.mean_diameter);
   std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
-  const auto add = [&](const FramesAtAngle& at, const std::string& name, const std::string& where) {
-    const std::string meaning = "share of the grains that carry something with gamma_l >= Gamma_c " + where;
+  for (const ShownFrames& frames : shown)
     for (Column& column :
-         mean_shares(at, runs.size(), scales,
-                     {"p_o_" + name, "1", fmt::format("{}, {}", meaning, runs_text(at.runs.size())), {}}))
+         mean_shares(frames.at, runs.size(), scales,
+                     {"p_o_" + frames.name,
+                      "1",
+                      fmt::format("share of the grains that carry something with gamma_l >= Gamma_c {}, {}",
+                                  frames.text, runs_text(frames.at.runs.size())),
+                      {}}))
       columns.push_back(std::move(column));
-  };
-  for (const double angle : tilts_compared)
-    add(frames_at_angle(runs, radians(angle)), scenario::short_text(angle),
-        fmt::format("at {} deg", scenario::short_text(angle)));
-  FramesAtAngle failure{runs, {}};
-  for (const runs::RunView* run : runs) failure.frames.push_back(repose_frame(*run));
-  add(failure, "failure", "in the last frame before failure");
   return columns;
 }
 
 }  // namespace
 
-std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups) {
+std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   Figure figure;
+  std::vector<ShownFrames> shown;
   figure.name = "overloaded-over-scale";
   figure.title = "Overloaded fraction over the size of neighbourhoods";
   figure.caption =
       "Fraction p_o of the grains whose neighbourhood of diameter l has a stress ratio gamma_l of at least "
       "Gamma_c = sin(theta_c), over l, among the grains that carry something: the grain alone at l = 0, with "
-      "its first neighbours from about 2 D on; periodic beds at theta = 0 and 15 deg and in the last frame "
-      "before failure. Dashed line: the paper's p_o at theta_c, 0.60. Means over the runs of a bed that have "
+      "its first neighbours from about 2 D on; periodic beds. Dashed line: the paper's p_o at theta_c, 0.60. "
+      "Means over the runs of a bed that have "
       "failed, of which at least half stand at an angle that is shown; error bars are standard errors over "
       "the runs, none for a single run.";
   for (const RunGroup& group : groups) {
     const RunChoice runs = with_frames(failed_runs(group));
     if (!group.periodic() || runs.empty()) continue;
-    add_group_table(figure, group, runs, scale_columns(runs));
+    shown = shown_frames(runs, at, frames_compared);
+    add_group_table(figure, group, runs, scale_columns(runs, shown));
   }
   if (figure.tables.empty()) return std::nullopt;
+  set_shown_frames(figure, shown);
   figure.height_over_width = 0.7 * static_cast<double>(figure.groups);
   return figure;
 }

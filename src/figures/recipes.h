@@ -1,6 +1,7 @@
 #pragma once
 /// The recipes of all figures (catalogue.h), and the steps of theirs that tests look at. Each makes its
-/// figure of groups of runs; no value where there is no run of the kind that it needs.
+/// figure of groups of runs; no value where there is no run of the kind that it needs. `at`: the frames that
+/// it shows instead of those named here.
 
 #include <cstddef>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "figures/group_table.h"
 #include "figures/run_angles.h"
 #include "figures/run_group.h"
+#include "figures/shown_frames.h"
 #include "pictures/frame_choice.h"
 
 namespace talus::figures {
@@ -28,7 +30,7 @@ std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups);
 // overload_figures.cpp
 // Overloaded grains of periodic beds over tilt (paper, section V).
 /// Probability density of gamma at 0, 10 and 15 deg (paper, Fig. 8).
-std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups);
+std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 /// p_o over tilt, for each threshold (paper, Fig. 9).
 std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> groups);
@@ -37,7 +39,7 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
 std::optional<Figure> length_figure(std::span<const RunGroup> groups);
 
 /// p_o over the size of neighbourhoods, at 0 and 15 deg and just before failure.
-std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups);
+std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // map_panels.cpp
 // Maps of a bed at growing tilt, one below the other (paper, Figs. 10 and 13).
@@ -46,10 +48,10 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups);
 pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double theta_c);
 
 /// Paper, Fig. 10: gamma in gray, of the first run that has failed.
-std::optional<Figure> gamma_maps(std::span<const RunGroup> groups);
+std::optional<Figure> gamma_maps(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 /// Paper, Fig. 13: overloaded grains in black, of the same run; a column for each threshold.
-std::optional<Figure> overload_maps(std::span<const RunGroup> groups);
+std::optional<Figure> overload_maps(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // neighbourhoods_figure.cpp
 // Growing neighbourhoods of one overloaded grain (paper, Fig. 11).
@@ -65,7 +67,7 @@ Table grains_around(const BedFrame& bed, Index centre, double distance);
 
 /// Paper, Fig. 11: a grain that is overloaded at 10 deg, or at the nearest tilt before failure at which one
 /// is, with circles about it, and gamma_l over l.
-std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups);
+std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // volume_strain_figure.cpp
 // Volume of periodic beds over tilt, and theta_d by each estimator (paper, section VI).
@@ -75,7 +77,7 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups);
 // wall_figures.cpp
 // What walls do to the stress of a bed (paper, section IV).
 /// sigma_xx over x of the shortest bed between walls, at 0 and 10 deg and before failure (paper, Fig. 6).
-std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups);
+std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 /// (sigma_T / sigma_N) / tan(theta) at failure over L, of all beds between walls, with the law of Eq. 15
 /// (paper, Fig. 7).
@@ -109,13 +111,13 @@ std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t
                               std::vector<double> analysis::FrameRecord::*member, Column mean);
 
 /// Polar histogram of the directions of contact normals, each contact counted once, and weighted by f_n.
-std::optional<Figure> contact_directions(std::span<const RunGroup> groups);
+std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const FrameWords& at = {});
 /// Probability density of the normal forces over their mean.
-std::optional<Figure> force_distribution(std::span<const RunGroup> groups);
+std::optional<Figure> force_distribution(std::span<const RunGroup> groups, const FrameWords& at = {});
 /// Correlation of normal forces, of gamma and of the mean stress of grains, over distance.
-std::optional<Figure> correlations(std::span<const RunGroup> groups);
+std::optional<Figure> correlations(std::span<const RunGroup> groups, const FrameWords& at = {});
 /// Fabric of the weak contacts along the strong ones, over their mobilised friction.
-std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups);
+std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // force_chains.cpp
 // Pictures of the contacts of a bed just before it fails: their forces, and where friction is fully
@@ -125,7 +127,7 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups);
 Table force_table(const BedFrame& bed);
 
 /// The force chains of the first run that has failed, at its last frame before theta_c.
-std::optional<Figure> force_chains(std::span<const RunGroup> groups);
+std::optional<Figure> force_chains(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 /// Share, largest cluster and correlation length of the critical contacts over theta, as means over the runs
 /// of each group, and where they are in the same frame of the same run.

@@ -8,7 +8,6 @@
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
-#include "scenario/text.h"
 #include "studies/wall_fit.h"
 
 namespace talus::figures {
@@ -20,26 +19,6 @@ constexpr double paper_k = 2.5;  // k_L - k_0 (paper, Fig. 7)
 double mean_weight(const RunStatics& statics) {
   const double mass = std::accumulate(statics.mass.begin(), statics.mass.begin() + statics.free_count, 0.0);
   return mass * statics.gravity / (2.0 * statics.length);
-}
-
-/// Frames of the runs near one angle, and how it is called in the key.
-struct Angle {
-  std::string text;
-  std::vector<std::size_t> frames;
-};
-
-/// 0 and 10 deg, where all runs still stand, and the last frame before failure.
-std::vector<Angle> angles_of(const RunChoice& runs) {
-  std::vector<Angle> angles;
-  for (const double tilt : {0.0, 10.0})
-    if (std::ranges::all_of(runs, [&](const runs::RunView* run) { return stands_at(*run, radians(tilt)); })) {
-      angles.push_back({fmt::format("{{/:Italic θ}} = {}°", scenario::short_text(tilt)), {}});
-      for (const runs::RunView* run : runs)
-        angles.back().frames.push_back(frame_nearest(*run, radians(tilt)));
-    }
-  angles.push_back({"{/:Italic θ_c}", {}});
-  for (const runs::RunView* run : runs) angles.back().frames.push_back(repose_frame(*run));
-  return angles;
 }
 
 /// The middle of each section, in D.
@@ -118,7 +97,7 @@ std::string plus_minus(const studies::WallFit& fit) {
 
 }  // namespace
 
-std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
+std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto shortest = std::ranges::find_if(groups, [](const RunGroup& group) {
     return !group.periodic() && !with_files(failed_runs(group)).empty();  // groups come by ascending length
   });
@@ -129,20 +108,18 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups) {
   figure.title = "Stress sigma_xx along a bed between walls (paper, Fig. 6)";
   figure.caption = fmt::format(
       "Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, {}, in "
-      "units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains); theta_c: "
-      "last frame before failure. Means over {}, error bars: standard errors over them, none for a single "
+      "units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains). Means over "
+      "{}, error bars: standard errors over them, none for a single "
       "run.",
       shortest->label, runs_text(runs.size()));
   Table table{"", {section_column(*runs.front())}};
-  const std::vector<Angle> angles = angles_of(runs);
-  for (std::size_t a = 0; a < angles.size(); ++a) {
-    const std::string k = std::to_string(a + 1);
-    for (Column& column : section_stresses(runs, angles[a].frames, "sigma_xx_" + k))
+  std::vector<ShownFrames> shown = shown_frames(runs, at, {"0", "10", "repose"});
+  std::erase_if(shown, [&](const ShownFrames& frames) { return frames.at.runs.size() < runs.size(); });
+  for (const ShownFrames& frames : shown)
+    for (Column& column : section_stresses(runs, frames.at.frames, "sigma_xx_" + frames.name))
       table.columns.push_back(std::move(column));
-    set_variable(figure, "angle_" + k, gnuplot_string(angles[a].text));
-  }
+  set_shown_frames(figure, shown);
   for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
-  set_variable(figure, "angles", static_cast<double>(angles.size()));
   set_variable(figure, "bed",
                gnuplot_quoted(fmt::format("{} ({})", shortest->label, runs_text(runs.size()))));
   set_variable(figure, "length", runs.front()->scenario.bed.length);

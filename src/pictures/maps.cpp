@@ -162,10 +162,6 @@ MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapEx
   return layer;
 }
 
-constexpr double points_per_cm = 72.0 / 2.54;
-/// Letters in print are smaller by no more where they have no room.
-constexpr double smallest_points = 7.0 / 8.0;
-
 std::string caption_of(const Frame& frame, const MapSettings& settings) {
   std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
   if (std::isfinite(settings.theta_c) && settings.theta_c > 0.0) {
@@ -206,6 +202,12 @@ render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent) {
   return view;
 }
 
+void print_letters(render::FrameView& view, double width, double points) {
+  constexpr double points_per_cm = 72.0 / 2.54, smallest = 7.0 / 8.0;
+  view.letters = width * points_per_cm / points;
+  view.most_letters = view.letters / smallest;
+}
+
 bool has_bar(const MapLayers& layers) {
   return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
 }
@@ -232,10 +234,7 @@ render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings
   add_surroundings(view, frame);
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
-  if (settings.printed > 0.0) {
-    view.letters = settings.printed * points_per_cm / settings.points;
-    view.most_letters = view.letters / smallest_points;
-  }
+  if (settings.printed > 0.0) print_letters(view, settings.printed, settings.points);
   // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
   view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
   view.tilt = frame.frame.tilt;

@@ -106,6 +106,10 @@ render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
 /// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
 render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
 
+/// Sets the letters of a view that is printed so wide (cm): of so many points, and of no less than 7/8 of
+/// that.
+void print_letters(render::FrameView& view, double width, double points);
+
 /// Whether a map has a bar: whether `colours` and `range_low`, `range_high` change anything.
 bool has_bar(const MapLayers& layers);
 

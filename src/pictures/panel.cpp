@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "base/errors.h"
 #include "base/text.h"
 #include "pictures/frame_choice.h"
 #include "pictures/picture_files.h"
@@ -54,7 +55,9 @@ std::string take_rest(Rows& maps) {
   return rest;
 }
 
-/// A row of texts without beds.
+bool has_bed(const render::FrameView& view) { return view.x_max > view.x_min; }
+
+/// Texts without a bed.
 render::FrameView heading(const render::FrameView& like, const std::string& title,
                           const std::string& caption) {
   render::FrameView view;
@@ -91,14 +94,17 @@ bool same_legends(const std::vector<render::Legend>& a, const std::vector<render
 /// Legends below the last row only, and of neighbours that have the same one below the first; the scale bar
 /// below the last.
 void share_furniture(Rows& maps) {
+  render::FrameView* last = nullptr;
   for (std::size_t row = 0; row < maps.size(); ++row)
     for (std::size_t column = 0; column < maps[row].size(); ++column) {
       render::FrameView& view = maps[row][column];
-      const bool last = row + 1 == maps.size();
-      if (!last || column + 1 < maps[row].size()) view.scale_label.clear();
-      if (!last) view.legends.clear();
-      if (column > 0 && last && same_legends(view.legends, maps[row][0].legends)) view.legends.clear();
-      if (column > 0 && view.caption == maps[row][0].caption) view.caption.clear();
+      if (last != nullptr && has_bed(view)) last->scale_label.clear();
+      if (has_bed(view)) last = &view;
+      if (row + 1 < maps.size()) view.legends.clear();
+      for (std::size_t before = 0; before < column; ++before) {
+        if (same_legends(view.legends, maps[row][before].legends)) view.legends.clear();
+        if (view.tilt == maps[row][before].tilt) view.caption.clear();
+      }
     }
 }
 
@@ -109,6 +115,17 @@ Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
     for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
       row.push_back(picture(run, frame, map));
   }
+  return rows;
+}
+
+/// So many angles beside each other, the last row filled up with nothing.
+Rows grouped(const Rows& maps, std::size_t beside) {
+  Rows rows;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    if (k % beside == 0) rows.emplace_back();
+    rows.back().insert(rows.back().end(), maps[k].begin(), maps[k].end());
+  }
+  while (rows.back().size() < rows.front().size()) rows.back().push_back(heading(maps[0][0], "", ""));
   return rows;
 }
 
@@ -139,20 +156,22 @@ Rows panel_rows(Rows maps, const std::string& title) {
   std::vector<render::FrameView> headings;
   for (std::size_t column = 0; column < columns; ++column) {
     std::vector<std::string*> titles;
-    for (std::vector<render::FrameView>& row : maps) titles.push_back(&row[column].title);
+    for (std::vector<render::FrameView>& row : maps)
+      if (has_bed(row[column])) titles.push_back(&row[column].title);
     headings.push_back(heading(maps[0][column], one_row ? "" : take_beginning(titles), ""));
   }
   share_furniture(maps);
   const bool several = maps.size() * columns > 1;
   for (std::size_t k = 0; several && k < maps.size() * columns; ++k) {
+    if (!has_bed(maps[k / columns][k % columns])) break;
     std::string& text = maps[k / columns][k % columns].title;
     text = letter(k) + (text.empty() ? "" : " ") + text;
   }
   Rows rows;
-  if (title.empty())
-    headings.back().caption = common;
-  else
-    rows.push_back({heading(headings[0], title, common)});
+  if (!title.empty()) rows.push_back({heading(headings[0], title, common)});
+  const auto same = [&](const render::FrameView& view) { return view.title == headings[0].title; };
+  if (std::ranges::all_of(headings, same)) headings.resize(1);
+  if (title.empty()) headings.back().caption = common;
   rows.push_back(std::move(headings));
   std::erase_if(rows, [](const std::vector<render::FrameView>& row) {
     return std::ranges::all_of(
@@ -162,13 +181,25 @@ Rows panel_rows(Rows maps, const std::string& title) {
   return rows;
 }
 
+render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width, int highest,
+                          const render::Font& font) {
+  render::Sheet best = render::sheet_of_rows(panel_rows(maps, title), width, font);
+  for (std::size_t beside = 2; beside <= maps.size() && best.height > highest; ++beside) try {
+      render::Sheet sheet = render::sheet_of_rows(panel_rows(grouped(maps, beside), title), width, font);
+      if (sheet.height < best.height) best = std::move(sheet);
+    } catch (const Error&) {  // texts have no room
+      break;
+    }
+  return best;
+}
+
 PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked) {
   const FrameChoice choice = frames_at(run.file.frame_tilts(), asked.at, run.theta_c());
   fit_to_frames(run, choice);
   const PictureMarks marks = panel_marks(run, choice, asked);
   if (is_drawn(asked.output, marks, asked.overwrite)) return {choice.size(), true};
-  const render::Sheet sheet = render::sheet_of_rows(panel_rows(panel_maps(run, choice), asked.title),
-                                                    run.series.plan.width, render::embedded_font());
+  const render::Sheet sheet = panel_sheet(panel_maps(run, choice), asked.title, run.series.plan.width,
+                                          render::largest_side, render::embedded_font());
   write_sheet(asked.output, sheet, run.series.plan, picture_texts(marks));
   return {choice.size(), false};
 }

@@ -30,4 +30,9 @@ PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked);
 std::vector<std::vector<render::FrameView>> panel_rows(std::vector<std::vector<render::FrameView>> maps,
                                                        const std::string& title);
 
+/// A panel as a sheet, with a row for each angle; if it would be higher than `highest` (px), with more angles
+/// beside each other, as far as it gets lower and all texts have room. Throws as sheet_of_rows does.
+render::Sheet panel_sheet(const std::vector<std::vector<render::FrameView>>& maps, const std::string& title,
+                          int width, int highest, const render::Font& font);
+
 }  // namespace talus::pictures

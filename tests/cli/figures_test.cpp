@@ -147,7 +147,7 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
 }
 
 TEST_F(Figures, are_drawn_again_by_their_script) {
-  ASSERT_EQ(figures({"--only", "5", "--columns", "2"}).exit_code, 0);
+  ASSERT_EQ(figures({"--only", "5", "--size", "17.8"}).exit_code, 0);
   const std::string before = content(out("fig05-stress-ratio.png"));
   for (const char* ending : {".pdf", ".svg", ".png"})
     fs::remove(out(std::string("fig05-stress-ratio") + ending));
@@ -156,6 +156,18 @@ TEST_F(Figures, are_drawn_again_by_their_script) {
   EXPECT_EQ(content(out("fig05-stress-ratio.png")), before);
   EXPECT_TRUE(fs::exists(out("fig05-stress-ratio.pdf")) && fs::exists(out("fig05-stress-ratio.svg")));
   EXPECT_EQ(before.substr(16, 4), std::string("\0\0\x08\x36", 4)) << "17.8 cm at 300 dpi are 2102 px";
+}
+
+TEST_F(Figures, have_the_size_and_the_frames_that_are_asked_for) {
+  ASSERT_EQ(figures({"--only", "5", "--size", "12x6"}).exit_code, 0);
+  EXPECT_EQ(content(out("fig05-stress-ratio.png")).substr(16, 8), std::string("\0\0\x05\x89\0\0\x02\xc4", 8))
+      << "12 x 6 cm at 300 dpi are 1417 x 708 px";
+  const Outcome none = figures({"--only", "5", "--at", "1"});
+  EXPECT_EQ(none.exit_code, 64);
+  expect_parts(none.err, {"--at: no figure that is asked for shows single frames"});
+  const Outcome far = figures({"--only", "8", "--set", "gamma_c=0.3", "--at", "80"});
+  EXPECT_EQ(far.exit_code, 65);
+  expect_parts(far.err, {"--at 80: no run of", "has such a frame"});
 }
 
 TEST_F(Figures, that_need_a_failure_are_left_out_of_a_bed_that_stands) {

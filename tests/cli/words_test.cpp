@@ -58,8 +58,8 @@ TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
   expect_refused(
       {"ensemble", "x.toml", "--jobs", "1.5"},
       "--jobs: expected a whole number from 0 to 256, found 1.5; talus ensemble --help tells more");
-  expect_refused({"figures", "x.h5", "--columns", "3"},
-                 "--columns: expected a whole number from 1 to 2, found 3;");
+  expect_refused({"figures", "x.h5", "-o", "x", "--size", "3"},
+                 "--size 3: expected a width in cm from 8 to 60, or WIDTHxHEIGHT");
   expect_refused({"forces", "x.h5", "--seed", "abc"}, "--seed: expected a number, found abc;");
   expect_refused({"render", "x.h5", "--map", "gamma", "--range", "a,b"},
                  "--range: expected LOW,HIGH, found a,b (LOW,HIGH: ends of the bar");

@@ -36,7 +36,7 @@ TEST(PlotFigure, puts_curves_over_the_same_places_into_one_table_with_units) {
   EXPECT_EQ(variable(figure, "law_2"), "1");
   EXPECT_EQ(variable(figure, "theta_c_at"), "19");
   EXPECT_EQ(figure.runs, std::vector<std::string>{"runs/a.h5"});
-  EXPECT_NE(gnuplot_text(figure, 8.6).find("behinds"), std::string::npos) << "drawn by plot.gp";
+  EXPECT_NE(gnuplot_text(figure).find("behinds"), std::string::npos) << "drawn by plot.gp";
 }
 
 TEST(PlotFigure, puts_others_into_others) {

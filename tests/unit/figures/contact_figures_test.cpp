@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
@@ -64,6 +65,37 @@ TEST_F(ContactFigures, HaveMeansAndErrorsOverTheRuns) {
   EXPECT_EQ(columns[0].values, (std::vector<double>{3.5, 3.5})) << "of 1 and 6";
   EXPECT_EQ(columns[1].name, "density_error");
   EXPECT_DOUBLE_EQ(columns[1].values[0], 2.5) << "half their difference";
+}
+
+TEST_F(ContactFigures, ShowTheFramesThatAreAskedFor) {
+  const auto figure = contact_directions(groups, {"frame1", "frame0", "frame2"});
+  ASSERT_TRUE(figure);
+  std::vector<std::string> names;
+  for (const Column& column : figure->tables[0].columns)
+    if (column.name.starts_with("density_") && !column.name.ends_with("_error")) {
+      names.push_back(column.name);
+      EXPECT_EQ(column.values[0], column.name == "density_start" ? 1.5 : 4.5) << column.name;
+    }
+  EXPECT_EQ(names, (std::vector<std::string>{"density_frame1", "density_start", "density_frame2"}));
+  EXPECT_GT(figure->height_over_width, 0.9) << "two rows of roses";
+  for (const auto& [word, code] :
+       {std::pair{"frame99", ExitCode::bad_data}, {"85", ExitCode::bad_data}, {"five", ExitCode::usage}})
+    try {
+      contact_directions(groups, {"frame1", word});
+      ADD_FAILURE() << word << " accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), code) << error.what();
+    }
+}
+
+TEST_F(ContactFigures, ShowOnlyRunsThatHaveTheFrame) {
+  groups[1].runs[1].analysis.frames.resize(2);
+  const RunChoice runs = {&groups[1].runs[1], &groups[1].runs[2]};
+  const std::vector<ShownFrames> shown = shown_frames(runs, {"frame2", "repose"}, {});
+  ASSERT_EQ(shown.size(), 2u);
+  EXPECT_EQ(shown[0].at.runs, (RunChoice{&groups[1].runs[2]}));
+  EXPECT_EQ(shown[1].at.runs, runs);
+  EXPECT_EQ(shown[1].label, "before failure");
 }
 
 TEST_F(ContactFigures, CompareTheFirstFrameWithTheLastBeforeFailure) {

@@ -283,7 +283,7 @@ TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
   for (runs::RunView& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
   const auto early = gamma_density_figure(groups_);
   EXPECT_TRUE(std::isnan(column(early->tables[0], "density_10")[0]));
-  EXPECT_EQ(variable(*early, "angles"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
+  EXPECT_EQ(variable(*early, "shown"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
 }
 
 TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
@@ -303,7 +303,7 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
         << scales[s];
     EXPECT_EQ(column(table, "p_o_0_error")[s], 0.0) << "both runs are the same";
   }
-  EXPECT_EQ(column(table, "p_o_failure").size(), scales.size());
+  EXPECT_EQ(column(table, "p_o_repose").size(), scales.size());
   for (runs::RunView& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
   EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
 }
@@ -372,7 +372,7 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
   const auto figure = wall_stress_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(figure->runs.size(), 2u) << "those that have failed";
-  EXPECT_NEAR(column(figure->tables[0], "sigma_xx_1")[0],
+  EXPECT_NEAR(column(figure->tables[0], "sigma_xx_0")[0],
               150.0 * 2.0 * statics.length / (mass * statics.gravity), 1e-12);
 }
 

@@ -34,24 +34,25 @@ TEST(CsvText, HasAnEmptyLineBetweenBlocks) {
 }
 
 TEST(GnuplotText, HasVariablesThenStyleThenScript) {
-  const std::string text = app::gnuplot_text(example_figure(), 8.6);
+  const std::string text = app::gnuplot_text(example_figure(), {8.6, 5.0});
   const auto at = [&text](const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
     return text.find(part);
   };
-  EXPECT_LT(at("figure = \"fig04-shear-stress\"\nwidth = 8.6  # cm\nheight = 4.3\n"), at("gamma_c = 0.25\n"));
+  EXPECT_LT(at("figure = \"fig04-shear-stress\"\nwidth = 8.6  # cm\nheight = 4.3\nasked_height = 5  # cm"),
+            at("gamma_c = 0.25\n"));
   EXPECT_LT(at("label_1 = 'PBC'\n"), at("set terminal pdfcairo"));
   EXPECT_LT(at("set terminal pdfcairo"), at("x_title = \"tan"));
   EXPECT_TRUE(text.ends_with("\nunset output\npass = pass + 1\nif (pass <= 3) reread\n"));
 }
 
-TEST(FigureWidth, IsThatOfOneOrTwoColumns) {
+TEST(FigureWidth, IsThatOfOneOrTwoColumnsUnlessItIsAskedFor) {
   Figure figure = example_figure();
-  EXPECT_EQ(app::figure_width(figure, 0), 8.6);
-  EXPECT_EQ(app::figure_width(figure, 2), 17.8);
+  EXPECT_EQ(app::figure_width(figure, {}), 8.6);
+  EXPECT_EQ(app::figure_width(figure, {12.0, 0.0}), 12.0);
   figure.wide = true;
-  EXPECT_EQ(app::figure_width(figure, 0), 17.8);
-  EXPECT_EQ(app::figure_width(figure, 1), 8.6);
+  EXPECT_EQ(app::figure_width(figure, {}), 17.8);
+  EXPECT_EQ(app::figure_width(figure, {0.0, 9.0}), 17.8);
 }
 
 TEST(ProvenanceJson, NamesRunsAndColumns) {

@@ -77,5 +77,26 @@ TEST(PanelRows, are_lettered_beyond_z) {
   EXPECT_EQ(rows[27][0].title, "(aa)");
 }
 
+TEST(PanelSheet, stands_in_more_columns_where_it_would_be_too_high) {
+  std::vector<std::vector<render::FrameView>> maps;
+  for (const int angle : {0, 5, 10, 15, 20}) {
+    maps.push_back({map_of("Stress ratio", angle, "black")});
+    maps.back()[0].y_max = 0.4;
+    maps.back()[0].tilt = angle;
+  }
+  const render::Font font = render::embedded_font();
+  const render::Sheet tower = panel_sheet(maps, "", 1000, render::largest_side, font);
+  const render::Sheet grid = panel_sheet(maps, "", 1000, 1300, font);
+  EXPECT_EQ(tower.views.size(), 6u) << "a heading and five maps";
+  EXPECT_GT(tower.height, 1300);
+  EXPECT_LE(grid.height, 1300);
+  ASSERT_EQ(grid.views.size(), 7u) << "the last row is filled up";
+  EXPECT_EQ(grid.views[1].layout.bed.box.y, grid.views[2].layout.bed.box.y);
+  EXPECT_EQ(grid.views[5].view.title, "(e)");
+  EXPECT_EQ(grid.views[5].view.scale_label, "10 D") << "that of the last map";
+  EXPECT_EQ(grid.views[6].view.title, "");
+  EXPECT_EQ(grid.views[0].view.title, "Stress ratio") << "once";
+}
+
 }  // namespace
 }  // namespace talus::pictures
