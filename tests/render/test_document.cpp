@@ -72,7 +72,8 @@ TEST(Document, ATransparentPictureHasNoGround) {
 TEST(Document, OfEightThousandGrainsHasLessThanTwoMegabytes) {
   FrameView view = test::sample_view(200, 40);
   for (int k = 0; k < 16000; ++k) {
-    const float x = 0.01f * static_cast<float>(k % 200), y = 0.01f * static_cast<float>(k / 400);
+    const int row = k / 400;
+    const float x = 0.01f * static_cast<float>(k % 200), y = 0.01f * static_cast<float>(row);
     view.lines.push_back({x, y, x + 0.01f, y + 0.003f, 1e-6f * static_cast<float>(k), {255, 60, 130, 255}});
   }
   const std::string pdf = drawn(*make_pdf_target(0.178, texts), view, 1600);
