@@ -137,7 +137,7 @@ class SvgTarget final : public DocumentTarget {
   }
 
   std::string add_gradient(const std::vector<Colour>& colours) {
-    const std::string name = fmt::format("g{}", ++names_);
+    std::string name = fmt::format("g{}", ++names_);
     file_ += fmt::format("<linearGradient id=\"{}\">\n", name);
     const auto last = static_cast<double>(colours.size() - 1);
     for (std::size_t k = 0; k < colours.size(); ++k)
