@@ -242,4 +242,79 @@ std::string events_csv(const runs::RunView& run, bool titles) {
   return csv_text(table, titles);
 }
 
+std::string moves_text(const MovedGrains& grains) {
+  constexpr std::size_t most_rows = 20;
+  const std::size_t count = grains.moves.size(), shown = std::min(count, most_rows);
+  const EventUnits unit(grains.statics);
+  std::string text = fmt::format("{}\n{} of {} grains moved {:.6g} D or more since the tilt began\n",
+                                 grains.path, count, grains.statics.free_count, grains.displacement);
+  if (count == 0) return text;
+  TextTable table{{{"grain", true},
+                   {"frame", true},
+                   {"theta", true, "deg"},
+                   {"time", true, "s"},
+                   {"x", true, "D"},
+                   {"y", true, "D"},
+                   {"depth", true, "D"},
+                   {"moved", true, "D"}},
+                  {}};
+  for (const runs::FirstMove& move : std::span(grains.moves).first(shown))
+    table.rows.push_back({{std::to_string(move.grain)},
+                          {std::to_string(move.frame)},
+                          {number_cell("{:.3f}", degrees(move.tilt))},
+                          {number_cell("{:.3f}", move.time)},
+                          {number_cell("{:.1f}", move.x / unit.diameter)},
+                          {number_cell("{:.1f}", move.y / unit.diameter)},
+                          {number_cell("{:.1f}", move.depth / unit.diameter)},
+                          {number_cell("{:.4g}", move.displacement / unit.diameter)}});
+  text += "\n" + aligned_text(table, 1);
+  if (shown < count) text += fmt::format("the first {}; --csv and --json have all\n", shown);
+  return text;
+}
+
+namespace {
+
+/// What is told of each, with the unit.
+struct MoveField {
+  const char *name, *unit;
+  Json (*value)(const runs::FirstMove& move);
+};
+constexpr MoveField move_fields[] = {
+    {"grain", "", [](const runs::FirstMove& move) -> Json { return move.grain; }},
+    {"frame", "", [](const runs::FirstMove& move) -> Json { return move.frame; }},
+    {"tilt", "rad", [](const runs::FirstMove& move) -> Json { return move.tilt; }},
+    {"time", "s", [](const runs::FirstMove& move) -> Json { return move.time; }},
+    {"x", "m", [](const runs::FirstMove& move) -> Json { return move.x; }},
+    {"y", "m", [](const runs::FirstMove& move) -> Json { return move.y; }},
+    {"depth", "m", [](const runs::FirstMove& move) -> Json { return move.depth; }},
+    {"displacement", "m", [](const runs::FirstMove& move) -> Json { return move.displacement; }},
+};
+
+}  // namespace
+
+std::string moves_json(const MovedGrains& grains) {
+  const double diameter = grains.statics.mean_diameter;
+  Json json = {{"path", grains.path},
+               {"mean_diameter", diameter},
+               {"displacement", grains.displacement * diameter},
+               {"grains", Json::array()}};
+  for (const runs::FirstMove& move : grains.moves) {
+    Json& row = json["grains"].emplace_back(Json::object());
+    for (const MoveField& field : move_fields) row[field.name] = field.value(move);
+  }
+  return json_text(json);
+}
+
+std::string moves_csv(const MovedGrains& grains, bool titles) {
+  TextTable table{{{"run"}}, {}};
+  for (const MoveField& field : move_fields)
+    table.columns.push_back({field.name + (*field.unit ? fmt::format(" ({})", field.unit) : std::string())});
+  for (const runs::FirstMove& move : grains.moves) {
+    auto& row = table.rows.emplace_back();
+    row.push_back({csv_quoted(grains.path)});
+    for (const MoveField& field : move_fields) row.push_back({field.value(move).dump()});
+  }
+  return csv_text(table, titles);
+}
+
 }  // namespace talus::app

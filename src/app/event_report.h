@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
+#include "runs/first_moves.h"
 #include "runs/run_view.h"
 
 namespace talus::app {
@@ -22,5 +24,17 @@ std::string events_json(const runs::RunView& run);
 /// A line for each event, with the columns of the table of quantities; SI units, radians, empty where there
 /// is no value. The line of their titles, with units, is the same for all runs.
 std::string events_csv(const runs::RunView& run, bool titles);
+
+/// The first grains of a run that moved so far (runs/first_moves.h), as a table of the first of them; all of
+/// them as JSON, and as lines of CSV. Units as above.
+struct MovedGrains {
+  std::string path;
+  RunStatics statics;
+  double displacement = 0.0;  ///< D
+  std::vector<runs::FirstMove> moves;
+};
+std::string moves_text(const MovedGrains& grains);
+std::string moves_json(const MovedGrains& grains);
+std::string moves_csv(const MovedGrains& grains, bool titles);
 
 }  // namespace talus::app

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "app/choices.h"
 #include "app/commands.h"
@@ -19,6 +20,7 @@ struct EventsArguments {
   std::vector<std::string> settings;
   runs::AnalysisOptions options;
   std::size_t largest = 0;
+  std::optional<double> displacement;  ///< D
   bool json = false, csv = false, quiet = false;
 };
 
@@ -28,14 +30,27 @@ std::string text_of(const EventsArguments& arguments, const runs::RunView& run, 
   return (first ? "" : "\n") + events_text(run, arguments.largest);
 }
 
+MovedGrains moved_grains(const std::string& path, double displacement) {
+  const io::RunFile run = io::RunFile::open(path);
+  const RunStatics& statics = run.header().statics;
+  return {path, statics, displacement, runs::first_moves(run, displacement * statics.mean_diameter)};
+}
+
+std::string text_of(const EventsArguments& arguments, const MovedGrains& grains, bool first) {
+  if (arguments.json) return (first ? "[" : ",\n") + moves_json(grains);
+  if (arguments.csv) return moves_csv(grains, first);
+  return (first ? "" : "\n") + moves_text(grains);
+}
+
 void list_events(const EventsArguments& arguments) {
   const analysis::AnalysisParameters parameters = runs::parse_analysis_settings(arguments.settings);
   runs::AnalysisOptions options = arguments.options;
   options.progress = count_shown("analysis", arguments.quiet);
   bool first = true;
   for (const std::string& path : runs_among(arguments.runs)) {
-    const runs::RunView run = runs::analysed_run(path, parameters, options);
-    print_text(text_of(arguments, run, first));
+    print_text(arguments.displacement
+                   ? text_of(arguments, moved_grains(path, *arguments.displacement), first)
+                   : text_of(arguments, runs::analysed_run(path, parameters, options), first));
     std::fflush(stdout);
     first = false;
   }
@@ -47,7 +62,9 @@ void list_events(const EventsArguments& arguments) {
 void add_events_command(CLI::App& app) {
   auto arguments = std::make_shared<EventsArguments>();
   CLI::App* command = app.add_subcommand(
-      "events", "List the rearrangements of runs on the way to failure: when, how large, where");
+      "events",
+      "List the rearrangements of runs on the way to failure: when, how large, where; or the first "
+      "grains to move");
   command
       ->add_option("RUNS", arguments->runs,
                    "Run files. Their analysis is read from the file, or made and stored as by talus analyze")
@@ -56,17 +73,28 @@ void add_events_command(CLI::App& app) {
                       ->add_option("--largest", arguments->largest,
                                    "Only so many events of each run, those that released most energy")
                       ->check(in_range<std::size_t>(1, 1000000));
-  command
-      ->add_option(
-          "--set", arguments->settings,
-          "Change a parameter of the analysis, e.g. --set event_velocity=0.05 (see docs/analysis.md)")
-      ->allow_extra_args(false);
+  auto* settings =
+      command
+          ->add_option(
+              "--set", arguments->settings,
+              "Change a parameter of the analysis, e.g. --set event_velocity=0.05 (see docs/analysis.md)")
+          ->allow_extra_args(false);
   command
       ->add_option("--threads", arguments->options.threads,
                    "Frames analysed side by side; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
-  command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
+  auto* force =
+      command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
+  command
+      ->add_option(
+          "--displacement", arguments->displacement,
+          "Instead of events the first grains that are so far, in mean diameters, from where they were "
+          "when the tilt began: when and where")
+      ->check(in_range(1e-6, 1e6))
+      ->excludes(largest)
+      ->excludes(settings)
+      ->excludes(force);
   auto* json = command->add_flag(
       "--json", arguments->json,
       "As a JSON list with all numbers of each run and its events, in SI units and radians");
@@ -80,7 +108,8 @@ void add_events_command(CLI::App& app) {
       "how deep they lie, and their centre, between the frames around the event.\n"
       "dV/V, dy/y: change of the volume and of the height of the centre of mass, above\n"
       "0 where the bed dilates; dz: of the coordination number. docs/analysis.md has\n"
-      "how all is found.");
+      "how all is found. --displacement: in the frame of the bed, by frames of the run;\n"
+      "x, y and depth below the mean surface are those in that frame.");
   command->callback([arguments] { list_events(*arguments); });
 }
 

@@ -137,12 +137,15 @@ void select_by_key(Gui& gui, ImWchar key) {
     say(gui, "Nothing is selected.");
 }
 
-/// The speed of a replay times a factor.
+/// The speed of a replay times a factor; of a run that is computed the next pace.
 void change_speed(Gui& gui, double factor) {
   constexpr double fastest_replay = 20.0;  // deg/s
   view::ViewModel& model = gui.model;
-  if (model.is_live())
-    return say(gui, "A run that is computed goes as fast as it can; < and > are for a replay.");
+  if (model.is_live()) {
+    const int last = static_cast<int>(std::size(view::live_paces)) - 1;
+    model.state.pace = std::clamp(model.state.pace + (factor < 1.0 ? -1 : 1), 0, last);
+    return say(gui, fmt::format("Pace of the run: {}.", view::live_paces[model.state.pace].name));
+  }
   model.set_speed(std::min(factor * model.speed(), fastest_replay));
   say(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
                        model.speed() >= fastest_replay ? ", the maximum" : ""));
@@ -201,7 +204,7 @@ constexpr Key all_keys[] = {
      {'d', 'j', 'p', 'c'},
      go_by_key},
     {"< >",
-     "speed of a replay",
+     "speed of a replay, pace of a run",
      {'<', '>'},
      [](Gui& gui, ImWchar key) { change_speed(gui, key == '<' ? 0.8 : 1.25); }},
     {"1 ... 9",

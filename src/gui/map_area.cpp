@@ -6,6 +6,7 @@
 #include "gui/actions.h"
 #include "gui/map_mouse.h"
 #include "gui/panels.h"
+#include "pictures/bed_view.h"
 #include "render/layout.h"
 
 namespace talus::gui {
@@ -110,10 +111,36 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   }
 }
 
-/// Whether there is room for the arrow of gravity, right of the legend.
+/// Whether there is room for the scale bar and the arrow of gravity, right of the legend.
 bool shows_gravity(float width, float em) { return width > 26.0f * em; }
+bool shows_scale(float width, float em) { return width > 40.0f * em; }
 
-float legend_width(float width, float em) { return width - (shows_gravity(width, em) ? 3.5f * em : 0.0f); }
+/// em
+constexpr float gravity_room = 3.5f, scale_room = 9.0f;
+
+float legend_width(float width, float em) {
+  return width - (shows_gravity(width, em) ? gravity_room * em : 0.0f) -
+         (shows_scale(width, em) ? scale_room * em : 0.0f);
+}
+
+/// The scale bar, which ends at `right`, with its length below it; pixels: of a mean diameter.
+void draw_scale(Gui& gui, const ImVec2& right, double pixels) {
+  const float em = gui.em;
+  constexpr float longest = 0.3f;  // of the width that scale_diameters is told
+  const double diameters =
+      pictures::scale_diameters(static_cast<double>((scale_room - 1.5f) * em / longest) / pixels, 1.0);
+  const auto length = static_cast<float>(diameters * pixels);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = packed(gui.colours.ink);
+  const float left = right.x - length;
+  list.AddLine({left, right.y}, right, ink, 0.1f * em);
+  for (const float x : {left, right.x})
+    list.AddLine({x, right.y - 0.3f * em}, {x, right.y + 0.3f * em}, ink, 0.1f * em);
+  const std::string label = fmt::format("{:.4g} D", diameters);
+  const float wide = rich_width(*ImGui::GetFont(), em, label);
+  add_rich_text(list, {left + 0.5f * (length - wide), right.y + 0.3f * em}, ink, label);
+  note_place(gui, "scale", {left, right.y - 0.3f * em}, {right.x, right.y + 1.3f * em});
+}
 
 /// At least so much that the arrow of gravity has its place.
 float below_map(const render::FrameView& annotated, float width, float em) {
@@ -175,6 +202,10 @@ void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with
     draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
     note_place(gui, "gravity", {under.x - 1.5f * gui.em, under.y - 1.1f * gui.em},
                {under.x + 1.1f * gui.em, under.y + 1.1f * gui.em});
+  }
+  if (shows_scale(room.x, gui.em) && with_gravity) {
+    draw_scale(gui, {under.x - 2.8f * gui.em, under.y - 0.5f * gui.em},
+               of.run.mean_diameter() * layout.bed.camera.scale);
   }
   use_mouse(gui, of, shown);
 }

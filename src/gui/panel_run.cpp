@@ -62,8 +62,12 @@ void draw_live(Gui& gui, view::LiveRun& live) {
     if (named_button(gui, "deposit", "Deposit", "compute until the bed rests and the tilt begins: b"))
       deposit(gui);
   }
+  std::vector<std::string> paces;
+  for (const view::LivePace& pace : view::live_paces) paces.emplace_back(pace.name);
+  named_choice(gui, "pace", "pace", paces, state.pace);
   ImGui::Separator();
   draw_status(gui.colours, status, gui.model.theta_c_known(), gui.model.theta_c());
+  ImGui::TextWrapped("%s", applied_text(live.commands()).c_str());
   ImGui::Separator();
   if (gui.model.branch_line()) {
     if (named_button(gui, "reset", "Reset", "begin the branch anew: r")) reset(gui);
@@ -153,6 +157,13 @@ void draw_branch_button(Gui& gui) {
   if (named_button(gui, "branch here", "branch here",
                    "go on from this frame, as a run of its own: N; the run stays as it is"))
     branch_here(gui);
+}
+
+std::string applied_text(std::span<const Command> commands) {
+  const std::vector<Command> given = session::given_commands(commands);
+  if (given.empty()) return "no command applied yet";
+  return fmt::format("applied last, after step {}: {}", given.back().step,
+                     session::command_text(given.back()));
 }
 
 std::string frame_counter(std::size_t frame, std::size_t count) {

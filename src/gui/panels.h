@@ -13,6 +13,8 @@ const char* group_of_key(ImWchar key);
 
 /// Playing and stepping, of a run that is computed or replayed.
 void draw_run_panel(Gui& gui);
+/// "applied last, after step 120: friction 0.3": what was done last to a run that is computed.
+std::string applied_text(std::span<const Command> commands);
 /// "frame 12 (0 to 81)": a frame of a run with so many of them, counted from 0 as everywhere.
 std::string frame_counter(std::size_t frame, std::size_t count);
 /// Which map is drawn, and how.

@@ -14,18 +14,6 @@ bool is_seen(const render::FrameView& view, double left, double right, double bo
   return right > view.x_min && left < view.x_max && top > view.y_min && bottom < view.y_max;
 }
 
-/// 10 D; or a round number of D that neither fills the picture nor is lost in it.
-double scale_diameters(double width, double diameter) {
-  constexpr double longest = 0.3, shortest = 0.02;  // of the width
-  const double share = 10.0 * diameter / width;
-  if (share <= longest && share >= shortest) return 10.0;
-  const double wanted = (share > longest ? longest : 2.0 * shortest) * width / diameter;
-  const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
-  for (const double factor : {5.0, 2.0})
-    if (factor * decade <= wanted) return factor * decade;
-  return decade;
-}
-
 }  // namespace
 
 bool is_seen(const render::FrameView& view, const render::Disc& disc) {
@@ -81,6 +69,17 @@ render::Disc disc_of(const BedFrame& bed, Index grain) {
     disc.hatched = 1.0f;
   }
   return disc;
+}
+
+double scale_diameters(double width, double diameter) {
+  constexpr double longest = 0.3, shortest = 0.02;  // of the width
+  const double share = 10.0 * diameter / width;
+  if (share <= longest && share >= shortest) return 10.0;
+  const double wanted = (share > longest ? longest : 2.0 * shortest) * width / diameter;
+  const double decade = std::pow(10.0, std::floor(std::log10(wanted)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * decade <= wanted) return factor * decade;
+  return decade;
 }
 
 void add_surroundings(render::FrameView& view, const BedFrame& bed) {

@@ -20,6 +20,9 @@ void add_line(render::FrameView& view, const render::Line& line, const RunStatic
 /// A grain without its look; a grain of the floor is hatched.
 render::Disc disc_of(const BedFrame& bed, Index grain);
 
+/// The length of a scale bar, in mean diameters: a round one, 10 where that suits a picture so wide (m).
+double scale_diameters(double width, double diameter);
+
 /// Walls and smooth floor, where they are in what is shown, and the scale bar.
 void add_surroundings(render::FrameView& view, const BedFrame& bed);
 

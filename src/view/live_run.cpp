@@ -84,11 +84,13 @@ struct LiveRun::State {
   Clock::time_point show_at;   ///< the next frame
   Clock::time_point speed_since;
   std::int64_t speed_step = 0;
+  Clock::time_point due;  ///< of the next step, by the pace
 
   mutable std::mutex mutex;
   std::condition_variable_any asked;
   std::condition_variable answered;
   std::optional<Goal> goal;
+  LivePace pace = live_paces[0];
   bool pause_asked = false;
   std::function<void()> request;  ///< that is waited for; the solver does it between two steps
   std::exception_ptr refusal;     ///< of the request done last
@@ -116,6 +118,7 @@ struct LiveRun::State {
   io::Segment recorded_until(const Taken& end) const;
   void record(const std::string& output, bool overwrite);
   void take_step();
+  void wait_for_pace(const std::stop_token& stop);
   void keep(const std::function<void()>& store_something);
   void take_in();
   void describe();
@@ -156,6 +159,7 @@ void LiveRun::State::work(const std::stop_token& stop) {
     answer();
     if (goes_on()) {
       take_step();
+      wait_for_pace(stop);
       continue;
     }
     show_pause();
@@ -285,6 +289,18 @@ void LiveRun::State::take_step() {
   if (Clock::now() >= show_at) show_frame();
 }
 
+/// Until the next step is due, or something is asked for.
+void LiveRun::State::wait_for_pace(const std::stop_token& stop) {
+  std::unique_lock lock(mutex);
+  const bool tilts = status.tilt_rate > 0.0 && !status.depositing;
+  const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / status.tilt_rate : pace.seconds;
+  if (!(seconds > 0.0)) return;
+  const std::chrono::duration<double> step(scenario::time_step(session.scenario()) / seconds);
+  // What was late is not made good later, so that nothing rushes after a slow step.
+  due = std::max(due + std::chrono::duration_cast<Clock::duration>(step), Clock::now());
+  asked.wait_until(lock, stop, due, [this] { return pause_asked || request; });
+}
+
 /// Does something that empties the segment, unless it fails.
 void LiveRun::State::keep(const std::function<void()>& store_something) {
   try {
@@ -401,6 +417,12 @@ void LiveRun::play() { state_->play_to({}); }
 void LiveRun::pause() {
   const std::lock_guard lock(state_->mutex);
   state_->pause_asked = true;
+  state_->asked.notify_one();
+}
+
+void LiveRun::set_pace(const LivePace& pace) {
+  const std::lock_guard lock(state_->mutex);
+  state_->pace = pace;
 }
 
 void LiveRun::step(std::int64_t count) { state_->play_to({.step = status().step + count}); }

@@ -17,6 +17,17 @@
 
 namespace talus::view {
 
+/// How fast a run goes on, at most.
+struct LivePace {
+  const char* name;      ///< "real time"
+  double tilt = 0.0;     ///< deg of tilt in a second of the clock; a bed that is not tilted is as with 0
+  double seconds = 0.0;  ///< simulated, in a second of the clock; both 0: as fast as it can be computed
+};
+/// Those that are offered, in order.
+inline constexpr LivePace live_paces[] = {
+    {"fastest"},     {"real time", 0.0, 1.0}, {"0.1°/s", 0.1}, {"0.2°/s", 0.2},
+    {"0.5°/s", 0.5}, {"1°/s", 1.0},           {"2°/s", 2.0},   {"5°/s", 5.0}};
+
 /// What the solver's thread has to say, a copy that does not change.
 struct LiveStatus {
   std::int64_t step = 0;
@@ -53,9 +64,10 @@ class LiveRun {
 
   void play();
   void pause();
-  void step(std::int64_t count);  ///< so many steps, then pause
-  void run_to(double tilt);       ///< rad: plays until the tilt is reached, then pauses
-  void finish_deposition();       ///< plays until the tilt begins, then pauses
+  void step(std::int64_t count);        ///< so many steps, then pause
+  void run_to(double tilt);             ///< rad: plays until the tilt is reached, then pauses
+  void finish_deposition();             ///< plays until the tilt begins, then pauses
+  void set_pace(const LivePace& pace);  ///< from the next step on
   /// Pauses, and returns when the solver rests: from then on it touches no file until it is asked to go on.
   void halt();
   /// Applies a command before the next step, and returns when that is done; its step number is filled in.

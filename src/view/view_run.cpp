@@ -385,6 +385,7 @@ void ViewModel::set_speed(double degrees_per_second) {
 }
 
 bool ViewModel::update(double seconds) {
+  if (live_) live_->set_pace(live_paces[state.pace]);
   bool changed = live_ && take_live();
   if (replay_ && replay_->advance(seconds)) {
     show_replayed();

@@ -97,6 +97,7 @@ struct ViewState {
   double drop_height = 5.0;   ///< D
   double run_to_tilt = 10.0;  ///< deg
   int drop_count = 5;
+  int pace = 0;        ///< of live_paces
   int seed = 1;        ///< of the next reset
   std::string folder;  ///< that the list of files shows; empty: where the program was started
   std::string picture_path = "talus.png";

@@ -75,6 +75,25 @@ TEST_F(Events, are_told_as_json_and_as_csv) {
             std::ranges::count(csv.out, ','));
 }
 
+TEST_F(Events, name_the_first_grains_that_moved_so_far) {
+  const Outcome table = events({"--displacement", "1e-5"});
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  expect_texts(table.out, {"of 40 grains moved 1e-05 D or more since the tilt began\n", "grain  frame  theta",
+                           "the first 20; --csv and --json have all\n"});
+  const Outcome csv =
+      run_talus({"events", "bed.h5", "bed.h5", "--displacement", "1e-5", "--csv"}, folder_.path());
+  EXPECT_TRUE(csv.out.starts_with(
+      "run,grain,frame,tilt (rad),time (s),x (m),y (m),depth (m),displacement (m)\n\"bed.h5\","))
+      << csv.out;
+  EXPECT_GT(std::ranges::count(csv.out, '\n'), 41) << "all of both runs";
+  const Outcome json = events({"--displacement", "5", "--json"});
+  expect_texts(json.out, {"[{\n  \"path\": \"bed.h5\"", "\"displacement\": 0.05", "\"grains\": []"});
+  expect_texts(events({"--displacement", "5"}).out,
+               {"0 of 40 grains moved 5 D or more since the tilt began\n"});
+  EXPECT_EQ(events({"--displacement", "5", "--largest", "3"}).exit_code, 64);
+  EXPECT_EQ(events({"--displacement", "0"}).exit_code, 64);
+}
+
 TEST_F(Events, are_refused_with_what_is_wrong) {
   EXPECT_EQ(run_talus({"events", "none.h5"}, folder_.path()).exit_code, 66);
   const Outcome typo = events({"--set", "event_velocty=1"});

@@ -30,6 +30,27 @@ TEST_F(Replay, a_click_on_the_legend_changes_nothing) {
   EXPECT_FALSE(model_.state.map.range_low || model_.state.map.range_high);
 }
 
+TEST_F(Replay, a_scale_bar_stands_beside_the_arrow_of_gravity) {
+  const auto length = [this] {
+    gui_.frame();
+    const gui::WidgetPlace bar = gui_.place("scale"), gravity = gui_.place("gravity");
+    EXPECT_LT(bar.x1, gravity.x0);
+    return static_cast<double>(bar.x1 - bar.x0);
+  };
+  const auto pixels = [this] {  // of D
+    const gui::WidgetPlace map = gui_.place("map");
+    const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
+    const pictures::MapExtent part = model_.first().part(aspect);
+    return (map.x1 - map.x0) / (part.x_max - part.x_min) * model_.mean_diameter();
+  };
+  for (const double zoom : {1.0, 3.0}) {
+    model_.state.camera.zoom = zoom;
+    const double bar = length(), diameters = bar / pixels();
+    EXPECT_NEAR(diameters, zoom == 1.0 ? 1.0 : 0.2, 0.01) << "round, and it fits beside the legend";
+    EXPECT_GT(bar, 15.0);
+  }
+}
+
 TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
   model_.state.map.layers = {pictures::MapKind::clusters, pictures::MapKind::forces};
   for (const int width : {1280, 1400, 1500, 1700}) {

@@ -411,7 +411,18 @@ TEST_F(Live, is_saved_by_a_key_and_goes_on_there) {
   EXPECT_TRUE(gui_.has("save state"));
 }
 
+TEST_F(Live, has_a_pace) {
+  gui_.key('>');
+  EXPECT_EQ(model_.state.pace, 1);
+  EXPECT_NE(model_.state.message.find("real time"), std::string::npos) << model_.state.message;
+  gui_.key('<');
+  gui_.key('<');
+  EXPECT_EQ(model_.state.pace, 0);
+  gui_.place("pace");
+}
+
 TEST_F(Live, friction_and_pushes_are_commands) {
+  EXPECT_EQ(gui::applied_text(model_.live()->commands()), "no command applied yet");
   gui_.click("deposit");
   ASSERT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
   gui_.key('n');
@@ -426,6 +437,9 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   EXPECT_EQ(commands.back().kind, CommandKind::friction);
   EXPECT_NEAR(commands.back().x, status().friction, 1e-12);
   EXPECT_NE(commands.back().x, 0.5) << "which it was before";
+  EXPECT_TRUE(gui::applied_text(commands).starts_with(
+      fmt::format("applied last, after step {}: friction ", commands[1].step)))
+      << gui::applied_text(commands);
   gui_.drag("tilt rate", 0.3f, 0.5f, 0.7f, 0.5f);
   ASSERT_EQ(model_.live()->commands().size(), 3u) << "only where it is let go";
   EXPECT_EQ(model_.live()->commands()[2].kind, CommandKind::tilt_rate);

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <functional>
 
+#include "analysis/packing/packing.h"
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
+#include "runs/first_moves.h"
 #include "support/temporary_folder.h"
 
 namespace talus::runs {
@@ -226,6 +228,43 @@ TEST(EventLaws, of_too_few_events_are_not_known) {
   find_event_laws(not_known, none);
   EXPECT_EQ(none.event_count, 0.0);
   EXPECT_TRUE(std::isnan(none.event_dilating_share));
+}
+
+TEST_F(EventCatalogue, first_moves_are_in_the_order_of_the_frames) {
+  analyse(10.285);
+  const io::RunFile run = io::RunFile::open(path_);
+  const std::vector<FirstMove> moves = first_moves(run, 0.2 * diameter);
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_EQ(moves[0].grain, 0);
+  EXPECT_EQ(moves[0].frame, 1u);
+  EXPECT_NEAR(moves[0].displacement, 0.5 * diameter, 1e-9) << "not 2 D, where it ends";
+  EXPECT_NEAR(degrees(moves[0].tilt), 10.1, 1e-6);
+  EXPECT_NEAR(moves[0].time, 0.11, 1e-9);
+  EXPECT_NEAR(moves[0].x, 1.5 * diameter, 1e-9);
+  EXPECT_EQ(moves[1].grain, 1);
+  EXPECT_EQ(moves[1].frame, 2u);
+  EXPECT_NEAR(moves[1].displacement, 0.25 * diameter, 1e-9) << "downwards";
+  const RunStatics& statics = run.header().statics;
+  EXPECT_NEAR(moves[1].depth + moves[1].y, analysis::frame_volume({run.frame(2), statics}) / statics.length,
+              1e-12);
+  EXPECT_TRUE(first_moves(run, 2.5 * diameter).empty());
+}
+
+TEST_F(EventCatalogue, first_moves_go_round_a_periodic_bed_and_the_farthest_comes_first) {
+  analyse(10.285, {}, [](io::Segment& segment) {
+    for (std::size_t k = 0; k < segment.frames.size(); ++k) {
+      segment.frames[k].x[0] = (1.0 + 2.0 * static_cast<double>(k)) * diameter;
+      segment.frames[k].x[1] = std::fmod(4.0 + 3.0 * static_cast<double>(k), 8.0) * diameter;
+    }
+  });
+  const std::vector<FirstMove> moves = first_moves(io::RunFile::open(path_), 5.5 * diameter);
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_EQ(moves[0].grain, 1) << "6 D in two frames";
+  EXPECT_EQ(moves[0].frame, 2u);
+  EXPECT_EQ(moves[1].frame, 3u);
+  const std::vector<FirstMove> near = first_moves(io::RunFile::open(path_), diameter);
+  ASSERT_EQ(near.size(), 2u);
+  EXPECT_EQ(near[0].grain, 1) << "of the same frame it went farther";
 }
 
 }  // namespace

@@ -101,6 +101,33 @@ TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
   EXPECT_TRUE(run.recorded_frames(99).empty());
 }
 
+/// Times are lower bounds, which hold however busy the machine is.
+TEST(LiveRun, goes_no_faster_than_its_pace) {
+  const auto seconds_of = [](LiveRun& run, std::int64_t steps) {
+    const auto begin = std::chrono::steady_clock::now();
+    run.step(steps);
+    paused(run);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  };
+  LiveRun run = live(small_bed());
+  const double h = scenario::time_step(small_bed());
+  run.set_pace({"a tenth of real time", 0.0, 0.1});
+  EXPECT_GE(seconds_of(run, 20), 19.0 * 10.0 * h);
+  EXPECT_EQ(run.status().state_hash, hash_of(plain_run(20))) << "the bits are the same";
+  run.set_pace({"0.5 deg/s", 0.5, 0.0});
+  run.finish_deposition();
+  paused(run);
+  EXPECT_GE(seconds_of(run, 20), 19.0 * h * run.status().tilt_rate / 0.5);
+  run.set_pace({"a step in an hour", 0.0, h / 3600.0});
+  const std::int64_t before = run.status().step;
+  run.play();
+  while (run.status().step == before) std::this_thread::yield();
+  run.pause();
+  paused(run);
+  run.apply({0, CommandKind::friction, -1, 0.4, 0.0});
+  EXPECT_EQ(run.status().friction, 0.4) << "what is asked for does not wait";
+}
+
 TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("late.h5");
