@@ -12,17 +12,21 @@
 namespace talus::render {
 namespace {
 
+/// Beside the letters of ASCII and of Latin-1, which names have.
 constexpr auto special_code_points =
-    std::to_array<char32_t>({U'°', U'±', U'²', U'³', U'·', U'¹', U'×', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η',
-                             U'θ', U'μ', U'ν', U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'⁰', U'⁴', U'⁵', U'⁶',
-                             U'⁷', U'⁸', U'⁹', U'⁻', U'ℓ', U'→', U'−', U'√', U'≈', U'≤', U'≥', U'⟨', U'⟩'});
-constexpr char32_t first_ascii = 32, last_ascii = 126;
-constexpr std::size_t ascii_count = last_ascii - first_ascii + 1;
+    std::to_array<char32_t>({U'°', U'±', U'²', U'³', U'·', U'¹', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η', U'θ',
+                             U'μ', U'ν', U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'⁰', U'⁴', U'⁵', U'⁶', U'⁷',
+                             U'⁸', U'⁹', U'⁻', U'ℓ', U'→', U'−', U'√', U'≈', U'≤', U'≥', U'⟨', U'⟩'});
+constexpr char32_t first_ascii = 32, last_ascii = 126, first_latin = 0xC0, last_latin = 0xFF;
+constexpr std::size_t ascii_count = last_ascii - first_ascii + 1, latin_count = last_latin - first_latin + 1;
 
 constexpr auto code_points = [] {
-  std::array<char32_t, ascii_count + special_code_points.size()> all{};
-  for (std::size_t k = 0; k < ascii_count; ++k) all[k] = first_ascii + static_cast<char32_t>(k);
-  std::copy(special_code_points.begin(), special_code_points.end(), all.begin() + ascii_count);
+  std::array<char32_t, ascii_count + latin_count + special_code_points.size()> all{};
+  auto* next = all.begin();
+  for (char32_t code = first_ascii; code <= last_ascii; ++code) *next++ = code;
+  for (char32_t code = first_latin; code <= last_latin; ++code) *next++ = code;
+  std::copy(special_code_points.begin(), special_code_points.end(), next);
+  std::sort(all.begin(), all.end());
   return all;
 }();
 static_assert(std::is_sorted(code_points.begin(), code_points.end()));
@@ -109,6 +113,15 @@ TextLine set_text(const Font& font, std::string_view text, double em) {
     subscript = false;
   }
   return line;
+}
+
+bool can_be_set(const Font& font, std::string_view text) {
+  try {
+    set_text(font, text, 1.0);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 std::vector<TextRun> text_runs(std::string_view text) {

@@ -46,6 +46,9 @@ struct TextLine {
 /// Throws Error(internal) at a code point that is not listed in font_code_points(), and at malformed UTF-8.
 TextLine set_text(const Font& font, std::string_view text, double em);
 
+/// Whether set_text knows all letters of a text.
+bool can_be_set(const Font& font, std::string_view text);
+
 /// A part of a line that is of one size, as documents write it.
 struct TextRun {
   std::string text;  ///< UTF-8, without the marks of subscripts

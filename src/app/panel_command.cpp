@@ -10,6 +10,7 @@
 #include "app/progress.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/visible_text.h"
 #include "pictures/panel.h"
 #include "render/document.h"
 
@@ -27,6 +28,12 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
   const std::string& output = arguments.panel.output;
   if (!output.ends_with(".png") && !render::is_document(output))
     throw Error(ExitCode::usage, output + ": expected a name that ends in .png, .pdf or .svg");
+  if (!render::can_be_set(render::embedded_font(), arguments.panel.title))
+    throw Error(
+        ExitCode::usage,
+        fmt::format("--title {}: pictures have the letters of Latin-1 (UTF-8), some Greek ones and common "
+                    "signs only",
+                    visible_word(arguments.panel.title)));
   pictures::MapOptions options = arguments.maps;
   options.document = render::is_document(output);
   pictures::MapPlan plan = pictures::plan_maps(options);
@@ -66,7 +73,7 @@ void add_panel_command(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->required();
-  command->add_option("--title", arguments->panel.title, "Text above all maps");
+  command->add_option("--title", arguments->panel.title, "Text above all maps; _c sets c as a subscript");
   command
       ->add_option("-o,--output", arguments->panel.output,
                    "Picture to write: FILE.png, or FILE.pdf or FILE.svg, which stay sharp at any size")

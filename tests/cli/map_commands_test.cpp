@@ -93,6 +93,8 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"panel", "none.h5", "--map", "gamma,overloaded,forces", "--at", "0", "-o", "x.png", "--width", "500"},
        "--width 500"},
       {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.jpg"}, ".svg"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--title", "日本"}, "Latin-1"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--title", "a\nb"}, "Latin-1"},
       {{"run", "none.toml", "--map", "gamma"}, "--frames"},
       {{"run", "none.toml", "--frames", "maps"}, "--map"},
       {{"run", "none.toml", "--frames", "maps", "--map", "gamm"}, "gamma"},
