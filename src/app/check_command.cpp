@@ -13,6 +13,7 @@
 #include "base/errors.h"
 #include "io/run_repair.h"
 #include "scenario/keys.h"
+#include "scenario/scripted_command.h"
 #include "scenario/text.h"
 #include "scenario/tilt_program.h"
 #include "session/estimate.h"
@@ -33,6 +34,11 @@ Json scenario_json(const scenario::Scenario& scenario) {
   for (const scenario::ScenarioKey& key : scenario::scenario_keys()) {
     Json& section = key.section.empty() ? json : json[key.section];
     section[key.name] = std::visit([](const auto& value) -> Json { return value; }, key.get(scenario));
+  }
+  for (const scenario::ScriptedCommand& command : scenario.commands) {
+    Json& table = json["command"].emplace_back(Json::object());
+    for (const scenario::CommandKey& key : scenario::command_keys())
+      table[key.name] = std::visit([](const auto& value) -> Json { return value; }, key.get(command));
   }
   return json;
 }

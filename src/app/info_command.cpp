@@ -17,8 +17,10 @@
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "scenario/scenario.h"
+#include "scenario/scripted_command.h"
 #include "session/command.h"
 #include "session/run_header.h"
+#include "session/schedule.h"
 
 namespace talus::app {
 namespace {
@@ -41,6 +43,7 @@ struct RunInfo {
   double tilt = 0.0;                               ///< rad, of the last state
   std::size_t steps = 0;
   std::vector<Command> commands;
+  std::vector<std::string> waiting;   ///< commands of the scenario that a complete run has not come to
   std::vector<double> command_tilts;  ///< rad; none while the bed was being deposited
   std::size_t unconverged_steps = 0;  ///< of the tilt
   double solver_tolerance = none;     ///< asked of a bed at rest
@@ -61,13 +64,20 @@ double figure(const Figures& figures, const std::string& name) {
   return find_value(figures, name).value_or(none);
 }
 
-/// The tolerance of the stored scenario; none where it is a scenario of another version.
-double tolerance_of(const io::RunHeader& header, const std::string& path) {
-  try {
-    return runs::stored_scenario(header, path).solver.tolerance;
-  } catch (const Error&) {
-    return none;
+/// What the stored scenario tells; nothing where it is a scenario of another version.
+void read_scenario(const io::RunFile& run, RunInfo& info) try {
+  const scenario::Scenario scenario = runs::stored_scenario(run.header(), info.path);
+  info.solver_tolerance = scenario.solver.tolerance;
+  if (scenario.commands.empty() || !run.complete()) return;
+  const bool follows = scenario.tilt.after_failure != scenario::AfterFailure::stop;
+  const session::Schedule end = session::stored_schedule(run.checkpoint(), follows, info.path);
+  for (const std::size_t k : session::waiting_commands(scenario, end)) {
+    const scenario::ScriptedCommand& command = scenario.commands[k];
+    info.waiting.push_back(fmt::format("{}: {}, {}", scenario::command_section(k),
+                                       session::command_text(scenario::command_of(command)),
+                                       scenario::moment_text(command)));
   }
+} catch (const Error&) {
 }
 
 void count_steps(const std::vector<StepRow>& steps, RunInfo& info) {
@@ -112,7 +122,7 @@ RunInfo look_at(const std::string& path) {
   info.commands = session::given_commands(run.commands());
   info.branch = run.header().branch;
   info.command_tilts = tilts_of(info.commands, run);
-  info.solver_tolerance = tolerance_of(run.header(), path);
+  read_scenario(run, info);
   info.state_hash = run.has_state() ? hash_text(state_hash(run.checkpoint().world)) : "none";
   info.lost = run.lost();
   info.provenance = run.header().provenance;
@@ -143,6 +153,7 @@ void print_json(const RunInfo& info) {
                      {"unconverged_steps", info.unconverged_steps},
                      {"steps", info.steps},
                      {"commands", info.commands.size()},
+                     {"commands_not_carried_out", info.waiting},
                      {"state_hash", info.state_hash},
                      {"branch_of", branch ? Json(branch->run) : Json()},
                      {"branch_frame", branch ? Json(branch->frame) : Json()},
@@ -212,6 +223,7 @@ void print_report(const RunInfo& info) {
                                            short_number(info.residual_max), info.unconverged_steps));
   print_line("steps", std::to_string(info.steps));
   if (!info.commands.empty()) print_commands(info);
+  for (const std::string& command : info.waiting) print_line("not carried out", command);
   print_line("state hash", info.state_hash);
   print("results (SI)\n");
   for (const auto& [name, value] : info.results)

@@ -1,20 +1,99 @@
 #include "app/open_run.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/core.h>
 
+#include "app/frame_options.h"
 #include "app/output_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/hash.h"
 #include "base/output_file.h"
 #include "base/version.h"
 #include "base/visible_text.h"
+#include "scenario/scripted_command.h"
+#include "session/branch_start.h"
 #include "session/estimate.h"
+#include "session/frame_state.h"
+#include "session/recorder.h"
 #include "session/run_header.h"
 
 namespace talus::app {
 
+namespace {
+
+/// The scenario of a branch, and its text.
+scenario::Scenario scenario_of_branch(const RunRequest& request, const io::RunHeader& parent,
+                                      std::string& text) {
+  if (!request.scenario.empty()) return scenario::read_scenario(request.scenario, request.settings, &text);
+  text = parent.scenario_given;
+  return scenario::parse_scenario(parent.scenario_resolved, request.branch + ":/parameters",
+                                  request.settings);
+}
+
+/// Throws where the branch would have had another past than the run that it leaves.
+void require_same_past(const RunRequest& request, const scenario::Scenario& parent,
+                       const scenario::Scenario& branch, const session::Schedule& start) {
+  scenario::Scenario past = branch;
+  past.contact = parent.contact;
+  past.solver = parent.solver;
+  past.output = parent.output;
+  past.guards = parent.guards;
+  past.tilt.end_angle = parent.tilt.end_angle;
+  past.tilt.after_failure = parent.tilt.after_failure;
+  past.tilt.lowering_rate = parent.tilt.lowering_rate;
+  past.commands = parent.commands;
+  const std::string differences = scenario::differences(parent, past);
+  if (!differences.empty())
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("a branch of {} has its past: expected the same bed, deposition and course of the "
+                    "tilt, but {}; a command of the kind tilt_rate changes the tilt from there on",
+                    request.branch, differences));
+  for (std::size_t k = 0; k < branch.commands.size(); ++k) {
+    const scenario::ScriptedCommand& command = branch.commands[k];
+    if (session::is_reached(command, branch, start.script) &&
+        std::ranges::find(parent.commands, command) == parent.commands.end())
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{} is due {}, before the branch of {} begins; expected a later one",
+                              scenario::command_section(k), scenario::moment_text(command), request.branch));
+  }
+}
+
+}  // namespace
+
+OpenRun start_branch(const RunRequest& request) {
+  const io::RunFile run = io::RunFile::open(request.branch);
+  const std::string parameters = request.branch + ":/parameters";
+  const scenario::Scenario parent = runs::stored_scenario(run.header(), parameters);
+  std::string text;
+  const scenario::Scenario scenario = scenario_of_branch(request, run.header(), text);
+  FrameOptions frame;
+  frame.at = {request.at};
+  const std::size_t k = chosen_frames(run, request.branch, frame).front();
+  io::BranchOrigin origin{
+      request.branch, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)), {}};
+  try {
+    origin.start = session::checkpoint_at_frame(run, k, &scenario);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", request.branch, error.what()));
+  }
+  session::Session session(scenario, origin.start, request.branch, "/branch");
+  require_same_past(request, parent, scenario, session.schedule());
+  session::check_branch_start(origin, scenario, request.branch);
+  output_target(request.output, output_of_run(request.branch, request.overwrite));
+  io::RunHeader header = session::run_header(
+      session, {text, request.scenario, request.command_line, request.threads, std::move(origin)});
+  prepare_folder_of(request.output);
+  io::RunStore store = io::RunStore::create(request.output, header, request.overwrite);
+  session.record_start();
+  session::Recorder(session, store).commit();
+  return {std::move(header), std::move(store), std::move(session)};
+}
+
 OpenRun start_run(const RunRequest& request) {
+  if (!request.branch.empty()) return start_branch(request);
   std::string text;
   const scenario::Scenario scenario = scenario::read_scenario(request.scenario, request.settings, &text);
   session::require_memory(scenario);

@@ -26,6 +26,7 @@
 #include "core/trigonometry.h"
 #include "io/mistaken_path.h"
 #include "pictures/live_maps.h"
+#include "scenario/scripted_command.h"
 #include "session/run_header.h"
 
 namespace talus::app {
@@ -33,6 +34,8 @@ namespace {
 
 struct RunArguments {
   std::string scenario;  ///< empty: that of the run
+  std::string branch;    ///< run to begin with a frame of; empty: none
+  std::string at;        ///< of a branch: its frame
   std::string output;
   std::vector<std::string> settings;
   std::string seed;  ///< empty: that of the scenario
@@ -46,8 +49,11 @@ struct RunArguments {
 };
 
 std::string command_line_of(const RunArguments& arguments) {
-  std::string line =
-      fmt::format("talus run {} -o {}", shell_quoted(arguments.scenario), shell_quoted(arguments.output));
+  std::string line = "talus run";
+  if (!arguments.scenario.empty()) line += " " + shell_quoted(arguments.scenario);
+  if (!arguments.branch.empty())
+    line += fmt::format(" --branch {} --at {}", shell_quoted(arguments.branch), shell_quoted(arguments.at));
+  line += " -o " + shell_quoted(arguments.output);
   for (const std::string& setting : arguments.settings) line += " --set " + shell_quoted(setting);
   return line;
 }
@@ -55,6 +61,14 @@ std::string command_line_of(const RunArguments& arguments) {
 /// Tells what the first argument names: a scenario or, with --resume and without -o, the file or folder of a
 /// run.
 void settle_names(RunArguments& arguments) {
+  if (arguments.scenario.empty() && arguments.branch.empty()) throw CLI::RequiredError("SCENARIO");
+  if (!arguments.branch.empty() && !arguments.seed.empty())
+    throw Error(ExitCode::usage, "a branch has the bed of the run that it leaves: leave out --seed");
+  if (arguments.scenario.empty()) {
+    if (arguments.output.empty())
+      throw Error(ExitCode::usage, fmt::format("name the branch of {} with -o", arguments.branch));
+    return;
+  }
   const bool names_run =
       arguments.resume && arguments.output.empty() && !arguments.scenario.ends_with(".toml");
   if (!names_run) {
@@ -83,6 +97,8 @@ RunRequest request_of(const RunArguments& arguments) {
   RunRequest request;
   request.scenario = arguments.scenario;
   request.output = arguments.output;
+  request.branch = arguments.branch;
+  request.at = arguments.at;
   request.settings = arguments.settings;
   if (!arguments.seed.empty()) request.settings.push_back(fmt::format("seed={}", arguments.seed));
   request.threads = arguments.threads;
@@ -100,7 +116,18 @@ void print_rest(const session::Session& session) {
     print("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n", tilt);
 }
 
+/// Commands of the scenario that a complete run has not come to.
+void warn_of_waiting_commands(const session::Session& session) {
+  const scenario::Scenario& scenario = session.scenario();
+  for (const std::size_t k : session::waiting_commands(scenario, session.schedule()))
+    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended before, at %.3f deg\n",
+                scenario::command_section(k).c_str(),
+                session::command_text(scenario::command_of(scenario.commands[k])).c_str(),
+                scenario::moment_text(scenario.commands[k]).c_str(), degrees(session.world().tilt));
+}
+
 void print_end(const RunArguments& arguments, const session::Session& session) {
+  warn_of_waiting_commands(session);
   const StepRemark remark = remark_on(session.schedule().record, session.world().step);
   if (!remark.usual) print_error("talus: warning: %s\n", remark.text.c_str());
   for (std::size_t k = 0; k < session::guard_count; ++k)
@@ -181,7 +208,12 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
   note_missing_locks();  // now, since a run takes long
-  if (open.session.schedule().course && open.session.tilt_rate() == 0.0)
+  const std::vector<scenario::ScriptedCommand>& commands = open.session.scenario().commands;
+  const auto last_rate = std::find_if(commands.rbegin(), commands.rend(), [](const auto& command) {
+    return command.kind == CommandKind::tilt_rate;
+  });
+  const bool will_hold = last_rate != commands.rend() && last_rate->x == 0.0;
+  if (will_hold || (open.session.schedule().course && open.session.tilt_rate() == 0.0))
     print_error(
         "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
         "stopped\n");
@@ -238,10 +270,10 @@ void run(const RunArguments& arguments) {
 void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Compute a run: deposition, rest, tilt to failure");
-  command
-      ->add_option("SCENARIO", arguments->scenario,
-                   "Scenario file (TOML; see docs/scenario.md), or the run to resume")
-      ->required();
+  command->add_option(
+      "SCENARIO", arguments->scenario,
+      "Scenario file (TOML; see docs/scenario.md), or the run to resume; with --branch it may be "
+      "left out");
   command->add_option("-o,--output", arguments->output,
                       "Run file to write (HDF5) [name of the scenario + .h5]");
   command
@@ -257,6 +289,16 @@ void add_run_command(CLI::App& app) {
       command->add_flag("--resume", arguments->resume,
                         "Continue from the last checkpoint: talus run --resume RUN. With SCENARIO "
                         "-o RUN --resume the run is begun if it does not exist");
+  CLI::Option* branch = command
+                            ->add_option("--branch", arguments->branch,
+                                         "Begin with a frame of this run: its bed, and its scenario unless "
+                                         "another is given")
+                            ->excludes(resume);
+  command
+      ->add_option("--at", arguments->at,
+                   "The frame that a branch begins with: an angle in degrees, repose for the last before "
+                   "failure, or frameN")
+      ->needs(branch);
   command->add_option("--max-wall", arguments->max_wall,
                       "Stop with a checkpoint before this much wall time has passed, HH:MM or HH:MM:SS");
   command
@@ -270,6 +312,7 @@ void add_run_command(CLI::App& app) {
       "name is a number; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments] {
+    if (!arguments->branch.empty() && arguments->at.empty()) throw CLI::RequiredError("--at");
     settle_names(*arguments);
     run(*arguments);
   });

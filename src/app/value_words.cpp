@@ -61,6 +61,7 @@ constexpr ValueWord value_words[] = {
     {"--context", "CONTEXT"},
     {"--only", "FIGURE,..."},
     {"--beside", "RUN"},
+    {"--branch", "RUN"},
     {"--behind", "RUN|FOLDER"},
     {"--screenshot", "FILE"},
     {"--select", "CONDITION"},

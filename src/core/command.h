@@ -2,7 +2,9 @@
 /// What a user does to a run while it goes on. A run follows from its scenario and its commands: replaying
 /// both gives the same bits.
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "core/types.h"
 
@@ -18,6 +20,8 @@ enum class CommandKind : std::int8_t {
   release = 5,    ///< ends the drag
 };
 inline constexpr std::int8_t command_kind_count = 6;
+inline constexpr std::array<std::string_view, command_kind_count> command_kind_names = {
+    "push", "drop", "friction", "tilt_rate", "drag", "release"};
 
 struct Command {
   std::int64_t step = 0;  ///< steps taken before it is applied: it acts from the next step on

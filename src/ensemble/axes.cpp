@@ -98,10 +98,9 @@ std::string named_values(const std::vector<std::string>& variation, const scenar
                          const std::function<std::string(const std::string&)>& shorten) {
   std::string name;
   for (const std::string& setting : variation) {
-    const scenario::ScenarioKey* key = scenario::find_key(key_of_setting(setting));
+    const std::string key = key_of_setting(setting);
     if (!name.empty()) name += ",";
-    name +=
-        fmt::format("{}={}", scenario::full_name(*key), shorten(scenario::plain_text(key->get(scenario))));
+    name += fmt::format("{}={}", key, shorten(scenario::value_text(scenario, key)));
   }
   return name;
 }

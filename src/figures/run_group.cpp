@@ -61,15 +61,17 @@ void tell_folders_apart(std::vector<RunGroup>& groups) {
 
 /// Adds to the labels of groups that share one the keys in which they differ.
 void tell_apart(std::vector<RunGroup>& groups) {
-  std::vector<std::string> additions(groups.size());
-  for (const scenario::ScenarioKey& key : scenario::scenario_keys())
+  std::vector<std::string> additions(groups.size()), names;
+  for (const RunGroup& group : groups)
+    if (auto more = scenario::key_names(essence_of(group)); more.size() > names.size())
+      names = std::move(more);
+  for (const std::string& name : names)
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const scenario::KeyValue value = key.get(essence_of(groups[g]));
+      const std::string value = scenario::value_text(essence_of(groups[g]), name);
       const auto differs = [&](const RunGroup& other) {
-        return other.label == groups[g].label && key.get(essence_of(other)) != value;
+        return other.label == groups[g].label && scenario::value_text(essence_of(other), name) != value;
       };
-      if (std::ranges::any_of(groups, differs))
-        additions[g] += fmt::format(", {} = {}", scenario::full_name(key), scenario::plain_text(value));
+      if (std::ranges::any_of(groups, differs)) additions[g] += fmt::format(", {} = {}", name, value);
     }
   for (std::size_t g = 0; g < groups.size(); ++g) groups[g].label += additions[g];
 }

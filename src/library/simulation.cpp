@@ -30,9 +30,15 @@ void require_finite(double value, const char* what) {
     throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
 }
 
-/// Whether a command holds the tilt.
+/// Whether a command holds the tilt, and none of the scenario will change its rate after some time.
 bool is_held(const session::Session& session) {
-  return session.phase() == session::Phase::tilt && session.schedule().course && session.tilt_rate() <= 0.0;
+  if (session.phase() != session::Phase::tilt || !session.schedule().course || session.tilt_rate() > 0.0)
+    return false;
+  return std::ranges::none_of(
+      session::waiting_commands(session.scenario(), session.schedule()), [&](std::size_t k) {
+        const scenario::ScriptedCommand& command = session.scenario().commands[k];
+        return command.time && command.kind == CommandKind::tilt_rate && command.x > 0.0;
+      });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "scenario/scripted_command.h"
 #include "scenario/tilt_program.h"
 
 namespace talus::scenario {
@@ -229,6 +230,23 @@ const std::vector<ScenarioKey>& scenario_keys() {
 const ScenarioKey* find_key(std::string_view wanted) {
   const auto found = std::ranges::find(scenario_keys(), wanted, full_name);
   return found == scenario_keys().end() ? nullptr : &*found;
+}
+
+std::vector<std::string> key_names(const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const ScenarioKey& key : scenario_keys()) names.push_back(full_name(key));
+  for (std::size_t k = 0; k < scenario.commands.size(); ++k)
+    for (const CommandKey& key : command_keys(command_section(k))) names.push_back(full_name(key));
+  return names;
+}
+
+std::string value_text(const Scenario& scenario, std::string_view name) {
+  if (const ScenarioKey* key = find_key(name)) return plain_text(key->get(scenario));
+  for (std::size_t k = 0; k < scenario.commands.size(); ++k)
+    if (name.starts_with(command_section(k) + "."))
+      for (const CommandKey& key : command_keys(command_section(k)))
+        if (full_name(key) == name) return plain_text(key.get(scenario.commands[k]));
+  return "none";
 }
 
 }  // namespace talus::scenario

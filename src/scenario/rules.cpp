@@ -12,8 +12,6 @@ namespace {
 constexpr double shortest_time_step = 1e-5;  // s
 constexpr double longest_time_step = 1e-2;   // s
 constexpr double longest_over_fall = 0.4;    // sqrt(D / g)
-constexpr double gravity = 9.81;             // m/s^2
-constexpr double most_grains = 2e6;
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/command.h"
+
 namespace talus::scenario {
 
 enum class BedBoundary { periodic, walls };
@@ -17,6 +19,17 @@ enum class LengthUnit { mean_diameter, metre, centimetre, millimetre, micrometre
 enum class AfterFailure { stop, lower, hold };
 enum class SolverMethod { accelerated, gauss_seidel };
 enum class GuardAction { stop, warn };
+
+/// A command that a run gives itself: [[command]] (scenario/scripted_command.h).
+struct ScriptedCommand {
+  std::optional<double> at;    ///< deg: when the tilt has first reached it; with it no time
+  std::optional<double> time;  ///< s since the tilt began
+  CommandKind kind = CommandKind::push;
+  Index grain = -1;  ///< this and the rest as in Command
+  double x = 0.0, y = 0.0;
+
+  bool operator==(const ScriptedCommand&) const = default;
+};
 
 struct Scenario {
   std::uint64_t seed = 1;
@@ -112,6 +125,8 @@ struct Scenario {
 
     bool operator==(const Guards&) const = default;
   } guards;
+
+  std::vector<ScriptedCommand> commands;
 
   bool operator==(const Scenario&) const = default;
 };

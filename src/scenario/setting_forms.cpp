@@ -120,4 +120,15 @@ std::string meant_setting(const KeyHeads& keys, const std::string& option, std::
                            : fmt::format("; give the number alone, in {}", key->unit);
 }
 
+bool is_bare_word(std::string_view text) {
+  return !text.empty() &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }) &&
+         std::isalpha(static_cast<unsigned char>(text.front()));
+}
+
+bool is_whole_number(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 }  // namespace talus::scenario

@@ -13,6 +13,12 @@ namespace talus::scenario {
 /// Without blanks at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// A word that may stand for a string without quotes.
+bool is_bare_word(std::string_view text);
+
+/// Digits, more of them perhaps than TOML reads.
+bool is_whole_number(std::string_view text);
+
 /// The full name of the key that was meant by one that does not exist: written in other letters or with other
 /// signs between its words ("Contact.Friction", "contact/friction", "--contact_friction"), or without its
 /// section where only one has it. Empty where there is none.

@@ -8,6 +8,8 @@
 
 #include "base/nearest_word.h"
 #include "base/text.h"
+#include "base/visible_text.h"
+#include "scenario/setting_forms.h"
 
 namespace talus::scenario {
 namespace {
@@ -96,6 +98,43 @@ std::string suggest_section(const KeyHeads& keys, std::string_view section) {
   }
   if (!best.empty()) return fmt::format("; did you mean [{}]?", best);
   return fmt::format("; expected one of [{}]", joined(sections_of(keys), "], ["));
+}
+
+bool is_section(const KeyHeads& keys, std::string_view name) {
+  return std::ranges::any_of(
+      keys, [&](const KeyHead* key) { return !key->section.empty() && key->section == name; });
+}
+
+std::string joined_name(std::string_view section, std::string_view name) {
+  return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
+}
+
+std::string unknown_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
+  return fmt::format("unknown key '{}'{}", visible_word(joined_name(section, name)),
+                     suggest_key(keys, section, name));
+}
+
+std::string unknown_section(const KeyHeads& keys, std::string_view name) {
+  return fmt::format("unknown section [{}]{}", visible_word(name), suggest_section(keys, name));
+}
+
+std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name) {
+  const std::string meant = meant_key(keys, name);
+  if (meant.empty() && name.starts_with("command."))
+    return fmt::format(
+        "unknown key '{}': expected command.N.KEY with N from 1 to the number of [[command]] "
+        "tables of the scenario, and KEY at, time, kind, grain, x or y",
+        visible_word(name));
+  const std::vector<std::string> several = keys_called(keys, name);
+  if (!meant.empty() || !several.empty())
+    return fmt::format("unknown key '{}'; did you mean '{}'?", visible_word(name),
+                       meant.empty() ? joined(several, "' or '") : meant);
+  const auto dot = name.find('.');
+  const std::string section = name.substr(0, dot == std::string::npos ? 0 : dot);
+  const std::string rest = name.substr(dot == std::string::npos ? 0 : dot + 1);
+  if (section.empty() || is_section(keys, section)) return unknown_key(keys, section, rest);
+  if (!sections_of(keys).empty()) return unknown_section(keys, section);
+  return fmt::format("unknown key '{}'{}", visible_word(name), suggest_key(keys, "", rest));
 }
 
 }  // namespace talus::scenario

@@ -15,4 +15,14 @@ std::string suggest_key(const KeyHeads& keys, std::string_view section, std::str
 /// The same for an unknown section.
 std::string suggest_section(const KeyHeads& keys, std::string_view section);
 
+bool is_section(const KeyHeads& keys, std::string_view name);
+
+/// "contact.friction"; "seed" where the section is empty.
+std::string joined_name(std::string_view section, std::string_view name);
+
+/// A message about a key, about a section, and about a setting of the command line that does not exist.
+std::string unknown_key(const KeyHeads& keys, std::string_view section, std::string_view name);
+std::string unknown_section(const KeyHeads& keys, std::string_view name);
+std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name);
+
 }  // namespace talus::scenario

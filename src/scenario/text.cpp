@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 #include "scenario/keys.h"
+#include "scenario/scripted_command.h"
 
 namespace talus::scenario {
 namespace {
@@ -28,7 +29,9 @@ std::string aligned(const std::vector<SettingLine>& lines) {
   for (const SettingLine& line : lines) width = std::max(width, line.setting.size());
   std::string text;
   for (const SettingLine& line : lines)
-    text += fmt::format("{}{:{}}{}\n", line.setting, "", width - line.setting.size() + 2, line.comment);
+    text += line.comment.empty()
+                ? line.setting + "\n"
+                : fmt::format("{}{:{}}{}\n", line.setting, "", width - line.setting.size() + 2, line.comment);
   return text;
 }
 
@@ -77,7 +80,27 @@ std::string resolved_toml(const Scenario& scenario) {
     }
     lines.push_back({key.name + " = " + toml_text(key.get(scenario)), comment(key)});
   }
-  return text + aligned(lines);
+  text += aligned(lines);
+  for (const ScriptedCommand& command : scenario.commands) {
+    lines.clear();
+    for (const CommandKey& key : command_keys()) {
+      const bool is_moment = key.name == "at" || key.name == "time";
+      const bool is_said = is_moment ? key.get(command) != KeyValue("none")
+                                     : key.name == "kind" || takes_key(command.kind, key.name);
+      const std::string unit = key.unit.empty() ? "" : "# " + key.unit;
+      if (is_said) lines.push_back({key.name + " = " + toml_text(key.get(command)), unit});
+    }
+    text += "\n[[command]]\n" + aligned(lines);
+  }
+  return text;
+}
+
+std::string differences(const Scenario& there, const Scenario& here) {
+  std::vector<std::string> parts;
+  for (const std::string& name : key_names(there.commands.size() > here.commands.size() ? there : here))
+    if (const std::string was = value_text(there, name), is = value_text(here, name); was != is)
+      parts.push_back(fmt::format("{} is {} there, {} here", name, was, is));
+  return joined(parts, "; ");
 }
 
 }  // namespace talus::scenario

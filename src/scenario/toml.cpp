@@ -18,6 +18,7 @@
 #include "base/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/rules.h"
+#include "scenario/scripted_command.h"
 #include "scenario/setting_forms.h"
 #include "scenario/settings.h"
 #include "scenario/suggestion.h"
@@ -56,6 +57,7 @@ struct ParsedKeys {
   std::string name;     ///< of the file
   std::map<const KeyHead*, Given> given;
   std::vector<Complaint> complaints;
+  std::vector<std::vector<CommandKey>> commands{};  ///< the keys of each [[command]], which are in `keys` too
 
   void complain(const SourcePlace& place, const std::string& message) {
     complaints.push_back({place, message});
@@ -184,42 +186,28 @@ void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node,
                            node.is_string() ? did_you_mean(node.as_string()->get(), words_of(key)) : ""));
 }
 
-bool is_section(const KeyHeads& keys, std::string_view name) {
-  return std::ranges::any_of(
-      keys, [&](const KeyHead* key) { return !key->section.empty() && key->section == name; });
-}
-
-std::string joined_name(std::string_view section, std::string_view name) {
-  return section.empty() ? std::string(name) : fmt::format("{}.{}", section, name);
-}
-
-std::string unknown_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
-  return fmt::format("unknown key '{}'{}", visible_word(joined_name(section, name)),
-                     suggest_key(keys, section, name));
-}
-
-std::string unknown_section(const KeyHeads& keys, std::string_view name) {
-  return fmt::format("unknown section [{}]{}", visible_word(name), suggest_section(keys, name));
-}
-
-/// Sections are tables at the top level (`section` empty), keys are what else there is.
-void take_table(ParsedKeys& reading, const toml::table& table, const std::string& section) {
+/// Sections are tables at the top level (`section` empty), keys are what else there is. `keys` are those that
+/// the table may have.
+void take_table(ParsedKeys& reading, const KeyHeads& keys, const toml::table& table,
+                const std::string& section) {
   for (const auto& [name, node] : table) {
     const SourcePlace at_name = place_in_file(reading.name, name.source().begin);
     const SourcePlace at_value = place_in_file(reading.name, node.source().begin);
-    const KeyHead* key = find_key(reading.keys, joined_name(section, name.str()));
+    const KeyHead* key = find_key(keys, joined_name(section, name.str()));
     if (key != nullptr) {
       if (!reading.given.contains(key)) take_value(reading, *key, node, at_value);
-    } else if (section.empty() && is_section(reading.keys, name.str())) {
+    } else if (section.empty() && !reading.commands.empty() && name.str() == "command") {
+      // one by one, by take_commands
+    } else if (section.empty() && is_section(keys, name.str())) {
       if (node.is_table())
-        take_table(reading, *node.as_table(), std::string(name.str()));
+        take_table(reading, keys, *node.as_table(), std::string(name.str()));
       else
         reading.complain(at_value, fmt::format("key '{}'{}: expected a section [{}], found {}", name.str(),
                                                shown(node), name.str(), kind_of(node)));
     } else {
       const bool new_section = section.empty() && (node.is_table() || node.is_array_of_tables());
-      reading.complain(at_name, new_section ? unknown_section(reading.keys, name.str())
-                                            : unknown_key(reading.keys, section, name.str()));
+      reading.complain(
+          at_name, new_section ? unknown_section(keys, name.str()) : unknown_key(keys, section, name.str()));
     }
   }
 }
@@ -253,18 +241,6 @@ toml::table parse_text(const std::string& text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     refuse(place_in_file(name, error.source().begin), syntax_message(error));
   }
-}
-
-bool is_bare_word(std::string_view text) {
-  return !text.empty() &&
-         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }) &&
-         std::isalpha(static_cast<unsigned char>(text.front()));
-}
-
-/// Digits, more of them perhaps than TOML reads.
-bool is_whole_number(std::string_view text) {
-  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 /// The first line, from 1, with so many dots that its name could be a table in a table in a table ... deeper
@@ -317,20 +293,6 @@ std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& 
   return std::nullopt;
 }
 
-std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name) {
-  const std::string meant = meant_key(keys, name);
-  const std::vector<std::string> several = keys_called(keys, name);
-  if (!meant.empty() || !several.empty())
-    return fmt::format("unknown key '{}'; did you mean '{}'?", visible_word(name),
-                       meant.empty() ? joined(several, "' or '") : meant);
-  const auto dot = name.find('.');
-  const std::string section = name.substr(0, dot == std::string::npos ? 0 : dot);
-  const std::string rest = name.substr(dot == std::string::npos ? 0 : dot + 1);
-  if (section.empty() || is_section(keys, section)) return unknown_key(keys, section, rest);
-  if (!sections_of(keys).empty()) return unknown_section(keys, section);
-  return fmt::format("unknown key '{}'{}", visible_word(name), suggest_key(keys, "", rest));
-}
-
 /// A setting of `option`, "--set".
 void take_setting(ParsedKeys& reading, const std::string& option, const std::string& setting) {
   SourcePlace place;
@@ -359,6 +321,47 @@ void take_setting(ParsedKeys& reading, const std::string& option, const std::str
                  ? fmt::format("key '{}' = {}: expected {}", name, visible_word(value), expectation(*key))
                  : fmt::format("key '{}': expected {}, found text that is not valid TOML{}", name,
                                expectation(*key), meant));
+}
+
+/// Makes the keys of the commands of a file known, so that settings can name them.
+void begin_commands(ParsedKeys& reading, const toml::table& table) {
+  const toml::node* node = table.get("command");
+  if (node == nullptr) return;
+  const toml::array* commands = node->as_array();
+  if (commands == nullptr || !commands->is_homogeneous(toml::node_type::table))
+    refuse(place_in_file(reading.name, node->source().begin),
+           fmt::format("'command' is {}: expected one table [[command]] for each command", kind_of(*node)));
+  if (commands->size() > max_commands)
+    refuse(place_in_file(reading.name, node->source().begin),
+           fmt::format("{} commands: expected at most {}", commands->size(), max_commands));
+  for (std::size_t k = 0; k < commands->size(); ++k)
+    reading.commands.push_back(command_keys(command_section(k)));
+  for (const std::vector<CommandKey>& keys : reading.commands)
+    for (const CommandKey& key : keys) reading.keys.push_back(&key);
+}
+
+/// The commands as far as their keys are accepted.
+void take_commands(ParsedKeys& reading, const toml::table& table, Scenario& scenario) {
+  for (std::size_t k = 0; k < reading.commands.size(); ++k) {
+    const toml::node& node = table.get("command")->as_array()->at(k);
+    const std::size_t complaints = reading.complaints.size();
+    take_table(reading, heads(reading.commands[k]), *node.as_table(), command_section(k));
+    ScriptedCommand& command = scenario.commands.emplace_back();
+    std::vector<std::string> given;
+    bool refused = reading.complaints.size() > complaints;
+    for (const CommandKey& key : reading.commands[k]) {
+      const auto found = reading.given.find(&key);
+      if (found == reading.given.end()) continue;
+      refused = refused || !found->second.value;
+      if (!found->second.value) continue;
+      key.set(command, *found->second.value);
+      if (*found->second.value != KeyValue("none")) given.push_back(key.name);
+    }
+    if (refused) continue;
+    if (const std::string fault = table_fault(command, given, scenario); !fault.empty())
+      reading.complain(place_in_file(reading.name, node.source().begin),
+                       fmt::format("{} {}", command_section(k), fault));
+  }
 }
 
 /// The scenario as far as its keys are accepted.
@@ -424,10 +427,12 @@ Scenario parse_scenario(const std::string& text, const std::string& name,
   refuse_what_is_no_text(text, name);
   const toml::table table = parse_text(text, name);
   ParsedKeys reading{heads(scenario_keys()), "contact.friction=0.3", name, {}, {}};
+  begin_commands(reading, table);
   for (const std::string& setting : overrides) take_setting(reading, "--set", setting);
   for (const std::string& setting : varied) take_setting(reading, "--vary", setting);
-  take_table(reading, table, "");
+  take_table(reading, heads(scenario_keys()), table, "");
   Scenario scenario = scenario_of(reading);
+  take_commands(reading, table, scenario);
   check_rules(reading, scenario);
   if (!reading.complaints.empty()) refuse(reading.complaints, name);
   return scenario;
@@ -453,15 +458,6 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
                     path));
   if (text != nullptr) *text = content;
   return parse_scenario(content, path, overrides, varied);
-}
-
-std::string differences(const Scenario& there, const Scenario& here) {
-  std::vector<std::string> parts;
-  for (const ScenarioKey& key : scenario_keys())
-    if (key.get(there) != key.get(here))
-      parts.push_back(fmt::format("{} is {} there, {} here", full_name(key), plain_text(key.get(there)),
-                                  plain_text(key.get(here))));
-  return joined(parts, "; ");
 }
 
 }  // namespace talus::scenario

@@ -13,19 +13,14 @@
 
 namespace talus::session {
 
-/// The largest coefficient of friction that a command can set.
-inline constexpr double largest_friction = 10.0;
-
 /// "push", "drop", "friction", "tilt_rate", "drag", "release".
 std::string_view name_of(CommandKind kind);
 
 /// What a command does, for a reader: "push grain 12 by (0.1, 0) m/s".
 std::string command_text(const Command& command);
 
-/// Throws Error(usage) where a command says what cannot be done to this bed: no such grain, a value that is
-/// not finite or out of range. Speeds are below 100 sqrt(g D), counts 1 ... 1000, heights 0 ... 100 D,
-/// frictions 0 ... 10, rates 0 (the tilt is held) ... 100 deg/s, and a drag is held within 50 D of its grain;
-/// between walls x of a drop lies on the bed.
+/// Throws Error(usage) where a command says what cannot be done to this bed (scenario::command_fault); a drag
+/// is held within 50 D of its grain.
 void check_command(const Command& command, const scenario::Scenario& scenario, const World& world);
 
 /// The commands that somebody gave: of each drag only its beginning, without what moved and ended it.

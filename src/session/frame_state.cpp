@@ -39,6 +39,7 @@ class RunCourse {
         steps_(run.steps()),
         rows_(run.all_observables()) {}
 
+  const scenario::Scenario& scenario() const { return scenario_; }
   bool follows_failure() const { return scenario_.tilt.after_failure != scenario::AfterFailure::stop; }
 
   Schedule commanded(std::int64_t step) const {
@@ -78,6 +79,25 @@ class RunCourse {
     return schedule;
   }
 
+  /// How far the commands of the scenario had come before the last step: those of the state after it are
+  /// still to be carried out. Where the tilt turns there is a row, and between two rows it is monotone.
+  void follow_script(std::int64_t step, Schedule& schedule) const {
+    const std::int64_t steps = schedule.tilt_steps + schedule.flow_steps - 1;
+    if (steps < 0) return;
+    ScriptCourse course = schedule.script.value_or(ScriptCourse());
+    const auto reach = [&course](double tilt) {
+      course.highest = std::max(course.highest, tilt);
+      course.lowest = std::min(course.lowest, tilt);
+    };
+    for (const ObservableRow& row : rows_)
+      if (at(row, Observable::step) < static_cast<double>(step)) reach(at(row, Observable::tilt));
+    Schedule before = schedule;
+    if (--before.tilt_steps >= 0 && schedule.phase == Phase::tilt)
+      reach(scheduled_tilt(scenario_, scenario::TiltProgram(scenario_), before));
+    course.steps = steps;
+    schedule.script = course;
+  }
+
  private:
   /// What had been set before a branch began, and nothing else.
   Schedule before_commands() const {
@@ -88,6 +108,7 @@ class RunCourse {
     schedule.friction = start.friction;
     schedule.course = start.course;
     schedule.drag = start.drag;
+    schedule.script = start.script;
     return schedule;
   }
 
@@ -209,18 +230,20 @@ io::Checkpoint start_of(const io::BranchOrigin& branch) {
   return start;
 }
 
-io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k) {
+io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const scenario::Scenario* branch) {
   io::Checkpoint checkpoint;
   checkpoint.world = world_at_frame(run, k);
   require_course(run);
   wrap_rounded(checkpoint.world);
   const RunCourse course(run);
-  const Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
+  Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
   if (schedule.phase == Phase::done)
     throw Error(ExitCode::usage,
                 fmt::format("the run ends with its frame at {:.3f} deg: a branch begins at an earlier one",
                             degrees(checkpoint.world.tilt)));
-  store_schedule(schedule, course.follows_failure(), checkpoint);
+  const scenario::Scenario& next = branch != nullptr ? *branch : course.scenario();
+  if (!next.commands.empty()) course.follow_script(checkpoint.world.step, schedule);
+  store_schedule(schedule, next.tilt.after_failure != scenario::AfterFailure::stop, checkpoint);
   return checkpoint;
 }
 

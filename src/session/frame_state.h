@@ -23,8 +23,10 @@ Schedule set_by_commands(const io::RunFile& run, std::int64_t step);
 /// and its steps, how long the bed has been at rest, what commands have set, where strains are counted from.
 /// What a run counts begins at nought: wall times, warnings, steps that did not converge. Throws as
 /// world_at_frame, Error(bad_data) where a repaired run lacks steps, rows or commands, and Error(usage) where
-/// the run ends with that frame.
-io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k);
+/// the run ends with that frame. `branch` is the scenario with which it goes on [that of the run]: one that
+/// tells the same of what lies before.
+io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k,
+                                   const scenario::Scenario* branch = nullptr);
 
 /// The checkpoint with which a stored branch begins: a file keeps its state, and no results.
 io::Checkpoint start_of(const io::BranchOrigin& branch);

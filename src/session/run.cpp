@@ -87,6 +87,7 @@ RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> co
   const Clock::time_point start = Clock::now();
   std::optional<Recorder> recorder;
   if (store != nullptr) recorder.emplace(session, *store);
+  session.follow_script(false);  // its commands are among those that were recorded
   auto next = commands.begin();
   while (true) {
     for (; next != commands.end() && next->step == session.world().step; ++next) apply(session, *next);

@@ -11,6 +11,7 @@
 #include "core/tensor.h"
 #include "core/trigonometry.h"
 #include "scenario/scenario.h"
+#include "scenario/scripted_command.h"
 #include "scenario/text.h"
 #include "session/branch_start.h"
 #include "session/command.h"
@@ -55,7 +56,7 @@ struct Frictions {
 /// The friction in force at a step: the scenario's, or what a command has set, before a branch began or
 /// since. Of a run that may lack a command, the largest that one can set.
 double friction_at(const io::RunFile& run, double given, std::int64_t step) {
-  if (may_lack_commands(run)) return largest_friction;
+  if (may_lack_commands(run)) return scenario::largest_friction;
   if (run.header().branch) given = find_value(run.header().branch->start.reals, "friction").value_or(given);
   for (const Command& command : run.commands())
     if (command.kind == CommandKind::friction && command.step < step) given = command.x;

@@ -9,6 +9,7 @@
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "core/trigonometry.h"
 #include "scenario/text.h"
 
 namespace talus::session {
@@ -76,6 +77,11 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({integers, "drag_grain", &s.drag->grain});
     all.push_back({reals, "drag_x", &s.drag->x});
     all.push_back({reals, "drag_y", &s.drag->y});
+  }
+  if (s.script) {
+    all.push_back({reals, "script_highest", &s.script->highest});
+    all.push_back({reals, "script_lowest", &s.script->lowest});
+    all.push_back({integers, "script_steps", &s.script->steps});
   }
   if (s.last_tilt_step) all.push_back({integers, io::last_tilt_step_name, &*s.last_tilt_step});
   all.push_back({integers, "unconverged_in_a_row", &s.unconverged_in_a_row, where_not_zero});
@@ -171,6 +177,23 @@ std::optional<double> angle_of_repose(const Schedule& schedule) {
   return schedule.flow.failed ? std::optional<double>(schedule.flow.onset_tilt) : std::nullopt;
 }
 
+bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenario& scenario,
+                const std::optional<ScriptCourse>& course) {
+  if (!course) return false;
+  if (!command.at)
+    return std::llround(command.time.value_or(0.0) / scenario::time_step(scenario)) <= course->steps;
+  constexpr double rounding = 1e-9;  // rad: a tilt is a sum of steps
+  const double angle = radians(*command.at);
+  return angle < 0.0 ? course->lowest <= angle + rounding : course->highest >= angle - rounding;
+}
+
+std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, const Schedule& schedule) {
+  std::vector<std::size_t> waiting;
+  for (std::size_t k = 0; k < scenario.commands.size(); ++k)
+    if (!is_reached(scenario.commands[k], scenario, schedule.script)) waiting.push_back(k);
+  return waiting;
+}
+
 void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint) {
   for (const ScheduleField& field : fields(schedule, follows)) {
     const double number = number_of(field.value);
@@ -189,6 +212,7 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
   if (find_value(checkpoint.reals, "friction")) schedule.friction.emplace();
   if (find_value(checkpoint.reals, "tilt_rate")) schedule.course.emplace();
   if (find_value(checkpoint.integers, "drag_grain")) schedule.drag.emplace();
+  if (find_value(checkpoint.integers, "script_steps")) schedule.script.emplace();
   if (find_value(checkpoint.integers, io::last_tilt_step_name)) schedule.last_tilt_step.emplace();
   for (const ScheduleField& field : fields(schedule, follows)) {
     if (field.kept == Kept::as_result) continue;

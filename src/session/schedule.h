@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dynamics/failure.h"
 #include "dynamics/step.h"
 #include "io/run_store.h"
+#include "scenario/scenario.h"
 #include "session/guards.h"
 #include "session/measure.h"
 #include "session/phase.h"
@@ -37,6 +39,13 @@ struct Drag {
   double x = 0.0, y = 0.0;
 };
 
+/// How far a run has come in the commands of its scenario: those whose angle or time lies within have been
+/// carried out.
+struct ScriptCourse {
+  double highest = 0.0, lowest = 0.0;  ///< rad, tilts that were reached
+  std::int64_t steps = 0;              ///< taken since the tilt began
+};
+
 /// Wall time, s; never enters the state.
 struct RunSeconds {
   double deposition = 0.0;
@@ -53,12 +62,13 @@ struct Schedule {
   std::int64_t unconverged_in_a_row = 0;
   Baseline baseline;
   dynamics::SurfaceFlow flow;
-  double surface_height = 0.0;        ///< m, mean free surface at the last row
-  double surface_displacement = 0.0;  ///< m
-  double residual_since_row = 0.0;    ///< worst eta since the last row
-  std::optional<double> friction;     ///< set by a command
-  std::optional<TiltCourse> course;   ///< set by a command
-  std::optional<Drag> drag;           ///< begun by a command, and not ended
+  double surface_height = 0.0;         ///< m, mean free surface at the last row
+  double surface_displacement = 0.0;   ///< m
+  double residual_since_row = 0.0;     ///< worst eta since the last row
+  std::optional<double> friction;      ///< set by a command
+  std::optional<TiltCourse> course;    ///< set by a command
+  std::optional<Drag> drag;            ///< begun by a command, and not ended
+  std::optional<ScriptCourse> script;  ///< of a scenario with commands, from the first step of the tilt on
   /// With a programme of the tilt: steps of the world when the last step of the tilt was taken. What is
   /// recorded up to it is of the tilt, however far this went up and down; what comes later is of the flow.
   std::optional<std::int64_t> last_tilt_step;
@@ -71,6 +81,13 @@ struct Schedule {
 
 /// theta_c, rad, a magnitude; no value while the slope has not failed.
 std::optional<double> angle_of_repose(const Schedule& schedule);
+
+/// Whether a command of a scenario is carried out by then.
+bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenario& scenario,
+                const std::optional<ScriptCourse>& course);
+
+/// The indices of the commands of a scenario that have not been carried out.
+std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, const Schedule& schedule);
 
 /// Adds the values of a schedule to a checkpoint, under the names of one table. What no command has changed,
 /// what was never broken, and, unless the scenario `follows` the slope after failure, what belongs to that,

@@ -6,6 +6,7 @@
 
 #include "base/errors.h"
 #include "core/trigonometry.h"
+#include "scenario/scripted_command.h"
 #include "session/drag.h"
 #include "stress/free_surface.h"
 
@@ -93,6 +94,12 @@ Session::Session(const scenario::Scenario& scenario)
       program_(scenario),
       world_(initial_bed(scenario)),
       arrivals_(arrivals_of(scenario)) {
+  const auto grains = std::max(world_.grains.free_count, static_cast<Index>(arrivals_.size()));
+  for (std::size_t k = 0; k < scenario_.commands.size(); ++k)
+    if (const std::string fault =
+            scenario::command_fault(scenario::command_of(scenario_.commands[k]), scenario_, grains);
+        !fault.empty())
+      throw Error(ExitCode::bad_data, fmt::format("{}: {}", scenario::command_section(k), fault));
   reserve_grains();
   dynamics::let_arrive(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
 }
@@ -178,8 +185,37 @@ void Session::refuse_to_pass_a_guard() const {
                   guard_message(static_cast<Guard>(k), value, guard_limits(scenario_)[k], world_.step));
 }
 
+void Session::follow_commands() {
+  if (scenario_.commands.empty() || (schedule_.phase != Phase::tilt && schedule_.phase != Phase::flow))
+    return;
+  const std::vector<std::size_t> waiting = waiting_commands(scenario_, schedule_);
+  ScriptCourse now = schedule_.script.value_or(ScriptCourse());
+  now.highest = std::max(now.highest, world_.tilt);
+  now.lowest = std::min(now.lowest, world_.tilt);
+  now.steps = schedule_.tilt_steps + schedule_.flow_steps;
+  std::optional<std::pair<World, Schedule>> before;
+  const std::size_t recorded = segment_.commands.size();
+  for (const std::size_t k : waiting) {
+    const scenario::ScriptedCommand& command = scenario_.commands[k];
+    if (!follows_script_ || !is_reached(command, scenario_, now)) continue;
+    if (!before) before.emplace(world_, schedule_);
+    try {
+      apply(scenario::command_of(command));
+    } catch (const Error& error) {
+      // None of those that are due has been carried out then, so that a resumed run finds them all.
+      world_ = before->first;
+      schedule_ = before->second;
+      segment_.commands.resize(recorded);
+      throw Error(ExitCode::bad_data, fmt::format("{}, {}: {}", scenario::command_section(k),
+                                                  scenario::moment_text(command), error.what()));
+    }
+  }
+  schedule_.script = now;
+}
+
 const dynamics::StepReport& Session::advance() {
   refuse_to_pass_a_guard();
+  follow_commands();
   const BeforeStep before = before_step();
   try {
     if (schedule_.phase == Phase::deposition)

@@ -22,7 +22,8 @@ namespace talus::session {
 /// well below the real one, so that a bed can always come to rest.
 class Session {
  public:
-  /// A new run: the bed of the scenario before its first step.
+  /// A new run: the bed of the scenario before its first step. Throws Error(bad_data) where a command of the
+  /// scenario cannot be done to it.
   explicit Session(const scenario::Scenario& scenario);
   /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
   /// what messages call the file, and `group` where the checkpoint stands in it.
@@ -33,9 +34,11 @@ class Session {
   void record_start();
 
   /// Takes one step; what it records goes to segment(). Does nothing once done.
-  /// Throws Error(bad_data) when the bed does not come to rest within deposition.max_time, and where the
-  /// step before has broken a guard of the scenario whose action is to stop: its state is whole, to be looked
-  /// at, and neither a copy nor a resumed run goes past it.
+  /// Before a step of the tilt, or of the flow after it, commands of the scenario whose angle or time has
+  /// come are carried out, as by apply. Throws Error(bad_data) when the bed does not come to rest within
+  /// deposition.max_time, where a command of the scenario cannot be carried out, with all as before the step,
+  /// and where the step before has broken a guard of the scenario whose action is to stop: its state is
+  /// whole, to be looked at, and neither a copy nor a resumed run goes past it.
   const dynamics::StepReport& advance();
 
   /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
@@ -46,6 +49,9 @@ class Session {
   /// once the run is done, and for a rate of the tilt after failure and the end of a drag where there is
   /// none.
   void apply(Command command);
+
+  /// Whether the commands of the scenario are carried out [yes]: not where those that were recorded are.
+  void follow_script(bool follows) { follows_script_ = follows; }
 
   /// Threads of the solver; the result does not depend on them.
   void use_threads(int threads) { threads_ = threads; }
@@ -103,6 +109,7 @@ class Session {
   bool have_all_arrived() const;
   void take_step();
   void refuse_to_pass_a_guard() const;
+  void follow_commands();
   void watch();
   void advance_deposition();
   void begin_tilt();
@@ -125,6 +132,7 @@ class Session {
   io::Segment segment_;
 
   int threads_ = 1;
+  bool follows_script_ = true;
   dynamics::StepReport report_;
   dynamics::StepWorkspace workspace_;
 };

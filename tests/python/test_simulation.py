@@ -263,3 +263,47 @@ def test_types_are_those_of_the_stubs():
     done = subprocess.run([sys.executable, "-m", "mypy", "--ignore-missing-imports", "--follow-imports=silent", "--cache-dir", os.devnull,
                            "talus/simulation.py", "talus/frame.py"], cwd=ROOT / "python", capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
+
+
+def test_commands_of_the_scenario_are_carried_out_however_it_is_stepped(tmp_path):
+    scenario = tmp_path / "scripted.toml"
+    scenario.write_text(bed().scenario + """
+[[command]]
+at = 2
+kind = "drop"
+grain = 5
+x = 0.05
+y = 0.02
+[[command]]
+time = 0.1
+kind = "friction"
+x = 0.2
+[[command]]
+at = 5
+kind = "tilt_rate"
+x = 0
+[[command]]
+time = 0.3
+kind = "tilt_rate"
+x = 40
+""")
+    run_talus("run", scenario, "-o", tmp_path / "run.h5", "-q")
+    chunks = talus.Simulation(scenario, threads=2)
+    chunks.record(tmp_path / "chunks.h5")
+    chunks.tilt_to(6)  # through the hold
+    assert chunks.friction == 0.2
+    chunks.copy().run()
+    while not chunks.done:
+        chunks.step(17)
+    by_hand = bed()
+    by_hand.tilt_to(2)
+    by_hand.drop(5, 0.05, 0.02)
+    by_hand.tilt_to(4)
+    by_hand.friction = 0.2
+    by_hand.tilt_to(5)
+    by_hand.tilt_rate = 0
+    by_hand.run(0.175)
+    by_hand.tilt_rate = 40
+    by_hand.run()
+    run = talus.open(tmp_path / "run.h5")
+    assert chunks.state_hash == by_hand.state_hash == state_of(run.path) == state_of(tmp_path / "chunks.h5")

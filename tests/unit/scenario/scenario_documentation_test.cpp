@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenario/keys.h"
+#include "scenario/scripted_command.h"
 #include "scenario/text.h"
 #include "support/key_rows.h"
 #include "support/places.h"
@@ -18,6 +19,10 @@ const std::string root = test::source_folder();
 TEST(ScenarioKeys, are_documented_as_they_are) {
   std::string expected;
   for (const ScenarioKey& key : scenario_keys()) expected += row_text(key, toml_text(key.get(Scenario{})));
+  for (const CommandKey& key : command_keys()) {
+    std::string row = row_text(key, "-");
+    expected += row.replace(row.find("`-`"), 3, "-");  // none has a default
+  }
   EXPECT_EQ(rows_of("docs/scenario.md"), expected) << "the table of docs/scenario.md must be:\n" << expected;
 }
 

@@ -51,7 +51,7 @@ TEST(ScenarioKeys, each_sets_its_own_field_only) {
 /// compiling: give it a key, and a value here.
 Scenario all_fields_changed() {
   Scenario scenario;
-  auto& [seed, grains, contact, bed, deposition, tilt, solver, output, guards] = scenario;
+  auto& [seed, grains, contact, bed, deposition, tilt, solver, output, guards, commands] = scenario;
   seed = std::numeric_limits<std::int64_t>::max();
   auto& [mean_diameter, size_ratio, density] = grains;
   mean_diameter = 0.1 + 0.2;
@@ -108,6 +108,12 @@ Scenario all_fields_changed() {
   overlap = DBL_MIN;
   energy = 1.0 / 7.0;
   unconverged = 999'999'999;
+  commands = {{-0.1, std::nullopt, CommandKind::push, 1'999'999, -1e-300, 1.0 / 3.0},
+              {std::nullopt, 0.0, CommandKind::drop, 1000, 0.0, 0.0},
+              {60.0, std::nullopt, CommandKind::friction, -1, 10.0, 0.0},
+              {0.0, std::nullopt, CommandKind::tilt_rate, -1, DBL_TRUE_MIN, 0.0},
+              {std::nullopt, 1e6, CommandKind::drag, 7, -1e9, 1e9},
+              {0.1 + 0.2, std::nullopt, CommandKind::release, -1, 0.0, 0.0}};
   return scenario;
 }
 
