@@ -103,14 +103,11 @@ void compute_member(const EnsembleArguments& arguments) {
     return pack_member(*member, manifest, arguments.folder, store, goes_on);
   };
   if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
-  RunRequest request{plan.variants[member->variant].scenario_file,
-                     member->path,
-                     {},
-                     1,
-                     false,
-                     command_line(),
-                     {},
-                     member->origin.bed};
+  RunRequest request;
+  request.scenario = plan.variants[member->variant].scenario_file;
+  request.output = member->path;
+  request.command_line = command_line();
+  request.bed = member->origin.bed;
   request.settings.push_back(fmt::format("seed={}", member->seed));
   const auto* trials = std::get_if<session::PerturbationPlan>(&manifest.task);
   if (trials != nullptr) request.facts = {{session::trials_fact, session::plan_text(*trials)}};

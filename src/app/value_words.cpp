@@ -45,6 +45,7 @@ constexpr ValueWord value_words[] = {
     {"--width", "PX"},
     {"--size", "WIDTHxHEIGHT"},
     {"--aspect", "W:H"},
+    {"--title", "LINE"},
     {"--hold", "S"},
     {"--scale", "FACTOR"},
     {"--threshold", "FACTOR"},
