@@ -29,7 +29,7 @@ def seconds(talus, scenario, settings, maps):
         for setting in settings:
             command += ["--set", setting]
         if maps:
-            command += ["--frames", os.path.join(folder, "maps"), "--map", maps]
+            command += ["--pictures", os.path.join(folder, "maps"), "--map", maps]
         used, begin = processor_seconds(), time.monotonic()
         subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
         return time.monotonic() - begin, processor_seconds() - used

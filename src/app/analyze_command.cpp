@@ -24,7 +24,7 @@ struct AnalyzeArguments {
 
 void analyze(const AnalyzeArguments& arguments) {
   const analysis::AnalysisParameters parameters = runs::parse_analysis_settings(arguments.settings);
-  const std::vector<std::string> runs = runs_among(arguments.runs);
+  const std::vector<std::string> runs = with_members(runs_among(arguments.runs));
   runs::AnalysisOptions options = arguments.options;
   options.progress = count_shown("analysis", arguments.quiet);
   if (arguments.json) print("[");
@@ -46,7 +46,8 @@ void add_analyze_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "analyze", "Analyse stresses, overloaded grains and contacts of runs, and store it in their files");
   command
-      ->add_option("RUNS", arguments->runs, "Run files; a run that is not complete is analysed, not stored")
+      ->add_option("RUNS", arguments->runs,
+                   "Run files, or folders of ensembles; a run that is not complete is analysed, not stored")
       ->required();
   command
       ->add_option("--set", arguments->settings,

@@ -6,6 +6,9 @@
 
 namespace talus::app {
 
+/// All of them, in the groups of the help.
+void add_commands(CLI::App& app);
+
 void add_run_command(CLI::App& app);
 void add_check_command(CLI::App& app);
 void add_info_command(CLI::App& app);

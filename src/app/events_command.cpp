@@ -47,7 +47,7 @@ void list_events(const EventsArguments& arguments) {
   runs::AnalysisOptions options = arguments.options;
   options.progress = count_shown("analysis", arguments.quiet);
   bool first = true;
-  for (const std::string& path : runs_among(arguments.runs)) {
+  for (const std::string& path : with_members(runs_among(arguments.runs))) {
     print_text(arguments.displacement
                    ? text_of(arguments, moved_grains(path, *arguments.displacement), first)
                    : text_of(arguments, runs::analysed_run(path, parameters, options), first));
@@ -67,7 +67,8 @@ void add_events_command(CLI::App& app) {
       "grains to move");
   command
       ->add_option("RUNS", arguments->runs,
-                   "Run files. Their analysis is read from the file, or made and stored as by talus analyze")
+                   "Run files, or folders of ensembles. Their analysis is read from the file, or made and "
+                   "stored as by talus analyze")
       ->required();
   auto* largest = command
                       ->add_option("--largest", arguments->largest,

@@ -134,7 +134,7 @@ void add_export_command(CLI::App& app) {
       ->check(in_range(1.0, 1000.0));
   command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
-  add_frame_options(*command, arguments->frames);
+  add_frame_options(*command, arguments->frames, "all of the tilt");
   command->footer(
       "docs/export.md lists what is written, in which units. The contact problem of a step is "
       "written by `talus dump` (FCLIB).");

@@ -51,17 +51,9 @@ void refuse_settings(const Reading& reading, const std::string& path) {
 }
 
 void add_ensemble(Reading& reading, const std::string& folder) {
-  const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
-  if (ensemble::count_of(states, ensemble::MemberStage::done) == 0)
-    throw Error(ExitCode::missing_input,
-                fmt::format("{}: no member of this ensemble is done yet; talus ensemble status {} tells how "
-                            "far they are",
-                            folder, folder));
-  for (std::size_t m = 0; m < states.size(); ++m) {
-    if (states[m].stage != ensemble::MemberStage::done) continue;
-    add_run(reading, plan.members[m].path);
-    ensemble::require_own_run(plan.members[m], reading.input.runs.back().file->header());
+  for (const ensemble::Member& member : done_members(folder)) {
+    add_run(reading, member.path);
+    ensemble::require_own_run(member, reading.input.runs.back().file->header());
   }
 }
 

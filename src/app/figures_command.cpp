@@ -15,6 +15,7 @@
 #include "app/commands.h"
 #include "app/figure_files.h"
 #include "app/figure_runs.h"
+#include "app/frame_options.h"
 #include "app/gnuplot.h"
 #include "app/progress.h"
 #include "app/stop_signals.h"
@@ -208,13 +209,7 @@ void add_figures_command(CLI::App& app) {
                    "Figures to make, by name or number, with commas: --only fig09,12; default all")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--at", arguments->at,
-          "Figures of single frames: those at these angles in degrees, repose for the last one before "
-          "failure, or frame42, with commas: --at 5,10,repose [those of the paper]")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  add_at_option(*command, arguments->at, " [those of the paper]; only in figures that show single frames");
   command->add_option(
       "--size", arguments->size,
       "Width of the figures in cm, or WIDTHxHEIGHT: a column of a journal has 8.6, a page 17.8 "

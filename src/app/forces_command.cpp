@@ -7,6 +7,7 @@
 
 #include "app/choices.h"
 #include "app/commands.h"
+#include "app/frame_options.h"
 #include "app/json.h"
 #include "app/terminal.h"
 #include "base/errors.h"
@@ -167,13 +168,7 @@ void add_forces_command(CLI::App& app) {
       "forces", "Find other forces that carry the same bed, and compare what is measured with them");
   command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
       ->required();
-  command
-      ->add_option("--at", arguments->at,
-                   "Angles in degrees, and repose for the last frame before failure, with commas: "
-                   "--at 0,10,repose")
-      ->delimiter(',')
-      ->capture_default_str()
-      ->allow_extra_args(false);
+  add_at_option(*command, arguments->at)->capture_default_str();
   add_search(*command, arguments->search);
   command
       ->add_option("--set", arguments->settings,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 #include <limits>
 #include <numeric>
 
@@ -35,21 +36,24 @@ pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& 
 
 }  // namespace
 
-void add_frame_options(CLI::App& command, FrameOptions& options) {
+CLI::Option* add_at_option(CLI::App& command, std::vector<std::string>& at, const std::string& note) {
+  return command
+      .add_option("--at", at,
+                  "Frames by angles in degrees, repose for the last one before failure, and frame42 by "
+                  "number, with commas: --at 0,5,10,15,repose" +
+                      note)
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+void add_frame_options(CLI::App& command, FrameOptions& options, const std::string& usual) {
   CLI::Option* const numbers =
       command
           .add_option("--frames", options.numbers,
-                      "Numbers of the frames, counted from 0: --frames 0-10,20 [all of the tilt]")
+                      fmt::format("Numbers of the frames, counted from 0: --frames 0-10,20 [{}]", usual))
           ->delimiter(',')
           ->allow_extra_args(false);
-  CLI::Option* const at =
-      command
-          .add_option("--at", options.at,
-                      "Frames by angles in degrees, and repose for the last one before failure, with commas: "
-                      "--at 0,5,10,15,repose")
-          ->delimiter(',')
-          ->allow_extra_args(false)
-          ->excludes(numbers);
+  CLI::Option* const at = add_at_option(command, options.at)->excludes(numbers);
   command
       .add_option("--every", options.every, "Degrees between frames; the last frame before failure is added")
       ->check(in_range(1e-6, 90.0))

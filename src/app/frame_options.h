@@ -18,8 +18,12 @@ struct FrameOptions {
   bool flow = false;                 ///< also all frames after failure
 };
 
-/// --frames, --at, --every, of which one can be given, and --flow.
-void add_frame_options(CLI::App& command, FrameOptions& options);
+/// --at, in one wording for all commands that take several frames. `note`: what it says more, such as the
+/// default.
+CLI::Option* add_at_option(CLI::App& command, std::vector<std::string>& at, const std::string& note = "");
+
+/// --frames, --at, --every, of which one can be given, and --flow. `usual`: which frames without these.
+void add_frame_options(CLI::App& command, FrameOptions& options, const std::string& usual);
 
 /// Throws Error(bad_data) where --flow is asked for in a run that has none. `path` is that of the run, for
 /// messages.

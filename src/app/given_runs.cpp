@@ -5,9 +5,37 @@
 
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
 #include "io/seal.h"
 
 namespace talus::app {
+
+std::vector<ensemble::Member> done_members(const std::string& folder) {
+  const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
+  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  std::vector<ensemble::Member> done;
+  for (std::size_t m = 0; m < states.size(); ++m)
+    if (states[m].stage == ensemble::MemberStage::done) done.push_back(plan.members[m]);
+  if (done.empty())
+    throw Error(ExitCode::missing_input,
+                fmt::format("{}: no member of this ensemble is done yet; talus ensemble status {} tells how "
+                            "far they are",
+                            folder, folder));
+  return done;
+}
+
+std::vector<std::string> with_members(const std::vector<std::string>& paths) {
+  std::vector<std::string> runs;
+  for (const std::string& path : paths) {
+    if (!ensemble::is_ensemble(path)) {
+      runs.push_back(path);
+      continue;
+    }
+    for (const ensemble::Member& member : done_members(path)) runs.push_back(member.path);
+  }
+  return runs;
+}
 
 std::vector<std::string> runs_among(const std::vector<std::string>& paths,
                                     bool (*is_wanted_too)(const std::string&)) {

@@ -32,37 +32,6 @@ void refuse_empty_words(CLI::App& app) {
   }
 }
 
-/// Commands that belong together in the help.
-struct CommandGroup {
-  const char* title;
-  std::vector<void (*)(CLI::App&)> add;
-};
-
-void add_commands(CLI::App& app) {
-  const std::vector<CommandGroup> groups = {
-      {"Runs",
-       {talus::app::add_run_command, talus::app::add_check_command, talus::app::add_info_command,
-        talus::app::add_replay_command, talus::app::add_repair_command}},
-      {"Pictures",
-       {talus::app::add_view_command, talus::app::add_render_command, talus::app::add_panel_command,
-        talus::app::add_animate_command, talus::app::add_maps_command}},
-      {"Results",
-       {talus::app::add_analyze_command, talus::app::add_events_command, talus::app::add_figures_command,
-        talus::app::add_export_command}},
-      {"Many runs",
-       {talus::app::add_ensemble_command, talus::app::add_study_command, talus::app::add_perturb_command,
-        talus::app::add_reproduce_command}},
-      {"Contact problems",
-       {talus::app::add_dump_command, talus::app::add_solve_command, talus::app::add_forces_command}},
-  };
-  for (const CommandGroup& group : groups)
-    for (void (*const add)(CLI::App&) : group.add) {
-      add(app);
-      app.get_subcommands([](const CLI::App*) { return true; }).back()->group(group.title);
-    }
-  talus::app::add_program_help_command(app);
-}
-
 /// `talus help COMMAND` is `talus COMMAND --help`.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(1, argc), argv + argc);
@@ -76,7 +45,7 @@ void run(std::vector<std::string> words, CLI::App& app) {
   app.set_version_flag("--version", talus::app::version_report());
   app.require_subcommand(1);
   app.formatter(std::make_shared<talus::app::HelpText>());
-  add_commands(app);
+  talus::app::add_commands(app);
   talus::app::add_examples(app);
   talus::app::name_values(app);
   app.footer(

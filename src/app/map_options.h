@@ -1,5 +1,5 @@
 #pragma once
-/// The options of maps, which `talus render`, `animate`, `panel` and `run --frames` share.
+/// The options of maps, which `talus render`, `animate`, `panel` and `run --pictures` share.
 
 #include <CLI/CLI.hpp>
 #include <string>

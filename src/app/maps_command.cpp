@@ -69,7 +69,7 @@ void print_maps() {
       "{}\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several "
       "pictures.\n\n{}\n"
       "--colours: {}, with _r from the other end;\nof clusters: {}\n\n"
-      "talus render, panel, animate, view and run --frames draw them; docs/maps.md shows each.\n",
+      "talus render, panel, animate, view and run --pictures draw them; docs/maps.md shows each.\n",
       aligned_text(maps), aligned_text(traces), joined(render::colour_maps(), ", ", render::colour_map_name),
       joined(pictures::cluster_palettes, " or ", pictures::palette_name)));
 }

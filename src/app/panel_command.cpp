@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands.h"
+#include "app/frame_options.h"
 #include "app/map_options.h"
 #include "app/output_files.h"
 #include "app/progress.h"
@@ -66,13 +67,7 @@ void add_panel_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "panel", "Draw a bed at several angles in one picture, a column for each map of --map");
   add_run_argument(*command, arguments->run);
-  command
-      ->add_option("--at", arguments->panel.at,
-                   "Angles in degrees, repose for the last frame before failure, and frames by number "
-                   "(frame42), with commas: --at 0,5,10,15,repose")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->required();
+  add_at_option(*command, arguments->panel.at)->required();
   command->add_option("--title", arguments->panel.title, "Text above all maps; _c sets c as a subscript");
   command
       ->add_option("-o,--output", arguments->panel.output,

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/choices.h"
 #include "app/commands.h"
+#include "app/frame_options.h"
 #include "app/map_options.h"
 #include "app/output_files.h"
 #include "app/progress.h"
@@ -19,7 +19,7 @@ namespace {
 struct RenderArguments {
   std::string run;
   pictures::MapOptions maps;
-  pictures::FramesAsked frames;
+  FrameOptions frames;
   std::string folder;
   bool overwrite = false;
   bool quiet = false;
@@ -33,6 +33,12 @@ std::string default_folder(std::filesystem::path run) {
   return run.string() + "-maps";
 }
 
+pictures::FramesAsked asked_frames(const FrameOptions& options) {
+  pictures::FramesAsked asked{options.at, 1.0, options.flow, options.numbers};
+  asked.every = options.every.value_or(asked.every);
+  return asked;
+}
+
 void render(const RenderArguments& arguments) {
   const std::string folder = arguments.folder.empty() ? default_folder(arguments.run) : arguments.folder;
   const CountDone reading = count_shown("reading", arguments.quiet);
@@ -41,7 +47,7 @@ void render(const RenderArguments& arguments) {
   options.document = arguments.frames.ending != "png";
   const pictures::MapPlan plan = pictures::plan_maps(options);
   pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
-  const pictures::FrameChoice choice = pictures::choose_frames(run, arguments.frames);
+  const pictures::FrameChoice choice = pictures::choose_frames(run, asked_frames(arguments.frames));
   const std::vector<pictures::PictureFile> missing =
       pictures::files_to_draw(run, choice, folder, arguments.frames.ending, arguments.overwrite);
   for (const pictures::PictureFile& file : missing)
@@ -61,21 +67,7 @@ void add_render_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("render", "Draw maps of a run as PNG, PDF or SVG files, without a display");
   add_run_argument(*command, arguments->run);
-  CLI::Option* at =
-      command
-          ->add_option("--at", arguments->frames.at,
-                       "Angles in degrees, repose for the last frame before failure, and frames "
-                       "by number (frame42), with commas: --at 0,5,10,15,repose")
-          ->delimiter(',')
-          ->allow_extra_args(false);
-  command
-      ->add_option("--every", arguments->frames.every,
-                   "Degrees between pictures; the last frame before failure is added")
-      ->capture_default_str()
-      ->check(in_range(1e-6, 90.0))
-      ->excludes(at);
-  command->add_flag("--flow", arguments->frames.flow,
-                    "Also all frames of the flow after failure, where the run has followed it");
+  add_frame_options(*command, arguments->frames, "every degree, and the last before failure");
   command->add_option("-o,--output", arguments->folder,
                       "Folder of the pictures, created if it is missing [RUN-maps]");
   command

@@ -307,7 +307,7 @@ void add_run_command(CLI::App& app) {
       ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   CLI::Option* frames = command->add_option(
-      "--frames", arguments->frames,
+      "--pictures", arguments->frames,
       "Folder into which maps of each frame are drawn while the run computes, also where its "
       "name is a number; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);

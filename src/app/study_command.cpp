@@ -106,7 +106,7 @@ void add_study_command(CLI::App& app) {
                    "Change a key of the scenario in all runs, e.g. --set contact.friction=0.3")
       ->allow_extra_args(false);
   command
-      ->add_option("--at", arguments->reference,
+      ->add_option("--reference", arguments->reference,
                    "Angle at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
       ->check(in_range(0.0, 60.0));
   add_jobs_option(*command, arguments->jobs);

@@ -7,7 +7,7 @@
 
 namespace talus::pictures {
 
-/// The words and numbers of the options that `talus render`, `animate`, `panel` and `run --frames` share.
+/// The words and numbers of the options that `talus render`, `animate`, `panel` and `run --pictures` share.
 struct MapOptions {
   std::vector<std::string> maps;
   int width = 1600;                   ///< px

@@ -43,9 +43,10 @@ FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked) {
     throw Error(ExitCode::bad_data, run.series.path +
                                         ": --flow: nothing was followed after failure in this run; "
                                         "tilt.after_failure = \"lower\" or \"hold\" does");
-  FrameChoice choice =
-      asked.at.empty() ? frames_every(tilts, asked.every) : frames_at(tilts, asked.at, run.theta_c());
-  if (asked.at.empty() && std::isfinite(run.theta_c()))
+  FrameChoice choice = !asked.numbers.empty() ? frames_listed(asked.numbers, count)
+                       : asked.at.empty()     ? frames_every(tilts, asked.every)
+                                              : frames_at(tilts, asked.at, run.theta_c());
+  if (asked.numbers.empty() && asked.at.empty() && std::isfinite(run.theta_c()))
     choice.push_back(frame_at_repose(tilts, run.theta_c()));
   for (std::size_t k = tilts.size(); asked.flow && k < count; ++k) choice.push_back(k);
   std::ranges::sort(choice);

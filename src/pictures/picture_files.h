@@ -13,10 +13,11 @@ namespace talus::pictures {
 
 /// Which frames are asked for.
 struct FramesAsked {
-  std::vector<std::string> at;  ///< as in frames_at; none: by `every`
-  double every = 1.0;           ///< deg; the last frame before failure is added
-  bool flow = false;            ///< also all frames after failure
-  std::string ending = "png";   ///< of the files: png, pdf or svg
+  std::vector<std::string> at;            ///< as in frames_at; none: by `every`
+  double every = 1.0;                     ///< deg; the last frame before failure is added
+  bool flow = false;                      ///< also all frames after failure
+  std::vector<std::string> numbers = {};  ///< as in frames_listed, in place of `at` and `every`
+  std::string ending = "png";             ///< of the files: png, pdf or svg
 };
 
 /// Frames of the tilt, ascending, and then those of the flow. Throws as frames_at does, and Error(bad_data)

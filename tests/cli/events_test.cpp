@@ -94,6 +94,17 @@ TEST_F(Events, name_the_first_grains_that_moved_so_far) {
   EXPECT_EQ(events({"--displacement", "0"}).exit_code, 64);
 }
 
+TEST_F(Events, of_an_ensemble_are_those_of_its_members) {
+  write_file(folder_, "bed.toml",
+             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 0.5\n[output]\nframe_every = 0.5\n");
+  ASSERT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "1,2", "-o", "beds"}, folder_.path()).exit_code, 0);
+  for (const char* command : {"events", "analyze"}) {
+    const Outcome outcome = run_talus({command, "beds", "bed.h5"}, folder_.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_texts(outcome.out, {"beds/seed-1.h5", "beds/seed-2.h5", "bed.h5"});
+  }
+}
+
 TEST_F(Events, are_refused_with_what_is_wrong) {
   EXPECT_EQ(run_talus({"events", "none.h5"}, folder_.path()).exit_code, 66);
   const Outcome typo = events({"--set", "event_velocty=1"});

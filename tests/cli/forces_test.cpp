@@ -73,7 +73,7 @@ TEST(Forces, of_contacts_that_resist_rolling_are_refused_and_so_are_their_proble
   take_run(folder, "bed.h5", std::string(bed) + "[contact]\nrolling_friction = 0.1\n");
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{"forces", "bed.h5", "--at", "0", "--set", "gamma_c=0.3"},
-        {"dump", "bed.h5", "--frame", "1", "-o", "p.h5"}}) {
+        {"dump", "bed.h5", "--at", "frame1", "-o", "p.h5"}}) {
     const Outcome outcome = run_talus(asked, folder.path());
     EXPECT_EQ(outcome.exit_code, 65) << asked[0];
     EXPECT_NE(outcome.err.find("resist rolling (contact.rolling_friction = 0.1)"), std::string::npos)

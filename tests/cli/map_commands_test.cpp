@@ -95,9 +95,9 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.jpg"}, ".svg"},
       {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--title", "日本"}, "Latin-1"},
       {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--title", "a\nb"}, "Latin-1"},
-      {{"run", "none.toml", "--map", "gamma"}, "--frames"},
-      {{"run", "none.toml", "--frames", "maps"}, "--map"},
-      {{"run", "none.toml", "--frames", "maps", "--map", "gamm"}, "gamma"},
+      {{"run", "none.toml", "--map", "gamma"}, "--pictures"},
+      {{"run", "none.toml", "--pictures", "maps"}, "--map"},
+      {{"run", "none.toml", "--pictures", "maps", "--map", "gamm"}, "gamma"},
   };
   for (const auto& [arguments, part] : others) {
     const Outcome outcome = talus(arguments);
@@ -116,6 +116,7 @@ TEST_F(MapCommands, refuse_what_the_run_does_not_have) {
       {{"render", "bed.h5", "--map", "rotation", "--since", "3"}, 65, "1.50"},
       {{"render", "bed.h5", "--map", "pressure", "--at", "30"}, 65, "--at 30"},
       {{"render", "bed.h5", "--map", "pressure", "--flow"}, 65, "after_failure"},
+      {{"render", "bed.h5", "--map", "pressure", "--frames", "0-99"}, 65, "there is no frame 99"},
   };
   for (const auto& [arguments, code, part] : cases) {
     const Outcome outcome = talus(arguments);
@@ -255,7 +256,7 @@ TEST_F(MapCommands, without_a_context_nothing_is_made) {
     write_file(folder_, library, "no library, but longer than a header " + std::string(100, '.'));
   const auto draw = [&](const Words& words) { return run_talus(words, folder_.path(), broken); };
   const Outcome outcome = draw({"render", "bed.h5", "--map", "pressure", "-o", "maps"});
-  const Outcome run = draw({"run", "bed.toml", "-o", "more.h5", "--frames", "frames", "--map", "pressure"});
+  const Outcome run = draw({"run", "bed.toml", "-o", "more.h5", "--pictures", "frames", "--map", "pressure"});
   EXPECT_EQ(outcome.exit_code, 69);
   EXPECT_NE(outcome.err.find("libOSMesa.so.8"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(folder_.path() / "maps"));
@@ -278,7 +279,7 @@ TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
        std::vector<Words>{Words{"render", "../bed.h5", "--at", "1", "-o", "maps"} + map,
                           Words{"render", "../bed.h5", "--at", "1", "--context", "egl", "-o", "by_egl"} + map,
                           Words{"panel", "../bed.h5", "--at", "0,1", "-o", "panel.png"} + map,
-                          Words{"run", "../bed.toml", "-o", "run.h5", "--frames", "live"} + map}) {
+                          Words{"run", "../bed.toml", "-o", "run.h5", "--pictures", "live"} + map}) {
     for (const char* folder : {"plain", "disturbed"}) {
       fs::create_directory(folder_.path() / folder);
       const Outcome outcome =
@@ -326,6 +327,14 @@ TEST_F(MapCommands, a_stopped_job_is_taken_up_where_it_was) {
   EXPECT_NE(rest.out.find("20 pictures in maps, " + std::to_string(there) + " of them there before"),
             std::string::npos)
       << rest.out;
+}
+
+TEST_F(MapCommands, frames_are_taken_by_their_numbers) {
+  make_run();
+  ASSERT_EQ(talus({"render", "bed.h5", "--map", "pressure", "--frames", "0,2-3", "-o", "maps"}).exit_code, 0);
+  EXPECT_EQ(files("maps").size(), 3u) << "and not the last before failure as well";
+  EXPECT_TRUE(fs::exists(folder_.path() / "maps/pressure_001.00.png"));
+  EXPECT_EQ(talus({"render", "bed.h5", "--map", "pressure", "--frames", "0", "--at", "1"}).exit_code, 64);
 }
 
 TEST_F(MapCommands, a_panel_stacks_angles_and_sets_maps_beside_each_other) {

@@ -33,7 +33,7 @@ class Problem : public testing::Test {
  protected:
   void SetUp() override {
     take_run(folder, "bed.h5", bed);
-    ASSERT_EQ(talus({"dump", "bed.h5", "--frame", "1", "-o", "p.h5"}).exit_code, 0);
+    ASSERT_EQ(talus({"dump", "bed.h5", "--at", "frame1", "-o", "p.h5"}).exit_code, 0);
   }
   Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder.path()); }
 
@@ -161,13 +161,13 @@ TEST_F(Problem, refusals_leave_with_the_code_of_their_cause) {
   EXPECT_EQ(talus({"solve", "p.h5", "--tol", "0"}).exit_code, 64);
   EXPECT_EQ(talus({"solve", "p.h5", "--solver", "magic"}).exit_code, 64);
   EXPECT_EQ(talus({"solve", "p.h5", "-o", "p.h5"}).exit_code, 73);
-  EXPECT_EQ(talus({"dump", "none.h5", "--frame", "0", "-o", "x.h5"}).exit_code, 66);
-  EXPECT_EQ(talus({"dump", "bed.h5", "--frame", "3", "-o", "x.h5"}).exit_code, 65);
+  EXPECT_EQ(talus({"dump", "none.h5", "--at", "frame0", "-o", "x.h5"}).exit_code, 66);
+  EXPECT_EQ(talus({"dump", "bed.h5", "--at", "frame3", "-o", "x.h5"}).exit_code, 65);
   EXPECT_EQ(talus({"dump", "bed.h5", "--at", "30", "-o", "x.h5"}).exit_code, 65);
   EXPECT_EQ(talus({"dump", "bed.h5", "--at", "repose", "-o", "x.h5"}).exit_code, 65);
   EXPECT_EQ(talus({"dump", "bed.h5", "-o", "x.h5"}).exit_code, 64) << "no frame was named";
-  EXPECT_EQ(talus({"dump", "bed.h5", "--frame", "0", "--at", "1", "-o", "x.h5"}).exit_code, 64);
-  EXPECT_EQ(talus({"dump", "bed.h5", "--frame", "0", "-o", "p.h5"}).exit_code, 73);
+  EXPECT_EQ(talus({"dump", "bed.h5", "--at", "frame0", "--at", "1", "-o", "x.h5"}).exit_code, 64);
+  EXPECT_EQ(talus({"dump", "bed.h5", "--at", "frame0", "-o", "p.h5"}).exit_code, 73);
   EXPECT_EQ(talus({"dump", "bed.h5", "--at", "0.5", "-o", "p.h5", "--overwrite"}).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path("x.h5")));
 }
@@ -180,7 +180,7 @@ class MovingBed : public testing::Test {
              "seed = 8\n[bed]\nlength = 12\ndepth = 5\n[tilt]\nstep = 0.01\n[output]\nframe_every = 1\n");
     const std::string frames = json_value(talus({"info", "bed.h5", "--json"}).out, "frames");
     const std::string last = std::to_string(std::stoi(frames) - 1);
-    ASSERT_EQ(talus({"dump", "bed.h5", "--frame", last, "-o", "p.h5"}).exit_code, 0);
+    ASSERT_EQ(talus({"dump", "bed.h5", "--at", "frame" + last, "-o", "p.h5"}).exit_code, 0);
   }
   Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder.path()); }
 

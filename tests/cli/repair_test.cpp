@@ -107,8 +107,9 @@ TEST_F(Repair, without_its_last_state_a_run_is_still_read) {
   EXPECT_EQ(json_value(talus({"info", "new.h5", "--json"}).out, "state_hash"), "none");
   const Outcome analyze = talus({"analyze", "new.h5"});
   EXPECT_EQ(analyze.exit_code, 0) << analyze.err;
-  for (const std::vector<std::string>& needs_it : {std::vector<std::string>{"replay", "new.h5"},
-                                                   {"dump", "new.h5", "--frame", "1", "-o", "problem.h5"}}) {
+  for (const std::vector<std::string>& needs_it :
+       {std::vector<std::string>{"replay", "new.h5"},
+        {"dump", "new.h5", "--at", "frame1", "-o", "problem.h5"}}) {
     const Outcome refused = talus(needs_it);
     EXPECT_EQ(refused.exit_code, 65);
     EXPECT_TRUE(has(refused.err, "its last state is lost")) << refused.err;

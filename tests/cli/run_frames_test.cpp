@@ -33,7 +33,7 @@ class RunFrames : public testing::Test {
   const std::vector<std::string> maps_ = {"--map", "clusters,displacement", "--width", "400"};
   std::vector<std::string> run(const std::string& output, const std::string& maps,
                                const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"run", "bed.toml", "-o", output, "--frames", maps};
+    std::vector<std::string> arguments = {"run", "bed.toml", "-o", output, "--pictures", maps};
     arguments.insert(arguments.end(), maps_.begin(), maps_.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;

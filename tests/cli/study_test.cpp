@@ -79,7 +79,7 @@ TEST(Study, that_is_complete_is_only_read) {
   ASSERT_EQ(run_talus(study_of("study"), folder.path()).exit_code, 0);
   const auto written = std::filesystem::last_write_time(folder.path("study/baseline/seed-1.h5"));
   std::vector<std::string> again = study_of("study");
-  again.insert(again.end(), {"--json", "--at", "1"});
+  again.insert(again.end(), {"--json", "--reference", "1"});
   const Outcome study = run_talus(again, folder.path());
   ASSERT_EQ(study.exit_code, 0) << study.err;
   EXPECT_EQ(study.err, "");

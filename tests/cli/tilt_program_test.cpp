@@ -60,8 +60,8 @@ TEST_F(TiltProgramCommands, a_bad_one_is_refused_before_anything_is_made) {
 }
 
 TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5", "--frames", "live", "--map", "gamma", "--theta-c",
-                   "20", "--width", "300"})
+  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5", "--pictures", "live", "--map", "gamma",
+                   "--theta-c", "20", "--width", "300"})
                 .exit_code,
             0);
   const std::string info = talus({"info", "bed.h5", "--json"}).out;

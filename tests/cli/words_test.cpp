@@ -79,9 +79,8 @@ TEST_F(TypedWords, options_without_what_they_need_are_told_in_plain_words) {
       {{"render"}, "RUN is missing; talus render --help"},
       {{"export", "x.h5", "-o", "y"}, "--to is missing: expected --to {paraview,"},
       {{"panel", "x.h5", "-o", "y"}, "--at is missing: expected --at DEG,...; talus panel --help"},
-      {{"dump", "x.h5", "-o", "y"}, "expected one of --frame,--at;"},
-      {{"dump", "x.h5", "-o", "y", "--at", "1", "--frame", "2"}, "expected only one of --frame,--at;"},
-      {{"run", "x.toml", "--colours", "gray"}, "--colours needs --frames;"},
+      {{"dump", "x.h5", "-o", "y"}, "--at is missing"},
+      {{"run", "x.toml", "--colours", "gray"}, "--colours needs --pictures;"},
       {{"run", "x.toml", "-o", "a", "-o", "b"}, "--output was given 2 times; expected one FILE;"},
       {{"info", "x.h5", "--json=abc"}, "--json takes no value;"},
   };
@@ -233,7 +232,7 @@ TEST_F(TypedWords, pages_and_completions_say_what_values_mean) {
 }
 
 TEST_F(TypedWords, frames_are_a_folder_of_a_run_and_numbers_of_an_export) {
-  EXPECT_NE(talus({"run", "--help"}).out.find("--frames FOLDER       Folder into which maps"),
+  EXPECT_NE(talus({"run", "--help"}).out.find("--pictures FOLDER     Folder into which maps"),
             std::string::npos);
   EXPECT_NE(talus({"export", "--help"}).out.find("--frames K,K-K,... "), std::string::npos);
 }

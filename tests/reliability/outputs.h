@@ -74,7 +74,7 @@ inline const std::vector<Writer>& writers() {
       {"run", "r.h5", {"run", "bed.toml", "-q", "-o", "OUT"}},
       {"replay", "r.h5", {"replay", "f.h5", "-q", "-o", "OUT"}},
       {"repair", "r.h5", {"repair", "damaged.h5", "-o", "OUT"}},
-      {"dump", "p.h5", {"dump", "f.h5", "--frame", "1", "-o", "OUT"}},
+      {"dump", "p.h5", {"dump", "f.h5", "--at", "frame1", "-o", "OUT"}},
       {"solve", "s.h5", {"solve", "p.h5", "-o", "OUT"}},
       {"panel",
        "p.png",
@@ -109,7 +109,7 @@ class Outputs : public testing::Test {
     write_file(*inputs_, "bed.toml", tiny_bed);
     take_run(*inputs_, "f.h5", tiny_bed);
     for (const Words& words :
-         {Words{"analyze", "f.h5", "-q"}, Words{"dump", "f.h5", "--frame", "1", "-o", "p.h5"}}) {
+         {Words{"analyze", "f.h5", "-q"}, Words{"dump", "f.h5", "--at", "frame1", "-o", "p.h5"}}) {
       const Outcome outcome = run_talus(words, inputs_->path());
       ASSERT_EQ(outcome.exit_code, done) << outcome.err;
     }

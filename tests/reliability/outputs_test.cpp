@@ -184,7 +184,7 @@ TEST_F(Outputs, have_no_empty_name) {
   std::vector<Words> commands = {{"study", "bed.toml", "--seeds", "1", "-o", "OUT"},
                                  {"perturb", "bed.toml", "--seeds", "1", "-o", "OUT"},
                                  {"view", "bed.toml", "-o", "OUT"},
-                                 {"run", "bed.toml", "--map", "gamma", "--frames", "OUT"}};
+                                 {"run", "bed.toml", "--map", "gamma", "--pictures", "OUT"}};
   for (const Writer& writer : writers()) commands.push_back(writer.words);
   const std::set<std::string> before = names_in(folder_.path());
   for (const Words& words : commands) {

@@ -125,8 +125,8 @@ int check_page(const std::string& name, const std::vector<const char*>& sources_
 
 TEST(MapsPage, commands_and_options_exist) {
   ASSERT_GT(commands("docs/maps.md").size(), 3u);
-  EXPECT_GT(check_page("docs/maps.md",
-                       {"map_options", "render_command", "animate_command", "panel_command", "run_command"}),
+  EXPECT_GT(check_page("docs/maps.md", {"map_options", "frame_options", "render_command", "animate_command",
+                                        "panel_command", "run_command"}),
             20);
 }
 
