@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/choices.h"
 #include "app/commands.h"
 #include "app/frame_options.h"
 #include "app/map_options.h"
@@ -20,6 +21,7 @@ struct RenderArguments {
   std::string run;
   pictures::MapOptions maps;
   FrameOptions frames;
+  std::string format = "png";
   std::string folder;
   bool overwrite = false;
   bool quiet = false;
@@ -44,12 +46,12 @@ void render(const RenderArguments& arguments) {
   const CountDone reading = count_shown("reading", arguments.quiet);
   const Watch rendering = {count_shown("rendering", arguments.quiet), asked_to_stop};
   pictures::MapOptions options = arguments.maps;
-  options.document = arguments.frames.ending != "png";
+  options.document = arguments.format != "png";
   const pictures::MapPlan plan = pictures::plan_maps(options);
   pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
   const pictures::FrameChoice choice = pictures::choose_frames(run, asked_frames(arguments.frames));
   const std::vector<pictures::PictureFile> missing =
-      pictures::files_to_draw(run, choice, folder, arguments.frames.ending, arguments.overwrite);
+      pictures::files_to_draw(run, choice, folder, arguments.format, arguments.overwrite);
   for (const pictures::PictureFile& file : missing)
     output_target(file.path, output_of_run(arguments.run, true));
   if (!missing.empty()) pictures::draw_files(run, missing, folder, rendering);
@@ -71,7 +73,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->folder,
                       "Folder of the pictures, created if it is missing [RUN-maps]");
   command
-      ->add_option("--format", arguments->frames.ending, "png, or pdf or svg, which stay sharp at any size")
+      ->add_option("--format", arguments->format, "png, or pdf or svg, which stay sharp at any size")
       ->capture_default_str()
       ->check(one_of({"png", "pdf", "svg"}));
   command->add_flag("--overwrite", arguments->overwrite,

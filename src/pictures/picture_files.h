@@ -17,7 +17,6 @@ struct FramesAsked {
   double every = 1.0;                     ///< deg; the last frame before failure is added
   bool flow = false;                      ///< also all frames after failure
   std::vector<std::string> numbers = {};  ///< as in frames_listed, in place of `at` and `every`
-  std::string ending = "png";             ///< of the files: png, pdf or svg
 };
 
 /// Frames of the tilt, ascending, and then those of the flow. Throws as frames_at does, and Error(bad_data)
