@@ -24,7 +24,7 @@ begin, history = sim.time, []
 
 while not sim.done and sim.time - begin < DURATION:
     rms = np.sqrt((sim.grains.velocity[sim.grains.free] ** 2).sum(axis=1).mean()) / np.sqrt(sim.gravity * sim.D)
-    sim.friction *= np.exp(EVERY * (GROWTH if rms > QUIET else -DECAY))
+    sim.friction *= 1 + EVERY * (GROWTH if rms > QUIET else -DECAY)
     history.append((sim.time - begin, sim.friction, rms))
     sim.run(EVERY)
 time, friction, rms = np.array(history).T
