@@ -97,7 +97,8 @@ FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
   compare(path, plan.periodic ? "the period" : "the distance between the walls", statics.length, "bed.length",
           plan.length);
   const std::size_t frames = run.all_frame_tilts().size();
-  const std::size_t frame = file.frame >= 0 ? static_cast<std::size_t>(file.frame) : frames - 1;
+  const std::size_t frame =
+      file.frame >= 0 ? static_cast<std::size_t>(file.frame) : std::max<std::size_t>(frames, 1) - 1;
   if (frame >= frames)
     refuse(path,
            fmt::format("there is no frame {}: expected deposition.frame below {}, the number of its frames",
