@@ -16,6 +16,7 @@
 #include "scenario/scripted_command.h"
 #include "scenario/text.h"
 #include "scenario/tilt_program.h"
+#include "session/deposition.h"
 #include "session/estimate.h"
 #include "session/run_check.h"
 
@@ -78,6 +79,10 @@ void print_line(const char* name, const std::string& text) { print("#   %-11s %s
 void print_report(const CheckArguments& arguments, const scenario::Scenario& scenario,
                   const session::Estimate& expected) {
   print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), scenario::resolved_toml(scenario).c_str());
+  if (std::string remark; scenario.deposition.method == scenario::DepositionMethod::file) {
+    session::initial_bed(scenario, &remark);
+    if (!remark.empty()) print("# %s\n\n", remark.c_str());
+  }
   print("# Estimates\n");
   print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
   print_line("contacts", fmt::format("about {} at rest", expected.contacts));

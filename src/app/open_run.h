@@ -17,9 +17,9 @@ struct RunRequest {
   bool overwrite = false;
   std::string command_line;  ///< for the provenance
   Facts facts = {};          ///< more of them, for the provenance of a new run
+  std::string bed = {};      ///< hash that a bed of deposition.file has to have; empty: any
   std::string branch = {};   ///< run that this one begins with a frame of; empty: none
   std::string at = {};       ///< of a branch: the frame, as --at names it
-  std::string bed = {};      ///< hash that a bed of deposition.file has to have; empty: any
 };
 
 struct OpenRun {

@@ -207,6 +207,8 @@ void resume_complete(const RunArguments& arguments) {
 OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
+  if (const std::string& remark = open.session.bed_remark(); !remark.empty() && !arguments.quiet)
+    print("%s\n", remark.c_str());
   note_missing_locks();  // now, since a run takes long
   const std::vector<scenario::ScriptedCommand>& commands = open.session.scenario().commands;
   const auto last_rate = std::find_if(commands.rbegin(), commands.rend(), [](const auto& command) {

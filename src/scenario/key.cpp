@@ -32,13 +32,17 @@ std::string text_of(const TextRange& range) {
                      range.what, range.longest);
 }
 
+std::string text_of(const Switch&) { return "true or false"; }
+
+std::optional<KeyValue> admitted_by(const Switch&, const KeyValue& value) {
+  return std::holds_alternative<bool>(value) ? std::optional(value) : std::nullopt;
+}
+
 std::optional<KeyValue> admitted_by(const NumberRange& range, const KeyValue& value) {
   if (const std::string* word = std::get_if<std::string>(&value))
     return !range.word.empty() && *word == range.word ? std::optional(value) : std::nullopt;
-  if (std::holds_alternative<std::vector<double>>(value) ||
-      std::holds_alternative<std::vector<std::string>>(value))
-    return std::nullopt;
   const std::int64_t* whole = std::get_if<std::int64_t>(&value);
+  if (whole == nullptr && !std::holds_alternative<double>(value)) return std::nullopt;
   const double number = whole != nullptr ? static_cast<double>(*whole) : std::get<double>(value);
   const bool above = range.low_included ? number >= range.low : number > range.low;
   return std::isfinite(number) && above && number <= range.high ? std::optional<KeyValue>(number)

@@ -34,6 +34,9 @@ struct Choices {
   std::vector<std::string> names;
 };
 
+/// true or false.
+struct Switch {};
+
 /// Any string without a zero byte, up to a number of bytes; the empty string stands for none.
 struct TextRange {
   std::string what;  ///< "the path of a file"
@@ -57,7 +60,7 @@ struct PhraseList {
   std::string (*meant)(const std::string& phrase) = nullptr;
 };
 
-using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList, PhraseList>;
+using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList, PhraseList, Switch>;
 
 /// What there is to say of a key, whatever the struct.
 struct KeyHead {
@@ -68,8 +71,9 @@ struct KeyHead {
   std::string section{};  ///< empty for a key above the first section
 };
 
-/// The value of a field: a number, an integer, text, a list of numbers, an enumerator (Choices), a number
-/// that may be missing (the word of its NumberRange), or phrases (without any the word of their PhraseList).
+/// The value of a field: a number, an integer, true or false, text, a list of numbers, an enumerator
+/// (Choices), a number that may be missing (the word of its NumberRange), or phrases (without any the word of
+/// their PhraseList).
 template <typename T>
 KeyValue value_of_field(const T& field, const KeyRange& range) {
   if constexpr (std::is_enum_v<T>)
@@ -78,7 +82,7 @@ KeyValue value_of_field(const T& field, const KeyRange& range) {
     return field ? KeyValue(*field) : std::get<NumberRange>(range).word;
   else if constexpr (std::is_same_v<T, std::vector<std::string>>)
     return field.empty() ? KeyValue(std::get<PhraseList>(range).word) : KeyValue(field);
-  else if constexpr (std::is_integral_v<T>)
+  else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
     return static_cast<std::int64_t>(field);
   else
     return field;
@@ -96,7 +100,7 @@ void set_field(T& field, const KeyValue& value, const KeyRange& range) {
   } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
     const T* phrases = std::get_if<T>(&value);
     field = phrases != nullptr ? *phrases : T();
-  } else if constexpr (std::is_integral_v<T>) {
+  } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
     field = static_cast<T>(std::get<std::int64_t>(value));
   } else {
     field = std::get<T>(value);

@@ -69,7 +69,9 @@ struct Scenario {
     int sites = 1;                ///< geometric: places tried for a grain, of which the lowest is kept
     std::string file;             ///< file: path of a run or of a table; empty for other methods
     LengthUnit file_unit = LengthUnit::mean_diameter;  ///< file: of a table, where it names none itself
-    int frame = 0;                                     ///< file: frame of the run
+    double file_scale = 1.0;                           ///< file: factor on the lengths of a table
+    int frame = 0;                                     ///< file: of a run or a dump; -1: the last
+    bool relax = false;                                ///< file: overlaps are pushed apart
     double initial_solid_fraction = 0.5;  ///< collapse: of the loose arrangement the grains fall from
     /// Between grains, and with side walls, while the bed is deposited and comes to rest; without a value
     /// ("contact"): as in the tilt.

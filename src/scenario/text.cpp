@@ -49,6 +49,7 @@ std::string short_text(double value) {
 
 std::string toml_text(const KeyValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
+  if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return quoted_utf8(*text);
   if (const auto* numbers = std::get_if<std::vector<double>>(&value))
     return fmt::format("[{}]", joined(*numbers, ", ", [](double number) { return toml_text(number); }));

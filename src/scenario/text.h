@@ -11,7 +11,7 @@ namespace talus::scenario {
 
 /// The value of a key, as in TOML.
 using KeyValue =
-    std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>>;
+    std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>, bool>;
 
 /// The shortest decimal that reads back as the same double: "200", "1e-06".
 std::string short_text(double value);

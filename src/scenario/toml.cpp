@@ -115,6 +115,7 @@ std::optional<KeyValue> value_of(const toml::node& node) {
   if (const auto* whole = node.as_integer()) return whole->get();
   if (const auto* number = node.as_floating_point()) return number->get();
   if (const auto* text = node.as_string()) return text->get();
+  if (const auto* truth = node.as_boolean()) return truth->get();
   const toml::array* array = node.as_array();
   if (array == nullptr) return std::nullopt;
   if (!array->empty() && array->is_homogeneous(toml::node_type::string)) {
@@ -133,7 +134,6 @@ std::optional<KeyValue> value_of(const toml::node& node) {
 
 /// " = 0.5"; nothing for a value that would not fit a line.
 std::string shown(const toml::node& node) {
-  if (const auto* truth = node.as_boolean()) return truth->get() ? " = true" : " = false";
   if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", visible_word(text->get()));
   const auto value = node.is_array() ? std::nullopt : value_of(node);
   return value ? " = " + toml_text(*value) : "";
@@ -143,6 +143,7 @@ bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
   if (std::holds_alternative<Choices>(key.range) || std::holds_alternative<TextRange>(key.range))
     return node.is_string();
   if (std::holds_alternative<IntegerRange>(key.range)) return node.is_integer();
+  if (std::holds_alternative<Switch>(key.range)) return node.is_boolean();
   if (std::holds_alternative<NumberList>(key.range)) return node.is_array();
   if (std::holds_alternative<PhraseList>(key.range)) return node.is_array() || node.is_string();
   return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());

@@ -11,6 +11,7 @@
 #include "base/errors.h"
 #include "base/paths.h"
 #include "contact/detection.h"
+#include "dynamics/push_apart.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/bed_table.h"
@@ -31,6 +32,7 @@ struct FileGrains {
   std::vector<std::size_t> lines;  ///< of a table
   std::vector<Vec2> centres;       ///< m
   std::vector<double> radii;       ///< m
+  std::string remark{};
 
   bool is_table() const { return !lines.empty(); }
 
@@ -80,10 +82,11 @@ io::RunFile open_run(const std::string& path) {
   }
 }
 
-FileGrains read_run(const std::string& path, std::size_t frame, scenario::LengthUnit unit,
-                    const dynamics::BedPlan& plan) {
-  if (unit != scenario::LengthUnit::mean_diameter)
+FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
+  const std::string& path = file.path;
+  if (file.unit != scenario::LengthUnit::mean_diameter)
     refuse(path, "a run has units of its own: expected no deposition.file_unit, or \"D\"");
+  if (file.scale != 1.0) refuse(path, "a run has units of its own: expected no deposition.file_scale, or 1");
   const io::RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
@@ -94,6 +97,8 @@ FileGrains read_run(const std::string& path, std::size_t frame, scenario::Length
   compare(path, plan.periodic ? "the period" : "the distance between the walls", statics.length, "bed.length",
           plan.length);
   const std::size_t frames = run.all_frame_tilts().size();
+  const std::size_t frame =
+      file.frame >= 0 ? static_cast<std::size_t>(file.frame) : std::max<std::size_t>(frames, 1) - 1;
   if (frame >= frames)
     refuse(path,
            fmt::format("there is no frame {}: expected deposition.frame below {}, the number of its frames",
@@ -122,17 +127,47 @@ std::string table_text(const std::string& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-FileGrains read_table(const std::string& path, std::size_t frame, scenario::LengthUnit unit,
-                      const dynamics::BedPlan& plan) {
-  const std::string text = table_text(path);
-  if (frame > 0) refuse(path, "a table has no frames: expected deposition.frame = 0");
-  FileGrains grains{.path = path, .frame = 0, .lines = {}, .centres = {}, .radii = {}};
-  for (const TableGrain& grain : parse_bed_table(text, path, unit, plan.mean_diameter)) {
+/// Of a dump with a periodic box this is the period.
+void check_period(const BedFile& file, const BedTable& table, const dynamics::BedPlan& plan) {
+  constexpr double same = 1e-4;
+  if (!plan.periodic || !table.period || std::fabs(*table.period - plan.length) <= same * plan.length) return;
+  refuse(file.path,
+         fmt::format("its box is {:.6g} D long, and periodic: expected bed.length = {:.6g} D; check "
+                     "deposition.file_unit and deposition.file_scale",
+                     *table.period / plan.mean_diameter, plan.length / plan.mean_diameter));
+}
+
+FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
+  BedTable table = parse_bed_table(table_text(file.path), file.path,
+                                   {file.unit, plan.mean_diameter, file.scale}, file.frame);
+  check_period(file, table, plan);
+  const std::size_t floor_grains = std::erase_if(table.grains, [&](const TableGrain& grain) {
+    return std::fabs(grain.y + grain.radius) <= 1e-3 * plan.mean_diameter;
+  });
+  FileGrains grains{file.path, 0, {}, {}, {}, std::move(table.remark)};
+  if (floor_grains > 0)
+    grains.remark += fmt::format("{}{} grains with their tops at y = 0 left out, as a floor",
+                                 grains.remark.empty() ? "" : "; ", floor_grains);
+  for (const TableGrain& grain : table.grains) {
+    // A dump may be unwrapped, and in single precision the period itself can be reached.
+    const double turns = table.period && plan.periodic ? std::floor(grain.x / plan.length) : 0.0;
+    const double x = grain.x - turns * plan.length;
     grains.lines.push_back(grain.line);
-    grains.centres.push_back({grain.x, grain.y});
+    grains.centres.push_back({turns != 0.0 && x >= plan.length ? 0.0 : x, grain.y});
     grains.radii.push_back(grain.radius);
   }
   return grains;
+}
+
+/// The unit with which the mean diameter would be right, as the end of a message; else what may be wrong.
+std::string meant_unit(double mean, const dynamics::BedPlan& plan) {
+  using scenario::LengthUnit;
+  for (const auto& [unit, name] :
+       {std::pair{LengthUnit::metre, "m"}, std::pair{LengthUnit::centimetre, "cm"},
+        std::pair{LengthUnit::millimetre, "mm"}, std::pair{LengthUnit::micrometre, "um"}})
+    if (std::fabs(in_metres(mean, unit, 1.0) / plan.mean_diameter - 1.0) <= mean_diameter_tolerance)
+      return fmt::format("; with deposition.file_unit = \"{}\" it is right", name);
+  return "; a table with lengths in mm has deposition.file_unit = \"mm\" or names its columns as in x [mm]";
 }
 
 void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
@@ -148,9 +183,7 @@ void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
                "the mean diameter of its grains is {:.6g} D: expected 1 D within {:.6g} %, with D = {:.6g} m "
                "(grains.mean_diameter){}",
                mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
-               grains.is_table() ? "; a table with lengths in mm has deposition.file_unit = \"mm\" or names "
-                                   "its columns as in x [mm]"
-                                 : ""));
+               grains.is_table() ? meant_unit(mean, plan) : ""));
 }
 
 void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
@@ -178,34 +211,45 @@ std::string body_name(const FileGrains& grains, const World& world, Index body) 
   return plane.normal.x > 0.0 ? "the wall at x = 0" : "the wall at x = bed.length";
 }
 
-void check_overlaps(const FileGrains& grains, const dynamics::BedPlan& plan, const World& world) {
+void check_overlaps(const FileGrains& grains, bool relax, const dynamics::BedPlan& plan, const World& world) {
+  const double most = relax ? largest_soft_overlap : largest_file_overlap;
   contact::NeighbourList list;
   Contacts contacts;
   contact::detect_contacts(list, world.grains, world.boundary, 0.0, contacts);
   const auto deepest = std::ranges::min_element(contacts.gap);
-  if (deepest == contacts.gap.end() || *deepest >= -largest_file_overlap * plan.mean_diameter) return;
+  if (deepest == contacts.gap.end() || *deepest >= -most * plan.mean_diameter) return;
   const auto c = static_cast<std::size_t>(deepest - contacts.gap.begin());
+  const bool is_soft = !relax && *deepest >= -largest_soft_overlap * plan.mean_diameter;
   const bool of_two = contacts.b[c] < world.grains.free_count;
   grains.refuse(
       of_two ? std::max(contacts.a[c], contacts.b[c]) : contacts.a[c],
-      fmt::format("overlaps with {} by {:.6g} D: expected at most {:.6g} D",
+      fmt::format("overlaps with {} by {:.6g} D: expected at most {:.6g} D{}",
                   body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]),
-                  -*deepest / plan.mean_diameter, largest_file_overlap));
+                  -*deepest / plan.mean_diameter, most,
+                  is_soft ? "; deposition.relax = true pushes overlaps of up to 0.1 D apart" : ""));
 }
 
 }  // namespace
 
-World bed_of_file(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
-                  scenario::LengthUnit unit) {
-  const FileGrains grains =
-      io::is_run(path) ? read_run(path, frame, unit, plan) : read_table(path, frame, unit, plan);
+World bed_of_file(const BedFile& file, const dynamics::BedPlan& plan, std::string* remark) {
+  FileGrains grains = io::is_run(file.path) ? read_run(file, plan) : read_table(file, plan);
   check_sizes(grains, plan);
   check_places(grains, plan);
   World world = dynamics::empty_bed(plan);
   for (std::size_t i = 0; i < grains.centres.size(); ++i)
     add_disk(world.grains, grains.centres[i], grains.radii[i], plan.density, false);
   dynamics::add_floor(plan, world);
-  check_overlaps(grains, plan, world);
+  check_overlaps(grains, file.relax, plan, world);
+  if (file.relax) {
+    const dynamics::Displacement moved = dynamics::push_apart(world, relaxed_overlap * plan.mean_diameter);
+    grains.remark += fmt::format(
+        "{}overlaps pushed apart, which moved grains by {:.2g} D in the mean, {:.2g} D "
+        "at most",
+        grains.remark.empty() ? "" : "; ", moved.mean / plan.mean_diameter,
+        moved.largest / plan.mean_diameter);
+    check_overlaps(grains, false, plan, world);
+  }
+  if (remark != nullptr && !grains.remark.empty()) *remark = fmt::format("{}: {}", file.path, grains.remark);
   return world;
 }
 

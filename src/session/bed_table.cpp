@@ -1,7 +1,6 @@
 #include "session/bed_table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
@@ -9,8 +8,10 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "base/visible_text.h"
 #include "scenario/text.h"
+#include "session/dump_frames.h"
 #include "session/table_columns.h"
 
 namespace talus::session {
@@ -24,25 +25,6 @@ std::string_view unmarked(std::string_view text, const std::string& name) {
     throw Error(ExitCode::bad_data,
                 name + ": this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
   return text.starts_with(utf8) ? text.substr(utf8.size()) : text;
-}
-
-/// Takes the first line off a text; it ends with LF, CR LF or CR.
-std::string_view take_line(std::string_view& rest) {
-  const auto end = rest.find_first_of("\r\n");
-  const std::string_view line = rest.substr(0, end);
-  const bool is_pair = end != std::string_view::npos && rest.substr(end).starts_with("\r\n");
-  rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + (is_pair ? 2 : 1));
-  return line;
-}
-
-/// How a number is written; NaN and infinities are written as numbers too.
-std::optional<double> number_in(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return HUGE_VAL;
-  const bool whole = error == std::errc() && end == text.data() + text.size() && !text.empty();
-  return whole ? std::optional(value) : std::nullopt;
 }
 
 bool are_names(std::string_view line) {
@@ -71,31 +53,155 @@ void require_columns(const TablePlace& place, const TableColumns& columns,
                fmt::format("the line has {} values: expected {}", cells.size(), expected));
 }
 
-TableGrain grain_of(const TablePlace& place, const TableColumns& columns, const std::vector<TableCell>& cells,
-                    double mean_diameter) {
+/// The rows of a table, and how they are read.
+struct TableRows {
+  const LengthRule& lengths;
+  TableColumns columns;
+  const DumpFrame* box = nullptr;  ///< that scaled columns go through, if there is one
+};
+
+double length_in(const TablePlace& place, const TableRows& rows, const TableColumn& column,
+                 const std::vector<TableCell>& cells) {
+  double value = value_in(place, column, cells[column.at]);
+  if (column.scaled) {
+    const auto axis = static_cast<std::size_t>(column.name.front() - 'x');
+    if (rows.box == nullptr || !rows.box->has_box)
+      place.refuse(cells[column.at].column, fmt::format("{} needs the box (ITEM: BOX BOUNDS)", column.name));
+    value = rows.box->low.at(axis) + value * (rows.box->high.at(axis) - rows.box->low.at(axis));
+  }
+  return rows.lengths.scale * in_metres(value, column.unit, rows.lengths.mean_diameter);
+}
+
+TableGrain grain_of(const TablePlace& place, const TableRows& rows, const std::vector<TableCell>& cells) {
+  const TableColumns& columns = rows.columns;
   require_columns(place, columns, cells);
-  const auto length_in = [&](const TableColumn& column) {
-    return in_metres(value_in(place, column, cells[column.at]), column.unit, mean_diameter);
-  };
-  const double x = length_in(columns.x), y = length_in(columns.height), size = length_in(columns.size);
+  TableGrain grain;
+  grain.line = place.line;
+  grain.x = length_in(place, rows, columns.x, cells);
+  grain.y = length_in(place, rows, columns.height, cells);
+  const double size = length_in(place, rows, columns.size, cells);
   if (size <= 0.0)
     place.refuse(cells[columns.size.at].column,
                  fmt::format("{} = {}: expected a finite number > 0, in {}", columns.size.name,
                              scenario::short_text(value_in(place, columns.size, cells[columns.size.at])),
                              unit_text(columns.size.unit)));
-  if (columns.depth && length_in(*columns.depth) != 0.0)
-    place.refuse(cells[columns.depth->at].column,
-                 fmt::format("z = {}: expected 0, because y is the height; leave the column y out if it is z",
-                             visible_word(cells[columns.depth->at].text)));
-  return {x, y, columns.is_diameter ? 0.5 * size : size, place.line};
+  grain.radius = columns.is_diameter ? 0.5 * size : size;
+  if (columns.depth) grain.z = length_in(place, rows, *columns.depth, cells);
+  if (columns.frame) grain.frame = value_in(place, *columns.frame, cells[columns.frame->at]);
+  if (columns.id && rows.box != nullptr) grain.id = value_in(place, *columns.id, cells[columns.id->at]);
+  return grain;
 }
 
 /// The columns that the last comment to name them has; x, y and radius if none does.
-TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string_view>>& comments,
+TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string>>& comments,
                                  scenario::LengthUnit unit, std::size_t count) {
   for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment)
     if (auto columns = columns_of_comment(comment->first, comment->second, unit, count)) return *columns;
   return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
+}
+
+/// "x y z r" of "format x_y_z_r", as YADE writes it (export.text).
+std::string column_names(std::string_view comment) {
+  std::string names(comment);
+  if (!names.starts_with("format ")) return names;
+  std::ranges::replace(names, '_', ' ');
+  return names.substr(std::string_view("format ").size());
+}
+
+std::string frame_text(int frame, std::size_t count, const std::string& label) {
+  return fmt::format("frame {} of {}{}", frame < 0 ? count - 1 : static_cast<std::size_t>(frame), count,
+                     label.empty() ? "" : fmt::format(" ({})", label));
+}
+
+/// The index of a frame among `count`.
+std::size_t chosen_frame(const std::string& name, int frame, std::size_t count) {
+  if (frame < 0 && count > 0) return count - 1;
+  if (static_cast<std::size_t>(frame) < count) return static_cast<std::size_t>(frame);
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: there is no frame {}: expected deposition.frame below {}, the number of its "
+                          "frames, or -1 for the last",
+                          name, frame, count));
+}
+
+void add_remark(BedTable& table, const std::string& more) {
+  table.remark += (table.remark.empty() ? "" : "; ") + more;
+}
+
+/// Takes the two coordinates in which the grains lie: y is the height if z is the same for all, and z if y
+/// is.
+void choose_plane(BedTable& table, const TablePlace& file, const TableColumns& columns) {
+  if (!columns.depth || table.grains.empty()) return;
+  constexpr double same = 1e-6;  // radii
+  const TableGrain& first = table.grains.front();
+  const auto other = [&](double TableGrain::*coordinate) {
+    return std::ranges::find_if(table.grains, [&](const TableGrain& grain) {
+      return std::fabs(grain.*coordinate - first.*coordinate) > same * first.radius;
+    });
+  };
+  const auto out_of_plane = other(&TableGrain::z);
+  if (out_of_plane == table.grains.end()) return;
+  if (other(&TableGrain::y) != table.grains.end())
+    TablePlace{file.table, out_of_plane->line}.refuse(
+        1,
+        "this grain has another y and another z than others: expected a bed of disks, "
+        "with the same z (or the same y) for all; a section of a pile of spheres is none");
+  for (TableGrain& grain : table.grains) std::swap(grain.y, grain.z);
+  add_remark(table, "x and z are the plane, because y is the same for all");
+}
+
+void finish(BedTable& table, const TablePlace& file, const TableRows& rows) {
+  choose_plane(table, file, rows.columns);
+  if (!rows.columns.ignored.empty()) add_remark(table, "ignored: " + joined(rows.columns.ignored, ", "));
+}
+
+/// The rows with the frame that is asked for, of a table with a column for it.
+void take_frame(BedTable& table, const TableColumns& columns, const std::string& name, int frame) {
+  if (!columns.frame && frame > 0)
+    throw Error(ExitCode::bad_data, name + ": a table has no frames: expected deposition.frame = 0");
+  std::vector<double> frames;
+  for (const TableGrain& grain : table.grains)
+    if (frames.empty() || grain.frame != frames.back()) frames.push_back(grain.frame);
+  if (!columns.frame || frames.empty()) return;
+  const double taken = frames[chosen_frame(name, frame, frames.size())];
+  std::erase_if(table.grains, [&](const TableGrain& grain) { return grain.frame != taken; });
+  if (frames.size() > 1) add_remark(table, frame_text(frame, frames.size(), ""));
+}
+
+BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& name, LengthRule lengths,
+                       int frame) {
+  const DumpFrame& taken = frames[chosen_frame(name, frame, frames.size())];
+  if (lengths.unit == scenario::LengthUnit::mean_diameter) lengths.unit = taken.unit.value_or(lengths.unit);
+  TablePlace place{name, taken.names_line};
+  TableRows rows{lengths, named_columns(place, taken.names, lengths.unit), &taken};
+  BedTable table;
+  std::string_view rest = taken.rows;
+  for (std::size_t k = 0; k < taken.found; ++k) {
+    ++place.line;
+    const std::vector<TableCell> cells = cells_of(take_line(rest), false);
+    if (cells.empty())
+      place.refuse(1, fmt::format("the line is empty: expected grain {} of {}", k + 1, taken.count));
+    table.grains.push_back(grain_of(place, rows, cells));
+  }
+  if (taken.found < taken.count)
+    place.refuse(
+        1, fmt::format("the frame ends after {} of its {} grains: the file is cut off; expected the rest, "
+                       "or deposition.frame of a frame before",
+                       taken.found, taken.count));
+  std::ranges::stable_sort(table.grains, {}, &TableGrain::id);
+  const auto twice = std::ranges::adjacent_find(table.grains, {}, &TableGrain::id);
+  if (rows.columns.id && twice != table.grains.end())
+    TablePlace{name, std::next(twice)->line}.refuse(
+        1, fmt::format("grain {} stands in line {} too: expected each id once",
+                       scenario::short_text(twice->id), twice->line));
+  if (frames.size() > 1) add_remark(table, frame_text(frame, frames.size(), taken.label));
+  finish(table, place, rows);
+  if (!taken.has_box || !taken.periodic) return table;
+  const auto metres = [&](double length) {
+    return lengths.scale * in_metres(length, lengths.unit, lengths.mean_diameter);
+  };
+  table.period = metres(taken.high[0] - taken.low[0]);
+  for (TableGrain& grain : table.grains) grain.x -= metres(taken.low[0]);
+  return table;
 }
 
 }  // namespace
@@ -116,26 +222,34 @@ double in_metres(double length, scenario::LengthUnit unit, double mean_diameter)
   return length / 1e6;
 }
 
-std::vector<TableGrain> parse_bed_table(const std::string& text, const std::string& name,
-                                        scenario::LengthUnit unit, double mean_diameter) {
-  std::vector<TableGrain> grains;
+BedTable parse_bed_table(const std::string& text, const std::string& name, const LengthRule& lengths,
+                         int frame) {
+  std::string_view rest = unmarked(text, name);
+  if (const std::vector<DumpFrame> frames = dump_frames(rest, name); !frames.empty())
+    return table_of_dump(frames, name, lengths, frame);
+  BedTable table;
   TablePlace place{name, 0};
-  std::vector<std::pair<TablePlace, std::string_view>> comments;
-  std::optional<TableColumns> columns;
-  for (std::string_view rest = unmarked(text, name); !rest.empty();) {
+  std::vector<std::pair<TablePlace, std::string>> comments;
+  std::optional<TableRows> rows;
+  while (!rest.empty()) {
     ++place.line;
     const std::string_view line = take_line(rest);
     if (cells_of(line, false).empty()) {
-      if (const std::string_view words = comment_of(line); !words.empty() && !columns)
-        comments.emplace_back(place, words);
-    } else if (!columns && are_names(line)) {
-      columns = named_columns(place, line, unit);
+      if (const std::string_view words = comment_of(line); !words.empty() && !rows)
+        comments.emplace_back(place, column_names(words));
+    } else if (!rows && are_names(line)) {
+      rows.emplace(TableRows{lengths, named_columns(place, line, lengths.unit)});
     } else {
-      if (!columns) columns = columns_of_comments(comments, unit, cells_of(line, false).size());
-      grains.push_back(grain_of(place, *columns, cells_of(line, columns->tabs), mean_diameter));
+      if (!rows)
+        rows.emplace(
+            TableRows{lengths, columns_of_comments(comments, lengths.unit, cells_of(line, false).size())});
+      table.grains.push_back(grain_of(place, *rows, cells_of(line, rows->columns.tabs)));
     }
   }
-  return grains;
+  if (!rows) return table;
+  take_frame(table, rows->columns, name, frame);
+  finish(table, place, *rows);
+  return table;
 }
 
 }  // namespace talus::session

@@ -36,7 +36,7 @@ World bed_without_grains(const dynamics::BedPlan& plan) {
 
 }  // namespace
 
-World initial_bed(const scenario::Scenario& scenario) {
+World initial_bed(const scenario::Scenario& scenario, std::string* remark) {
   const dynamics::BedPlan plan = bed_plan(scenario);
   const scenario::Scenario::Deposition& deposition = scenario.deposition;
   if (deposition.method == scenario::DepositionMethod::collapse)
@@ -45,8 +45,9 @@ World initial_bed(const scenario::Scenario& scenario) {
     return dynamics::make_geometric_bed(
         plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
   if (deposition.method == scenario::DepositionMethod::file)
-    return bed_of_file(deposition.file, static_cast<std::size_t>(deposition.frame), plan,
-                       deposition.file_unit);
+    return bed_of_file(
+        {deposition.file, deposition.frame, deposition.file_unit, deposition.file_scale, deposition.relax},
+        plan, remark);
   return bed_without_grains(plan);
 }
 

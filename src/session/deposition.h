@@ -10,8 +10,8 @@
 namespace talus::session {
 
 /// The bed before its first step: all grains, or where they are poured none, above or on the floor. Throws as
-/// bed_of_file does where they are those of a file.
-World initial_bed(const scenario::Scenario& scenario);
+/// bed_of_file does where they are those of a file, and `remark` becomes what that says.
+World initial_bed(const scenario::Scenario& scenario, std::string* remark = nullptr);
 
 /// The hash of the bed that a scenario takes from a file, before its first step; empty for other methods.
 /// Throws as bed_of_file does.

@@ -92,7 +92,7 @@ double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltPr
 Session::Session(const scenario::Scenario& scenario)
     : scenario_(scenario),
       program_(scenario),
-      world_(initial_bed(scenario)),
+      world_(initial_bed(scenario, &bed_remark_)),
       arrivals_(arrivals_of(scenario)) {
   const auto grains = std::max(world_.grains.free_count, static_cast<Index>(arrivals_.size()));
   for (std::size_t k = 0; k < scenario_.commands.size(); ++k)

@@ -86,6 +86,9 @@ class Session {
   /// Puts back what had been recorded of a run that goes back to a state it had.
   void put_back(io::Segment segment) { segment_ = std::move(segment); }
 
+  /// What bed_of_file has to say of a new run; else empty.
+  const std::string& bed_remark() const { return bed_remark_; }
+
   /// The same state, on one thread, with nothing recorded.
   Session copy() const;
 
@@ -126,6 +129,7 @@ class Session {
 
   scenario::Scenario scenario_;
   scenario::TiltProgram program_;
+  std::string bed_remark_;
   World world_;
   Schedule schedule_;
   std::vector<dynamics::Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <fmt/core.h>
 #include <utility>
 
@@ -91,16 +93,35 @@ std::optional<scenario::LengthUnit> unit_of(std::string_view word) {
   return found == units.end() ? std::nullopt : std::optional(found->second);
 }
 
-enum class Role { x, y, z, radius, diameter };
+enum class Role { x, y, z, radius, diameter, id, frame };
+constexpr std::size_t role_count = 7;
 
+struct RoleName {
+  std::string_view name;
+  Role role;
+  bool of_dump = false;  ///< gives way to another name of its role
+  bool scaled = false;   ///< from 0 to 1 through the box
+};
 constexpr std::array roles = {
-    std::pair<std::string_view, Role>{"x", Role::x},
-    std::pair<std::string_view, Role>{"y", Role::y},
-    std::pair<std::string_view, Role>{"z", Role::z},
-    std::pair<std::string_view, Role>{"r", Role::radius},
-    std::pair<std::string_view, Role>{"radius", Role::radius},
-    std::pair<std::string_view, Role>{"d", Role::diameter},
-    std::pair<std::string_view, Role>{"diameter", Role::diameter},
+    RoleName{"x", Role::x},
+    RoleName{"y", Role::y},
+    RoleName{"z", Role::z},
+    RoleName{"r", Role::radius},
+    RoleName{"radius", Role::radius},
+    RoleName{"radii", Role::radius},
+    RoleName{"d", Role::diameter},
+    RoleName{"diameter", Role::diameter},
+    RoleName{"id", Role::id},
+    RoleName{"frame", Role::frame},
+    RoleName{"xu", Role::x, true},
+    RoleName{"yu", Role::y, true},
+    RoleName{"zu", Role::z, true},
+    RoleName{"xs", Role::x, true, true},
+    RoleName{"ys", Role::y, true, true},
+    RoleName{"zs", Role::z, true, true},
+    RoleName{"xsu", Role::x, true, true},
+    RoleName{"ysu", Role::y, true, true},
+    RoleName{"zsu", Role::z, true, true},
 };
 
 /// A name of a column as it is meant.
@@ -114,10 +135,9 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
                                       scenario::LengthUnit unit) {
   const std::string name = lower(cell.text);
   const auto end = std::min(name.find_first_of(" \t_/[("), name.size());
-  const auto role = std::ranges::find(roles, std::string_view(name).substr(0, end),
-                                      &std::pair<std::string_view, Role>::first);
+  const auto role = std::ranges::find(roles, std::string_view(name).substr(0, end), &RoleName::name);
   if (role == roles.end()) return std::nullopt;
-  NamedColumn named{role->second, {at, name.substr(0, end), unit}};
+  NamedColumn named{role->role, {at, name.substr(0, end), unit, role->scaled, role->of_dump}};
   if (end == name.size()) return named;
   std::string_view word = trimmed({std::string_view(name).substr(end), 1}).text;
   const bool bracketed = word.size() >= 2 && ((word.front() == '[' && word.back() == ']') ||
@@ -143,13 +163,16 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
 /// Finds the columns among the cells; a message about what is missing, or nothing.
 std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells,
                          scenario::LengthUnit unit, TableColumns& columns) {
-  std::array<std::optional<TableColumn>, roles.size()> found;
+  std::array<std::optional<TableColumn>, role_count> found;
   std::string twice;
   for (std::size_t at = 0; at < cells.size(); ++at) {
     const std::optional<NamedColumn> named = meaning_of(place, cells[at], at, unit);
+    if (!named && !cells[at].text.empty()) columns.ignored.push_back(visible_word(cells[at].text));
     if (!named) continue;
     std::optional<TableColumn>& column = found[static_cast<std::size_t>(named->role)];
-    if (column && twice.empty()) twice = named->column.name;
+    const bool is_length = named->role != Role::id && named->role != Role::frame;
+    if (column && named->column.of_dump) continue;
+    if (column && !column->of_dump && is_length && twice.empty()) twice = named->column.name;
     column = named->column;
   }
   const auto of = [&](Role role) { return found[static_cast<std::size_t>(role)]; };
@@ -164,6 +187,8 @@ std::string find_columns(const TablePlace& place, const std::vector<TableCell>& 
   columns.height = *height;
   columns.size = *size;
   if (of(Role::y)) columns.depth = of(Role::z);
+  columns.id = of(Role::id);
+  columns.frame = of(Role::frame);
   return "";
 }
 
@@ -182,6 +207,23 @@ TableColumns columns_in(const TablePlace& place, std::string_view line, std::vec
 
 void TablePlace::refuse(std::size_t column, const std::string& message) const {
   throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:{}: error: {}", table, line, column, message));
+}
+
+std::string_view take_line(std::string_view& rest) {
+  const auto end = rest.find_first_of("\r\n");
+  const std::string_view line = rest.substr(0, end);
+  const bool is_pair = end != std::string_view::npos && rest.substr(end).starts_with("\r\n");
+  rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + (is_pair ? 2 : 1));
+  return line;
+}
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return HUGE_VAL;
+  const bool whole = error == std::errc() && end == text.data() + text.size() && !text.empty();
+  return whole ? std::optional(value) : std::nullopt;
 }
 
 std::string_view comment_of(std::string_view line) {
@@ -220,7 +262,7 @@ TableColumns named_columns(const TablePlace& place, std::string_view line, scena
   if (!fault.empty()) {
     const std::string names =
         joined(cells, ", ", [](const TableCell& cell) { return "\"" + visible_word(cell.text) + "\""; });
-    place.refuse(cells.front().column,
+    place.refuse(cells.empty() ? 1 : cells.front().column,
                  fmt::format("the columns are named {}, {}: expected x, y (or z) for the height, and r, "
                              "radius, d or diameter, in any order; each may have a unit, as in x [mm]",
                              names, fault));

@@ -31,15 +31,25 @@ std::vector<TableCell> cells_of(std::string_view line, bool tabs);
 /// What follows a # that is not in quotes.
 std::string_view comment_of(std::string_view line);
 
+/// Takes the first line off a text; it ends with LF, CR LF or CR.
+std::string_view take_line(std::string_view& rest);
+
+/// How a number is written; NaN and infinities are written as numbers too.
+std::optional<double> number_in(std::string_view text);
+
 struct TableColumn {
   std::size_t at = 0;  ///< among the cells of a line
   std::string name;
   scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter;
+  bool scaled = false;   ///< its values go from 0 to 1 through the box
+  bool of_dump = false;  ///< by such a name as xu, which gives way to x
 };
 
 struct TableColumns {
   TableColumn x, height, size;
   std::optional<TableColumn> depth{};  ///< a z beside y
+  std::optional<TableColumn> id{}, frame{};
+  std::vector<std::string> ignored{};  ///< names of the others
   bool is_diameter = false;            ///< the size
   std::size_t count = 3;               ///< of all columns
   std::size_t line = 0;                ///< that names them; 0: none does

@@ -52,6 +52,7 @@ scenario::KeyValue value_in(const scenario::Choices& choices, Random& random) {
   return choices.names[random.below(whole(choices.names.size()))];
 }
 
+scenario::KeyValue value_in(const scenario::Switch&, Random& random) { return random.below(2) == 0; }
 scenario::KeyValue value_in(const scenario::TextRange&, Random&) { return std::string(); }
 scenario::KeyValue value_in(const scenario::PhraseList&, Random& random) {
   std::vector<std::string> phrases;

@@ -68,6 +68,7 @@ TEST(ReadScenario, every_key_refuses_what_it_cannot_be) {
     for (const std::string value :
          {"nan", "-inf", "true", "[]", "{}", "1979-05-27", "\"no such word\"", "-1e300"}) {
       if (value.front() == '"' && std::holds_alternative<TextRange>(key.range)) continue;
+      if (value == "true" && std::holds_alternative<Switch>(key.range)) continue;
       EXPECT_NE(message_of("", {name + "=" + value}).find(" error: key '" + name), std::string::npos)
           << name << " = " << value;
     }

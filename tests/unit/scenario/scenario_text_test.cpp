@@ -19,6 +19,7 @@ Scenario read_back(const Scenario& scenario) { return parse_scenario(resolved_to
 KeyValue other_value(const ScenarioKey& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names.back();
   if (std::holds_alternative<IntegerRange>(key.range)) return std::int64_t{3};
+  if (std::holds_alternative<Switch>(key.range)) return true;
   if (std::holds_alternative<TextRange>(key.range)) return std::string("beds/dense.csv");
   if (std::holds_alternative<PhraseList>(key.range)) return std::vector<std::string>{"to 3", "hold 1"};
   const auto& range = std::get<NumberRange>(key.range);
@@ -68,8 +69,9 @@ Scenario all_fields_changed() {
   length = 123456.7 / 1e2;
   depth = 17.0;
   floor = BedFloor::smooth;
-  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, file_unit, deposition_frame,
-         fraction, deposition_friction, deposition_wall_friction, rest_velocity, max_time] = deposition;
+  auto& [method, arrival_speed, deposition_rate, critical_angle, sites, file, file_unit, file_scale,
+         deposition_frame, relax, fraction, deposition_friction, deposition_wall_friction, rest_velocity,
+         max_time] = deposition;
   method = DepositionMethod::file;
   arrival_speed = 0.1;
   deposition_rate = 10.0 / 3.0;
@@ -77,7 +79,9 @@ Scenario all_fields_changed() {
   sites = 1000;
   file = "a \"quoted\" name\\with\ttab, \n line, \x1b and \x7f, \xc3\xa9 # [x] = 'y'";
   file_unit = LengthUnit::micrometre;
+  file_scale = 1e-3 / 3.0;
   deposition_frame = 1'000'000'000;
+  relax = true;
   fraction = 0.123456789012345678;
   deposition_friction = -0.0;
   deposition_wall_friction = 0.0;

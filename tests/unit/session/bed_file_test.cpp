@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fmt/core.h>
 #include <fstream>
 
 #include "base/errors.h"
@@ -37,7 +38,7 @@ struct Table {
 std::string message_of(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
                        ExitCode code) {
   try {
-    bed_of_file(path, frame, plan);
+    bed_of_file({path, static_cast<int>(frame)}, plan);
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code);
     const std::string message = error.what();
@@ -55,7 +56,7 @@ TEST(BedOfTable, has_its_grains_at_rest_between_floor_and_walls_of_the_plan) {
   const Table table("x,y,radius\n0.6,0.5,0.5\n5,1,0.6\n");
   for (const bool periodic : {true, false}) {
     const dynamics::BedPlan plan = plan_of(periodic);
-    const World world = bed_of_file(table.path, 0, plan);
+    const World world = bed_of_file({table.path}, plan);
     ASSERT_EQ(world.grains.free_count, 2);
     EXPECT_EQ(world.grains.count(), 12);
     EXPECT_EQ(world.boundary.planes.size(), periodic ? 0u : 2u);
@@ -116,10 +117,55 @@ TEST(BedOfTable, is_in_mean_diameters) {
       "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
       "(grains.mean_diameter); a table with lengths in mm has deposition.file_unit = \"mm\" or names its "
       "columns as in x [mm]");
-  EXPECT_EQ(
-      bed_of_file(Table("30 20 5.4\n").path, 0, plan_of(), scenario::LengthUnit::millimetre).grains.radius[0],
-      0.0054);
+  EXPECT_EQ(bed_of_file({Table("30 20 5.4\n").path, 0, scenario::LengthUnit::millimetre}, plan_of())
+                .grains.radius[0],
+            0.0054);
   EXPECT_NE(message_of("3,2,1e308\n3,2,1e308\n"), "accepted");
+}
+
+TEST(BedOfTable, of_soft_grains_is_pushed_apart_if_that_is_asked_for) {
+  const std::string soft = "3,2,0.5\n3.92,2,0.5\n9.96,4,0.5\n0.9,4,0.5\n5,0.45,0.5\n";
+  EXPECT_TRUE(message_of(soft).ends_with("deposition.relax = true pushes overlaps of up to 0.1 D apart"));
+  const Table table(soft);
+  const dynamics::BedPlan plan = plan_of(true, false);
+  std::string remark;
+  const World world =
+      bed_of_file({table.path, 0, scenario::LengthUnit::mean_diameter, 1.0, true}, plan, &remark);
+  EXPECT_EQ(remark, table.path +
+                        ": overlaps pushed apart, which moved grains by 0.038 D in the mean, 0.05 D at most");
+  const double d = plan.mean_diameter;
+  EXPECT_NEAR(world.grains.x[0], 2.96 * d, 1e-12);
+  EXPECT_NEAR(world.grains.x[1], 3.96 * d, 1e-12);
+  EXPECT_NEAR(world.grains.x[2], 9.93 * d, 1e-12) << "across the periodic edge";
+  EXPECT_NEAR(world.grains.x[3], 0.93 * d, 1e-12);
+  EXPECT_NEAR(world.grains.y[4], 0.5 * d, 1e-12) << "the floor stays";
+  EXPECT_EQ(state_hash(world), state_hash(bed_of_file({table.path, 0, {}, 1.0, true}, plan)));
+  const Table deeper("3,2,0.5\n3.89,2,0.5\n");
+  EXPECT_THROW(bed_of_file({deeper.path, 0, {}, 1.0, true}, plan), LocatedError);
+}
+
+TEST(BedOfTable, that_is_dense_and_soft_can_be_pushed_apart) {
+  std::string table;
+  for (int row = 0; row < 12; ++row)
+    for (int k = 0; k < 10; ++k)
+      table += fmt::format("{},{},0.5\n", k + 0.5 * (row % 2) + 0.01, 0.45 + 0.82 * row);
+  World world = bed_of_file({Table(table).path, 0, {}, 1.0, true}, plan_of(true, false));
+  EXPECT_EQ(world.grains.free_count, 120);
+}
+
+TEST(BedOfDump, fits_the_period_and_leaves_out_another_floor) {
+  const std::string head = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS pp ff ff\n0 ";
+  const std::string rows =
+      "\n0 1\n0 1\nITEM: ATOMS x y radius type\n12.5 0.5 0.5 1\n0.5 -0.5 0.5 2\n1.5 -0.5 0.5 2\n";
+  const Table dump(head + "10" + rows);
+  std::string remark;
+  const World world = bed_of_file({dump.path}, plan_of(true, false), &remark);
+  EXPECT_EQ(world.grains.free_count, 1);
+  EXPECT_NEAR(world.grains.x[0], 0.025, 1e-15) << "unwrapped before";
+  EXPECT_EQ(remark, dump.path + ": ignored: type; 2 grains with their tops at y = 0 left out, as a floor");
+  EXPECT_TRUE(
+      message_of(head + "11" + rows).starts_with("bed.csv: its box is 11 D long, and periodic: expected "));
+  EXPECT_TRUE(message_of("3,2,0.005\n").ends_with("; with deposition.file_unit = \"m\" it is right"));
 }
 
 TEST(BedOfTable, has_grains_and_no_frames) {
@@ -172,7 +218,7 @@ TEST(BedOfRun, has_the_grains_of_the_frame_that_is_asked_for) {
   const StoredRun run;
   const io::RunFile file = io::RunFile::open(run.path);
   for (const std::size_t k : {0u, 2u}) {
-    const World world = bed_of_file(run.path, k, plan_of());
+    const World world = bed_of_file({run.path, static_cast<int>(k)}, plan_of());
     const Frame frame = file.positions(k);
     ASSERT_EQ(world.grains.free_count, 30);
     for (std::size_t i = 0; i < 30; ++i) {
@@ -190,7 +236,7 @@ TEST(BedOfRun, fits_the_plan) {
   const StoredRun run;
   EXPECT_EQ(message_of(run.path, 3, plan_of(), ExitCode::bad_data),
             "run.h5: there is no frame 3: expected deposition.frame below 3, the number of its frames");
-  EXPECT_THROW(bed_of_file(run.path, 0, plan_of(), scenario::LengthUnit::metre), Error);
+  EXPECT_THROW(bed_of_file({run.path, 0, scenario::LengthUnit::metre}, plan_of()), Error);
   EXPECT_EQ(message_of(run.path, 0, plan_of(false), ExitCode::bad_data),
             "run.h5: the run has a periodic bed: expected bed.boundary = \"periodic\"");
   dynamics::BedPlan longer = plan_of();

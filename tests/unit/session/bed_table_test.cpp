@@ -9,7 +9,7 @@ namespace {
 
 void expect_two_grains(const std::string& text, std::size_t first_line = 1, std::size_t second_line = 2,
                        scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter) {
-  const std::vector<TableGrain> grains = parse_bed_table(text, "bed.csv", unit, 1.0);
+  const std::vector<TableGrain> grains = parse_bed_table(text, "bed.csv", {unit}).grains;
   ASSERT_EQ(grains.size(), 2u) << text;
   EXPECT_EQ(grains[0].x, 0.5);
   EXPECT_EQ(grains[0].y, 1.25);
@@ -23,7 +23,7 @@ void expect_two_grains(const std::string& text, std::size_t first_line = 1, std:
 
 std::string message_of(const std::string& text) {
   try {
-    parse_bed_table(text, "bed.csv", scenario::LengthUnit::mean_diameter, 1.0);
+    parse_bed_table(text, "bed.csv", {});
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     return error.what();
@@ -89,7 +89,7 @@ TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
   EXPECT_EQ(message_of("x [in],y,r\n1,2,1\n"),
             "bed.csv:1:1: error: the column \"x [in]\" has an unknown unit: expected D, m, cm, mm or um");
   try {
-    parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", scenario::LengthUnit::millimetre, 1.0);
+    parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", {scenario::LengthUnit::millimetre});
     ADD_FAILURE() << "two units";
   } catch (const LocatedError& error) {
     EXPECT_STREQ(error.what(),
@@ -112,8 +112,9 @@ TEST(BedTable, refuses_names_with_a_sentence_about_names) {
             refused("\"x\", \"y\", \"r\", \"d\"", "more than one column for the size"));
   EXPECT_EQ(message_of("x,y,x,d\n"), refused("\"x\", \"y\", \"x\", \"d\"", "more than one column for x"));
   EXPECT_EQ(
-      message_of("x,y,z,r\n1,2,3,0.5\n"),
-      "bed.csv:2:5: error: z = 3: expected 0, because y is the height; leave the column y out if it is z");
+      message_of("x,y,z,r\n1,2,3,0.5\n2,2,3,0.5\n1,3,4,0.5\n"),
+      "bed.csv:4:1: error: this grain has another y and another z than others: expected a bed of disks, with "
+      "the same z (or the same y) for all; a section of a pile of spheres is none");
   EXPECT_EQ(message_of("x,y,r,id\n1,2,0.5\n"),
             "bed.csv:2:1: error: the line has 3 values: expected 4, one for each column that line 1 names");
   EXPECT_EQ(
@@ -123,7 +124,7 @@ TEST(BedTable, refuses_names_with_a_sentence_about_names) {
 
 TEST(BedTable, without_lines_has_no_grain) {
   for (const char* text : {"", "\n\n", "# nothing", "x,y,radius\n"})
-    EXPECT_TRUE(parse_bed_table(text, "bed.csv", scenario::LengthUnit::mean_diameter, 1.0).empty()) << text;
+    EXPECT_TRUE(parse_bed_table(text, "bed.csv", {}).grains.empty()) << text;
 }
 
 TEST(BedTable, tells_where_it_cannot_be_read) {

@@ -1,0 +1,75 @@
+/// Beds that other programs, or an export, have written.
+
+#include <gtest/gtest.h>
+
+#include "support/process.h"
+#include "support/runs.h"
+
+namespace talus::test {
+namespace {
+
+const char* const collapsed_bed =
+    "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"collapse\"\nrest_velocity = 0.1\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 1\n[output]\nframe_every = 0.5\nobservable_every = 0.2\n";
+
+class ForeignBed : public testing::Test {
+ protected:
+  ForeignBed() { write_file(folder_, "bed.toml", collapsed_bed); }
+  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
+  Outcome run_from(const std::string& file, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"run", "bed.toml", "--overwrite", "-o", "from.h5", "--set",
+                               "deposition.method=file", "--set", "deposition.file=" + file});
+    return talus(more);
+  }
+  std::string grains_of(const std::string& run) {
+    return json_value(talus({"info", run, "--json"}).out, "grains");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ForeignBed, is_read_from_what_talus_exports) {
+  take_run(folder_, "run.h5", collapsed_bed);
+  const std::pair<const char*, const char*> files[] = {
+      {"lammps", "grains.dump"}, {"xyz", "grains.xyz"}, {"csv", "tables"}};
+  for (const auto& [format, file] : files) {
+    ASSERT_EQ(talus({"export", "run.h5", "--to", format, "-o", file}).exit_code, 0) << format;
+    const std::string path = std::string(file) + (file == std::string("tables") ? "/grains.csv" : "");
+    const Outcome run = run_from(path, {"--set", "deposition.frame=-1"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out.find(path + ": frame 2 of 3"), 0u) << run.out;
+    EXPECT_NE(run.out.find("10 grains with their tops at y = 0 left out, as a floor\n"), std::string::npos)
+        << run.out;
+    EXPECT_EQ(grains_of("from.h5"), "30");
+    EXPECT_EQ(talus({"replay", "from.h5"}).exit_code, 0);
+  }
+}
+
+TEST_F(ForeignBed, of_soft_grains_is_told_how_far_they_were_moved) {
+  write_file(
+      folder_, "soft.txt",
+      "#format x_y_z_r\n0.02\t0.1\t0.006\t0.005\n0.0295\t0.1\t0.006\t0.005\n0.06\t0.1\t0.016\t0.005\n");
+  const std::vector<std::string> metres = {"--set", "deposition.file_unit=m"};
+  const Outcome refused = run_from("soft.txt", metres);
+  EXPECT_EQ(refused.exit_code, 65);
+  EXPECT_NE(refused.err.find(
+                "soft.txt:3:1: error: the grain overlaps with the grain in line 2 by 0.05 D: expected at "
+                "most 0.01 D; deposition.relax = true"),
+            std::string::npos)
+      << refused.err;
+  const Outcome run =
+      run_from("soft.txt", {"--set", "deposition.file_unit=m", "--set", "deposition.relax=true"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(
+      run.out.find(
+          "soft.txt: x and z are the plane, because y is the same for all; overlaps pushed apart, which "
+          "moved grains by 0.017 D in the mean, 0.025 D at most\n"),
+      0u)
+      << run.out;
+  const Outcome check =
+      talus({"check", "bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=soft.txt",
+             "--set", "deposition.file_scale=100", "--set", "deposition.relax=true"});
+  EXPECT_NE(check.out.find("# soft.txt: x and z are the plane"), std::string::npos) << check.out << check.err;
+}
+
+}  // namespace
+}  // namespace talus::test
