@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
-#include <limits>
 #include <numeric>
 
 #include "app/choices.h"
@@ -13,10 +12,8 @@ namespace talus::app {
 namespace {
 
 pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& path,
-                                     const FrameOptions& options) {
+                                     const FrameOptions& options, double theta_c) {
   const std::vector<double>& tilts = run.frame_tilts();
-  const double theta_c =
-      find_value(run.checkpoint().results, "theta_c").value_or(std::numeric_limits<double>::quiet_NaN());
   if (!options.numbers.empty()) return pictures::frames_listed(options.numbers, run.all_frame_tilts().size());
   if (std::ranges::count(options.at, "repose") > 0 && !std::isfinite(theta_c))
     throw Error(ExitCode::bad_data, path +
@@ -71,16 +68,22 @@ void require_flow(const io::RunFile& run, const std::string& path, const FrameOp
 }
 
 pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
-                                    const FrameOptions& options) {
+                                    const FrameOptions& options, double theta_c) {
   const std::size_t count = run.all_frame_tilts().size();
   if (count == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: the first is that of the bed at rest");
   require_flow(run, path, options);
-  pictures::FrameChoice choice = frames_of_tilt(run, path, options);
+  pictures::FrameChoice choice = frames_of_tilt(run, path, options, theta_c);
   for (std::size_t k = run.frame_count(); options.flow && k < count; ++k) choice.push_back(k);
   std::ranges::sort(choice);
   choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
   return choice;
+}
+
+pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
+                                    const FrameOptions& options) {
+  return chosen_frames(run, path, options,
+                       find_value(run.checkpoint().results, "theta_c").value_or(not_known));
 }
 
 }  // namespace talus::app

@@ -29,8 +29,12 @@ void add_frame_options(CLI::App& command, FrameOptions& options, const std::stri
 /// messages.
 void require_flow(const io::RunFile& run, const std::string& path, const FrameOptions& options);
 
-/// Ascending; all frames of the tilt where nothing is asked for. Throws as frames_listed and frames_at do,
-/// and Error(bad_data) where the run has no frames, or no flow that is asked for.
+/// Ascending; all frames of the tilt where nothing is asked for. `theta_c` (rad): that of "repose", NaN where
+/// it is not known. Throws as frames_listed and frames_at do, and Error(bad_data) where the run has no
+/// frames, or no flow that is asked for.
+pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
+                                    const FrameOptions& options, double theta_c);
+/// With the theta_c of the run.
 pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
                                     const FrameOptions& options);
 

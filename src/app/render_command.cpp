@@ -35,12 +35,6 @@ std::string default_folder(std::filesystem::path run) {
   return run.string() + "-maps";
 }
 
-pictures::FramesAsked asked_frames(const FrameOptions& options) {
-  pictures::FramesAsked asked{options.at, 1.0, options.flow, options.numbers};
-  asked.every = options.every.value_or(asked.every);
-  return asked;
-}
-
 void render(const RenderArguments& arguments) {
   const std::string folder = arguments.folder.empty() ? default_folder(arguments.run) : arguments.folder;
   const CountDone reading = count_shown("reading", arguments.quiet);
@@ -49,7 +43,9 @@ void render(const RenderArguments& arguments) {
   options.document = arguments.format != "png";
   const pictures::MapPlan plan = pictures::plan_maps(options);
   pictures::DrawnRun run = pictures::open_drawn_run(arguments.run, plan, reading);
-  const pictures::FrameChoice choice = pictures::choose_frames(run, asked_frames(arguments.frames));
+  FrameOptions frames = arguments.frames;
+  if (frames.at.empty() && frames.numbers.empty() && !frames.every) frames.every = 1.0;
+  const pictures::FrameChoice choice = chosen_frames(run.file, arguments.run, frames, run.theta_c());
   const std::vector<pictures::PictureFile> missing =
       pictures::files_to_draw(run, choice, folder, arguments.format, arguments.overwrite);
   for (const pictures::PictureFile& file : missing)
@@ -72,8 +68,7 @@ void add_render_command(CLI::App& app) {
   add_frame_options(*command, arguments->frames, "every degree, and the last before failure");
   command->add_option("-o,--output", arguments->folder,
                       "Folder of the pictures, created if it is missing [RUN-maps]");
-  command
-      ->add_option("--format", arguments->format, "png, or pdf or svg, which stay sharp at any size")
+  command->add_option("--format", arguments->format, "png, or pdf or svg, which stay sharp at any size")
       ->capture_default_str()
       ->check(one_of({"png", "pdf", "svg"}));
   command->add_flag("--overwrite", arguments->overwrite,

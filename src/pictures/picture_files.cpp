@@ -36,24 +36,6 @@ std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t
 
 }  // namespace
 
-FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked) {
-  const std::vector<double>& tilts = run.file.frame_tilts();
-  const std::size_t count = run.series.met.instants.size();
-  if (asked.flow && count == tilts.size())
-    throw Error(ExitCode::bad_data, run.series.path +
-                                        ": --flow: nothing was followed after failure in this run; "
-                                        "tilt.after_failure = \"lower\" or \"hold\" does");
-  FrameChoice choice = !asked.numbers.empty() ? frames_listed(asked.numbers, count)
-                       : asked.at.empty()     ? frames_every(tilts, asked.every)
-                                              : frames_at(tilts, asked.at, run.theta_c());
-  if (asked.numbers.empty() && asked.at.empty() && std::isfinite(run.theta_c()))
-    choice.push_back(frame_at_repose(tilts, run.theta_c()));
-  for (std::size_t k = tilts.size(); asked.flow && k < count; ++k) choice.push_back(k);
-  std::ranges::sort(choice);
-  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
-  return choice;
-}
-
 PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
                          std::size_t k, std::size_t map, int decimals, const std::string& ending) {
   const std::string path =

@@ -11,18 +11,6 @@
 
 namespace talus::pictures {
 
-/// Which frames are asked for.
-struct FramesAsked {
-  std::vector<std::string> at;            ///< as in frames_at; none: by `every`
-  double every = 1.0;                     ///< deg; the last frame before failure is added
-  bool flow = false;                      ///< also all frames after failure
-  std::vector<std::string> numbers = {};  ///< as in frames_listed, in place of `at` and `every`
-};
-
-/// Frames of the tilt, ascending, and then those of the flow. Throws as frames_at does, and Error(bad_data)
-/// where a flow is asked for that was not followed.
-FrameChoice choose_frames(const DrawnRun& run, const FramesAsked& asked);
-
 /// A picture to be drawn.
 struct PictureFile {
   std::size_t frame = 0, map = 0;  ///< of the series
