@@ -171,6 +171,10 @@ BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& 
                        int frame) {
   const DumpFrame& taken = frames[chosen_frame(name, frame, frames.size())];
   if (lengths.unit == scenario::LengthUnit::mean_diameter) lengths.unit = taken.unit.value_or(lengths.unit);
+  if (taken.names_line == 0)
+    throw Error(ExitCode::bad_data,
+                fmt::format("{}: {} is cut off: expected a line such as ITEM: ATOMS id x y radius", name,
+                            frame_text(frame, frames.size(), taken.label)));
   TablePlace place{name, taken.names_line};
   TableRows rows{lengths, named_columns(place, taken.names, lengths.unit), &taken};
   BedTable table;

@@ -112,6 +112,8 @@ TEST(LammpsDump, that_is_wrong_is_refused_at_its_line) {
             std::string::npos);
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n1\nITEM: NUMBER OF ATOMS\n1e99\n"),
             "d:4:1: error: \"1e99\": expected the number of atoms");
+  EXPECT_EQ(message_about("ITEM: TIMESTEP\n7\n"),
+            "d: frame 0 of 1 (timestep 7) is cut off: expected a line such as ITEM: ATOMS id x y radius");
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n1\nhello\n"),
             "d:3:1: error: \"hello\": expected a line that begins with ITEM:, as in a dump of LAMMPS");
   for (const char* bounds :
