@@ -51,7 +51,7 @@ struct Workshop {
 /// A figure of maps is a panel, on a page of its own width that is no higher than asked for, or than a page
 /// with a caption.
 void draw_maps(const figures::Figure& figure, const fs::path& folder, const FigureSize& size) {
-  static std::mutex drawing;        // the memory of one picture at a time
+  static std::mutex drawing;       // the memory of one picture at a time
   constexpr double highest = 1.4;  // over the width
   const std::lock_guard one_at_a_time(drawing);
   const double width = figure_width(figure, size);
