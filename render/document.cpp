@@ -67,7 +67,7 @@ std::optional<std::string> document_text(const std::string& path, const std::str
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const std::string_view last = path.ends_with(".pdf") ? "%%EOF\n" : "</svg>\n";
   const std::size_t found = bytes.find(keyword + "=");
-  if (!bytes.ends_with(last) || found == std::string::npos) return std::nullopt;
+  if (last.empty() || found == std::string::npos) return std::nullopt;
   const std::size_t start = found + keyword.size() + 1;
   return bytes.substr(start, bytes.find_first_of(";<)", start) - start);
 }

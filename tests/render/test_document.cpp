@@ -43,6 +43,8 @@ TEST(Document, TheSamePictureGivesTheSameBytes) {
     EXPECT_EQ(drawn(*make(0.086, texts), lined_view(), 800), first);
     EXPECT_NE(drawn(*make(0.178, texts), lined_view(), 800), first);
   }
+  const std::string pdf = drawn(*make_pdf_target(0.086, texts), lined_view(), 800);
+  EXPECT_NE(pdf.find("/CreationDate (20000101"), std::string::npos) << "not the time of now";
 }
 
 TEST(Document, ASvgHasDiscsLinesAndTextsAsWhatTheyAre) {
