@@ -44,6 +44,8 @@ std::string joined_texts(const PictureTexts& texts) {
   std::string joined;
   for (const auto& [keyword, text] : texts)
     joined.append(joined.empty() ? "" : "; ").append(keyword).append("=").append(text);
+  for (char& c : joined)  // cairo writes a text with these in another encoding, where nobody finds it
+    if (c == '(' || c == ')' || c == '\\') c = c == '(' ? '[' : c == ')' ? ']' : '/';
   return joined;
 }
 
@@ -67,7 +69,7 @@ std::optional<std::string> document_text(const std::string& path, const std::str
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const std::string_view last = path.ends_with(".pdf") ? "%%EOF\n" : "</svg>\n";
   const std::size_t found = bytes.find(keyword + "=");
-  if (last.empty() || found == std::string::npos) return std::nullopt;
+  if (!bytes.ends_with(last) || found == std::string::npos) return std::nullopt;
   const std::size_t start = found + keyword.size() + 1;
   return bytes.substr(start, bytes.find_first_of(";<)", start) - start);
 }

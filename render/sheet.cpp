@@ -55,6 +55,7 @@ std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, 
   common.own_turn = true;
   for (std::vector<FrameView>& row : rows)
     for (FrameView& view : row) {
+      if (!view.furniture) continue;
       view.letters /= static_cast<double>(row.size());
       view.most_letters /= static_cast<double>(row.size());
       const int own = width / static_cast<int>(row.size());
@@ -81,11 +82,6 @@ Sheet sheet_of_rows(std::vector<std::vector<FrameView>> rows, int width, const F
     }
     sheet.height += height;
   }
-  if (sheet.height > largest_side)
-    throw Error(ExitCode::usage,
-                fmt::format("the picture would be {} px high; at most {} px are possible: ask for a smaller "
-                            "width, or for fewer angles",
-                            sheet.height, largest_side));
   return sheet;
 }
 
@@ -183,9 +179,9 @@ Arrangement arrange(std::vector<std::vector<FrameView>> pictures, int width, int
       best = std::move(found);
   if (!best)
     throw Error(ExitCode::usage,
-                fmt::format("{} views with their texts do not fit into {} x {} px; ask for a larger "
-                            "size, or for fewer maps",
-                            count, width, height));
+                fmt::format("the maps with their texts do not fit into {} x {} px; ask for a larger size, "
+                            "or for fewer maps",
+                            width, height));
   best->left = (width - best->columns * best->cell) / 2;
   best->top = (height - best->height) / 2;
   best->height = height;

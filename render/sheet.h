@@ -28,7 +28,7 @@ std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, 
 
 /// Rows of views below each other on a sheet of that width, which the views of a row share equally. The beds
 /// and the traces of a row are level, and all letters have one size, which goes by the width of the sheet.
-/// Throws as lay_out does, and Error(usage) if the sheet is higher than largest_side.
+/// Throws as lay_out does.
 Sheet sheet_of_rows(std::vector<std::vector<FrameView>> rows, int width, const Font& font);
 
 /// How the views of each of several pictures stand on sheets of one size, as the frames of a movie do.

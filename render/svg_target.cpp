@@ -28,6 +28,8 @@ std::string escaped(std::string_view text) {
   for (const char c : text)
     if (c == '<')
       result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
     else if (c == '&')
       result += "&amp;";
     else

@@ -50,7 +50,7 @@ std::pair<int, int> movie_size(const AnimateArguments& arguments) {
   std::pair<double, double> size{arguments.maps.width, 0.0};
   if (!arguments.size.empty()) {
     const auto found = two_numbers(arguments.size, 'x');
-    if (!found)
+    if (!found || std::round(found->first) != found->first || std::round(found->second) != found->second)
       throw Error(ExitCode::usage,
                   "--size " + arguments.size + ": expected WIDTHxHEIGHT in pixels, as 1920x1080");
     size = *found;
@@ -88,7 +88,7 @@ pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
 
 /// What would make a movie smooth whose frames each show more than one moment.
 void note_coarse_frames(const pictures::MovieAsked& asked, int times) {
-  if (times < 2 || !asked.timing.speed) return;
+  if (times < 2 || !asked.timing.speed || asked.timing.every > 0.0) return;
   print(
       "each frame of the run is shown up to %d times; a run with output.frame_every = %.2g would give every "
       "frame of the movie its own\n",
@@ -148,6 +148,7 @@ void add_animate_command(CLI::App& app) {
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
+  size->excludes(command->get_option("--width"));
   command->callback([arguments] { animate(*arguments); });
 }
 

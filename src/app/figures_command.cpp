@@ -178,8 +178,9 @@ void make(const FiguresArguments& arguments) {
   write_figures(figures, groups, arguments);
   for (const figures::Figure& figure : figures)
     print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
-  print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json, script in .gp\n",
-        figures.size(), figures.size() == 1 ? "" : "s", arguments.folder.c_str());
+  const bool scripted = std::ranges::any_of(figures, [](const auto& figure) { return figure.maps.empty(); });
+  print("%zu figure%s in %s: .pdf, .svg, .png; data in .csv, provenance in .json%s\n", figures.size(),
+        figures.size() == 1 ? "" : "s", arguments.folder.c_str(), scripted ? ", script in .gp" : "");
 }
 
 /// All figures, one a line, for the help.

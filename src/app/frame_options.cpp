@@ -18,7 +18,7 @@ pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& 
   if (std::ranges::count(options.at, "repose") > 0 && !std::isfinite(theta_c))
     throw Error(ExitCode::bad_data, path +
                                         ": the slope has not failed, so --at repose has no meaning; give an "
-                                        "angle, or --frames K");
+                                        "angle, or frame42 by its number");
   if (!options.at.empty()) return pictures::frames_at(tilts, options.at, theta_c);
   pictures::FrameChoice choice;
   if (options.every) {

@@ -12,6 +12,7 @@
 #include "base/output_file.h"
 #include "base/version.h"
 #include "base/visible_text.h"
+#include "core/trigonometry.h"
 #include "scenario/scripted_command.h"
 #include "session/branch_start.h"
 #include "session/estimate.h"
@@ -51,6 +52,13 @@ void require_same_past(const RunRequest& request, const scenario::Scenario& pare
         fmt::format("a branch of {} has its past: expected the same bed, deposition and course of the "
                     "tilt, but {}; a command of the kind tilt_rate changes the tilt from there on",
                     request.branch, differences));
+  for (std::size_t k = 0; k < parent.commands.size(); ++k)
+    if (session::is_reached(parent.commands[k], parent, start.script) &&
+        std::ranges::find(branch.commands, parent.commands[k]) == branch.commands.end())
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{} of {} was carried out before the branch begins; expected it in the branch as well",
+                      scenario::command_section(k), request.branch));
   for (std::size_t k = 0; k < branch.commands.size(); ++k) {
     const scenario::ScriptedCommand& command = branch.commands[k];
     if (session::is_reached(command, branch, start.script) &&
@@ -81,6 +89,10 @@ OpenRun start_branch(const RunRequest& request) {
   }
   session::Session session(scenario, origin.start, request.branch, "/branch");
   require_same_past(request, parent, scenario, session.schedule());
+  if (const auto end = scenario.tilt.end_angle; end && degrees(session.world().tilt) >= *end)
+    throw Error(ExitCode::bad_data,
+                fmt::format("the branch of {} begins at {:.2f} deg; expected tilt.end_angle beyond",
+                            request.branch, degrees(session.world().tilt)));
   session::check_branch_start(origin, scenario, request.branch);
   output_target(request.output, output_of_run(request.branch, request.overwrite));
   io::RunHeader header = session::run_header(

@@ -40,6 +40,8 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
   pictures::MapPlan plan = pictures::plan_maps(options);
   if (!plan.traces.empty())
     throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; see talus render");
+  if (arguments.maps.bare && !arguments.panel.title.empty())
+    throw Error(ExitCode::usage, "--title and --bare do not go together: a bed alone has no texts");
   if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width)
     throw Error(ExitCode::usage,
                 fmt::format("--width {}: each of {} maps beside each other takes {} px or more",

@@ -211,10 +211,16 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
     print("%s\n", remark.c_str());
   note_missing_locks();  // now, since a run takes long
   const std::vector<scenario::ScriptedCommand>& commands = open.session.scenario().commands;
-  const auto last_rate = std::find_if(commands.rbegin(), commands.rend(), [](const auto& command) {
-    return command.kind == CommandKind::tilt_rate;
+  const std::optional<double> end = open.session.scenario().tilt.end_angle;
+  const bool will_hold = std::ranges::any_of(commands, [&](const scenario::ScriptedCommand& hold) {
+    if (hold.kind != CommandKind::tilt_rate || hold.x != 0.0 || (hold.at && end && *hold.at > *end))
+      return false;
+    return std::ranges::none_of(commands,
+                                [&](const scenario::ScriptedCommand& later) {  // an angle is not reached
+                                  return later.kind == CommandKind::tilt_rate && later.x > 0.0 &&
+                                         later.time && (!hold.time || *later.time > *hold.time);
+                                });
   });
-  const bool will_hold = last_rate != commands.rend() && last_rate->x == 0.0;
   if (will_hold || (open.session.schedule().course && open.session.tilt_rate() == 0.0))
     print_error(
         "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "

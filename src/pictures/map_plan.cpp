@@ -124,11 +124,15 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
 
 /// The colours of bars and of clusters; one of each at most.
 void choose_colours(std::string_view words, MapPlan& plan) {
+  int bars = 0, palettes = 0;
   for (std::string_view rest = words; !rest.empty();) {
     const auto comma = std::min(rest.find(','), rest.size());
     const std::string_view word = rest.substr(0, comma);
     rest.remove_prefix(std::min(comma + 1, rest.size()));
     const auto palette = std::ranges::find(cluster_palettes, word, palette_name);
+    int& seen = palette == cluster_palettes.end() ? bars : palettes;
+    if (++seen > 1)
+      refuse(fmt::format("--colours {}: expected one map of colours for bars, and one for clusters", words));
     if (palette != cluster_palettes.end()) {
       if (!shows(plan, MapKind::clusters))
         refuse(fmt::format("--colours {}: it is for the map clusters", word));

@@ -55,8 +55,6 @@ std::string take_rest(Rows& maps) {
   return rest;
 }
 
-bool has_bed(const render::FrameView& view) { return view.x_max > view.x_min; }
-
 /// Texts without a bed.
 render::FrameView heading(const render::FrameView& like, const std::string& title,
                           const std::string& caption) {
@@ -91,21 +89,21 @@ bool same_legends(const std::vector<render::Legend>& a, const std::vector<render
   });
 }
 
-/// Legends below the last row only, and of neighbours that have the same one below the first; the scale bar
-/// below the last.
+/// A legend below the last angle only, unless that of another one differs, and once for maps that have the
+/// same; the scale bar below the last map; the angle at the first map of each.
 void share_furniture(Rows& maps) {
-  render::FrameView* last = nullptr;
-  for (std::size_t row = 0; row < maps.size(); ++row)
-    for (std::size_t column = 0; column < maps[row].size(); ++column) {
-      render::FrameView& view = maps[row][column];
-      if (last != nullptr && has_bed(view)) last->scale_label.clear();
-      if (has_bed(view)) last = &view;
-      if (row + 1 < maps.size()) view.legends.clear();
-      for (std::size_t before = 0; before < column; ++before) {
-        if (same_legends(view.legends, maps[row][before].legends)) view.legends.clear();
-        if (view.tilt == maps[row][before].tilt) view.caption.clear();
-      }
+  for (std::vector<render::FrameView>& row : maps) {
+    const bool last = &row == &maps.back();
+    for (std::size_t map = 0; map < row.size(); ++map) {
+      if (!last || map + 1 < row.size()) row[map].scale_label.clear();
+      if (map > 0 && row[map].caption == row[0].caption) row[map].caption.clear();
+      if (!last && same_legends(row[map].legends, maps.back()[map].legends)) row[map].legends.clear();
     }
+  }
+  std::vector<render::FrameView>& last = maps.back();
+  for (std::size_t map = last.size(); map-- > 1;)
+    for (std::size_t before = 0; before < map; ++before)
+      if (same_legends(last[map].legends, last[before].legends)) last[map].legends.clear();
 }
 
 Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
@@ -149,47 +147,52 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const P
 
 }  // namespace
 
-Rows panel_rows(Rows maps, const std::string& title) {
-  const std::size_t columns = maps.front().size();
-  const bool one_row = maps.size() == 1;
-  const std::string common = one_row && title.empty() ? "" : take_rest(maps);
+Rows panel_rows(Rows maps, const std::string& title, std::size_t beside) {
+  const std::size_t kinds = maps.front().size();
+  if (!maps[0][0].furniture) return grouped(maps, beside);
+  const bool one_angle = maps.size() == 1;
+  const std::string common = one_angle && title.empty() ? "" : take_rest(maps);
   std::vector<render::FrameView> headings;
-  for (std::size_t column = 0; column < columns; ++column) {
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
     std::vector<std::string*> titles;
-    for (std::vector<render::FrameView>& row : maps)
-      if (has_bed(row[column])) titles.push_back(&row[column].title);
-    headings.push_back(heading(maps[0][column], one_row ? "" : take_beginning(titles), ""));
+    for (std::vector<render::FrameView>& row : maps) titles.push_back(&row[kind].title);
+    headings.push_back(heading(maps[0][kind], one_angle ? "" : take_beginning(titles), ""));
   }
   share_furniture(maps);
-  const bool several = maps.size() * columns > 1;
-  for (std::size_t k = 0; several && k < maps.size() * columns; ++k) {
-    if (!has_bed(maps[k / columns][k % columns])) break;
-    std::string& text = maps[k / columns][k % columns].title;
+  for (std::size_t k = 0; maps.size() * kinds > 1 && k < maps.size() * kinds; ++k) {
+    std::string& text = maps[k / kinds][k % kinds].title;
     text = letter(k) + (text.empty() ? "" : " ") + text;
   }
   Rows rows;
   if (!title.empty()) rows.push_back({heading(headings[0], title, common)});
   const auto same = [&](const render::FrameView& view) { return view.title == headings[0].title; };
-  if (std::ranges::all_of(headings, same)) headings.resize(1);
+  const bool one_heading = std::ranges::all_of(headings, same);
+  headings.resize(one_heading ? 1 : kinds * beside, headings[0]);
+  for (std::size_t k = kinds; k < headings.size(); ++k) headings[k] = headings[k % kinds];
   if (title.empty()) headings.back().caption = common;
   rows.push_back(std::move(headings));
   std::erase_if(rows, [](const std::vector<render::FrameView>& row) {
     return std::ranges::all_of(
         row, [](const render::FrameView& view) { return view.title.empty() && view.caption.empty(); });
   });
-  std::ranges::move(maps, std::back_inserter(rows));
+  std::ranges::move(grouped(maps, beside), std::back_inserter(rows));
   return rows;
 }
 
 render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width, int highest,
                           const render::Font& font) {
-  render::Sheet best = render::sheet_of_rows(panel_rows(maps, title), width, font);
+  render::Sheet best = render::sheet_of_rows(panel_rows(maps, title, 1), width, font);
   for (std::size_t beside = 2; beside <= maps.size() && best.height > highest; ++beside) try {
-      render::Sheet sheet = render::sheet_of_rows(panel_rows(grouped(maps, beside), title), width, font);
+      render::Sheet sheet = render::sheet_of_rows(panel_rows(maps, title, beside), width, font);
       if (sheet.height < best.height) best = std::move(sheet);
     } catch (const Error&) {  // texts have no room
       break;
     }
+  if (best.height > render::largest_side)
+    throw Error(ExitCode::usage,
+                fmt::format("the picture would be {} px high; at most {} px are possible: ask for a "
+                            "smaller width, or for fewer angles",
+                            best.height, render::largest_side));
   return best;
 }
 

@@ -115,8 +115,8 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
   for (std::size_t k : frames_every(clock, timing.every)) frames.push_back({k, 1});
   const auto held = [&timing](double seconds) { return static_cast<int>(std::lround(timing.fps * seconds)); };
   if (!timing.speed) {
-    frames.front().times += held(timing.hold.value_or(0.0));
-    frames.back().times += held(timing.hold.value_or(0.0));
+    for (MovieFrame* end : {&frames.front(), &frames.back()})
+      if (end != &frames.front() || frames.size() > 1) end->times += held(timing.hold.value_or(0.0));
     return frames;
   }
 
@@ -131,7 +131,7 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
     frames[k].times = static_cast<int>(first_seen(frames[k + 1]) - first_seen(frames[k]));
   frames.back().times = 1 + held(timing.hold.value_or(1.0));
   std::erase_if(frames, [](const MovieFrame& frame) { return frame.times == 0; });
-  frames.front().times += held(timing.hold.value_or(0.0));
+  if (frames.size() > 1) frames.front().times += held(timing.hold.value_or(0.0));
   return frames;
 }
 

@@ -82,6 +82,12 @@ TEST_F(MapCommands, refuse_what_makes_no_sense_before_they_look_for_the_run) {
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--transparent"}, "transparen"},
       {{"animate", "none.h5", "--map", "gamma,forces", "-o", "x.mp4", "--width", "300"}, "2 maps"},
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920"}, "WIDTHxHEIGHT"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "640.5x480"}, "WIDTHxHEIGHT"},
+      {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "640x480", "--width", "400"},
+       "--width"},
+      {{"render", "none.h5", "--map", "gamma", "--colours", "gray,viridis"}, "one for clusters"},
+      {{"panel", "none.h5", "--map", "gamma", "--at", "0", "-o", "x.png", "--title", "a", "--bare"},
+       "--title"},
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920x-1080"}, "WIDTHxHEIGHT"},
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--size", "1920x100"}, "on each side"},
       {{"animate", "none.h5", "--map", "gamma", "-o", "x.mp4", "--aspect", "16/9"}, "16:9"},
@@ -353,6 +359,12 @@ TEST_F(MapCommands, a_panel_stacks_angles_and_sets_maps_beside_each_other) {
   EXPECT_NE(talus(two + Words{"-o", "two.png"}).out.find("there before"), std::string::npos);
   EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png"}).exit_code, 73);
   EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png", "--overwrite"}).exit_code, 0);
+  for (const char* document : {"one.pdf", "one.svg"}) {
+    EXPECT_EQ(talus(one + Words{"--at", "0", "-o", document}).exit_code, 0);
+    EXPECT_NE(talus(one + Words{"--at", "0", "-o", document}).out.find("there before"), std::string::npos)
+        << document;
+  }
+  EXPECT_EQ(talus(one + Words{"--at", "0,1", "--bare", "-o", "bare.png"}).exit_code, 0);
 }
 
 TEST_F(MapCommands, a_movie_follows_the_tilt) {

@@ -15,7 +15,8 @@
 namespace talus::render {
 namespace {
 
-const PictureTexts texts = {{"Software", "talus"}, {"talus:key", "0123"}, {"talus:request", "45"}};
+const PictureTexts texts = {
+    {"Software", "talus 0.1.0 (2ace854d)"}, {"talus:key", "0123"}, {"talus:request", "45"}};
 
 std::string drawn(DocumentTarget& target, const FrameView& view, int width) {
   paint(target, sheet_of(view, width, embedded_font()));
@@ -56,9 +57,9 @@ TEST(Document, ASvgHasDiscsLinesAndTextsAsWhatTheyAre) {
   EXPECT_NE(svg.find("width=\"178.0000mm\""), std::string::npos);
   EXPECT_EQ(count(svg, "<g"), count(svg, "</g>"));
   FrameView odd = view;
-  odd.title = "a < b & c_d";
+  odd.title = "a < b ]]> & c_d";
   const std::string escaped = drawn(*make_svg_target(0.178, {}), odd, 800);
-  EXPECT_NE(escaped.find(">a &lt; b &amp; c</tspan>"), std::string::npos);
+  EXPECT_NE(escaped.find(">a &lt; b ]]&gt; &amp; c</tspan>"), std::string::npos);
   EXPECT_NE(escaped.find(">d</tspan>"), std::string::npos);
 }
 

@@ -69,11 +69,6 @@ TEST(Sheet, RowsStandBelowEachOtherWithLevelBeds) {
   EXPECT_NEAR(bed.camera.project(bed.x_min, bed.y_min).y, bed.box.bottom(), 1e-9);
 }
 
-TEST(Sheet, ThatIsTooHighIsRefused) {
-  std::vector<std::vector<FrameView>> rows(60, {test::sample_view(40, 30)});
-  EXPECT_THROW(sheet_of_rows(rows, 1600, embedded_font()), Error);
-}
-
 TEST(Sheet, AViewWithoutABedIsItsTextsAndCurves) {
   const Layout layout = lay_out(curves_alone(), 800, embedded_font());
   EXPECT_EQ(layout.bed.box.width, 0.0);

@@ -6,6 +6,8 @@
 
 #include <fmt/core.h>
 
+#include "base/errors.h"
+
 namespace talus::pictures {
 namespace {
 
@@ -96,6 +98,45 @@ TEST(PanelSheet, stands_in_more_columns_where_it_would_be_too_high) {
   EXPECT_EQ(grid.views[5].view.scale_label, "10 D") << "that of the last map";
   EXPECT_EQ(grid.views[6].view.title, "");
   EXPECT_EQ(grid.views[0].view.title, "Stress ratio") << "once";
+}
+
+TEST(PanelSheet, that_is_too_high_in_any_number_of_columns_is_refused) {
+  std::vector<std::vector<render::FrameView>> maps(2, {map_of("Stress ratio", 0, "black")});
+  maps[0][0].y_max = maps[1][0].y_max = 9.0;
+  EXPECT_THROW(panel_sheet(maps, "", 4000, render::largest_side, render::embedded_font()), Error);
+  maps[0][0].y_max = maps[1][0].y_max = 3.0;
+  EXPECT_LE(panel_sheet(maps, "", 3000, render::largest_side, render::embedded_font()).height,
+            render::largest_side)
+      << "9000 px each, beside each other";
+}
+
+TEST(PanelRows, keep_a_legend_that_differs) {
+  auto maps = four_maps("gray");
+  maps[0][0].legends[0].swatches[0].label = "white";
+  const auto rows = panel_rows(maps, "");
+  EXPECT_EQ(rows[1][0].legends.size(), 1u) << "it is not that of the last angle";
+  EXPECT_TRUE(rows[1][1].legends.empty());
+}
+
+TEST(PanelRows, beside_each_other_have_the_headings_of_all_angles) {
+  auto maps = four_maps("gray");
+  maps.push_back(
+      {map_of("Overloaded grains, l = 3 D, p_o = 0.7", 15, "black"), map_of("Stress ratio", 15, "gray")});
+  const auto rows = panel_rows(maps, "", 2);
+  ASSERT_EQ(rows.size(), 3u);
+  ASSERT_EQ(rows[0].size(), 4u);
+  EXPECT_EQ(rows[0][2].title, "Overloaded grains, l = 3 D");
+  EXPECT_EQ(rows[0][3].title, "Stress ratio");
+  EXPECT_EQ(rows[1][2].title, "(c) p_o = 0.10");
+  EXPECT_EQ(rows[2][0].title, "(e) p_o = 0.7");
+  EXPECT_EQ(rows[2][2].title, "");
+}
+
+TEST(PanelRows, of_beds_alone_have_no_texts) {
+  auto maps = four_maps("gray");
+  for (auto& row : maps)
+    for (render::FrameView& view : row) view.furniture = false;
+  EXPECT_EQ(panel_rows(maps, "").size(), 2u) << "no headings";
 }
 
 }  // namespace

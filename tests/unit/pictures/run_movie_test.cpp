@@ -44,6 +44,7 @@ TEST(MovieFrames, stay_at_both_ends_where_that_is_asked_for) {
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
   timing.speed = 2.0;
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
+  EXPECT_EQ(shown(rad({0}), timing).size(), 3u) << "one frame is the first and the last";
   timing.hold = 0.0;
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 1, 2}));
 }
