@@ -26,7 +26,9 @@ widest_number(low, high, step, power, points) = larger(text_cm(number(first_tick
 # The smallest step whose numbers have room beside each other, on an axis so many cm long, with n steps or less.
 x_step(low, high, cm, points, n) = (step10 = nice(1.0 * (high - low) / n), n < 1.5 || \
   step10 / (high - low) * cm > widest_number(low, high, step10, common_power(low, high), points) + 0.25 ? step10 : x_step(low, high, cm, points, n - 1))
-y_step(low, high, cm, points) = nice(1.0 * (high - low) / larger(1.5, smaller(6, floor(cm / (0.065 * points)))))
+# Two numbers at least: of a list without any, gnuplot would set its own.
+two_ticks(low, high, step) = !(high > low) || last_tick(high, step) > first_tick(low, step) ? step : two_ticks(low, high, nice(step / 2.5))
+y_step(low, high, cm, points) = two_ticks(low, high, nice(1.0 * (high - low) / larger(1.5, smaller(6, floor(cm / (0.065 * points))))))
 bare = 0  # 1: ticks without numbers
 tick_list(k, last, step, power) = k > last ? "" : \
   sprintf("'%s' %.15g", bare ? "" : number(k * step, step, power), k * step) . (k < last ? ", " : "") . tick_list(k + 1, last, step, power)

@@ -76,34 +76,43 @@ std::string letter(std::size_t k) {
   return "(" + text + ")";
 }
 
-bool same_legends(const std::vector<render::Legend>& a, const std::vector<render::Legend>& b) {
+/// Whether all that legends say is in others as well.
+bool are_in(const std::vector<render::Legend>& these, const std::vector<render::Legend>& others) {
+  const auto is_in = [&others](const auto& one, auto render::Legend::*parts, const auto& same) {
+    return std::ranges::any_of(others, [&](const render::Legend& legend) {
+      return std::ranges::any_of(legend.*parts, [&](const auto& other) { return same(one, other); });
+    });
+  };
   const auto same_bar = [](const render::Bar& x, const render::Bar& y) {
     return x.title == y.title && x.low == y.low && x.high == y.high && x.colours == y.colours;
   };
   const auto same_swatch = [](const render::Swatch& x, const render::Swatch& y) {
-    return x.label == y.label && x.fill == y.fill && x.rim == y.rim;
+    return x.label == y.label;  // the colour of a cluster that spans is that of one of them
   };
-  return std::ranges::equal(a, b, [&](const render::Legend& x, const render::Legend& y) {
-    return std::ranges::equal(x.bars, y.bars, same_bar) &&
-           std::ranges::equal(x.swatches, y.swatches, same_swatch);
+  return std::ranges::all_of(these, [&](const render::Legend& legend) {
+    return std::ranges::all_of(
+               legend.bars, [&](const auto& bar) { return is_in(bar, &render::Legend::bars, same_bar); }) &&
+           std::ranges::all_of(legend.swatches, [&](const auto& swatch) {
+             return is_in(swatch, &render::Legend::swatches, same_swatch);
+           });
   });
 }
 
-/// A legend below the last angle only, unless that of another one differs, and once for maps that have the
-/// same; the scale bar below the last map; the angle at the first map of each.
+/// A legend below the last angle only, unless that of another one says something else, and once for maps that
+/// have the same; the scale bar below the last map; the angle at the first map of each.
 void share_furniture(Rows& maps) {
   for (std::vector<render::FrameView>& row : maps) {
     const bool last = &row == &maps.back();
     for (std::size_t map = 0; map < row.size(); ++map) {
       if (!last || map + 1 < row.size()) row[map].scale_label.clear();
       if (map > 0 && row[map].caption == row[0].caption) row[map].caption.clear();
-      if (!last && same_legends(row[map].legends, maps.back()[map].legends)) row[map].legends.clear();
+      if (!last && are_in(row[map].legends, maps.back()[map].legends)) row[map].legends.clear();
     }
   }
   std::vector<render::FrameView>& last = maps.back();
   for (std::size_t map = last.size(); map-- > 1;)
     for (std::size_t before = 0; before < map; ++before)
-      if (same_legends(last[map].legends, last[before].legends)) last[map].legends.clear();
+      if (are_in(last[map].legends, last[before].legends)) last[map].legends.clear();
 }
 
 Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
