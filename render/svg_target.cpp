@@ -1,6 +1,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/text.h"
 #include "render/document.h"
 
 namespace talus::render {
@@ -23,20 +24,6 @@ std::string colour_text(const char* property, const Colour& colour) {
   return text;
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
-  return result;
-}
-
 class SvgTarget final : public DocumentTarget {
  public:
   SvgTarget(double page_width, const PictureTexts& texts) : page_width_(page_width), texts_(texts) {}
@@ -47,7 +34,7 @@ class SvgTarget final : public DocumentTarget {
     file_ = fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "width=\"{:.4f}mm\" height=\"{:.4f}mm\" viewBox=\"0 0 {} {}\">\n<metadata>{}</metadata>\n",
-        mm * width, mm * height, width, height, escaped(joined_texts(texts_)));
+        mm * width, mm * height, width, height, xml_text(joined_texts(texts_)));
     if (format != PixelFormat::transparent)
       file_ += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n", width, height);
   }
@@ -100,7 +87,7 @@ class SvgTarget final : public DocumentTarget {
         file_ += fmt::format("<tspan x=\"{}\" y=\"{}\"", number(text.box.x + line.glyphs[run.first].x),
                              number(base_line + drop));
         if (run.subscript) file_ += fmt::format(" font-size=\"{}\"", number(subscript_size * em));
-        file_ += ">" + escaped(run.text) + "</tspan>";
+        file_ += ">" + xml_text(run.text) + "</tspan>";
       }
       file_ += "</text>\n";
     }

@@ -4,6 +4,20 @@
 
 namespace talus {
 
+std::string xml_text(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '&')
+      result += "&amp;";
+    else
+      result += c;
+  return result;
+}
+
 std::string csv_quoted(const std::string& text) {
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);

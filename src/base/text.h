@@ -22,6 +22,9 @@ std::string joined(const Items& items, std::string_view between, const TextOf& t
 /// A field of CSV in quotes (RFC 4180), for texts that may hold commas.
 std::string csv_quoted(const std::string& text);
 
+/// A text between the tags of XML, SVG or HTML: <, > and & as entities.
+std::string xml_text(std::string_view text);
+
 /// A word as a shell reads it: in quotes where it has to be, and as $'...' of bash with \xNN for bytes that
 /// are no text or that a terminal obeys.
 std::string shell_quoted(const std::string& word);

@@ -4,18 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.h"
 #include "base/version.h"
 #include "exports/fields.h"
 #include "exports/writers.h"
 
 namespace talus::exports {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  return result;
-}
 
 struct Key {
   std::string_view owner;  ///< graph, node or edge
@@ -29,7 +24,7 @@ std::string key_text(const Key& key) {
   const std::string unit = key.unit == "1" || key.unit.empty() ? "" : fmt::format(", {}", key.unit);
   return fmt::format(
       "<key id=\"{0}.{1}\" for=\"{0}\" attr.name=\"{1}\" attr.type=\"{2}\"><desc>{3}{4}</desc></key>\n",
-      key.owner, key.name, key.type, escaped(key.definition), unit);
+      key.owner, key.name, key.type, xml_text(key.definition), unit);
 }
 
 std::string keys_text(std::string_view owner, const std::vector<FieldColumn>& columns) {

@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "core/trigonometry.h"
 #include "exports/page/contact_tables.h"
@@ -231,19 +232,6 @@ std::string as_script(const std::string& text) {
   return result;
 }
 
-/// A text in HTML.
-std::string as_text(const std::string& text) {
-  std::string result;
-  for (const char c : text)
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '&')
-      result += "&amp;";
-    else
-      result += c;
-  return result;
-}
-
 }  // namespace
 
 std::string run_page(const io::RunFile& file, const std::string& path, const analysis::Analysis& analysis,
@@ -255,7 +243,7 @@ std::string run_page(const io::RunFile& file, const std::string& path, const ana
   const PageTables tables = tables_of(run, parts, contacts);
   const std::string name = std::filesystem::path(path).stem().string();
   return filled(page_template(), [&](std::string_view part) -> std::string {
-    if (part == "title") return as_text(fmt::format("{}: {}", page_title(run), name));
+    if (part == "title") return xml_text(fmt::format("{}: {}", page_title(run), name));
     if (part == "style") return std::string(page_style());
     if (part == "script") return page_script();
     if (part == "data") return as_script(data_json(run, name, parts, tables, contacts));
