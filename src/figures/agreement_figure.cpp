@@ -189,7 +189,7 @@ std::optional<Figure> agreement_figure(const studies::ReproductionResult& result
   if (packing.rows.empty() && chain.rows.empty()) return std::nullopt;
   Figure figure;
   figure.name = "agreement";
-  figure.title = "Ours beside the paper's values";
+  figure.title = "Our values and the paper's";
   figure.caption =
       "Ours less the paper's value, in units of the tolerance of the comparison; what lies in the gray band "
       "agrees (full symbols). (a) The packing, by preparation of the periodic bed, and beds between walls. "

@@ -72,7 +72,8 @@ Column tilts_of_the_paper() {
 }
 
 constexpr std::string_view paper_text =
-    " Crosses: the paper's values at 0, theta_d = 15 deg and theta_c = 21 deg, in each panel.";
+    " Crosses: the paper's values at 0, theta_d = 15 deg and theta_c = 20 deg, the middle of its range of "
+    "19 to 21 deg, in each panel.";
 
 }  // namespace
 

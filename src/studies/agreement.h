@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a value of ours agrees with the paper's: one rule for all.
+/// Judges whether a value of ours agrees with the paper's, by one rule for all quantities.
 
 #include <span>
 #include <string>
@@ -12,36 +12,38 @@ namespace talus::studies {
 
 /// Values of several seeds.
 struct Spread {
-  int runs = 0;  ///< all that were asked
+  int runs = 0;  ///< number of runs, with or without a value
   Statistics values;
-  bool at_most = false;  ///< no more than an upper bound is known in at least one of them
+  bool at_most = false;  ///< true if a run gives only an upper bound
 };
 Spread spread_of(std::span<const Measured> values);
 
 enum class Agreement {
   agrees,
   differs,
-  absent,          ///< what the paper saw does not occur
-  not_comparable,  ///< the two are not the same thing; the reason says why
+  absent,          ///< no run shows what the paper reports
+  not_comparable,  ///< the two quantities differ in kind; see the reason
 };
 
 struct Judgement {
   Agreement agreement = Agreement::not_comparable;
-  double difference = 0.0;  ///< ours less the paper's
-  double tolerance = 0.0;   ///< up to which it agrees
-  std::string reason;       ///< of not_comparable
+  double difference = 0.0;  ///< our value minus the paper's
+  double tolerance = 0.0;   ///< largest difference that still agrees
+  std::string reason;       ///< explanation of not_comparable; else empty
 };
 
+/// Compares the mean over the seeds with the paper's value:
 /// - No run: not comparable. No value in any run: absent.
-/// - Equals: agrees where |mean - value| is not above the tolerance, which is the accuracy of the paper's
-///   number and one standard deviation over the seeds (the accuracy alone for one seed).
-/// - Above: agrees where the mean is above the value; the tolerance is zero.
-/// - Where only an upper bound is known, it differs if the bound is below the value by more than the
-///   tolerance, and is not comparable else.
-/// - A length in D of a bed that is not as deep as the paper's is not comparable: it ends at the depth.
+/// - Equals: agrees if |mean - value| does not exceed the tolerance, which is the accuracy of the paper's
+///   number plus one standard deviation over the seeds (the accuracy alone for one seed).
+/// - Above: agrees if the mean exceeds the value; the tolerance is zero.
+/// - An upper bound differs if it lies below the value by more than the tolerance; otherwise it is not
+///   comparable.
+/// - A length in D is not comparable if the bed is not as deep as the paper's, because lengths end at the
+///   depth. `depth` is in D.
 Judgement judge(const PaperValue& paper, const Spread& ours, double depth);
 
-/// "agrees"; "differs by +0.62 (tolerance 0.03)"; "does not occur"; "not comparable: ...".
+/// Returns "agrees"; "differs by +0.62 (tolerance 0.03)"; "does not occur"; "not comparable: ...".
 std::string judgement_text(const Judgement& judgement);
 
 }  // namespace talus::studies

@@ -52,7 +52,7 @@ double stress_ratio(const FailedRun& of) {
                              [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.tilt(k)); });
 }
 
-/// Of sigma_xx between the lower and the upper half of the bed, over their mean.
+/// Difference of sigma_xx between the lower and the upper half of the bed, over their mean.
 double gradient(const FailedRun& of) {
   return mean_before_failure(of, [&](std::size_t k) {
     const std::vector<double>& sections = of.frame(k).section_sigma_xx;
@@ -63,7 +63,7 @@ double gradient(const FailedRun& of) {
   });
 }
 
-/// Where the bed dilates, and how much it contracted before. The range of the minimum of the strain says
+/// Onset of dilation, and the contraction before it. The range of the minimum of the strain says
 /// whether either is more than noise.
 double contracted(const FailedRun& of) {
   const double onset = of.run.analysis.dilation[0];
@@ -90,7 +90,7 @@ double peak(const FailedRun& of, std::size_t which) { return degrees(of.frame(0)
 /// A direction near 180 deg is one near 0.
 double wrapped(double angle) { return angle > 90.0 ? angle - 180.0 : angle; }
 
-/// What is more than one number of the run; nothing for what is one.
+/// Measures a quantity that combines several numbers of the run; empty for all others.
 std::optional<Measured> derived(const FailedRun& of, PaperQuantity quantity) {
   switch (quantity) {
     case normals_near_0:

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run gives for the quantities of the paper, read from its analysis.
+/// Values of the paper's quantities in one run, read from its analysis.
 
 #include <array>
 #include <cstddef>
@@ -11,30 +11,30 @@
 
 namespace talus::studies {
 
-/// Grains that p_o is a share of.
+/// Population of grains over which p_o is a fraction.
 enum class Population {
-  carrying,  ///< those that carry something, as gamma is known for no others
+  carrying,  ///< free grains that carry a force, the only ones with a gamma
   all,       ///< all free grains
 };
 
-/// A number in the unit of the paper's value; NaN where the run has none.
+/// A number in the unit of the paper's value; NaN if the run has none.
 struct Measured {
   double value = 0.0;
-  bool at_most = false;  ///< no more is known than that it is not above the value: so from the first frame on
+  bool at_most = false;  ///< `value` is only an upper bound, because the event precedes the first frame
 };
 
-/// The quantity in a run that has failed, with threshold `factor` (an index) of its analysis. NaN where the
-/// slope has not failed, and for the coefficient of the walls, which no single run has.
+/// Returns the quantity in a run that has failed, at the threshold with index `factor` of its analysis. NaN
+/// if the slope has not failed, and for the wall coefficient, which is fitted to many runs.
 Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor, Population population);
 
-/// Of all quantities.
+/// Values of all quantities, in their order.
 using MeasuredValues = std::array<Measured, quantity_count>;
 MeasuredValues measure_all(const runs::RunView& run, std::size_t factor, Population population);
 inline const Measured& at(const MeasuredValues& values, PaperQuantity quantity) {
   return values[static_cast<std::size_t>(quantity)];
 }
 
-/// H / L and the ratio of a bed at failure; the ratio is NaN where it has not failed.
+/// Returns H / L and the stress ratio of a bed at failure; the ratio is NaN if the bed has not failed.
 WallPoint wall_point(const runs::RunView& run);
 
 }  // namespace talus::studies

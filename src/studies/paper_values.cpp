@@ -37,7 +37,7 @@ const std::array<PaperValue, quantity_count> paper_values = {{
      equals, "the same", &FrameRecord::direction_peak, Place::start},
     {stress_ratio_at_0, "Gamma at 0 deg", "Sec. IV, Fig. 5", "about 0.08", 0.08, 0.005, "1", equals,
      "Q/P of the packing, first frame", &FrameRecord::stress_ratio, Place::start},
-    {theta_c, "theta_c", "Sec. IV, Fig. 4", "about 21 deg", 21.0, 0.5, "deg", equals,
+    {theta_c, "theta_c", "Sec. IV, Fig. 4", "about 19 to 21 deg, all beds", 20.0, 1.0, "deg", equals,
      "tilt at which a surface flow sets in that does not stop", &Analysis::theta_c, Place::run},
     {shear_over_tangent, "sigma_T/sigma_N over tan(theta) at theta_c", "Eq. 10, Fig. 4",
      "1, fits excellently", 1.0, 0.02, "1", equals, "mean over the last half degree up to theta_c",
@@ -46,11 +46,11 @@ const std::array<PaperValue, quantity_count> paper_values = {{
      "1", equals, "mean over the last half degree up to theta_c", &FrameRecord::stress_ratio, Place::theta_c},
     {contraction, "contraction up to theta_d", "Sec. VI, Fig. 14", "the volume first decreases", 0.0, 0.0,
      "1", above,
-     "V0 less the smallest V, over V0; up to theta_c where no dilation sets in; none where the range of the "
+     "V0 less the smallest V, over V0; up to theta_c if no dilation sets in; none if the range of the "
      "minimum begins at the first tilt",
      &FrameRecord::volume_strain, Place::theta_c},
     {dilation, "dilation from theta_d to theta_c", "Sec. VI, Fig. 14", "then it increases", 0.0, 0.0, "1",
-     above, "volume strain at theta_c less that at its minimum; none where it does not rise above its noise",
+     above, "volume strain at theta_c less that at its minimum; none if it does not rise above its noise",
      &FrameRecord::volume_strain, Place::theta_c},
     {volume_strain_at_theta_c, "volume strain at theta_c", "Sec. VI, Fig. 14", "positive", 0.0, 0.0, "1",
      above, "(V - V0)/V0 of the last frame up to theta_c", &FrameRecord::volume_strain, Place::theta_c},
@@ -76,7 +76,7 @@ const std::array<PaperValue, quantity_count> paper_values = {{
     {lc_max_before_jump, "largest l_c just below theta_d", "Sec. V B, Fig. 12b", "15 D", 15.0, 2.5, "D",
      equals, "the same in the frame before its jump", &FrameThreshold::lc_max, Place::before_theta_d},
     {lc_max_after_jump, "largest l_c just above theta_d", "Sec. V B, Fig. 12b", "30 D, the cut", 30.0, 2.5,
-     "D", equals, "the same in the frame after its jump; 30 D where it is more, the cut of the paper",
+     "D", equals, "the same in the frame after its jump, but at most 30 D, the cut of the paper",
      &FrameThreshold::lc_max, Place::theta_d},
     {theta_d_by_jump, "theta_d: jump of l_c max", "Sec. V B, Fig. 12b", "15 deg", 15.0, 0.5, "deg", equals,
      "frame after the largest increase, up to where the cut is reached", &RunThreshold::lc_jump, Place::run},
@@ -85,11 +85,11 @@ const std::array<PaperValue, quantity_count> paper_values = {{
      &RunThreshold::percolation, Place::run},
     {theta_d_by_dilation, "theta_d: onset of dilation", "Sec. VI, Fig. 14", "15 deg", 15.0, 0.5, "deg",
      equals,
-     "minimum of the volume strain, a mean over 1 deg; none where it does not rise above its noise; an upper "
-     "bound where its range begins at the first tilt",
+     "minimum of the volume strain, a mean over 1 deg; none if it does not rise above its noise; an upper "
+     "bound if its range begins at the first tilt",
      &Analysis::dilation, Place::run},
 
-    {theta_c_of_walls, "theta_c", "Sec. IV, Fig. 4", "about 19 to 21 deg", 20.0, 1.0, "deg", equals,
+    {theta_c_of_walls, "theta_c", "Sec. IV, Fig. 4", "about 19 to 21 deg, all beds", 20.0, 1.0, "deg", equals,
      "tilt at which a surface flow sets in that does not stop", &Analysis::theta_c, Place::run},
     {shear_over_tangent_of_walls, "sigma_T/sigma_N over tan(theta) at theta_c", "Eq. 15, Fig. 7",
      "1 - (k_L - k_0)/3 H/L", 1.0, 0.0, "1", equals, "mean over the last half degree up to theta_c",

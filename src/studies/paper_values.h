@@ -1,5 +1,5 @@
 #pragma once
-/// What the paper reports, number by number, as plain data. Nothing here is ours.
+/// Values that the paper reports, as plain data; none of them is ours.
 
 #include <array>
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace talus::studies {
 
-/// What the paper gives a value for. Angles of the tilt are those of the same run: theta_d is the tilt of the
-/// jump of l_c max.
+/// Quantities for which the paper gives a value. Places such as theta_d refer to the same run; theta_d is the
+/// tilt at which l_c max jumps.
 enum class PaperQuantity : std::size_t {
   // of the periodic bed
   solid_fraction,
@@ -51,45 +51,46 @@ inline constexpr std::size_t quantity_count = static_cast<std::size_t>(PaperQuan
 
 enum class Relation {
   equals,  ///< within `accuracy` of `value`
-  above,   ///< the paper says no more than that it is above `value`
+  above,   ///< the paper states only that it exceeds `value`
 };
 
-/// The accuracy is half a step of the number as it is printed, or of the scale that it was read from.
+/// One value of the paper. Its accuracy is half a step of the printed number or of the scale from which it
+/// was read; for theta_c, given as one range for all beds, half the width of the range.
 struct PaperValue {
   PaperQuantity quantity;
   std::string_view name;   ///< "p_o at 0 deg"
   std::string_view where;  ///< "Sec. V A, Fig. 9"
-  std::string_view text;   ///< as printed: "about 30 %"
+  std::string_view text;   ///< wording of the paper: "about 30 %"
   double value;
   double accuracy;
   std::string_view unit;  ///< "deg", "D", or "1"
   Relation relation;
-  std::string_view definition;                   ///< how ours is measured
-  analysis::QuantityMember source;               ///< what it is read from, or made from, ...
-  analysis::Place place = analysis::Place::run;  ///< ... and where
+  std::string_view definition;                   ///< definition of our value
+  analysis::QuantityMember source;               ///< analysis quantity from which ours is read or computed
+  analysis::Place place = analysis::Place::run;  ///< place at which it is read
 };
 
-/// One row for each quantity, in their order.
+/// Table with one row for each quantity, in their order.
 extern const std::array<PaperValue, quantity_count> paper_values;
 inline const PaperValue& paper_value(PaperQuantity quantity) {
   return paper_values[static_cast<std::size_t>(quantity)];
 }
 
-/// The quantities of the periodic bed that need no threshold.
+/// Returns the values of the periodic bed that need no threshold.
 std::span<const PaperValue> packing_values();
-/// Those that need one, and the onset of dilation that belongs to them: the paper's chain.
+/// Returns the values that need a threshold, and the onset of dilation: the paper's chain.
 std::span<const PaperValue> chain_values();
-/// Those of beds between walls.
+/// Returns the values of beds between walls.
 std::span<const PaperValue> wall_values();
 
-/// The depth of the paper's beds, and the cut of l_c in its data processing; D.
+/// Depth of the paper's beds and cut of l_c in its data processing, D.
 inline constexpr double paper_depth = 40.0;
 inline constexpr double paper_lc_cut = 30.0;
 
-/// k_L - k_0 of the paper, and its Eq. 15 with it: (sigma_T / sigma_N) / tan(theta) of a bed between walls.
+/// Returns (sigma_T / sigma_N) / tan(theta) of a bed between walls by Eq. 15 with the paper's k_L - k_0.
 double paper_wall_ratio(double depth_over_length);
 
-/// The value of a bed between walls that has H / L of the paper's; that of other quantities is the table's.
+/// Returns the paper's value for a bed between walls with this H / L; only sigma_T / sigma_N depends on it.
 PaperValue paper_value_of_walls(PaperQuantity quantity, double depth_over_length);
 
 }  // namespace talus::studies

@@ -59,7 +59,7 @@ std::vector<Reading> make_readings() {
   return all;
 }
 
-/// Mean score of the results by a member of theirs, a number; NaN where there is none.
+/// Mean score of the results, grouped by one of their members; NaN without results.
 std::vector<double> mean_scores(std::span<const ReadingResult> results, std::size_t ReadingResult::*member) {
   std::vector<std::vector<double>> scores;
   for (const ReadingResult& result : results) {
@@ -97,7 +97,7 @@ bool is_nearer(const ReadingResult& first, const ReadingResult& second) {
   return first.deviation < second.deviation;
 }
 
-/// Where a value of the chain is missed by all results, and which is nearest.
+/// Lists the values of the chain that all results miss, with the nearest result.
 std::optional<ChainConclusion::Missed> missed(std::span<const ReadingResult> results, std::size_t value) {
   ChainConclusion::Missed found{value, {}};
   double least = 0.0;

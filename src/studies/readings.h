@@ -1,6 +1,6 @@
 #pragma once
-/// Which reading of the paper's definitions, and which preparation of the bed, comes nearest to the paper's
-/// chain from the overloaded fraction to theta_d: one factor at a time (docs/reproduce.md).
+/// Search for the reading of the paper's definitions, and the preparation of the bed, that come nearest to
+/// the paper's chain from the overloaded fraction to theta_d, one factor at a time (docs/reproduce.md).
 
 #include <cstddef>
 #include <optional>
@@ -13,59 +13,59 @@
 
 namespace talus::studies {
 
-/// An analysis of each run.
+/// Settings of an analysis that is made of each run.
 struct ChainAnalysis {
   std::string name;                   ///< "l_min=0,min_contacts=3"
-  std::vector<std::string> settings;  ///< "key=value" on the defaults; none: that which run files store
+  std::vector<std::string> settings;  ///< "key=value", on top of the defaults; none: the stored analysis
   Population population = Population::carrying;
 };
-/// For beds of a depth (D): the paper's cut of l_c is 3/4 of it. Their order does not depend on it; the first
-/// and the last are read from what run files store.
+/// Returns the analyses for beds of a depth (D), of which the paper's cut of l_c is 3/4. Their order does not
+/// depend on the depth; the first and the last use the analysis stored in the run files.
 std::vector<ChainAnalysis> chain_analyses(double depth);
 
-/// A way to read the paper's definitions: which grains are overloaded, and what follows from it.
+/// One reading of the paper's definitions of overloaded grains and of what follows from them.
 struct Reading {
   std::string base;          ///< "single grains, gamma >= Gamma_c"
-  std::string change;        ///< the one factor that differs from the first reading of this base; empty: none
+  std::string change;        ///< the factor that differs from the first reading of this base, or empty
   std::size_t analysis = 0;  ///< index into chain_analyses()
   std::size_t factor = 0;    ///< index of the threshold
 };
 std::span<const Reading> readings();
-/// The three with no change: single grains with the printed threshold and with twice it, and grains with
-/// their first neighbours.
+/// Returns the three readings without a change: single grains with the printed threshold and with twice it,
+/// and grains with their first neighbours.
 std::span<const Reading> base_readings();
 
 /// The chain of one preparation under one reading, each value over the seeds.
 struct ReadingResult {
   std::size_t preparation = 0;
   std::size_t reading = 0;
-  std::vector<Spread> values;         ///< of chain_values(), in their order
-  std::vector<Judgement> judgements;  ///< the same
+  std::vector<Spread> values;         ///< values in the order of chain_values()
+  std::vector<Judgement> judgements;  ///< verdicts in the same order
   int agreeing = 0;                   ///< values that agree: the score
   int comparable = 0;                 ///< values that can be compared
-  /// Median over these of |ours - paper| / paper, infinite where a value does not occur: half of the chain is
-  /// at least as near. NaN where nothing can be compared.
+  /// Median of |ours - paper| / paper over the comparable values, infinite for a value that does not occur;
+  /// NaN if nothing can be compared.
   double deviation = 0.0;
 };
 
-/// `runs`: the values of each seed under the reading.
+/// Judges the chain of one preparation under one reading; `runs` holds the values of each seed.
 ReadingResult judge_reading(std::size_t preparation, std::size_t reading,
                             std::span<const MeasuredValues> runs, double depth);
 
-/// What follows from all results together.
+/// Conclusions from all results together.
 struct ChainConclusion {
   std::vector<std::size_t> best;  ///< results with the highest score; of these, with the smallest deviation
   std::optional<std::size_t> least_deviation;  ///< the result with the smallest deviation of all
-  bool complete = false;                       ///< a best one agrees in all that can be compared
-  /// Of the chain: values that no result brings within tolerance, and the result that comes nearest; none
-  /// where it occurs in no result.
+  bool complete = false;                       ///< a best result agrees in every comparable value
+  /// A value of the chain that no result brings within tolerance, and the result that comes nearest, if the
+  /// value occurs in any.
   struct Missed {
     std::size_t value = 0;
     std::optional<std::size_t> nearest;
   };
   std::vector<Missed> missed;
-  /// Mean score over preparations of each reading, and over readings of each preparation; NaN where there is
-  /// no result.
+  /// Mean score of each reading over preparations, and of each preparation over readings; NaN without
+  /// results.
   std::vector<double> score_of_reading;
   std::vector<double> score_of_preparation;
 };

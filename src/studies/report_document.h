@@ -1,6 +1,5 @@
 #pragma once
-/// A report as data: headings, paragraphs, tables and pictures, written as one HTML page that needs nothing
-/// beside it.
+/// Report as data (headings, paragraphs, tables and pictures), written as one self-contained HTML page.
 
 #include <string>
 #include <variant>
@@ -14,7 +13,7 @@ struct ReportHeading {
   int level = 2;
   std::string text;
 };
-/// Links to all headings of level 2.
+/// List of links to all headings of level 2.
 struct ReportContents {};
 struct ReportParagraph {
   std::string text;
@@ -26,23 +25,23 @@ struct ReportCommands {
   std::vector<std::string> lines;
 };
 struct ReportPicture {
-  std::string file;  ///< a PNG, by its path from the report's folder
+  std::string file;  ///< path of a PNG relative to the report's folder
   std::string title;
   std::string caption;
-  bool wide = false;  ///< over the whole width of the page
+  bool wide = false;  ///< spans the whole width of the page
 };
 
 using ReportBlock = std::variant<ReportHeading, ReportContents, ReportParagraph, ReportList, ReportCommands,
                                  TextTable, ReportPicture>;
 
-/// Texts are plain; `words between backticks` are set as code.
+/// Title and blocks; texts are plain, and `words between backticks` are set as code.
 struct ReportDocument {
   std::string title;
   std::vector<ReportBlock> blocks;
 };
 
-/// One page of HTML that needs nothing beside it: pictures are read from `folder` and built in. Throws as
-/// read_file does where one cannot be read.
+/// Writes one self-contained HTML page, with the pictures of `folder` built in. Throws as read_file does if a
+/// picture cannot be read.
 std::string report_html(const ReportDocument& document, const std::string& folder);
 
 }  // namespace talus::studies

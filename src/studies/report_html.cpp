@@ -90,7 +90,7 @@ std::string cell_html(const TextCell& cell, bool number) {
   return element("td", inside, classes);
 }
 
-/// What a link to a heading goes by: its letters and digits, with hyphens between words.
+/// Returns the anchor of a heading: its letters and digits, with hyphens between words.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (const unsigned char c : heading)

@@ -111,16 +111,20 @@ std::vector<ReportBlock> rule_blocks() {
       ReportList{{
           "Ours is the mean over the seeds ± their standard deviation (that of one bed, not of the mean).",
           ("The accuracy of a value of the paper, printed below it, is half a step of the number as it is "
-           "printed, or of the scale that it was read from."),
-          ("The tolerance is this accuracy and one standard deviation of ours. A value within it agrees. A "
-           "wide spread thus makes it easier to agree, so it is printed beside the "
-           "value."),
-          ("\"Does not occur\": no run shows it. \"Not comparable\" says why. `<=` is an upper bound: what "
-           "is looked for is there from the first frame on."),
-          ("All that depends on which grains are overloaded stands there in three readings: single grains "
-           "with the printed threshold, gamma >= Gamma_c = sin(theta_c); single grains with twice it; and "
-           "grains taken together with their first neighbours, all within 1.5 D, with the printed one. "
-           "theta_c is that of the same run."),
+           "printed, or of the scale that it was read from. For theta_c, which the paper gives as one range "
+           "for all its beds, about 19 to 21 deg, the value is the middle of the range and the accuracy half "
+           "its width."),
+          ("theta_c falls with the length of a periodic bed, because the weakest place decides. The "
+           "threshold Gamma_c = sin(theta_c) falls with it, so that p_o at equal tilt is higher in a longer "
+           "bed."),
+          ("The tolerance is this accuracy plus one standard deviation of ours, and a value within it "
+           "agrees. A wide spread thus makes it easier to agree, so the spread is printed with the value."),
+          ("\"Does not occur\" means that no run shows it; \"not comparable\" is followed by the reason. "
+           "`<=` marks an upper bound: the event has already happened in the first frame."),
+          ("Every value that depends on which grains are overloaded is given in three readings: single "
+           "grains with the printed threshold, gamma >= Gamma_c = sin(theta_c); single grains with twice "
+           "that threshold; and grains taken together with all neighbours within 1.5 D, with the printed "
+           "threshold. theta_c is that of the same run."),
       }}};
 }
 
@@ -206,7 +210,7 @@ std::vector<ReportBlock> definition_blocks() {
   return {
       ReportHeading{2, "How each number is measured"},
       ReportParagraph{"`talus analyze BED/seed-N.h5` prints the series of a run and, with `--json`, all "
-                      "of them; they stand in the run file under the path given here. Definitions are those "
+                      "of them; they are in the run file under the path given here. Definitions are those "
                       "of docs/analysis.md and docs/notation.md; `values.csv` has the value of each run."},
       definition_table()};
 }
@@ -280,7 +284,7 @@ std::vector<std::string> reproduction_summary(const ReproductionResult& result) 
 }
 
 ReportDocument reproduction_report(const ReproductionResult& result, const ReproductionPictures& pictures) {
-  ReportDocument document{"Talus beside the paper", {}};
+  ReportDocument document{"Talus and the paper", {}};
   auto& blocks = document.blocks;
   const auto append = [&blocks](const auto& more) {
     for (const auto& block : more) blocks.emplace_back(block);

@@ -1,5 +1,5 @@
 #pragma once
-/// The report of `talus reproduce`: the paper's values beside ours.
+/// Report of `talus reproduce`, which compares our values with the paper's.
 
 #include <string>
 #include <vector>
@@ -9,43 +9,43 @@
 
 namespace talus::studies {
 
-/// The figures of a report by the part that each stands in.
+/// Figures of a report, by the section in which each appears.
 struct ReproductionPictures {
   std::vector<ReportPicture> agreement, packing, overload, walls, further;
 };
 
-/// The whole report: the result first, with its chart, then the parts, and last how it was made.
+/// Composes the whole report: the result with its chart, the sections, and finally how it was made.
 ReportDocument reproduction_report(const ReproductionResult& result, const ReproductionPictures& pictures);
 
-/// What is said first: how many values agree in each preparation, the law of walls, and the reading that
-/// comes nearest. One sentence an item.
+/// Summarises how many values agree in each preparation, the wall law, and the nearest reading; one sentence
+/// an item.
 std::vector<std::string> reproduction_summary(const ReproductionResult& result);
 
-/// The part on the threshold: tables, and what follows from them.
+/// Composes the section on the threshold: its tables and conclusions.
 std::vector<ReportBlock> threshold_blocks(const ReproductionResult& result);
 
-/// The reading that comes nearest, and whether it brings the paper's chain and ours together.
+/// States the nearest reading, and whether it reconciles the paper's chain with ours.
 std::vector<std::string> threshold_verdict(const ReproductionPlan& plan,
                                            std::span<const ReadingResult> results);
 
-/// All sentences that follow from the scores of all readings and preparations.
+/// States every conclusion from the scores of all readings and preparations.
 std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
                                               std::span<const ReadingResult> results);
 
-/// "a, b and c".
+/// Joins words as "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 
-/// "theta_c [deg]".
+/// Returns the name with its unit, such as "theta_c [deg]".
 std::string name_text(const PaperValue& paper);
 
-/// "poured grains".
+/// Describes the preparation, as in "poured grains".
 std::string preparation_text(const ensemble::Variant& bed);
 
-/// "0.815 ± 0.012"; "<= 0.00" where no more is known; "-" where there is none; " (1 of 2)" where runs have
-/// none.
+/// Formats "0.815 ± 0.012"; "<= 0.00" for an upper bound; "-" without a value; "(1 of 2)" is appended if some
+/// runs have none.
 std::string spread_text(const Spread& spread);
 
-/// A value of ours with its verdict below it.
+/// Formats a value of ours with the verdict below it.
 TextCell judged_cell(const PaperValue& paper, const Spread& ours, double depth);
 
 }  // namespace talus::studies

@@ -35,7 +35,7 @@ Thresholds measure_thresholds(const runs::RunView& run, Population population) {
   return thresholds;
 }
 
-/// Of what quantities mean: another number makes kept values invalid.
+/// Version of the definitions; a new number invalidates stored values.
 constexpr int measure_version = 1;
 
 std::string reading_key(const io::RunFile& run, const ChainAnalysis& analysis) {

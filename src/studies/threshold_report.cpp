@@ -1,4 +1,4 @@
-/// The part of the reproduction report on what brings the paper's chain about.
+/// Section of the reproduction report on the reading of the threshold.
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ std::string best_text(const ReproductionPlan& plan, std::span<const ReadingResul
       conclusion.best.size() > 1 ? ", in each." : ".");
 }
 
-/// Where another result than the best one has the smallest deviation.
+/// Names a result other than the best one that has the smallest deviation.
 std::string least_text(const ReproductionPlan& plan, std::span<const ReadingResult> results,
                        std::size_t least) {
   return fmt::format("The smallest median deviation has {}: {}, with {} that agree.",
@@ -137,19 +137,19 @@ std::string missed_text(const ReproductionPlan& plan, std::span<const ReadingRes
   return fmt::format("No combination reaches {}.", listed(texts));
 }
 
-/// What is asked, and how the definitions are read.
+/// Introduces the question and the readings of the definitions.
 std::vector<ReportBlock> introduction() {
   return {ReportHeading{2, "Settling which grains are overloaded"},
           ReportParagraph{
-              "The paper leaves some things open: how beds were made, and details of its data processing. "
-              "Here its definitions are read in other ways for each preparation, one factor at a time from "
+              "The paper leaves open how its beds were made and some details of its data processing. "
+              "Here its definitions are varied for each preparation, one factor at a time, from "
               "three readings: single grains with the printed threshold, single grains with twice it, and "
               "grains taken together with their first neighbours, within 1.5 D, with the printed threshold. "
               "\"Agree\" counts the values of the chain that agree with the paper's, each by the rule above; "
-              "\"half within\" is the median of |ours - paper| / paper over the chain. They say how near a "
-              "reading comes, not why; values of one chain are not independent."},
+              "\"half within\" is the median of |ours - paper| / paper over the chain. They show how near a "
+              "reading comes, not why; the values of one chain are not independent."},
           ReportList{{
-              "p_o over all grains: not over those alone that carry something.",
+              "p_o over all grains: not only over those that carry a force.",
               ("Grains with 3 contacts or more: a grain held by two contacts has gamma near 1 whatever its "
                "load; here it does not count."),
               "Moments averaged over 1 deg: the internal moment of each grain is a mean over 1 deg of tilt.",
@@ -174,11 +174,12 @@ std::string listed(const std::vector<std::string>& words) {
 
 std::vector<std::string> threshold_verdict(const ReproductionPlan& plan,
                                            std::span<const ReadingResult> results) {
-  if (results.empty()) return {"No periodic bed is complete: nothing is said about the threshold."};
+  if (results.empty())
+    return {"No periodic bed is complete, so nothing can be concluded about the threshold."};
   const ChainConclusion conclusion = conclude(results);
   return {best_text(plan, results, conclusion),
-          conclusion.complete ? "So the nearest reading brings the paper's chain and ours together."
-                              : "So nothing that was tried brings the paper's chain and ours together."};
+          conclusion.complete ? "So the nearest reading reconciles the paper's chain with ours."
+                              : "So no reading that was tried reconciles the paper's chain with ours."};
 }
 
 std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,

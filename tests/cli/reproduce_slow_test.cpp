@@ -13,7 +13,7 @@ TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
   const Outcome first = run_talus(command, folder.path());
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const std::string page = text_of(folder.path("quick/report.html"));
-  for (const char* part : {"Talus beside the paper", "Settling which grains are overloaded",
+  for (const char* part : {"Talus and the paper", "Settling which grains are overloaded",
                            "data:image/png;base64,", "<td>walls, L = 150 D</td>", ">1 of 1</td>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find(">0 of 1</td>"), std::string::npos) << "a bed is missing";

@@ -44,7 +44,7 @@ TEST(AgreementFigure, of_the_papers_own_values_is_a_line_of_zeros) {
 
 TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
   studies::ReproductionResult result = studies::like_the_paper(0.0);
-  studies::set_everywhere(result, studies::PaperQuantity::theta_c, {20.0});  // of 21 +- 0.5
+  studies::set_everywhere(result, studies::PaperQuantity::theta_c, {18.0});  // of 20 +- 1
   studies::set_everywhere(result, studies::PaperQuantity::overloaded_at_0,
                           {std::numeric_limits<double>::quiet_NaN()});
   const Figure figure = agreement_figure(result).value();
