@@ -1,0 +1,331 @@
+"""The tables of the reports in docs/studies, by name, made from the tables of docs/data (docs/quoted_numbers.py writes them into the pages),
+and the numbers that only one report quotes."""
+
+import functools
+import math
+import statistics
+
+from quoted_numbers import correlation, number, rows_of, summary
+
+POURED = ("default: 6 sqrt(g D), rate 0.25, h = 1 ms", "pour-6")
+PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), ("rate 1", "fast-pour"), ("rate 0.05", "slow-pour"),
+                ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "collapse")]
+LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc"), ("400 D", "length-400")]
+STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
+WALL_LENGTHS = (100, 150, 200, 250, 300)
+#: Depth of the paper's beds, D, and its k_L - k_0.
+DEPTH, PAPER_K = 40.0, 2.5
+
+
+def with_error(values, digits, scale=1.0):
+    """Mean ± standard error; a dash without values."""
+    if not values:
+        return "–"
+    found = summary(value * scale for value in values)
+    mean = f"{found['mean']:.{digits}f}"
+    return f"{mean} ± {found['error']:.{digits}f}" if found["n"] > 1 else mean
+
+
+def markdown(head, rows, text_columns=1):
+    """A table: the first columns are aligned left, all others right."""
+    rule = ["---"] * text_columns + ["--:"] * (len(head) - text_columns)
+    return "\n".join(f"| {' | '.join(cells)} |" if cells is not rule else f"|{'|'.join(cells)}|" for cells in [head, rule, *rows])
+
+
+def of_groups(beds, groups, title, columns):
+    """A table with a row for each group of beds. Columns: head, quantity, digits, scale."""
+    rows = []
+    for label, group in groups:
+        if group not in beds.groups:
+            raise KeyError(f"docs/data/beds.csv has no beds {group}")
+        rows.append([label, str(len(beds.groups[group])),
+                     *(with_error(beds.values(group, quantity).values(), digits, *scale) for _, quantity, digits, *scale in columns)])
+    return markdown([title, "beds", *(column[0] for column in columns)], rows)
+
+
+ANGLES = [("theta_c, deg", "theta_c", 2), ("first slide, deg", "first_slide", 2)]
+FLAT = [("solid fraction", "phi@0", 4), ("z", "z@0", 3), ("Gamma", "Gamma@0", 3)]
+OVERLOAD = [("p_o at 0 deg", "p_o@0", 3), ("p_o at 15 deg", "p_o@15", 3), ("p_o before failure", "p_o@before", 3)]
+LENGTH = [("mean l_c at 0 deg, D", "lc_mean@0", 2), ("mean l_c at 15 deg, D", "lc_mean@15", 1)]
+TRANSITION = [("l_c jumps, deg", "lc_jump", 1), ("clusters span, deg", "percolation", 1)]
+
+
+def preparation_flat(beds):
+    return of_groups(beds, PREPARATIONS, "bed", FLAT)
+
+
+def preparation_slope(beds):
+    return of_groups(beds, PREPARATIONS, "bed", ANGLES + OVERLOAD + TRANSITION)
+
+
+def preparation_manual(beds):
+    return of_groups(beds, PREPARATIONS, "bed", FLAT + ANGLES[:1] + [("p_o at 0 deg", "p_o@0", 2)])
+
+
+def directions(beds):
+    rows = {row["beds"]: row for row in rows_of("directions.csv")}
+    bins = [column for column in next(iter(rows.values())) if column != "beds"]
+    return markdown(["bed", *bins], [[label, *(f"{number(rows[group][each]):.2f}" for each in bins)] for label, group in PREPARATIONS])
+
+
+def finite_size(beds):
+    return of_groups(beds, LENGTHS, "L", ANGLES + OVERLOAD + TRANSITION)
+
+
+def time_steps(beds):
+    return of_groups(beds, STEPS, "time step", FLAT + ANGLES + OVERLOAD[1:2] + TRANSITION)
+
+
+#: What the paper gives, the quantity, its unit's digits and factor.
+FIFTY = [("theta_c, deg", "19 to 21, all beds", "theta_c", 2), ("first slide, deg", "", "first_slide", 2),
+         ("theta_d by the jump of l_c max, deg", "15", "lc_jump", 2), ("theta_d by percolation, deg", "15", "percolation", 2),
+         ("theta_d by dilation, least volume, deg", "15", "dilation", 2), ("theta_c less theta_d by the jump, deg", "", "theta_c-lc_jump", 2),
+         ("theta_c less theta_d by percolation, deg", "", "theta_c-percolation", 2), ("solid fraction", "about 0.8", "phi@0", 4),
+         ("z at 0 deg", "about 3.5", "z@0", 3), ("Gamma at 0 deg", "about 0.08", "Gamma@0", 3), ("p_o at 0 deg", "0.30", "p_o@0", 3),
+         ("p_o at 15 deg", "0.45", "p_o@15", 3), ("p_o when clusters percolate", "0.45", "p_o@percolation", 3),
+         ("p_o after the jump of l_c max", "0.45", "p_o@lc_jump", 3), ("p_o 0.25 deg before theta_c", "0.60", "p_o@before", 3),
+         ("mean l_c at 0 deg, D", "4", "lc_mean@0", 2), ("mean l_c at 15 deg, D", "5", "lc_mean@15", 2),
+         ("mean l_c 0.25 deg before theta_c, D", "7", "lc_mean@before", 1), ("largest l_c at 0 deg, D", "5", "lc_max@0", 1),
+         ("largest l_c at 15 deg, D", "15, then 30", "lc_max@15", 1), ("volume strain at 10 deg, 1e-3", "negative", "volume_strain@10", 3, 1e3),
+         ("volume strain at 15 deg, 1e-3", "least", "volume_strain@15", 3, 1e3),
+         ("volume strain 0.25 deg before theta_c, 1e-3", "positive", "volume_strain@before", 2, 1e3)]
+
+
+def fifty(beds):
+    rows = []
+    for name, paper, quantity, digits, *scale in FIFTY:
+        values = [value * (scale[0] if scale else 1.0) for value in beds.values("paper-pbc", quantity).values()]
+        rows.append([name, paper, str(len(values)), with_error(values, digits), f"{statistics.stdev(values):.{digits}f}"])
+    return markdown(["quantity", "paper", "beds", "mean", "deviation"], rows)
+
+
+def readings(beds):
+    single = rows_of("readings.csv")
+    seeds = {int(row["seed"]) for row in single}
+    rows = []
+    for name, paper, column, digits in (("p_o at 0 deg", "0.30", "p_o@0", 3), ("p_o at 15 deg", "0.45", "p_o@15", 3),
+                                        ("p_o 0.25 deg before theta_c", "0.60", "p_o@before", 3), ("mean l_c at 0 deg, D", "4", "lc_mean@0", 2),
+                                        ("mean l_c at 15 deg, D", "5", "lc_mean@15", 2), ("mean l_c 0.25 deg before theta_c, D", "7", "lc_mean@before", 1),
+                                        ("largest l_c at 0 deg, D", "5", "lc_max@0", 1), ("theta_d by the jump of l_c max, deg", "15", "lc_jump", 1),
+                                        ("theta_d by percolation, deg", "15", "percolation", 1)):
+        cells = [name, paper]
+        for reading in ("grain", "grain, 2 Gamma_c"):
+            values = [number(text) for row in single if row["reading"] == reading for key, text in row.items() if key.split(" (")[0] == column]
+            known = [value for value in values if not math.isnan(value)]
+            cells.append(with_error(known, digits) + (f" ({len(known)} of {len(values)})" if 0 < len(known) < len(values) else ""))
+        cells.append(with_error([value for seed, value in beds.values("paper-pbc", column).items() if seed in seeds], digits))
+        rows.append(cells)
+    return markdown(["quantity", "paper", "grain, Gamma_c", "grain, 2 Gamma_c", "with first neighbours, Gamma_c"], rows)
+
+
+# ---- Walls.
+
+
+def wall_k(beds, group, length):
+    """k_L - k_0 = 3 (1 - ratio) L / H of each bed (the paper's Eq. 15)."""
+    return [3 * (1 - ratio) * length / DEPTH for ratio in beds.values(group, "failure_ratio").values()]
+
+
+def walls(beds, prefix="paper-wbc", lengths=WALL_LENGTHS):
+    rows = []
+    for length in lengths:
+        group = f"{prefix}-{length}"
+        rows.append([f"{length} D", str(len(beds.groups[group])), *(with_error(beds.values(group, q).values(), 2) for q in ("theta_c", "first_slide")),
+                     with_error(beds.values(group, "failure_ratio").values(), 3), with_error(wall_k(beds, group, length), 2)])
+    return markdown(["L", "beds", "theta_c, deg", "first slide, deg", "ratio", "k_L - k_0"], rows)
+
+
+def smooth_walls(beds):
+    return walls(beds, "smooth-walls", (100, 200, 300))
+
+
+def wall_numbers(beds):
+    each = {length: wall_k(beds, f"paper-wbc-{length}", length) for length in WALL_LENGTHS}
+    everything = summary(value for values in each.values() for value in values)
+    means = [summary(values) for values in each.values()]
+    weighted = sum(m["mean"] / m["error"] ** 2 for m in means) / sum(m["error"] ** -2 for m in means)
+    return {"k": (everything["mean"], everything["error"]), "k_errors": (everything["mean"] - PAPER_K) / everything["error"],
+            "k_growth": (means[-1]["mean"] - means[0]["mean"]) / math.hypot(means[-1]["error"], means[0]["error"]),
+            "chi_squared": sum(((m["mean"] - weighted) / m["error"]) ** 2 for m in means)}
+
+
+# ---- Metastability.
+
+CLASSES = [(0, 0.5), (0.5, 1), (1, 2), (2, 3), (3, 4), (4, 6), (6, math.inf)]
+#: Smallest and largest push, sqrt(g D).
+PUSHES = (0.05, 5.0)
+
+
+@functools.cache
+def states():
+    """States of docs/data/metastability.csv: seed, tilts, whether the bed holds, and the bracket of the threshold."""
+    return [{key: number(value) if value != "NaN" else math.nan for key, value in row.items()} for row in rows_of("metastability.csv")]
+
+
+def threshold(state):
+    """The middle of the bracket of the push that starts an avalanche, sqrt(g D): 0 below the smallest push, infinite above the largest;
+    NaN if the bed does not hold."""
+    if not state["holds"]:
+        return math.nan
+    without, with_push = state["v_without"], state["v_with"]
+    if math.isnan(with_push):
+        return math.inf
+    return 0.0 if math.isnan(without) or without == 0 else math.sqrt(without * with_push)
+
+
+def push_text(value):
+    if value == 0:
+        return f"< {PUSHES[0]:g}"
+    return f"> {PUSHES[1]:g}" if math.isinf(value) else f"{value:.2g}"
+
+
+def metastability(_):
+    rows = []
+    for low, high in CLASSES:
+        here = [state for state in states() if low < state["distance"] <= high]
+        found = [value for value in map(threshold, here) if not math.isnan(value)]
+        brackets = [state for state in here if state["holds"] and 0 < threshold(state) < math.inf or not state["monotone"]]
+        rows.append([f"{low:g} to {high:g}" if high < math.inf else f"above {low:g}", str(len(here)), str(sum(not s["holds"] for s in here)),
+                     str(sum(math.isinf(v) for v in found)), str(sum(not s["monotone"] for s in brackets)),
+                     *(push_text(f(found)) if found else "–" for f in (min, statistics.median_low, max))])
+    return markdown(["theta_c - theta, deg", "states", "do not hold", "no avalanche up to 5", "erratic", "least", "median", "largest"], rows)
+
+
+# ---- The dynamic angle.
+
+DYNAMIC = [("theta_c", "theta_c"), ("theta_d, jump of l_c max, Gamma_c", "lc_jump"), ("theta_d, jump of l_c max, 2 Gamma_c", "lc_jump[1]"),
+           ("theta_d, percolation, Gamma_c", "percolation"), ("theta_d, dilation, volume: least", "dilation"),
+           ("upper end of its range", "dilation_high"), ("theta_d, dilation, centre of mass: least", "dilation[1]"),
+           ("upper end of its range", "dilation_high[1]")]
+
+
+def dynamic_angle(beds):
+    rest = beds.values("dynamic-angle", "theta_r")
+    rows = [["theta_r", str(len(rest)), with_error(rest.values(), 2), "", "", ""]]
+    for name, quantity in DYNAMIC:
+        angle = beds.values("dynamic-angle", quantity)
+        difference = [angle[seed] - rest[seed] for seed in angle if seed in rest]
+        found = summary(difference)
+        rms = math.sqrt(statistics.mean(value * value for value in difference))
+        rows.append([name, str(len(angle)), with_error(angle.values(), 1), f"{rms:.1f}", f"{correlation(angle, rest)[0]:+.2f}",
+                     f"{found['mean'] / found['error']:+.1f}"])
+    return markdown(["angle, deg", "beds", "mean", "rms of theta_r - angle", "correlation", "distance"], rows)
+
+
+# ---- Rearrangements.
+
+
+def events(beds):
+    groups = [("poured, L = 50 D, H = 20 D", "demo:deposition.method=pour"), ("collapsed, L = 50 D, H = 20 D", "demo:deposition.method=collapse"),
+              ("poured, L = 100 D, H = 40 D", "pour-6")]
+    return of_groups(beds, groups, "beds", [("theta_c, deg", "theta_c", 1), ("events a bed", "events", 1), ("exponent of the energies", "events_exponent", 2),
+                                            ("mean waiting angle, deg", "events_waiting", 2), ("share that dilates", "events_dilating", 2)])
+
+
+def events_by_tilt(_):
+    labels = {"demo:deposition.method=pour": "poured, L = 50 D", "demo:deposition.method=collapse": "collapsed, L = 50 D", "pour-6": "poured, L = 100 D"}
+    found = rows_of("events.csv")
+    ranges = list(dict.fromkeys((row["from (deg)"], row["to (deg)"]) for row in found))
+    rows = []
+    for group, label in labels.items():
+        here = {(row["from (deg)"], row["to (deg)"]): row for row in found if row["beds"] == group}
+        rows.append([label, *(f"{here[r]['dilating']} of {here[r]['events']}" for r in ranges)])
+    return markdown(["events that dilate the bed", *(f"{low} to {high} deg" for low, high in ranges)], rows)
+
+
+# ---- What announces failure.
+
+
+def announcing(_, shown=20):
+    rows = []
+    for row in rows_of("precursor-ranking.csv")[:shown]:
+        gain = number(row["gain"]) / number(row["gain_error"]) if number(row["gain_error"]) else math.nan
+        contrast = ", ".join("–" if row[f"contrast_{k}"] == "NaN" else f"{number(row[f'contrast_{k}']):+.1f}" for k in (1, 2, 3))
+        rows.append([row["rank"], f"`{row['measure']}`", contrast, f"{number(row['error']):.2f} ± {number(row['error_error']):.2f}",
+                     f"{number(row['with_tilt']):.2f} ± {number(row['with_tilt_error']):.2f}", "" if math.isnan(gain) else f"{gain:+.1f}"])
+    return markdown(["rank", "measure", "change at 1, 2, 3 deg", "error, deg", "with the tilt, deg", "adds"], rows, text_columns=3)
+
+
+# ---- Cycles.
+
+
+def cycles(_):
+    found = rows_of("cycles.csv")
+    rows = []
+    for cycle in (1, 2, 3, 5, 10):
+        cells = [str(cycle)]
+        for place, column, digits, scale in (("end", "volume_strain (1)", 3, 100.0), ("top", "z (1)", 3, 1), ("end", "z (1)", 3, 1),
+                                             ("top", "anisotropy (1)", 3, 1), ("top", "critical (1)", 3, 1), ("end", "critical (1)", 3, 1)):
+            cells.append(with_error([number(r[column]) for r in found if int(r["cycle"]) == cycle and r["place"] == place], digits, scale))
+        rows.append(cells)
+    return markdown(["cycle", "volume strain at its end, %", "z at 12 deg", "z at 0 deg", "anisotropy at 12 deg", "nu at 12 deg", "nu at 0 deg"], rows, text_columns=0)
+
+
+# ---- Admissible forces.
+
+
+def forces(_):
+    found = rows_of("forces.csv")
+    letters = {("pour-6", "1"): "A", ("pour-6", "2"): "B", ("paper-pbc", "1"): "C", ("paper-pbc", "2"): "D"}
+    rows = []
+    for tilt in dict.fromkeys(row["tilt (deg)"] for row in found):
+        for bed, letter in letters.items():
+            here = {row["quantity"]: row for row in found if (row["beds"], row["seed"]) == bed and row["tilt (deg)"] == tilt}
+            if not here:
+                continue
+            cells = [f"{float(tilt):g}", letter, here["p_o"]["count"]]
+            for quantity, digits in (("p_o", 3), ("lc_mean", 2), ("lc_max", 1), ("Gamma", 3)):
+                row = here[quantity]
+                cells.append(f"{number(row['stored']):.{digits}f}")
+                none = not float(row["count"])
+                cells.append("none" if none else f"{number(row['mean']):.{digits}f} ± {number(row['deviation']):.{digits}f} "
+                             f"({number(row['least']):.{digits}f} to {number(row['largest']):.{digits}f})")
+            rows.append(cells)
+    heads = [f"{name} {which}" for name in ("p_o", "mean l_c", "largest l_c", "Gamma") for which in ("stored", "others")]
+    return markdown(["deg", "bed", "n", *heads], rows)
+
+
+# ---- Tolerances.
+
+
+def tolerances(_):
+    found = rows_of("tolerances.csv")
+    columns = [("iterations", "iterations_per_step", 1, 1), ("theta_c, deg", "theta_c_deg", 2, 1),
+               ("volume strain at the reference, %", "volume_strain_at_reference", 3, 100), ("creep, % of H", "creep_at_reference", 2, 100),
+               ("z", "coordination_number_at_reference", 4, 1), ("p_o", "overloaded_fraction_at_reference", 3, 1)]
+    columns = [column for column in columns if column[1] in found[0]]
+    variation = "variation" if "variation" in found[0] else "variant"
+    by = {}
+    for row in found:
+        by.setdefault(row[variation], {})[row["seed"]] = row
+    baseline = by.get("baseline") or by[""]
+    rows = []
+    for name, members in by.items():
+        cells = [f"`{name}`" if name not in ("", "baseline") else "**baseline**, values"]
+        for _, key, digits, scale in columns:
+            if members is baseline:
+                cells.append(with_error([number(r[key]) * scale for r in members.values() if r[key] not in ("", "nan", "NaN")], digits))
+                continue
+            pairs = [(number(r[key]) - number(baseline[s][key])) * scale for s, r in members.items()
+                     if s in baseline and r[key] not in ("", "nan", "NaN") and baseline[s][key] not in ("", "nan", "NaN")]
+            text = with_error(pairs, digits)
+            cells.append(text if text.startswith(("-", "–")) else f"+{text}")
+        rows.append(cells)
+    return markdown(["variation", *(column[0] for column in columns)], rows)
+
+
+def measured(beds, *groups):
+    """One sentence: which beds a report is about, and the program that computed them."""
+    versions = {bed["version"] for group in groups for bed in beds.groups[group]}
+    each = [f"`{group}` ({len(beds.groups[group])} beds)" for group in groups]
+    text = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
+    return (f"Computed by Talus {' and '.join(sorted(versions))}: {text}. `docs/data/campaign list NAME` prints the command of each "
+            "ensemble, `docs/data/campaign run NAME` runs it, and `docs/data/campaign collect` writes the tables of `docs/data`.")
+
+
+TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
+          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
+          "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
+          "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
+#: Numbers of single reports.
+REPORTS = {"walls": wall_numbers}
