@@ -196,7 +196,7 @@ def test_ink_is_found(tmp_path):
 
 @pytest.fixture(scope="session")
 def all_figures(tmp_path_factory):
-    """Every figure, of small beds and of the averages that lie in docs/data."""
+    """Every figure, drawn from small beds."""
     folder = tmp_path_factory.mktemp("all")
     (folder / "bed.toml").write_text(
         "[bed]\nlength = 15\ndepth = 6\n[tilt]\nrate = 10\nstep = 0.01\n[output]\nframe_every = 1\n"
@@ -209,10 +209,10 @@ def all_figures(tmp_path_factory):
     run("walls.h5", "bed.boundary=walls")
     run("cycles.h5", "tilt.program=to 6, to 0, 3 times")
     run("flow.h5", "tilt.after_failure=lower", "output.frame_every=10")
-    two = ["--seeds", "1-2", "--vary", "deposition.method=pour,collapse", "-o", "two"]
+    two = ["--seeds", "1-5", "--vary", "deposition.method=pour,collapse", "-o", "two"]
     run_talus("ensemble", "bed.toml", *two, folder=folder)
     run_talus("events", "grains.h5", "-q", folder=folder)
-    draw(folder, [ROOT / "docs/data/paper-pbc/ensemble.h5"], "angle-distributions,angle-correlations")
+    draw(folder, ["two"], "angle-distributions,angle-correlations")
     draw(folder, ["walls.h5"], "6,7")
     draw(folder, ["cycles.h5"], "cycles")
     draw(folder, ["flow.h5"], "dynamic-angle")
@@ -226,5 +226,5 @@ def all_figures(tmp_path_factory):
 @pytest.mark.parametrize("name", BEDS)
 def test_texts_of_all_figures_are_whole(all_figures, tmp_path, name):
     catalogue = re.findall(r"^\| `([\w-]+)` \|", (ROOT / "docs/figures.md").read_text(), re.M)
-    assert {script.stem for script in all_figures.glob("*.gp")} == set(catalogue)
+    assert {provenance.stem for provenance in all_figures.glob("*.json")} == set(catalogue)
     assert faults_of(all_figures, tmp_path, dict(BEDS[name])) == []
