@@ -19,7 +19,7 @@ constexpr std::size_t table_rows = 11;
 
 std::string degree_text(double angle) { return fmt::format("{:.2f}", degrees(angle)); }
 
-/// Frames evenly over the run, the first and the last among them.
+/// Returns frames spaced evenly over the run, including the first and the last.
 std::vector<std::size_t> shown_frames(std::size_t count) {
   std::vector<std::size_t> frames;
   const std::size_t rows = std::min(count, table_rows);
@@ -36,17 +36,16 @@ std::string heading(const runs::RunView& run) {
   std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.kept, frames.size(),
                                  degree_text(lowest->tilt), degree_text(highest->tilt));
   if (const analysis::FramesOfRise rise = analysis::last_rise(frames); rise.frames.size() < frames.size())
-    text += fmt::format("theta_c, theta_d and the first slide are of the last rise, from {} deg on; ",
+    text += fmt::format("theta_c, theta_d and the first slide refer to the last rise, from {} deg; ",
                         degree_text(rise.tilts.front()));
   text += std::isnan(theta_c) ? "the slope has not failed"
                               : fmt::format("theta_c = {} deg", degree_text(theta_c));
   if (std::isnan(gamma_c))
-    return text + ": overloaded grains need a threshold, give one with --set gamma_c=0.3\n";
+    return text + ": overloaded grains need a threshold; set one with --set gamma_c=0.3\n";
   const double diameter = run.statics.mean_diameter;
   const double l_min = runs::from_facts(analysis.parameters).l_min;
   text += fmt::format("; Gamma_c = {:.4f}; l_c cut at {:.4g} D\n", gamma_c, analysis.lc_cut / diameter);
-  return text + (l_min > 0.0 ? fmt::format("gamma of grains with their neighbours, within {:.4g} D of each\n",
-                                           0.5 * l_min)
+  return text + (l_min > 0.0 ? fmt::format("gamma averaged over the grains within {:.4g} D\n", 0.5 * l_min)
                              : std::string("gamma of single grains\n"));
 }
 
@@ -83,7 +82,7 @@ TextTable series_table(const runs::RunView& run) {
   return table;
 }
 
-/// "8.25 +- 0.25 deg"; "<= 0.00 deg" where no frame is before it.
+/// Returns "8.25 +- 0.25 deg", or "<= 0.00 deg" if no frame precedes the angle.
 std::string onset_text(double angle, double error) {
   if (std::isnan(angle)) return "none";
   if (std::isnan(error)) return fmt::format("<= {} deg", degree_text(angle));
@@ -108,8 +107,7 @@ std::string first_slide_text(const analysis::Analysis& analysis) {
   if (std::isnan(angle)) return "none";
   const bool late = angle > analysis.theta_c;
   return degree_text(angle) + " deg" +
-         (late ? ", after theta_c: the bed was tilted on while the flow that began there gathered speed"
-               : "");
+         (late ? ", after theta_c: tilting continued while the flow that began there gathered speed" : "");
 }
 
 std::string transition_table(const runs::RunView& run) {
@@ -131,19 +129,18 @@ std::string transition_table(const runs::RunView& run) {
 std::string beyond_repose(double theta_c, double tilt) {
   if (!(degrees(tilt - theta_c) > 1.0)) return "";
   return fmt::format(
-      "; the bed was tilted on to {} deg while this flow gathered speed, so the first slide may come after "
-      "theta_c (slower: tilt.rate)",
+      "; tilting continued to {} deg while this flow gathered speed, so the first slide may come after "
+      "theta_c (for a smaller difference, lower tilt.rate)",
       degree_text(tilt));
 }
 
 std::string analysis_text(const runs::RunView& run) {
-  return fmt::format(
-      "{}\n{}{}\n{}{}", heading(run), aligned_text(series_table(run), 1),
-      !run.analysis.thresholds.empty()
-          ? "l_c in D; largest: share of the overloaded grains in the largest cluster; spans: H floor to "
-            "surface, L along the bed\n"
-          : "",
-      transition_table(run), event_summary(run));
+  return fmt::format("{}\n{}{}\n{}{}", heading(run), aligned_text(series_table(run), 1),
+                     !run.analysis.thresholds.empty()
+                         ? "l_c in D; largest: share of the overloaded grains in the largest cluster; spans: "
+                           "H from floor to surface, L along the bed\n"
+                         : "",
+                     transition_table(run), event_summary(run));
 }
 
 }  // namespace talus::app

@@ -1,5 +1,5 @@
 #pragma once
-/// The analysis of a run as text.
+/// Text and JSON reports of the analysis of a run.
 
 #include <span>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace talus::app {
 
-/// Two tables: series at about ten angles, thresholds side by side, and theta_d by each estimator. Lengths in
-/// mean diameters, angles in degrees.
+/// Returns two tables: series at about ten angles with all thresholds in columns, and theta_d by each
+/// estimator. Lengths are in mean diameters, angles in degrees.
 std::string analysis_text(const runs::RunView& run);
 
-/// What follows theta_c in a sentence where the bed was tilted on by more than a degree, to `tilt`, before
-/// the flow that began there had failed the slope; else nothing. rad.
+/// Returns a clause to append to a statement of theta_c (rad) if tilting continued to `tilt` (rad), more than
+/// a degree beyond theta_c, before the flow had failed the slope; else an empty text.
 std::string beyond_repose(double theta_c, double tilt);
 
-/// All scalars and series of the table under their names, in SI units, but not the values of single
-/// grains; arrays in the shape of the table.
+/// Returns all scalars and series of the table by name, in SI units, without the values of single grains;
+/// arrays have the shape that the table states.
 std::string analysis_json(const runs::RunView& run,
                           std::span<const analysis::Quantity> table = analysis::quantities());
 

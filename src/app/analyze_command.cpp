@@ -1,4 +1,4 @@
-/// `talus analyze`: the multiscale analysis of whole runs, printed and stored in their files.
+/// `talus analyze`: multiscale analysis of complete runs, printed and stored in their files.
 
 #include <cstdio>
 #include <memory>
@@ -44,10 +44,12 @@ void analyze(const AnalyzeArguments& arguments) {
 void add_analyze_command(CLI::App& app) {
   auto arguments = std::make_shared<AnalyzeArguments>();
   CLI::App* command = app.add_subcommand(
-      "analyze", "Analyse stresses, overloaded grains and contacts of runs, and store it in their files");
+      "analyze",
+      "Analyse stresses, overloaded grains and contacts of runs, and store the results in their files");
   command
-      ->add_option("RUNS", arguments->runs,
-                   "Run files, or folders of ensembles; a run that is not complete is analysed, not stored")
+      ->add_option(
+          "RUNS", arguments->runs,
+          "Run files, or folders of ensembles; the analysis of an incomplete run is printed but not stored")
       ->required();
   command
       ->add_option("--set", arguments->settings,
@@ -55,12 +57,13 @@ void add_analyze_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--threads", arguments->options.threads,
-                   "Frames analysed side by side; the result does not depend on it")
+                   "Frames analysed in parallel; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
-  command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
+  command->add_flag("--force", arguments->options.force,
+                    "Recompute the analysis even if a valid one is stored");
   command->add_flag("--json", arguments->json,
-                    "As a JSON list with all series of each run, in SI units and radians");
+                    "Print a JSON list with all series of each run, in SI units and radians");
   command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->callback([arguments] { analyze(*arguments); });
 }

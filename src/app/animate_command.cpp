@@ -34,7 +34,7 @@ bool is_movie_name(const std::string& path) {
   return path.ends_with(".mp4") || path.ends_with(".webm") || path.ends_with(".gif");
 }
 
-/// Two numbers with a sign between them, as "1920x1080" and "16:9".
+/// Returns the two positive numbers of a text such as "1920x1080" or "16:9", separated by `between`.
 std::optional<std::pair<double, double>> two_numbers(const std::string& text, char between) {
   const std::size_t middle = text.find(between);
   double first = 0.0, second = 0.0;
@@ -45,19 +45,19 @@ std::optional<std::pair<double, double>> two_numbers(const std::string& text, ch
   return std::pair{first, second};
 }
 
-/// The width and the height, px, of --size, or of --width and --aspect.
+/// Returns width and height in px, from --size or from --width and --aspect.
 std::pair<int, int> movie_size(const AnimateArguments& arguments) {
   std::pair<double, double> size{arguments.maps.width, 0.0};
   if (!arguments.size.empty()) {
     const auto found = two_numbers(arguments.size, 'x');
     if (!found || std::round(found->first) != found->first || std::round(found->second) != found->second)
       throw Error(ExitCode::usage,
-                  "--size " + arguments.size + ": expected WIDTHxHEIGHT in pixels, as 1920x1080");
+                  "--size " + arguments.size + ": expected WIDTHxHEIGHT in pixels, e.g. 1920x1080");
     size = *found;
   } else if (!arguments.aspect.empty()) {
     const auto found = two_numbers(arguments.aspect, ':');
     if (!found)
-      throw Error(ExitCode::usage, "--aspect " + arguments.aspect + ": expected two numbers, as 16:9");
+      throw Error(ExitCode::usage, "--aspect " + arguments.aspect + ": expected two numbers, e.g. 16:9");
     size.second = std::round(size.first * found->second / found->first);
   }
   const auto possible = [](double side) {
@@ -65,7 +65,7 @@ std::pair<int, int> movie_size(const AnimateArguments& arguments) {
   };
   if (!possible(size.first) || (size.second != 0.0 && !possible(size.second)))
     throw Error(ExitCode::usage,
-                fmt::format("a movie of {} x {} px: expected {} ... {} px on each side", size.first,
+                fmt::format("a movie of {} x {} px: expected {} to {} px on each side", size.first,
                             size.second, render::smallest_width, render::largest_side));
   return {static_cast<int>(size.first), static_cast<int>(size.second)};
 }
@@ -74,24 +74,25 @@ pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
   pictures::MapPlan plan = pictures::plan_maps(arguments.maps);
   plan.width = movie_size(arguments).first;
   if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width && arguments.movie.height == 0)
-    throw Error(ExitCode::usage,
-                fmt::format("a width of {} px: each of {} maps beside each other takes {} px or more",
-                            plan.width, plan.maps.size(), render::smallest_width));
+    throw Error(
+        ExitCode::usage,
+        fmt::format("a width of {} px is too small: each of {} maps next to each other needs at least {} px",
+                    plan.width, plan.maps.size(), render::smallest_width));
   if (arguments.maps.transparent)
     throw Error(ExitCode::usage,
-                "--transparent: a movie has no transparency; talus render draws single pictures with it");
+                "--transparent: movies have no transparency; use talus render for pictures with it");
   if (!is_movie_name(arguments.movie.output))
     throw Error(ExitCode::usage,
                 arguments.movie.output + ": expected a name that ends in .mp4, .webm or .gif");
   return plan;
 }
 
-/// What would make a movie smooth whose frames each show more than one moment.
+/// Suggests a smaller output.frame_every if each frame of the run is shown several times.
 void note_coarse_frames(const pictures::MovieAsked& asked, int times) {
   if (times < 2 || !asked.timing.speed || asked.timing.every > 0.0) return;
   print(
-      "each frame of the run is shown up to %d times; a run with output.frame_every = %.2g would give every "
-      "frame of the movie its own\n",
+      "each frame of the run is shown up to %d times; output.frame_every = %.2g would give a run with one "
+      "frame for each frame of the movie\n",
       times, *asked.timing.speed / asked.timing.fps);
 }
 
@@ -119,31 +120,32 @@ void add_animate_command(CLI::App& app) {
   add_run_argument(*command, arguments->run);
   command
       ->add_option("--every", arguments->movie.timing.every,
-                   "Degrees of tilt between frames of the run that are drawn [all frames]")
+                   "Degrees of tilt between the frames that are drawn [all frames]")
       ->check(in_range(1e-6, 90.0));
-  command->add_option("--fps", arguments->movie.timing.fps, "Frames a second")
+  command->add_option("--fps", arguments->movie.timing.fps, "Frames per second")
       ->capture_default_str()
       ->check(in_range(0.1, 120.0));
   command
       ->add_option("--speed", arguments->movie.timing.speed,
-                   "Degrees of tilt a second: the time of the movie follows the tilt [each frame of the run "
-                   "is shown once]")
+                   "Degrees of tilt per second, so that the movie advances with the tilt [each frame of the "
+                   "run is shown once]")
       ->check(in_range(1e-3, 1000.0));
   command
-      ->add_option("--hold", arguments->movie.timing.hold,
-                   "Seconds for which the first and the last frame stay [with --speed the last for 1]")
+      ->add_option(
+          "--hold", arguments->movie.timing.hold,
+          "Seconds for which the first and the last frame are held [with --speed: only the last, for 1 s]")
       ->check(in_range(0.0, 60.0));
-  CLI::Option* size = command->add_option("--size", arguments->size,
-                                          "Width and height in pixels, as 1920x1080 for a projector: the "
-                                          "maps, and the curves of --trace beside them, fill it "
-                                          "[as --width and the bed have it]");
+  CLI::Option* size =
+      command->add_option("--size", arguments->size,
+                          "Width and height in pixels, e.g. 1920x1080 for a projector; the maps and the "
+                          "curves of --trace fill them [from --width and the shape of the bed]");
   command
       ->add_option("--aspect", arguments->aspect,
-                   "Width over height, as 16:9: the height that goes with --width")
+                   "Aspect ratio, e.g. 16:9; sets the height that belongs to --width")
       ->excludes(size);
   command
       ->add_option("-o,--output", arguments->movie.output,
-                   "Movie to write: FILE.mp4, FILE.webm or FILE.gif; its folder is made where missing")
+                   "Movie to write: FILE.mp4, FILE.webm or FILE.gif; a missing folder is created")
       ->required();
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");

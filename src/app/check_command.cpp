@@ -1,5 +1,5 @@
-/// `talus check`: whether a scenario can be run, what it says in full, and how long it will take; whether
-/// what a run file holds is whole.
+/// `talus check`: validates a scenario, prints it in full and estimates its cost; or checks that a run file
+/// is intact.
 
 #include <cmath>
 #include <cstdio>
@@ -29,7 +29,7 @@ struct CheckArguments {
   bool json = false;
 };
 
-/// The scenario with every key, by sections.
+/// Returns the scenario with every key, by section.
 Json scenario_json(const scenario::Scenario& scenario) {
   Json json = Json::object();
   for (const scenario::ScenarioKey& key : scenario::scenario_keys()) {
@@ -75,7 +75,7 @@ std::string duration(double seconds) {
 
 void print_line(const char* name, const std::string& text) { print("#   %-11s %s\n", name, text.c_str()); }
 
-/// All of it is a scenario again: what is not TOML stands in comments.
+/// Prints text that is itself a valid scenario: everything that is not TOML is a comment.
 void print_report(const CheckArguments& arguments, const scenario::Scenario& scenario,
                   const session::Estimate& expected) {
   print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), scenario::resolved_toml(scenario).c_str());
@@ -110,7 +110,7 @@ void print_report(const CheckArguments& arguments, const scenario::Scenario& sce
                                  session::size_text(expected.disk)));
 }
 
-/// Throws `refusal` again, after it has said which pieces of the run are damaged.
+/// Reports which pieces of the run are damaged, then rethrows `refusal`.
 [[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
   const std::vector<std::string> pieces = io::damaged_pieces(arguments.scenario);
   if (arguments.json) {
@@ -119,12 +119,12 @@ void print_report(const CheckArguments& arguments, const scenario::Scenario& sce
   } else {
     print("%s: damaged\n", arguments.scenario.c_str());
     for (const std::string& piece : pieces) print("  fault: %s\n", piece.c_str());
-    if (pieces.empty()) print("  every piece of the run itself is whole\n");
+    if (pieces.empty()) print("  every piece of the run itself is intact\n");
   }
   throw Error(refusal);
 }
 
-/// The run, whose bytes are those that were written.
+/// Opens the run after its hashes were verified; reports the damage and throws if they do not match.
 io::RunFile open_or_tell(const CheckArguments& arguments) {
   try {
     return io::RunFile::open(arguments.scenario);
@@ -157,28 +157,28 @@ void print_run(const std::string& path, const io::RunFile& run, const session::R
         run.complete() ? "complete" : "not complete");
   if (!run.lost().empty()) print("  lost        %s (before it was repaired)\n", run.lost().c_str());
   if (check.changed == 0)
-    print("  hashes      as they were written\n");
+    print("  hashes      correct\n");
   else
     print("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
   print("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
         check.rows, check.steps, check.commands);
   if (run.has_frames()) {
     print("  overlap     at most %.2g D\n", check.largest_overlap);
-    print("  friction    at most %.6f of what Coulomb's law allows\n", check.largest_mobilisation);
+    print("  friction    at most %.6f of the Coulomb limit\n", check.largest_mobilisation);
     print("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
           check.largest_imbalance, check.frames_at_rest);
     print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
           check.largest_moment_error);
   } else {
-    print("  frames      are not kept (--keep analysis), nor checked\n");
+    print("  frames      not kept (--keep analysis), so not checked\n");
   }
   for (const std::string& fault : check.faults) print("  fault: %s\n", fault.c_str());
 }
 
-/// Throws Error(bad_data) where the run is damaged, after it has said how.
+/// Prints the result of all checks; throws Error(bad_data) if the run is damaged.
 void check_run_file(const CheckArguments& arguments) {
   if (!arguments.settings.empty())
-    throw Error(ExitCode::usage, arguments.scenario + " is a run: --set is for a scenario");
+    throw Error(ExitCode::usage, arguments.scenario + " is a run; --set applies to a scenario");
   const io::RunFile run = open_or_tell(arguments);
   const session::RunCheck check = [&] {
     const std::size_t frames = run.all_frame_tilts().size();
@@ -201,7 +201,7 @@ void add_check_command(CLI::App& app) {
   auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command = app.add_subcommand("check",
                                          "Check a scenario, print it with every key, and estimate time, "
-                                         "memory and disk; or check what a run file holds");
+                                         "memory and disk space; or check the contents of a run file");
   command
       ->add_option("SCENARIO", arguments->scenario,
                    "Scenario file (TOML; see docs/scenario.md) or run file (RUN.h5)")

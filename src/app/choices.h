@@ -1,5 +1,5 @@
 #pragma once
-/// What values of options may be: one of few names, or a number within a range.
+/// Validators of option values: one of a few names, or a number within a range.
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -13,7 +13,7 @@
 
 namespace talus::app {
 
-/// Accepts these names only; the message has the nearest. Help and completions show them as {a,b}.
+/// Accepts these names only; the message suggests the nearest one. Help and completions show them as {a,b}.
 inline CLI::Validator one_of(const std::vector<std::string>& names) {
   return {[names](const std::string& word) {
             for (const std::string& name : names)
@@ -24,7 +24,7 @@ inline CLI::Validator one_of(const std::vector<std::string>& names) {
           fmt::format("{{{}}}", joined(names, ","))};
 }
 
-/// Accepts numbers of this kind from `low` to `high`, both included. Help shows them as "in [low - high]".
+/// Accepts numbers of this type from `low` to `high` inclusive. Help shows them as "in [low - high]".
 template <typename Number>
 CLI::Validator in_range(Number low, Number high) {
   return {[low, high](const std::string& word) {

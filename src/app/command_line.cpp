@@ -9,10 +9,10 @@ namespace talus::app {
 
 std::string command_line() {
   std::ifstream words("/proc/self/cmdline");
-  words.exceptions(std::ios::badbit);  // where memory is missing
+  words.exceptions(std::ios::badbit);  // so that a lack of memory is reported
   std::string text = "talus";
   std::string word;
-  std::getline(words, word, '\0');  // the program, wherever it lies
+  std::getline(words, word, '\0');  // skips the path of the program
   while (std::getline(words, word, '\0')) text += fmt::format(" {}", shell_quoted(word));
   return text;
 }

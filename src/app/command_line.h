@@ -1,11 +1,12 @@
 #pragma once
-/// How this program was called.
+/// The command line of this process.
 
 #include <string>
 
 namespace talus::app {
 
-/// `talus figures runs/a.h5 -o 'my figures'`: as a shell reads it, for provenance.
+/// Returns the command line with shell quoting, e.g. `talus figures runs/a.h5 -o 'my figures'`, for
+/// provenance.
 std::string command_line();
 
 }  // namespace talus::app

@@ -5,14 +5,14 @@
 namespace talus::app {
 namespace {
 
-/// "DEG" of "DEG:in [0 - 90]"; "HH:MM[:SS]" is a word of its own.
+/// Returns "DEG" for "DEG:in [0 - 90]"; "HH:MM[:SS]" is a single word.
 std::string value_of(const CLI::Option& option) {
   if (option.get_expected_max() == 0) return {};
   const std::string type = option.get_type_name();
   return type.substr(0, std::min({type.find(":{"), type.find(":in ["), type.find(' ')}));
 }
 
-/// Those of "CHOICE:{a,b}".
+/// Returns a and b for "CHOICE:{a,b}".
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t open = type.find(":{"), close = type.find('}', open);
@@ -33,7 +33,8 @@ OptionPage page_of(const CLI::Option& option) {
   return page;
 }
 
-/// Those of a command, and of its groups of options, which are commands without a name to the parser.
+/// Adds the options of a command and of its option groups, which the parser treats as commands without a
+/// name.
 void add_options(const CLI::App& app, std::vector<OptionPage>& options) {
   for (const CLI::Option* option : app.get_options()) {
     const bool help_of_group = app.get_name().empty() && option == app.get_help_ptr();

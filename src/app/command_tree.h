@@ -7,14 +7,14 @@
 
 namespace talus::app {
 
-/// An option, or an argument that has its place instead of a name.
+/// An option or a positional argument.
 struct OptionPage {
-  std::vector<std::string> names;  ///< "-o", "--output"; none for an argument
+  std::vector<std::string> names;  ///< "-o", "--output"; empty for an argument
   std::string argument;            ///< "RUN"; empty for an option
-  std::string value;               ///< what follows its name, "DEG" or "FOLDER"; empty for a flag
+  std::string value;               ///< placeholder of its value, "DEG" or "FOLDER"; empty for a flag
   std::vector<std::string> choices;
   std::string description;
-  std::string default_text;  ///< empty where there is none to show
+  std::string default_text;  ///< empty if none is shown
   bool required = false;
 };
 
@@ -25,13 +25,13 @@ struct CommandPage {
   std::vector<CommandPage> commands;  ///< without hidden ones
 };
 
-/// The tree below a parser. `name` is how it is called.
+/// Returns the tree below a parser; `name` is the full name of the command.
 CommandPage command_tree(const CLI::App& app, const std::string& name);
 
-/// The first clause of a description: what a list has room for.
+/// Returns the first clause of a description, for lists with little space.
 std::string first_clause(const std::string& description);
 
-/// The last word of the name of a command.
+/// Returns the last word of the name of a command.
 std::string last_word(const std::string& name);
 
 }  // namespace talus::app

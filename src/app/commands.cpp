@@ -7,7 +7,7 @@
 namespace talus::app {
 namespace {
 
-/// Commands that belong together in the help.
+/// A group of commands in the help.
 struct CommandGroup {
   const char* title;
   std::vector<void (*)(CLI::App&)> add;

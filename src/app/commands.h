@@ -1,12 +1,12 @@
 #pragma once
 /// The subcommands of `talus`, one file each. Each function adds its command to the parser; the command's
-/// callback does the work and throws Error with the exit code of its cause.
+/// callback does the work and throws Error with the exit code of the cause.
 
 #include <CLI/CLI.hpp>
 
 namespace talus::app {
 
-/// All of them, in the groups of the help.
+/// Adds all commands, in the groups of the help.
 void add_commands(CLI::App& app);
 
 void add_run_command(CLI::App& app);

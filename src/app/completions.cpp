@@ -13,7 +13,7 @@ void for_each_command(const CommandPage& page, const std::function<void(const Co
   for (const CommandPage& command : page.commands) for_each_command(command, visit);
 }
 
-/// Its words after that of the program: "ensemble submit".
+/// Returns its name without that of the program: "ensemble submit".
 std::string words_of(const CommandPage& page) {
   const std::size_t blank = page.name.find(' ');
   return blank == std::string::npos ? "" : page.name.substr(blank + 1);
@@ -37,7 +37,7 @@ std::string replaced(const std::string& text, const std::string& found, const st
   return result;
 }
 
-/// Inside of quotes of a shell.
+/// Escapes text for use inside single quotes of a shell.
 std::string in_quotes(const std::string& text) { return replaced(text, "'", "'\\''"); }
 
 }  // namespace
@@ -82,7 +82,7 @@ complete -o default -F _{0} {0}
 
 namespace {
 
-/// Text in brackets of _arguments.
+/// Escapes text for the brackets of _arguments.
 std::string zsh_text(const std::string& text) {
   std::string result = replaced(first_clause(text), "\\", "\\\\");
   for (const char* special : {"[", "]", ":"}) result = replaced(result, special, std::string("\\") + special);
@@ -109,7 +109,7 @@ std::string zsh_function(const CommandPage& page) {
     names += fmt::format("    '{}:{}'\n", last_word(command.name), zsh_text(command.description));
     cases += fmt::format("      {}) {} ;;\n", last_word(command.name), zsh_function_name(command));
   }
-  bool files = false;  // one place for all arguments
+  bool files = false;  // a single entry covers all arguments
   for (const OptionPage& option : page.options) {
     if (!option.names.empty() || !files) specs += zsh_option(option);
     files = files || option.names.empty();
@@ -146,7 +146,7 @@ std::string zsh_completion(const CommandPage& program) {
 
 namespace {
 
-/// When a command is the one that is typed.
+/// Returns the condition that a command is being typed.
 std::string fish_condition(const CommandPage& page) {
   const std::string words = words_of(page);
   if (words.empty()) return "__fish_use_subcommand";

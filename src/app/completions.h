@@ -1,5 +1,5 @@
 #pragma once
-/// Completions of shells: commands, options, and the values of those that have few.
+/// Shell completions of commands, options, and the values of options with few choices.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace talus::app {
 
-/// Scripts that the shell loads when `talus` is first completed; where nothing is known it completes names of
-/// files.
+/// Returns a script that the shell loads when `talus` is first completed; words it does not know are
+/// completed as file names.
 std::string bash_completion(const CommandPage& program);
 std::string zsh_completion(const CommandPage& program);
 std::string fish_completion(const CommandPage& program);

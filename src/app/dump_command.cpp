@@ -1,4 +1,4 @@
-/// `talus dump`: the contact problem of a step as a file for solvers.
+/// `talus dump`: writes the contact problem of a step as a file for solvers.
 
 #include <cmath>
 #include <cstdio>
@@ -21,7 +21,7 @@ namespace {
 struct DumpArguments {
   std::string run;
   std::string output;
-  std::string at;  ///< as in frames_at
+  std::string at;  ///< syntax of frames_at
   bool overwrite = false;
 };
 
@@ -49,15 +49,13 @@ void dump(const DumpArguments& arguments) {
 
 void add_dump_command(CLI::App& app) {
   auto arguments = std::make_shared<DumpArguments>();
-  CLI::App* command =
-      app.add_subcommand("dump", "Write the contact problem of a step for solvers (FCLIB local problem)");
-  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
-      ->required();
+  CLI::App* command = app.add_subcommand(
+      "dump", "Write the contact problem of a step for external solvers (FCLIB local problem)");
+  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
   command
-      ->add_option(
-          "--at", arguments->at,
-          "The step that follows this frame: nearest to an angle in degrees, repose for the last one "
-          "before failure, or frame42 by its number")
+      ->add_option("--at", arguments->at,
+                   "Frame that precedes the step: an angle in degrees (nearest frame), repose for the last "
+                   "frame before failure, or frame42 by number")
       ->required();
   command
       ->add_option("-o,--output", arguments->output,

@@ -40,7 +40,7 @@ void write_files(const std::filesystem::path& folder, const EnsembleView& view,
 
 EnsembleView write_averages(const std::string& folder, ensemble::KnownMembers& known) {
   const std::filesystem::path place = folder;
-  ensemble::read_ensemble(folder);  // before a file is made in what may be no ensemble
+  ensemble::read_ensemble(folder);  // refuses a folder without an ensemble before a file is created in it
   EnsembleView view;
   while_locked((place / "averages.lock").string(), [&] {
     const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);

@@ -1,5 +1,5 @@
 #pragma once
-/// The averages of an ensemble, from the runs of its members.
+/// Averages of an ensemble, computed from the runs of its members.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace talus::app {
 
-/// Writes members.csv, averages.csv and ensemble.h5 into the folder of an ensemble, of the members that are
-/// done by then, and returns how far it was; writes nothing where none is done. Runs that are not analysed
-/// yet are. One process at a time does: the others wait, so that what is there is of the last look. Throws as
-/// read_ensemble and analysed_member do.
+/// Writes members.csv, averages.csv and ensemble.h5 for the members that are done into the folder of the
+/// ensemble, and returns its progress; writes nothing if no member is done. Runs without an analysis are
+/// analysed. Processes take turns, so that the files reflect the latest state. Throws as read_ensemble and
+/// analysed_member do.
 EnsembleView write_averages(const std::string& folder, ensemble::KnownMembers& known);
 
 }  // namespace talus::app

@@ -1,4 +1,4 @@
-/// `talus ensemble`: many beds from one scenario, computed by any number of processes that share a folder.
+/// `talus ensemble`: computes many beds of one scenario, by any number of processes that share a folder.
 
 #include <algorithm>
 #include <cstdio>
@@ -69,12 +69,12 @@ void run_ensemble(const EnsembleArguments& arguments) {
   refuse_failures(view.plan, "left out of the means");
 }
 
-/// Packs the run of a member with its analysis, once what its task asks besides is done: with its file the
-/// member is done. Throws Error(stopped) where it is not to go on; what is computed stays in the folder.
+/// Packs the run of a member with its analysis after the additional work of its task; a packed member is
+/// done. Throws Error(stopped) if `goes_on` returns false; computed data stay in the folder.
 bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifest& manifest,
                  const std::string& folder, io::RunStore& store, const std::function<bool()>& goes_on) {
   const auto progress = [&](std::size_t) {
-    if (!goes_on()) throw Error(ExitCode::stopped, "the member was stopped; its analysis begins again");
+    if (!goes_on()) throw Error(ExitCode::stopped, "the member was stopped; its analysis will be repeated");
   };
   io::PackedParts parts;
   const io::RunFile run = io::RunFile::open(member.path);
@@ -86,7 +86,8 @@ bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifes
   return store.pack(goes_on, parts);
 }
 
-/// Runs or resumes a member, does what the task of the ensemble asks besides, and packs it with its analysis.
+/// Runs or resumes a member, does the additional work that the task of the ensemble requires, and packs it
+/// with its analysis.
 void compute_member(const EnsembleArguments& arguments) {
   const ensemble::EnsembleManifest manifest = ensemble::read_ensemble(arguments.folder);
   const ensemble::EnsemblePlan plan = ensemble::plan_of(manifest, arguments.folder);
@@ -94,7 +95,7 @@ void compute_member(const EnsembleArguments& arguments) {
   if (member == plan.members.end())
     throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
   if (const std::string damage = io::set_damaged_aside(member->path); !damage.empty())
-    print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
+    print_error("talus: note: %s; the member is restarted\n", damage.c_str());
   if (ensemble::is_complete(*member)) return;  // another worker was faster
   session::RunControl control;
   control.stop = stop_request();
@@ -119,7 +120,7 @@ void compute_member(const EnsembleArguments& arguments) {
   open.session.use_threads(1);
   const CommitOnSignals commit;
   if (session::run_to_end(open.session, open.store, control) == session::RunEnd::stopped)
-    throw Error(ExitCode::stopped, "the member was stopped; its run goes on from its checkpoint");
+    throw Error(ExitCode::stopped, "the member was stopped; its run continues from its checkpoint");
   print("%s is done: state %s\n", member->name.c_str(), hash_text(state_hash(open.session.world())).c_str());
 }
 
@@ -141,7 +142,7 @@ void work(const EnsembleArguments& arguments) {
   const ensemble::WorkerEnd end = ensemble::work_on_ensemble(options);
   ensemble::drop_leftovers(plan);
   print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
-        end.enough ? "; the precision that was asked for is reached" : "");
+        end.enough ? "; the requested precision is reached" : "");
 }
 
 void average(const EnsembleArguments& arguments) {
@@ -163,11 +164,11 @@ void retry(const EnsembleArguments& arguments) {
     io::remove_file(ensemble::failure_path(plan.members[m].path));
     ++count;
   }
-  print("%zu members wait again; talus ensemble work %s computes them\n", count,
+  print("%zu members are waiting again; talus ensemble work %s computes them\n", count,
         shell_quoted(arguments.folder).c_str());
 }
 
-/// `ensemble NAME FOLDER`.
+/// Adds the subcommand `ensemble NAME FOLDER`.
 CLI::App* add_folder_command(CLI::App& ensemble, const std::shared_ptr<EnsembleArguments>& arguments,
                              const std::string& name, const std::string& text) {
   CLI::App* command = ensemble.add_subcommand(name, text);
@@ -177,24 +178,23 @@ CLI::App* add_folder_command(CLI::App& ensemble, const std::shared_ptr<EnsembleA
 
 void add_time_options(CLI::App& command, const std::shared_ptr<EnsembleArguments>& arguments) {
   command.add_option("--max-wall", arguments->max_wall,
-                     "Stop with checkpoints before this much wall time has passed, HH:MM or HH:MM:SS");
+                     "Stop with checkpoints before this wall time is over, HH:MM or HH:MM:SS");
   command
-      .add_option(
-          "--stale", arguments->times.stale,
-          "Time without a heartbeat after which a worker of another machine is taken for dead, s; the "
-          "same for all workers")
+      .add_option("--stale", arguments->times.stale,
+                  "Seconds without a heartbeat after which a worker on another machine is considered dead; "
+                  "must be the same for all workers")
       ->capture_default_str()
       ->check(in_range(1.0, 86400.0));
 }
 
 void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>& arguments) {
   CLI::App* worker = add_folder_command(
-      command, arguments, "work", "Compute members, one after the other, beside any number of other workers");
+      command, arguments, "work", "Compute members one after another, alongside any number of other workers");
   add_time_options(*worker, arguments);
   worker->callback([arguments] { work(*arguments); });
   CLI::App* status =
-      add_folder_command(command, arguments, "status", "How far it is, what failed, and the means");
-  status->add_flag("--json", arguments->json, "Print it as JSON");
+      add_folder_command(command, arguments, "status", "Show progress, failed members, and means");
+  status->add_flag("--json", arguments->json, "Print JSON");
   status->callback([arguments] {
     ensemble::KnownMembers known;
     const EnsembleView view = view_of_ensemble(arguments->folder, known);
@@ -204,14 +204,14 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
   add_folder_command(command, arguments, "average",
                      "Write members.csv, averages.csv and ensemble.h5 of the members that are done")
       ->callback([arguments] { average(*arguments); });
-  add_folder_command(command, arguments, "retry", "Let members that failed wait for a worker again")
+  add_folder_command(command, arguments, "retry", "Queue failed members for computation again")
       ->callback([arguments] { retry(*arguments); });
   CLI::App* member =
       add_folder_command(command, arguments, "member", "Compute one member, which a worker has claimed");
   member->add_option("name", arguments->member, "Its name, such as seed-7")->required();
   member->add_option("--max-wall", arguments->max_wall,
-                     "Stop with a checkpoint before this much wall time has passed");
-  member->group("");  // what a worker calls
+                     "Stop with a checkpoint before this wall time is over");
+  member->group("");  // internal: called by workers
   member->callback([arguments] { compute_member(*arguments); });
 }
 
@@ -220,15 +220,17 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
 void add_ensemble_command(CLI::App& app) {
   auto arguments = std::make_shared<EnsembleArguments>();
   CLI::App* command = app.add_subcommand(
-      "ensemble", "Compute many beds of one scenario, on one machine or many; the same command goes on");
+      "ensemble",
+      "Compute many beds of one scenario, on one machine or several; repeat the command to continue");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)");
   command->add_option(
       "-o,--output", arguments->folder,
-      "Folder of the ensemble; what is complete in it is kept, and seeds and values are added to it");
+      "Folder of the ensemble; complete members are kept, and new seeds and values are added");
   command->add_option("--seeds", arguments->seeds, "Seeds, e.g. 1-50 or 1-3,8")->capture_default_str();
   command
       ->add_option("--vary", arguments->axes,
-                   "Values of a key, e.g. contact.friction=0.3,0.5; with several of them each combination")
+                   "Values of a key, e.g. contact.friction=0.3,0.5; if given several times, all combinations "
+                   "are computed")
       ->allow_extra_args(false);
   command
       ->add_option("--set", arguments->settings,
@@ -236,12 +238,11 @@ void add_ensemble_command(CLI::App& app) {
       ->allow_extra_args(false);
   command->add_option(
       "--until", arguments->until,
-      "Begin no more members once the standard error of a mean is this small, e.g. theta_c:0.2");
+      "Start no new members once the standard error of a mean is this small, e.g. theta_c:0.2");
   add_jobs_option(*command, arguments->jobs);
-  command->add_option(
-      "--keep", arguments->keep,
-      "What stays of a member that is done: all (the default), analysis (all but the frames of "
-      "its run), or the frames of so many seeds, the lowest ones");
+  command->add_option("--keep", arguments->keep,
+                      "Data kept of a finished member: all (default), analysis (everything except the "
+                      "frames), or N (analysis, plus the frames of the N lowest seeds)");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);

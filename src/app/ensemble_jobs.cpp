@@ -13,12 +13,13 @@
 namespace talus::app {
 namespace {
 
-/// Asks squeue for the jobs of one cluster.
+/// Queries squeue for the jobs of one cluster.
 void ask(const std::vector<ensemble::SlurmJob>& jobs, EnsembleJobs& found) {
   try {
-    const ProgramOutput output = output_of(ensemble::squeue_words(jobs), ".", ProgramEnvironment::whole,
-                                           "squeue is not on PATH: this is no machine of a Slurm cluster");
-    // A job that has left its memory is an error to squeue where no other is asked for.
+    const ProgramOutput output =
+        output_of(ensemble::squeue_words(jobs), ".", ProgramEnvironment::whole,
+                  "squeue is not on PATH: this machine is not part of a Slurm cluster");
+    // Jobs that Slurm has forgotten are an error of squeue if it is asked for no other job.
     const bool gone = output.err.find("Invalid job id") != std::string::npos;
     if (output.status != 0 && !gone) found.unknown = output.err.empty() ? "squeue failed" : output.err;
     found.queue.merge(ensemble::parse_queue(output.out));
@@ -72,7 +73,7 @@ std::string jobs_text(const EnsembleJobs& jobs) {
     if (tasks != jobs.queue.end())
       text += fmt::format("job {}: {}\n", job.id, tasks_text(tasks->second));
     else if (jobs.unknown.empty())
-      text += fmt::format("job {}: not in the queue any more\n", job.id);
+      text += fmt::format("job {}: no longer in the queue\n", job.id);
     else
       text += fmt::format("job {}: unknown, {}\n", job.id, visible(jobs.unknown));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The jobs of an ensemble in the queue of Slurm.
+/// Slurm jobs of an ensemble and their state in the queue.
 
 #include <map>
 #include <string>
@@ -11,24 +11,24 @@
 namespace talus::app {
 
 struct EnsembleJobs {
-  std::vector<ensemble::SlurmJob> recorded;            ///< in the folder, by their numbers
-  std::map<std::string, ensemble::QueuedTasks> queue;  ///< of these, by their numbers
-  std::string unknown;                                 ///< why squeue told nothing; empty where it did
+  std::vector<ensemble::SlurmJob> recorded;            ///< jobs recorded in the folder, by number
+  std::map<std::string, ensemble::QueuedTasks> queue;  ///< tasks of the recorded jobs, by job number
+  std::string unknown;                                 ///< error of squeue; empty if it succeeded
 
   bool is_queued(const ensemble::SlurmJob& job) const { return queue.contains(job.id); }
 };
 
-/// The jobs that were submitted from a folder, as squeue knows them; it is asked only where there are any.
-/// Throws as recorded_jobs does, and Error(stopped) on a signal.
+/// Returns the jobs submitted from a folder and their state in squeue, which is called only if jobs are
+/// recorded. Throws as recorded_jobs does, and Error(stopped) on a signal.
 EnsembleJobs jobs_of_ensemble(const std::string& folder);
 
-/// Tasks in the queue, of all jobs together.
+/// Returns the number of queued tasks of all jobs.
 std::size_t count_queued(const EnsembleJobs& jobs);
 
-/// "job 12: 2 running, 6 pending (Resources)", a line for each job; empty where there is none.
+/// Returns a line for each job, such as "job 12: 2 running, 6 pending (Resources)"; empty without jobs.
 std::string jobs_text(const EnsembleJobs& jobs);
 
-/// The same as JSON; what is queued is null where squeue told nothing.
+/// Returns the same as JSON; the queued tasks are null if squeue failed.
 Json jobs_json(const EnsembleJobs& jobs);
 
 }  // namespace talus::app

@@ -17,7 +17,7 @@
 namespace talus::app {
 namespace {
 
-/// What is shown of a run, of all that members.csv holds.
+/// Quantities shown in reports, out of those in members.csv.
 constexpr std::array<const char*, 6> shown_quantities = {
     "theta_c", "first_slide", "theta_d/lc_jump", "theta_d/percolation", "theta_d/dilation", "theta_r"};
 
@@ -38,7 +38,8 @@ std::string unit_of(const EnsembleView& view, const std::string& quantity) {
   return "";
 }
 
-/// "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty where no member has it.
+/// Returns "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty if no member has the
+/// quantity.
 std::string mean_line(const EnsembleView& view, std::size_t variant, const std::string& quantity) {
   const std::vector<double> values = values_of(view, variant, quantity);
   const Statistics found = statistics_of(values);
@@ -65,10 +66,10 @@ std::string means_text(const EnsembleView& view) {
   return text;
 }
 
-/// Who has taken a member.
+/// Returns the worker that has claimed a member.
 std::string holder_text(const ensemble::Member& member, const ensemble::MemberState& state) {
   const std::optional<ensemble::ClaimHolder> holder = ensemble::read_claim(member.path, *state.claim);
-  return holder ? visible(holder->worker) : "a process that has just begun";
+  return holder ? visible(holder->worker) : "a process that has just started";
 }
 
 std::string members_text(const EnsembleView& view) {
@@ -88,7 +89,7 @@ std::string members_text(const EnsembleView& view) {
                         failure.message.empty() ? "it printed nothing" : failure.message);
     failed = true;
   }
-  if (failed) text += fmt::format("again: talus ensemble retry {}\n", shell_quoted(view.folder));
+  if (failed) text += fmt::format("to repeat: talus ensemble retry {}\n", shell_quoted(view.folder));
   return text;
 }
 
@@ -123,8 +124,8 @@ Json member_json(const EnsembleView& view, std::size_t m) {
   return json;
 }
 
-/// "kept: the analyses of all members that are done, and the frames of 10"; empty where the ensemble keeps
-/// all frames, and has them.
+/// Returns "kept: the analyses of all members that are done, and the frames of 10"; empty if the ensemble
+/// keeps and has all frames.
 std::string kept_text(const EnsembleView& view) {
   const std::size_t done = ensemble::count_of(view.states, ensemble::MemberStage::done);
   const bool keeps_all = view.manifest.keep.empty() || view.manifest.keep == "all";
@@ -165,7 +166,7 @@ std::string count_text(const EnsembleView& view) {
   return text;
 }
 
-/// Versions of Talus measure differently: means over members of several are said to be that.
+/// Returns a note if members come from several versions of Talus, which may measure differently.
 static std::string versions_text(const EnsembleView& view) {
   std::vector<std::string> versions;
   for (std::size_t m = 0; m < view.numbers.size(); ++m)
@@ -174,7 +175,7 @@ static std::string versions_text(const EnsembleView& view) {
   std::ranges::sort(versions);
   versions.erase(std::unique(versions.begin(), versions.end()), versions.end());
   if (versions.size() < 2) return "";
-  return fmt::format("  members of several versions stand side by side, so differences may be theirs: {}\n",
+  return fmt::format("  members come from several versions of Talus, which may cause differences: {}\n",
                      joined(versions, ", "));
 }
 
@@ -207,7 +208,7 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
 }
 
 std::string members_csv(const EnsembleView& view) {
-  // Members of different versions of Talus may have different numbers.
+  // Members from different versions of Talus may have different numbers.
   std::vector<ensemble::NamedNumber> columns;
   for (const ensemble::MemberNumbers& member : view.numbers)
     for (const ensemble::NamedNumber& number : member.numbers)

@@ -33,10 +33,10 @@ namespace fs = std::filesystem;
 struct SubmitArguments {
   std::string folder;
   std::string engine = "slurm";
-  std::size_t tasks = 0;  ///< 0: as many as are of use
-  std::string time;       ///< HH:MM; empty: what the partition allows
+  std::size_t tasks = 0;  ///< 0: as many as are useful
+  std::string time;       ///< HH:MM; empty: the limit of the partition
   double stale = ensemble::ClaimTimes{}.stale;
-  std::vector<std::string> options;  ///< of sbatch
+  std::vector<std::string> options;  ///< passed to sbatch
 };
 
 ensemble::SlurmArray array_of(const SubmitArguments& arguments, std::size_t tasks) {
@@ -44,7 +44,7 @@ ensemble::SlurmArray array_of(const SubmitArguments& arguments, std::size_t task
   std::error_code error;
   array.program = fs::read_symlink("/proc/self/exe", error).string();
   if (error) throw system_error(ExitCode::unavailable, "read the link", "/proc/self/exe", error.value());
-  // Not resolved: where links lead may differ from machine to machine.
+  // Links are not resolved, because their targets may differ between machines.
   array.folder = fs::path(absolute_path(arguments.folder)).lexically_normal().string();
   if (array.folder.size() > 1 && array.folder.ends_with('/')) array.folder.pop_back();
   array.tasks = tasks;
@@ -53,25 +53,25 @@ ensemble::SlurmArray array_of(const SubmitArguments& arguments, std::size_t task
   return array;
 }
 
-/// Why nothing is submitted where nothing is missing.
+/// Explains why nothing is submitted if no member is missing.
 std::string nothing_text(const EnsembleView& view) {
   const bool failed = ensemble::count_of(view.states, ensemble::MemberStage::failed) > 0;
   return fmt::format("{}: {}; nothing is missing{}\n", visible(view.folder), count_text(view),
-                     failed ? fmt::format("; talus ensemble retry {} lets what failed wait again",
+                     failed ? fmt::format("; talus ensemble retry {} queues the failed members again",
                                           shell_quoted(ensemble::path_word(view.folder)))
                             : "");
 }
 
-/// `workers` commands, for a program that runs lines side by side.
+/// Prints one worker command per line, for a program that runs lines in parallel.
 void print_commands(const SubmitArguments& arguments, std::size_t missing) {
   if (!arguments.options.empty())
-    throw Error(ExitCode::usage, "options of sbatch mean nothing to --engine print; leave them out");
+    throw Error(ExitCode::usage, "options of sbatch have no effect with --engine print; omit them");
   const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, ensemble::usual_tasks);
   const std::string command = ensemble::worker_command(array_of(arguments, tasks));
   for (std::size_t task = 0; task < tasks; ++task) print("%s\n", command.c_str());
 }
 
-/// The whole of it happens or nothing: a signal is heard when the job has been recorded.
+/// Submits and records the job as one unit: a signal takes effect only after the job is recorded.
 ensemble::SlurmJob submit_array(const SubmitArguments& arguments, std::size_t tasks) {
   const ensemble::SlurmArray array = array_of(arguments, tasks);
   prepare_folder(ensemble::slurm_folder(arguments.folder));
@@ -79,12 +79,11 @@ ensemble::SlurmJob submit_array(const SubmitArguments& arguments, std::size_t ta
   io::write_text((fs::path(ensemble::slurm_folder(arguments.folder)) / "job.sh").string(),
                  ensemble::job_script(array));
   const CommitOnSignals commit;
-  const ProgramOutput output =
-      output_of(ensemble::sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
-                "sbatch is not on PATH: call this where jobs of the cluster are submitted; without Slurm, "
-                "--engine print "
-                "writes the commands of workers, and talus ensemble work is one",
-                true);
+  const ProgramOutput output = output_of(
+      ensemble::sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
+      "sbatch is not on PATH: run this command on a machine from which jobs can be submitted; without Slurm, "
+      "start workers with talus ensemble work, or print their commands with --engine print",
+      true);
   std::optional<ensemble::SlurmJob> job =
       output.status == 0 ? ensemble::parse_submitted(output.out) : std::nullopt;
   if (!job) {
@@ -116,8 +115,10 @@ void submit(const SubmitArguments& arguments) {
   const std::size_t queued = count_queued(jobs);
   const std::string folder = shell_quoted(ensemble::path_word(arguments.folder));
   if (arguments.tasks == 0 && queued >= missing) {
-    print("%s: %zu members are missing, and %zu tasks are in the queue for them; --tasks adds more\n%s",
-          arguments.folder.c_str(), missing, queued, jobs_text(jobs).c_str());
+    print(
+        "%s: %zu members are missing, and %zu tasks for them are already in the queue; use --tasks to add "
+        "more\n%s",
+        arguments.folder.c_str(), missing, queued, jobs_text(jobs).c_str());
     return;
   }
   const std::size_t tasks =
@@ -141,8 +142,8 @@ void cancel(const std::string& folder) {
   for (const auto& [cluster, jobs] : ensemble::by_cluster(recorded)) {
     const ProgramOutput output =
         output_of(ensemble::scancel_words(jobs), ".", ProgramEnvironment::whole,
-                  "scancel is not on PATH: call this where jobs of the cluster are submitted");
-    // One that has ended and been forgotten by Slurm needs no end.
+                  "scancel is not on PATH: run this command on a machine from which jobs can be submitted");
+    // A job that has ended and is unknown to Slurm needs no cancelling.
     if (output.status != 0 && output.err.find("Invalid job id") == std::string::npos)
       throw Error(ExitCode::unavailable, fmt::format("scancel failed; it says:\n{}", output.err));
     for (const ensemble::SlurmJob& job : jobs) {
@@ -150,21 +151,21 @@ void cancel(const std::string& folder) {
       print("job %s is cancelled\n", job.id.c_str());
     }
   }
-  print("what is computed stays; talus ensemble submit %s goes on\n",
+  print("computed data are kept; talus ensemble submit %s continues\n",
         shell_quoted(ensemble::path_word(folder)).c_str());
 }
 
-/// A number that Slurm gives to each task in its environment.
+/// Returns a number that Slurm sets in the environment of each task.
 std::string slurm_number(const char* variable) {
   const char* const value = std::getenv(variable);
   if (value == nullptr || !ensemble::is_slurm_number(value))
     throw Error(ExitCode::usage,
-                fmt::format("{} is no number: expected to be called by a task of a job array", variable));
+                fmt::format("{} is not a number: this command is for tasks of a job array", variable));
   return value;
 }
 
-/// Called by a task whose worker was stopped or killed: lets Slurm start it again while anything is missing,
-/// unless starts have been in vain.
+/// Lets Slurm restart a task whose worker was stopped or killed, if members are missing and recent starts
+/// have made progress.
 void requeue(const std::string& folder) {
   const std::string job = slurm_number("SLURM_ARRAY_JOB_ID"), task = slurm_number("SLURM_ARRAY_TASK_ID");
   ensemble::KnownMembers known;
@@ -177,11 +178,10 @@ void requeue(const std::string& folder) {
       ensemble::after_start(ensemble::read_memory(folder, job, task), ensemble::mark_of(view.plan));
   ensemble::write_memory(folder, job, task, memory);
   if (memory.idle_starts >= ensemble::most_idle_starts)
-    throw Error(
-        ExitCode::stopped,
-        fmt::format("the task is not queued again: after {} starts in a row no member had come further; "
-                    "give more --time or memory, and submit again",
-                    ensemble::most_idle_starts));
+    throw Error(ExitCode::stopped,
+                fmt::format("the task is not queued again: {} consecutive starts made no progress on any "
+                            "member; give more --time or memory, and submit again",
+                            ensemble::most_idle_starts));
   print("queued again\n");
   std::fflush(stdout);  // Slurm ends this process too
   const ProgramOutput output = output_of(ensemble::requeue_words(job, task), ".", ProgramEnvironment::whole,
@@ -194,24 +194,23 @@ void requeue(const std::string& folder) {
 void add_submit(CLI::App& ensemble) {
   auto arguments = std::make_shared<SubmitArguments>();
   CLI::App* command =
-      ensemble.add_subcommand("submit", "Let a cluster compute what is missing, by a job array of workers");
+      ensemble.add_subcommand("submit", "Compute missing members on a cluster, by a job array of workers");
   command->add_option("FOLDER", arguments->folder, "Folder of the ensemble")->required();
   command
       ->add_option("--engine", arguments->engine,
-                   "slurm, or print: writes the command of a worker on each line, for GNU parallel")
+                   "slurm, or print to write one worker command per line, for GNU parallel")
       ->capture_default_str()
       ->check(one_of({"slurm", "print"}));
   command
       ->add_option("--tasks", arguments->tasks,
-                   "Workers; without it as many as members are missing and not queued for, 100 at most")
+                   "Number of workers [as many as members are missing and not yet queued for, at most 100]")
       ->check(in_range(std::size_t{1}, ensemble::most_tasks));
   command->add_option(
       "--time", arguments->time,
-      "Time of a task, HH:MM or HH:MM:SS; its worker stops before it is over, and the task is "
-      "queued again");
+      "Time limit of a task, HH:MM or HH:MM:SS; its worker stops in time, and the task is queued again");
   command
       ->add_option("--stale", arguments->stale,
-                   "Time without a heartbeat after which a worker of another machine is taken for dead, s")
+                   "Seconds without a heartbeat after which a worker on another machine is considered dead")
       ->capture_default_str()
       ->check(in_range(1.0, 86400.0));
   command->add_option("options", arguments->options,
@@ -224,12 +223,12 @@ void add_submit(CLI::App& ensemble) {
 void add_submit_commands(CLI::App& ensemble) {
   add_submit(ensemble);
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = ensemble.add_subcommand("cancel", "Cancel the jobs that were submitted");
+  CLI::App* command = ensemble.add_subcommand("cancel", "Cancel the submitted jobs");
   command->add_option("FOLDER", *folder, "Folder of the ensemble")->required();
   command->callback([folder] { cancel(*folder); });
   command = ensemble.add_subcommand("requeue", "Queue a task of a job array again");
   command->add_option("FOLDER", *folder, "Folder of the ensemble")->required();
-  command->group("");  // what the script of a task calls
+  command->group("");  // internal: called by the script of a task
   command->callback([folder] { requeue(*folder); });
 }
 

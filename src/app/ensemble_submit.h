@@ -1,11 +1,11 @@
 #pragma once
-/// `talus ensemble submit` and what belongs to it: workers as a job array of Slurm.
+/// `talus ensemble submit` and related commands: workers as a Slurm job array.
 
 #include <CLI/CLI.hpp>
 
 namespace talus::app {
 
-/// Adds submit, cancel, and requeue, which the script of a task calls, to `talus ensemble`.
+/// Adds submit, cancel and requeue to `talus ensemble`; requeue is called by the script of a task.
 void add_submit_commands(CLI::App& ensemble);
 
 }  // namespace talus::app

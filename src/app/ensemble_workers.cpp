@@ -38,8 +38,8 @@ double estimate_of(const ensemble::EnsemblePlan& plan, const std::vector<ensembl
   return seconds;
 }
 
-/// "seed-3 waits for process 12 on host a", of the first member that waits for whoever writes its run; empty
-/// where there is none.
+/// Returns "seed-3 waits for process 12 on host a" for the first member that waits until the writer of its
+/// run has ended; empty without such a member.
 std::string wait_text(const ensemble::EnsemblePlan& plan, const std::vector<ensemble::MemberState>& states) {
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].stage == ensemble::MemberStage::waiting)
@@ -48,8 +48,9 @@ std::string wait_text(const ensemble::EnsemblePlan& plan, const std::vector<ense
   return "";
 }
 
-/// "ensemble: 3 of 50 members done, 2 under way, 1 failed", how far that is, and how long it still takes by
-/// the members that came to an end since the line began; `before`: the estimate of those done before, s.
+/// Shows "ensemble: 3 of 50 members done, 2 under way, 1 failed", the fraction done, and the remaining time,
+/// extrapolated from the members that finished since the line was started. `before`: estimate (s) for the
+/// members done before that.
 void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
   const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
   const std::size_t done = ensemble::count_of(states, ensemble::MemberStage::done),
@@ -68,15 +69,15 @@ void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
   line.show(progress);
 }
 
-/// The averages while members come in: of how many, and when.
+/// State of the intermediate averages: the number of members included, and when they were written.
 struct AveragesOnTheWay {
   std::size_t members = 0;
   std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration interval = std::chrono::minutes(1);
 };
 
-/// Makes them anew once a minute, where more members are done than before; for many members less often, so
-/// that it takes a twentieth of the time of this process at most.
+/// Updates the averages at most once a minute, if more members are done; less often if there are many
+/// members, so that it uses at most a twentieth of this process's time.
 void renew(AveragesOnTheWay& averages, const std::string& folder, ensemble::KnownMembers& known) {
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < averages.interval) return;
@@ -89,7 +90,7 @@ void renew(AveragesOnTheWay& averages, const std::string& folder, ensemble::Know
   try {
     write_averages(folder, known);
   } catch (const Error&) {
-    return;  // a table that is refused stops no member under way: it is reported at the end
+    return;  // a rejected table stops no member under way; it is reported at the end
   }
   averages.made = std::chrono::steady_clock::now();
   averages.interval =
@@ -103,7 +104,8 @@ std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
   return words;
 }
 
-/// Workers side by side, until nothing is left that they can begin. Returns those that ended with an error.
+/// Runs workers in parallel until no member is left that they can start. Returns those that ended with an
+/// error.
 std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
                                              const ensemble::EnsemblePlan& plan,
                                              ensemble::KnownMembers& known) {
@@ -118,7 +120,7 @@ std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
                     (std::filesystem::path(workers.folder) / "workers" / (name + ".log")).string()});
   }
   const double before = estimate_of(plan, states, ensemble::MemberStage::done);
-  StatusLine line(false, 2.0, 60.0);  // a look at ten thousand members takes some hundredths of a second
+  StatusLine line(false, 2.0, 60.0);  // scanning ten thousand members takes a few hundredths of a second
   AveragesOnTheWay averages{ensemble::count_of(states, ensemble::MemberStage::done)};
   const auto show_now_and_then = [&] {
     renew(averages, workers.folder, known);
@@ -143,7 +145,7 @@ std::size_t begin_damaged_anew(const ensemble::EnsemblePlan& plan, ensemble::Kno
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].damage.empty()) continue;
     if (const std::string damage = io::set_damaged_aside(plan.members[m].path); !damage.empty())
-      print_error("talus: note: %s; the member is begun anew\n", damage.c_str());
+      print_error("talus: note: %s; the member is restarted\n", damage.c_str());
     ++count;
   }
   return count;
@@ -163,7 +165,7 @@ void compute_members(const EnsembleWorkers& workers, ensemble::KnownMembers& kno
     if (ended_now == view.states.size()) return;
     const bool limited = !workers.max_wall.empty();
     if (!killed.empty() && (limited || ended_now == ended))
-      ensemble::refuse(killed, "and no member came to an end meanwhile");
+      ensemble::refuse(killed, "and no member finished in the meantime");
     if (limited) return;
     ended = ended_now;
     std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -176,8 +178,8 @@ void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known) {
   ensemble::drop_leftovers(plan);
   if (const std::size_t dropped = ensemble::drop_frames(manifest, plan, folder, known); dropped > 0)
     print_error(
-        "talus: note: the frames of %zu member%s that %s done are removed (--keep %s); run and analysis "
-        "stay\n",
+        "talus: note: the frames of %zu member%s that %s done were removed (--keep %s); run and analysis are "
+        "kept\n",
         dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep).c_str());
 }
 
@@ -185,19 +187,18 @@ void refuse_old_tables(const ensemble::EnsemblePlan& plan) {
   const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].has_old_table && states[m].stage != ensemble::MemberStage::done)
-      throw Error(
-          ExitCode::bad_data,
-          fmt::format("{} is the table of a member whose run an earlier version of Talus has not kept; go on "
-                      "in another folder, or remove it, and the member is computed again",
-                      ensemble::file_beside(plan.members[m].path, ".csv")));
+      throw Error(ExitCode::bad_data,
+                  fmt::format("{} is the table of a member whose run was not kept by an earlier version of "
+                              "Talus; use another folder, or remove the table to compute the member again",
+                              ensemble::file_beside(plan.members[m].path, ".csv")));
 }
 
-/// What a corrected command has taken out of an ensemble.
+/// Reports variants that a corrected command has withdrawn from an ensemble.
 static void tell_withdrawn(const std::vector<ensemble::Variant>& before,
                            const std::vector<ensemble::Variant>& now) {
   for (const ensemble::Variant& variant : before)
     if (std::ranges::find(now, variant.name, &ensemble::Variant::name) == now.end())
-      print_error("talus: note: %s is withdrawn from the ensemble: no member of it could be computed\n",
+      print_error("talus: note: %s is withdrawn from the ensemble: none of its members could be computed\n",
                   variant.name.empty() ? "the scenario as it was" : variant.name.c_str());
 }
 
@@ -241,13 +242,11 @@ void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& cons
   }
   if (failed.empty()) return;
   const char* const them = failed.size() == 1 ? "it" : "them";
-  ensemble::refuse(failed,
-                   fmt::format("{} until talus ensemble retry lets {} be computed again", consequence, them));
+  ensemble::refuse(failed, fmt::format("{} until talus ensemble retry queues {} again", consequence, them));
 }
 
 void tell_wait(const std::string& member, const std::string& writer) {
-  print_error("talus: note: %s is left for later: %s writes its run, and is waited for\n", member.c_str(),
-              writer.c_str());
+  print_error("talus: note: %s is postponed: %s is writing its run\n", member.c_str(), writer.c_str());
 }
 
 }  // namespace talus::app

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view group_of_events = "events/";
 
-/// The columns of the table, with their units.
+/// Columns of the table and their units.
 constexpr std::pair<const char*, const char*> event_titles[] = {{"theta", "deg"},
                                                                 {"waiting", "deg"},
                                                                 {"duration", "sqrt(D/g)"},
@@ -33,7 +33,7 @@ constexpr std::pair<const char*, const char*> event_titles[] = {{"theta", "deg"}
                                                                 {"dy/y*1e6", ""},
                                                                 {"dz", ""}};
 
-/// Units in which events are told.
+/// Units of the reported events.
 struct EventUnits {
   double diameter, energy, velocity, time;
 
@@ -72,7 +72,7 @@ std::vector<TextCell> event_row(const analysis::EventRecord& event, const EventU
           {std::string(mark_of(event))}};
 }
 
-/// Places of the events that are shown, in their order.
+/// Returns the indices of the events that are shown, in order.
 std::vector<std::size_t> shown_events(const std::vector<analysis::EventRecord>& events, std::size_t largest) {
   std::vector<std::size_t> places(events.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
@@ -99,13 +99,14 @@ std::string events_heading(const runs::RunView& run) {
 std::string threshold_text(const runs::RunView& run, const EventUnits& unit) {
   const analysis::Analysis& analysis = run.analysis;
   if (std::isnan(analysis.event_threshold))
-    return "The steps of the tilt are not in the file: its events are not known.\n";
+    return "The file has no steps of the tilt, so its events are unknown.\n";
   const double noise = analysis.event_noise;
   const std::string over_noise = noise > 0.0 ? fmt::format(", {:.3g} times that of the median quiet step",
                                                            analysis.event_threshold / noise)
                                              : "";
   return fmt::format(
-      "An event: rms velocity of {:.2e} sqrt(g D) or more{}, until it has been quiet for {:.3g} sqrt(D/g)\n",
+      "An event: rms velocity of at least {:.2e} sqrt(g D){}, until the bed has been quiet for {:.3g} "
+      "sqrt(D/g)\n",
       analysis.event_threshold / unit.velocity, over_noise, analysis.event_quiet_time / unit.time);
 }
 
@@ -118,14 +119,14 @@ std::string event_table(const runs::RunView& run, const EventUnits& unit, std::s
   for (const std::size_t k : shown) table.rows.push_back(event_row(events[k], unit));
   std::string text = "\n" + aligned_text(table, 1);
   if (shown.size() < events.size())
-    text += fmt::format("the {} largest of {} by their energy\n", shown.size(), events.size());
+    text += fmt::format("the {} events of largest energy, of {}\n", shown.size(), events.size());
   if (std::ranges::any_of(events, [](const analysis::EventRecord& event) { return event.sharing > 1; }))
-    text += "* shares its frames with other events: grains, depth, x and y are of all of them together\n";
+    text += "* shares its frames with other events: grains, depth, x and y refer to all of them together\n";
   return text;
 }
 
 std::string too_few(double count) {
-  return fmt::format("no law: {:.0f} where {} are needed", count, analysis::fewest_to_tell);
+  return fmt::format("no law: {:.0f} events, {} needed", count, analysis::fewest_to_tell);
 }
 
 std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& unit) {
@@ -155,7 +156,7 @@ std::string name_of(const analysis::Quantity& quantity) {
   return quantity.name.substr(group_of_events.size());
 }
 
-/// The value of one event, or both of them.
+/// Returns the value of one event, or the pair of values.
 Json value_json(const analysis::Quantity& quantity, std::size_t k, const analysis::Analysis& analysis) {
   return std::visit(
       [&](const auto& values) -> Json {
@@ -178,8 +179,7 @@ std::size_t width_of(const analysis::Quantity& quantity) { return quantity.shape
 
 std::string event_summary(const runs::RunView& run) {
   const analysis::Analysis& analysis = run.analysis;
-  if (std::isnan(analysis.event_count))
-    return "rearrangements: not known, the file has no steps of the tilt\n";
+  if (std::isnan(analysis.event_count)) return "rearrangements: unknown, the file has no steps of the tilt\n";
   const EventUnits unit(run.statics);
   const auto line = [](std::string_view name, const std::string& text) {
     return fmt::format("  {:<34}{}\n", name, text);
@@ -274,7 +274,7 @@ std::string moves_text(const MovedGrains& grains) {
 
 namespace {
 
-/// What is told of each, with the unit.
+/// A reported value of a move and its unit.
 struct MoveField {
   const char *name, *unit;
   Json (*value)(const runs::FirstMove& move);

@@ -1,5 +1,5 @@
 #pragma once
-/// The rearrangements of a run as text.
+/// Reports of the rearrangements of a run.
 
 #include <cstddef>
 #include <string>
@@ -10,23 +10,24 @@
 
 namespace talus::app {
 
-/// What the distributions say, in lines: count, sizes, waiting angles, share that dilates; and why where
-/// there is no number.
+/// Returns lines on the distributions of events: count, sizes, waiting angles, fraction that dilates the bed;
+/// or the reason why a number is missing.
 std::string event_summary(const runs::RunView& run);
 
-/// A table of the events, lengths in mean diameters, angles in degrees, energies in m g D; and the summary.
-/// `largest`: so many events by their energy, in the order of the run; 0 for all.
+/// Returns a table of the events (lengths in mean diameters, angles in degrees, energies in m g D) and the
+/// summary. `largest`: number of events shown, those of largest energy, in the order of the run; 0 for all.
 std::string events_text(const runs::RunView& run, std::size_t largest);
 
-/// Numbers of the run, and its events, under the names of the table of quantities; SI units, radians.
+/// Returns the scalars of the run and its events, under the names of the table of quantities; SI units,
+/// radians.
 std::string events_json(const runs::RunView& run);
 
-/// A line for each event, with the columns of the table of quantities; SI units, radians, empty where there
-/// is no value. The line of their titles, with units, is the same for all runs.
+/// Returns a line for each event, with the columns of the table of quantities; SI units, radians, empty for
+/// missing values. The title line, with units, is the same for all runs.
 std::string events_csv(const runs::RunView& run, bool titles);
 
-/// The first grains of a run that moved so far (runs/first_moves.h), as a table of the first of them; all of
-/// them as JSON, and as lines of CSV. Units as above.
+/// Grains of a run that moved by at least `displacement`, in order (runs/first_moves.h). The text report
+/// shows the first of them, JSON and CSV all of them, in the units given above.
 struct MovedGrains {
   std::string path;
   RunStatics statics;

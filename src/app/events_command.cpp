@@ -1,4 +1,4 @@
-/// `talus events`: the rearrangements of runs, as a table.
+/// `talus events`: lists the rearrangements of runs in a table.
 
 #include <cstdio>
 #include <memory>
@@ -61,18 +61,17 @@ void list_events(const EventsArguments& arguments) {
 
 void add_events_command(CLI::App& app) {
   auto arguments = std::make_shared<EventsArguments>();
-  CLI::App* command = app.add_subcommand(
-      "events",
-      "List the rearrangements of runs on the way to failure: when, how large, where; or the first "
-      "grains to move");
+  CLI::App* command = app.add_subcommand("events",
+                                         "List the rearrangements of runs before failure with angle, size "
+                                         "and place; or the first grains that move");
   command
       ->add_option("RUNS", arguments->runs,
-                   "Run files, or folders of ensembles. Their analysis is read from the file, or made and "
-                   "stored as by talus analyze")
+                   "Run files, or folders of ensembles. A missing analysis is computed and stored, as by "
+                   "talus analyze")
       ->required();
   auto* largest = command
                       ->add_option("--largest", arguments->largest,
-                                   "Only so many events of each run, those that released most energy")
+                                   "Number of events of each run, those of largest energy [all]")
                       ->check(in_range<std::size_t>(1, 1000000));
   auto* settings =
       command
@@ -82,35 +81,34 @@ void add_events_command(CLI::App& app) {
           ->allow_extra_args(false);
   command
       ->add_option("--threads", arguments->options.threads,
-                   "Frames analysed side by side; the result does not depend on it")
+                   "Frames analysed in parallel; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
-  auto* force =
-      command->add_flag("--force", arguments->options.force, "Compute again what is stored and valid");
+  auto* force = command->add_flag("--force", arguments->options.force,
+                                  "Recompute the analysis even if a valid one is stored");
   command
-      ->add_option(
-          "--displacement", arguments->displacement,
-          "Instead of events the first grains that are so far, in mean diameters, from where they were "
-          "when the tilt began: when and where")
+      ->add_option("--displacement", arguments->displacement,
+                   "List, instead of events, the first grains displaced this far, in mean diameters, since "
+                   "the tilt began")
       ->check(in_range(1e-6, 1e6))
       ->excludes(largest)
       ->excludes(settings)
       ->excludes(force);
   auto* json = command->add_flag(
       "--json", arguments->json,
-      "As a JSON list with all numbers of each run and its events, in SI units and radians");
-  command->add_flag("--csv", arguments->csv, "As one table of all runs, in SI units and radians")
+      "Print a JSON list with all scalars of each run and its events, in SI units and radians");
+  command->add_flag("--csv", arguments->csv, "Print CSV, one table of all runs, in SI units and radians")
       ->excludes(json)
       ->excludes(largest);
   json->excludes(largest);
   command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->footer(
-      "Energy: work of gravity on the grains. Grains, depth, x, y: those that moved,\n"
-      "how deep they lie, and their centre, between the frames around the event.\n"
-      "dV/V, dy/y: change of the volume and of the height of the centre of mass, above\n"
-      "0 where the bed dilates; dz: of the coordination number. docs/analysis.md has\n"
-      "how all is found. --displacement: in the frame of the bed, by frames of the run;\n"
-      "x, y and depth below the mean surface are those in that frame.");
+      "Energy: work of gravity on the grains. Grains, depth, x, y: number, depth and\ncentre of the grains "
+      "that moved between the frames around the event.\ndV/V, dy/y: change of the volume and of the height "
+      "of the centre of mass,\npositive if the bed dilates; dz: change of the coordination "
+      "number.\ndocs/analysis.md defines all of them. --displacement: in the frame of the bed,\nfrom the "
+      "frames of the run; x, y and depth below the mean surface refer to the\nfirst frame in which the grain "
+      "has moved.");
   command->callback([arguments] { list_events(*arguments); });
 }
 

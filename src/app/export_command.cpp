@@ -1,4 +1,4 @@
-/// `talus export`: runs for other programs.
+/// `talus export`: writes runs in formats of other programs.
 
 #include <algorithm>
 #include <cmath>
@@ -45,14 +45,13 @@ exports::ExportFormat format_of(const std::string& name) {
                           did_you_mean(name, names_of(exports::export_formats()))));
 }
 
-/// Without a threshold no grain is overloaded, and none is not.
+/// Reports that quantities of overloaded grains are left out if the threshold is unknown.
 void tell_what_is_left_out(const io::RunFile& run, const exports::ExportPlan& plan) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == exports::ExportFormat::vti) return;
   print(
       "Overloaded grains, their lengths and clusters are left out: the slope has not failed in this run, so "
-      "its "
-      "angle of repose is not known; --set gamma_c=0.3 gives a threshold.\n");
+      "its angle of repose is unknown; set a threshold with --set gamma_c=0.3.\n");
 }
 
 bool asks_for_frames(const FrameOptions& frames) {
@@ -68,13 +67,12 @@ exports::ExportPlan plan_export(const ExportArguments& arguments) {
   plan.parameters = runs::parse_analysis_settings(arguments.settings);
   exports::check_output_name(plan.format, plan.output);
   if (arguments.length && plan.format != exports::ExportFormat::vti)
-    throw Error(ExitCode::usage, "--length: it is for --to vti, the only format of coarse-grained fields");
+    throw Error(ExitCode::usage, "--length: applies only to --to vti, the format of coarse-grained fields");
   plan.field_width = arguments.length.value_or(plan.field_width);
   if (!exports::entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
     throw Error(
         ExitCode::usage,
-        fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no meaning for "
-                    "it",
+        fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no effect on it",
                     arguments.format));
   return plan;
 }
@@ -109,35 +107,33 @@ void add_export_command(CLI::App& app) {
       "export", "Write frames of a run for other programs: ParaView, OVITO, networkx, tables, web browsers");
   command
       ->add_option("RUN", arguments->run,
-                   "Run to export: RUN.h5, or the folder RUN.h5.run of one that is under way")
+                   "Run to export: RUN.h5, or the folder RUN.h5.run of a run under way")
       ->required();
-  // A name that is none is refused with the nearest, by format_of; the parser shows them.
+  // Unknown names are rejected by format_of, which suggests the nearest one; the parser only shows the names.
   command->add_option("--to", arguments->format, "Format. " + exports::list_of_formats())
       ->required()
       ->type_name(
           fmt::format("FORMAT:{{{}}}", joined(exports::export_formats(), ",", &exports::FormatEntry::name)));
   command
       ->add_option("-o,--output", arguments->output,
-                   "File or folder to write, as the format has it; folders are made where they are missing")
+                   "File or folder to write, depending on the format; missing folders are created")
       ->required();
   command
-      ->add_option(
-          "--set", arguments->settings,
-          "Change a parameter of the analysis by which grains are overloaded, e.g. --set l_min=0 (see "
-          "docs/analysis.md)")
+      ->add_option("--set", arguments->settings,
+                   "Change a parameter of the analysis of overloaded grains, e.g. --set l_min=0 (see "
+                   "docs/analysis.md)")
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--length", arguments->length,
-          "--to vti: diameter of the coarse-graining function, in mean diameters; points are a tenth "
-          "of it apart [10]")
+      ->add_option("--length", arguments->length,
+                   "For --to vti: diameter of the coarse-graining function in mean diameters; the grid "
+                   "spacing is a tenth of it [10]")
       ->check(in_range(1.0, 1000.0));
   command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
-  add_frame_options(*command, arguments->frames, "all of the tilt");
+  add_frame_options(*command, arguments->frames, "all during the tilt");
   command->footer(
-      "docs/export.md lists what is written, in which units. The contact problem of a step is "
-      "written by `talus dump` (FCLIB).");
+      "docs/export.md lists the written data and their units. To write the contact problem of a step, use "
+      "`talus dump` (FCLIB).");
   command->callback([arguments] { export_run(*arguments); });
 }
 

@@ -28,14 +28,14 @@ namespace fs = std::filesystem;
 constexpr double dots_per_cm = 400.0 / 2.54;
 constexpr const char* endings[] = {".pdf", ".svg", ".png"};
 
-/// A folder that vanishes with all that is still in it. One that a kill left is replaced.
+/// Temporary folder, removed with its contents by the destructor. A folder left by a killed process is
+/// replaced.
 struct Workshop {
   explicit Workshop(const fs::path& folder) : path(folder), lock(create_locked_folder(folder.string())) {
     if (!lock)
-      throw Error(ExitCode::cannot_create,
-                  folder.stem().stem().string() +
-                      " is being drawn by another process in the same folder; wait for it to end, or choose "
-                      "another folder with -o");
+      throw Error(ExitCode::cannot_create, folder.stem().stem().string() +
+                                               " is being drawn by another process in the same folder; wait "
+                                               "for it to end, or choose another folder with -o");
   }
   ~Workshop() {
     std::error_code ignored;
@@ -48,10 +48,10 @@ struct Workshop {
   std::optional<Descriptor> lock;
 };
 
-/// A figure of maps is a panel, on a page of its own width that is no higher than asked for, or than a page
+/// Draws a figure of maps as a panel, on a page of its own width, no higher than requested or than a page
 /// with a caption.
 void draw_maps(const figures::Figure& figure, const fs::path& folder, const FigureSize& size) {
-  static std::mutex drawing;       // the memory of one picture at a time
+  static std::mutex drawing;       // limits the memory to that of one picture
   constexpr double highest = 1.4;  // over the width
   const std::lock_guard one_at_a_time(drawing);
   const double width = figure_width(figure, size);
@@ -73,8 +73,8 @@ void draw_maps(const figures::Figure& figure, const fs::path& folder, const Figu
   }
 }
 
-/// gnuplot draws into memory, as it ends well even where it could not write all.
-/// PNG files say how wide they are printed, in cm.
+/// Runs gnuplot with output into memory, because gnuplot exits successfully even if it could not write
+/// everything. PNG files state their printed width (cm).
 void draw(const figures::Figure& figure, const fs::path& folder, double width) {
   std::vector<std::pair<std::string, MemoryFile>> drawings;
   for (const char* ending : endings) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Figures as files: CSV, JSON, maps, and what gnuplot draws of them.
+/// Files of figures: CSV, JSON, maps, and the drawings of gnuplot.
 
 #include <span>
 #include <string>
@@ -13,16 +13,16 @@ namespace talus::app {
 
 struct FigureOptions {
   FigureSize size{};
-  std::string command_line{};  ///< of the program, for the provenance
+  std::string command_line{};  ///< command line of the program, for the provenance
 };
 
-/// The names of all files of a figure: what is drawn, its tables and maps, its script and its provenance.
+/// Returns the names of all files of a figure: drawings, tables, maps, script and provenance.
 std::vector<std::string> figure_files(const figures::Figure& figure);
 
-/// Writes all files of a figure into a folder, which is made where it is missing. Files that exist are
-/// replaced (refuse_existing asks before). They are made in a folder beside and renamed when all are whole,
-/// the provenance last. `groups` hold the runs of the figure. Throws Error(unavailable) where there is no
-/// gnuplot or no rendering context, Error(cannot_create), and Error(io_error) with what gnuplot said.
+/// Writes all files of a figure into a folder, which is created if missing. Existing files are replaced
+/// (refuse_existing asks beforehand). The files are made in a temporary folder and renamed when all are
+/// complete, the provenance last. `groups` hold the runs of the figure. Throws Error(unavailable) without
+/// gnuplot or a rendering context, Error(cannot_create), and Error(io_error) with the message of gnuplot.
 void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                   const std::string& folder, const FigureOptions& options);
 

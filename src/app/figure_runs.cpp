@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What is read so far, and how runs are to be analysed.
+/// Input read so far, and the parameters of the analysis.
 struct Reading {
   const std::vector<std::string>& settings;
   analysis::AnalysisParameters parameters;
@@ -41,13 +41,12 @@ void add_run(Reading& reading, const std::string& path) {
   for (const std::string& file : output_of_run(path, false).inputs) reading.input.files.push_back(file);
 }
 
-/// Values come from an analysis that was made.
+/// Rejects settings for stored values, whose analysis cannot be changed.
 void refuse_settings(const Reading& reading, const std::string& path) {
   if (reading.settings.empty()) return;
-  throw Error(ExitCode::usage,
-              fmt::format("--set {}: {} has the values of an analysis that was made with the default "
-                          "parameters, and no run that could be analysed with others",
-                          visible_word(reading.settings.front()), path));
+  throw Error(ExitCode::usage, fmt::format("--set {}: {} holds values of an analysis with the default "
+                                           "parameters, and no run that could be analysed with others",
+                                           visible_word(reading.settings.front()), path));
 }
 
 void add_ensemble(Reading& reading, const std::string& folder) {

@@ -14,7 +14,7 @@
 namespace talus::app {
 namespace {
 
-/// What the scripts of all figures share, in the order in which one builds on the other.
+/// Scripts common to all figures, in the order of their dependence.
 constexpr std::string_view common_scripts[] = {"style", "text", "axes", "key", "maps"};
 
 Json table_json(const figures::Figure& figure, const figures::Table& table) {

@@ -1,4 +1,4 @@
-/// `talus figures`: the paper's figures of runs, as PDF, SVG and PNG with their data.
+/// `talus figures`: draws the paper's figures of runs as PDF, SVG and PNG, with their data.
 
 #include <algorithm>
 #include <cctype>
@@ -42,12 +42,12 @@ struct FiguresArguments {
   bool overwrite = false;
 };
 
-/// "fig09" of "fig09-overloaded-fraction"; other names have no short form.
+/// Returns "fig09" for "fig09-overloaded-fraction"; other names have no short form.
 std::string_view short_name(std::string_view name) {
   return name.starts_with("fig") ? name.substr(0, name.find('-')) : name;
 }
 
-/// "9" and "09" are short for "fig09".
+/// Expands "9" and "09" to "fig09".
 std::string long_form(const std::string& word) {
   const bool number = !word.empty() && word.size() <= 2 &&
                       std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
@@ -59,12 +59,11 @@ std::string long_form(const std::string& word) {
   for (const figures::FigureRecipe& recipe : figures::figure_catalogue())
     for (const std::string_view name : {recipe.name, short_name(recipe.name)}) names.emplace_back(name);
   const std::string meant = did_you_mean(word, names);
-  throw Error(ExitCode::usage, fmt::format("--only {}: there is no such figure{} talus figures --help lists "
-                                           "them",
+  throw Error(ExitCode::usage, fmt::format("--only {}: no such figure{} talus figures --help lists them",
                                            visible_word(word), meant.empty() ? ";" : meant));
 }
 
-/// The recipes that are asked for, in the order of the catalogue.
+/// Returns the requested recipes, in the order of the catalogue.
 std::vector<figures::FigureRecipe> chosen_recipes(const std::vector<std::string>& only) {
   const auto catalogue = figures::figure_catalogue();
   const auto is_called = [](const figures::FigureRecipe& recipe, const std::string& word) {
@@ -81,7 +80,7 @@ std::vector<figures::FigureRecipe> chosen_recipes(const std::vector<std::string>
   return recipes;
 }
 
-/// Whether some run has what a figure is made from.
+/// Whether any run has the data for a figure.
 bool is_there(figures::Material material, std::span<const figures::RunGroup> groups) {
   const auto has = [material](const runs::RunView& run) {
     return material == figures::Material::values || (run.file && run.file->has_frames()) ||
@@ -91,7 +90,7 @@ bool is_there(figures::Material material, std::span<const figures::RunGroup> gro
       groups, [&](const figures::RunGroup& group) { return std::ranges::any_of(group.runs, has); });
 }
 
-/// "8.6" or "17.8x10", cm; each figure's own of "".
+/// Parses "8.6" or "17.8x10", cm; an empty text means the default of each figure.
 FigureSize parse_size(const std::string& text) {
   constexpr double narrowest = 8.0, lowest = 4.0, largest = 60.0;
   if (text.empty()) return {};
@@ -111,7 +110,7 @@ FigureSize parse_size(const std::string& text) {
                   visible_word(text), narrowest, largest, lowest));
 }
 
-/// The figures that can be made of the runs; the others are named with what they need.
+/// Returns the figures that can be made of the runs, and reports the requirements of the others.
 std::vector<figures::Figure> make_figures(const std::vector<figures::FigureRecipe>& recipes,
                                           std::span<const figures::RunGroup> groups,
                                           const figures::FrameWords& at) {
@@ -120,16 +119,17 @@ std::vector<figures::Figure> make_figures(const std::vector<figures::FigureRecip
     if (auto figure = recipe.make(groups, at))
       figures.push_back(std::move(*figure));
     else
-      print_error("%s", fmt::format("left out: {} needs {}{}\n", recipe.name, recipe.needs,
-                                    is_there(recipe.material, groups)
-                                        ? ""
-                                        : "; given are only values of members, without frames of their runs")
-                            .c_str());
+      print_error("%s",
+                  fmt::format("left out: {} needs {}{}\n", recipe.name, recipe.needs,
+                              is_there(recipe.material, groups)
+                                  ? ""
+                                  : "; the input has only values of members, without frames of their runs")
+                      .c_str());
   if (figures.empty()) throw Error(ExitCode::bad_data, "no figure can be made of these runs");
   return figures;
 }
 
-/// Side by side: gnuplot takes most of the time, and it draws a figure on one processor.
+/// Writes figures in parallel, because gnuplot takes most of the time and uses one processor per figure.
 void write_figures(const std::vector<figures::Figure>& figures, std::span<const figures::RunGroup> groups,
                    const FiguresArguments& arguments) {
   const CountDone progress = count_shown("figures", arguments.quiet);
@@ -146,7 +146,7 @@ void write_figures(const std::vector<figures::Figure>& figures, std::span<const 
         write_figure(figure, groups, arguments.folder, {parse_size(arguments.size), command_line()});
       } catch (...) {
         lock.lock();
-        next = figures.size();  // no others are begun
+        next = figures.size();  // starts no others
         throw;
       }
       lock.lock();
@@ -163,8 +163,8 @@ void make(const FiguresArguments& arguments) {
   const std::vector<figures::FigureRecipe> recipes = chosen_recipes(arguments.only);
   parse_size(arguments.size);
   if (!arguments.at.empty() && std::ranges::none_of(recipes, &figures::FigureRecipe::shows_frames))
-    throw Error(ExitCode::usage, "--at: no figure that is asked for shows single frames");
-  runs::parse_analysis_settings(arguments.settings);  // before anything is read
+    throw Error(ExitCode::usage, "--at: no requested figure shows single frames");
+  runs::parse_analysis_settings(arguments.settings);  // validates before any run is read
   require_gnuplot();
   runs::AnalysisOptions analysis = arguments.analysis;
   if (!arguments.quiet) analysis.progress = count_shown("analysis", false);
@@ -183,7 +183,7 @@ void make(const FiguresArguments& arguments) {
         figures.size() == 1 ? "" : "s", arguments.folder.c_str(), scripted ? ", script in .gp" : "");
 }
 
-/// All figures, one a line, for the help.
+/// Returns all figures, one per line, for the help.
 std::string list_of_figures() {
   std::string text = "Figures:\n";
   for (const figures::FigureRecipe& recipe : figures::figure_catalogue())
@@ -198,33 +198,31 @@ void add_figures_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "figures", "Draw the paper's figures of runs as PDF, SVG and PNG, with their data (needs gnuplot)");
   command
-      ->add_option(
-          "RUNS", arguments->runs,
-          "Run files, or folders of ensembles, or an ensemble.h5 alone; runs that differ in their seed only "
-          "are averaged. Their analysis is read from the file, or made and stored")
+      ->add_option("RUNS", arguments->runs,
+                   "Run files, folders of ensembles, or an ensemble.h5 alone; runs that differ only in their "
+                   "seed are averaged. A missing analysis is computed and stored")
       ->required();
-  command->add_option("-o,--output", arguments->folder, "Folder of the figures, made where missing")
+  command->add_option("-o,--output", arguments->folder, "Folder of the figures, created if missing")
       ->required();
   command
       ->add_option("--only", arguments->only,
-                   "Figures to make, by name or number, with commas: --only fig09,12; default all")
+                   "Figures to make, by name or number, separated by commas: --only fig09,12 [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
-  add_at_option(*command, arguments->at, " [those of the paper]; only in figures that show single frames");
-  command->add_option(
-      "--size", arguments->size,
-      "Width of the figures in cm, or WIDTHxHEIGHT: a column of a journal has 8.6, a page 17.8 "
-      "[each figure's own]");
+  add_at_option(*command, arguments->at, " [those of the paper]; only for figures that show single frames");
+  command->add_option("--size", arguments->size,
+                      "Width of the figures in cm, or WIDTHxHEIGHT; a journal column is 8.6 wide, a page "
+                      "17.8 [default of each figure]");
   command
       ->add_option("--set", arguments->settings,
                    "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")
       ->allow_extra_args(false);
   command
       ->add_option("--threads", arguments->analysis.threads,
-                   "Frames analysed, and figures drawn, side by side; the result does not depend on it")
+                   "Frames analysed and figures drawn in parallel; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
-  command->add_flag("--overwrite", arguments->overwrite, "Replace files that exist");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
   command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
   command->footer(list_of_figures());
   command->callback([arguments] { make(*arguments); });

@@ -1,4 +1,4 @@
-/// `talus forces`: how much of what is measured is the choice among admissible forces?
+/// `talus forces`: quantifies how measured quantities depend on the choice among admissible forces.
 
 #include <cmath>
 #include <cstdio>
@@ -31,7 +31,7 @@ struct ForcesArguments {
 pictures::FrameChoice choose_frames(const ForcesArguments& arguments, const io::RunFile& run) {
   if (run.frame_count() == 0)
     throw Error(ExitCode::bad_data,
-                arguments.run + " has no frames yet: the first is that of the bed at rest");
+                arguments.run + " has no frames yet; the first one shows the bed at rest");
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   return pictures::frames_at(run.frame_tilts(), arguments.at, theta_c);
 }
@@ -81,7 +81,7 @@ std::string title(const problems::ForceQuantity& quantity) {
 
 const char* verdict_of(const problems::ForceSet& set) {
   if (set.admissible()) return "";
-  return set.report.converged ? "lets grains go, not counted" : "not converged, not counted";
+  return set.report.converged ? "leaves grains unsupported, not counted" : "not converged, not counted";
 }
 
 std::string sets_text(const problems::FrameForces& forces) {
@@ -148,13 +148,13 @@ void compare(const ForcesArguments& arguments) {
 void add_search(CLI::App& command, problems::ForceSearch& search) {
   command
       .add_option("--solutions", search.solutions,
-                  "How many sets of forces to look for, beside the one from the stored forces")
+                  "Number of sets of forces to look for, in addition to the solution from the stored forces")
       ->capture_default_str()
       ->check(in_range(1, 10000));
-  command.add_option("--tol", search.tolerance, "Natural-map residual eta that all of them must reach")
+  command.add_option("--tol", search.tolerance, "Natural-map residual eta that every set must reach")
       ->capture_default_str()
       ->check(in_range(1e-15, 1.0));
-  command.add_option("--max-iterations", search.max_iterations, "Iterations, at most")
+  command.add_option("--max-iterations", search.max_iterations, "Maximum number of iterations")
       ->capture_default_str()
       ->check(in_range(0, 1000000000));
   command.add_option("--seed", search.seed, "Seed of the random starts and orders")->capture_default_str();
@@ -165,23 +165,21 @@ void add_search(CLI::App& command, problems::ForceSearch& search) {
 void add_forces_command(CLI::App& app) {
   auto arguments = std::make_shared<ForcesArguments>();
   CLI::App* command = app.add_subcommand(
-      "forces", "Find other forces that carry the same bed, and compare what is measured with them");
-  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
-      ->required();
+      "forces",
+      "Find other admissible forces for the same bed, and compare the quantities measured with them");
+  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
   add_at_option(*command, arguments->at)->capture_default_str();
   add_search(*command, arguments->search);
   command
       ->add_option("--set", arguments->settings,
                    "Change a parameter of the analysis, e.g. --set l_min=0 (see docs/analysis.md)")
       ->allow_extra_args(false);
-  command->add_flag("--json", arguments->json, "As a JSON list with one object for each frame");
+  command->add_flag("--json", arguments->json, "Print a JSON list with one object for each frame");
   command->footer(
-      "The grains of each frame are held where they are, and forces that carry them are looked for from "
-      "many\n"
-      "first guesses. A set of forces that does not converge, or lets a grain go, is reported and not "
-      "counted.\n"
-      "The run file is not changed (see docs/admissible_forces.md).\n"
-      "Example: talus forces runs/slope.h5 --at 0,10,15 --solutions 40");
+      "The grains of each frame are kept in place, and forces that carry them are sought from many initial "
+      "guesses. A set of forces that does not converge, or leaves a grain unsupported, is reported but not "
+      "counted.\nThe run file is not changed (see docs/admissible_forces.md).\nExample: talus forces "
+      "runs/slope.h5 --at 0,10,15 --solutions 40");
   command->callback([arguments] { compare(*arguments); });
 }
 

@@ -16,9 +16,10 @@ pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& 
   const std::vector<double>& tilts = run.frame_tilts();
   if (!options.numbers.empty()) return pictures::frames_listed(options.numbers, run.all_frame_tilts().size());
   if (std::ranges::count(options.at, "repose") > 0 && !std::isfinite(theta_c))
-    throw Error(ExitCode::bad_data, path +
-                                        ": the slope has not failed, so --at repose has no meaning; give an "
-                                        "angle, or frame42 by its number");
+    throw Error(
+        ExitCode::bad_data,
+        path +
+            ": the slope has not failed, so --at repose is undefined; give an angle, or frame42 by number");
   if (!options.at.empty()) return pictures::frames_at(tilts, options.at, theta_c);
   pictures::FrameChoice choice;
   if (options.every) {
@@ -36,8 +37,8 @@ pictures::FrameChoice frames_of_tilt(const io::RunFile& run, const std::string& 
 CLI::Option* add_at_option(CLI::App& command, std::vector<std::string>& at, const std::string& note) {
   return command
       .add_option("--at", at,
-                  "Frames by angles in degrees, repose for the last one before failure, and frame42 by "
-                  "number, with commas: --at 0,5,10,15,repose" +
+                  "Frames by angle in degrees, repose for the last frame before failure, and frame42 by "
+                  "number, separated by commas: --at 0,5,10,15,repose" +
                       note)
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -47,7 +48,7 @@ void add_frame_options(CLI::App& command, FrameOptions& options, const std::stri
   CLI::Option* const numbers =
       command
           .add_option("--frames", options.numbers,
-                      fmt::format("Numbers of the frames, counted from 0: --frames 0-10,20 [{}]", usual))
+                      fmt::format("Frames by number, counted from 0: --frames 0-10,20 [{}]", usual))
           ->delimiter(',')
           ->allow_extra_args(false);
   CLI::Option* const at = add_at_option(command, options.at)->excludes(numbers);
@@ -57,21 +58,21 @@ void add_frame_options(CLI::App& command, FrameOptions& options, const std::stri
       ->excludes(numbers)
       ->excludes(at);
   command.add_flag("--flow", options.flow,
-                   "Also all frames of the flow after failure, where the run has followed it");
+                   "Include all frames of the flow after failure, if the run has followed it");
 }
 
 void require_flow(const io::RunFile& run, const std::string& path, const FrameOptions& options) {
   if (options.flow && run.all_frame_tilts().size() == run.frame_count())
     throw Error(ExitCode::bad_data, path +
-                                        ": --flow: nothing was followed after failure in this run; "
-                                        "tilt.after_failure = \"lower\" or \"hold\" does");
+                                        ": --flow: the flow after failure was not followed in this run; set "
+                                        "tilt.after_failure = \"lower\" or \"hold\" to follow it");
 }
 
 pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
                                     const FrameOptions& options, double theta_c) {
   const std::size_t count = run.all_frame_tilts().size();
   if (count == 0)
-    throw Error(ExitCode::bad_data, path + " has no frames yet: the first is that of the bed at rest");
+    throw Error(ExitCode::bad_data, path + " has no frames yet; the first one shows the bed at rest");
   require_flow(run, path, options);
   pictures::FrameChoice choice = frames_of_tilt(run, path, options, theta_c);
   for (std::size_t k = run.frame_count(); options.flow && k < count; ++k) choice.push_back(k);

@@ -1,5 +1,5 @@
 #pragma once
-/// The options by which a command takes some of the frames of a run.
+/// Options that select frames of a run.
 
 #include <CLI/CLI.hpp>
 #include <optional>
@@ -12,29 +12,29 @@
 namespace talus::app {
 
 struct FrameOptions {
-  std::vector<std::string> numbers;  ///< as in frames_listed
-  std::vector<std::string> at;       ///< as in frames_at
+  std::vector<std::string> numbers;  ///< syntax of frames_listed
+  std::vector<std::string> at;       ///< syntax of frames_at
   std::optional<double> every;       ///< deg; the last frame before failure is added
-  bool flow = false;                 ///< also all frames after failure
+  bool flow = false;                 ///< adds all frames after failure
 };
 
-/// --at, in one wording for all commands that take several frames. `note`: what it says more, such as the
-/// default.
+/// Adds --at, with the same description for all commands that take several frames. `note`: additional text,
+/// such as the default.
 CLI::Option* add_at_option(CLI::App& command, std::vector<std::string>& at, const std::string& note = "");
 
-/// --frames, --at, --every, of which one can be given, and --flow. `usual`: which frames without these.
+/// Adds --frames, --at and --every, which exclude each other, and --flow. `usual`: the frames selected
+/// without them.
 void add_frame_options(CLI::App& command, FrameOptions& options, const std::string& usual);
 
-/// Throws Error(bad_data) where --flow is asked for in a run that has none. `path` is that of the run, for
-/// messages.
+/// Throws Error(bad_data) if --flow is given for a run without a flow. `path`: name of the run, for messages.
 void require_flow(const io::RunFile& run, const std::string& path, const FrameOptions& options);
 
-/// Ascending; all frames of the tilt where nothing is asked for. `theta_c` (rad): that of "repose", NaN where
-/// it is not known. Throws as frames_listed and frames_at do, and Error(bad_data) where the run has no
-/// frames, or no flow that is asked for.
+/// Returns the selected frames in ascending order; all frames of the tilt without a selection. `theta_c`
+/// (rad) is the angle of "repose", NaN if unknown. Throws as frames_listed and frames_at do, and
+/// Error(bad_data) if the run has no frames, or no flow although --flow is given.
 pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
                                     const FrameOptions& options, double theta_c);
-/// With the theta_c of the run.
+/// Returns the selected frames for the theta_c of the run.
 pictures::FrameChoice chosen_frames(const io::RunFile& run, const std::string& path,
                                     const FrameOptions& options);
 

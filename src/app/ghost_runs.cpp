@@ -15,12 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only a run can be without an analysis: an ensemble has the values of one.
+/// Throws if a run has no analysis; an ensemble always has the values of one.
 void refuse_unanalysed(const std::string& path) {
   if (io::run_presence(path) == io::RunPresence::none || ensemble::holds_averages(path)) return;
   if (view::read_usable_analysis(io::RunFile::open(path))) return;
-  throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which curves behind others are "
-                                              "taken from; make one first: talus analyze {}",
+  throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which is needed for curves behind "
+                                              "others; make one first: talus analyze {}",
                                               path, path));
 }
 
@@ -34,7 +34,7 @@ view::GhostRun ghost_of(const runs::RunView& run) {
     ghost.factors.push_back(threshold.factor);
   ghost.theta_c = run.analysis.theta_c;
   ghost.mean_diameter = run.statics.mean_diameter;
-  // What is known of single grains is much, and no curve shows it.
+  // Values of single grains need much memory, and no curve shows them.
   for (analysis::FrameRecord& frame : ghost.frames)
     for (analysis::FrameThreshold& at : frame.thresholds) {
       at.lc = {};

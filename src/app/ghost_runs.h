@@ -1,5 +1,5 @@
 #pragma once
-/// Runs that the window draws behind its curves.
+/// Comparison runs that the window draws behind its curves.
 
 #include <string>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace talus::app {
 
-/// Whether a run without an analysis that is stored and valid is analysed, or refused.
+/// Treatment of a run without a valid stored analysis: analysed, or refused.
 enum class MissingAnalysis { made, refused };
 
-/// Runs, folders of ensembles and ensemble.h5, as `talus figures` takes them, as one ghost. Throws
+/// Reads runs, folders of ensembles and ensemble.h5, as `talus figures` accepts them, into one ghost. Throws
 /// Error(bad_data) for a run whose analysis is missing and refused, and as read_figure_input does.
 view::Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis missing);
 

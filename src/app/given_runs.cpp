@@ -18,10 +18,11 @@ std::vector<ensemble::Member> done_members(const std::string& folder) {
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].stage == ensemble::MemberStage::done) done.push_back(plan.members[m]);
   if (done.empty())
-    throw Error(ExitCode::missing_input,
-                fmt::format("{}: no member of this ensemble is done yet; talus ensemble status {} tells how "
-                            "far they are",
-                            folder, folder));
+    throw Error(
+        ExitCode::missing_input,
+        fmt::format(
+            "{}: no member of this ensemble is done yet; talus ensemble status {} shows their progress",
+            folder, folder));
   return done;
 }
 
@@ -46,7 +47,7 @@ std::vector<std::string> runs_among(const std::vector<std::string>& paths,
     const bool is_other = std::filesystem::is_regular_file(path, unknown) && !io::begins_as_run(path) &&
                           (is_wanted_too == nullptr || !is_wanted_too(path));
     if (is_other)
-      print_error("left out: %s is no run\n", path.c_str());
+      print_error("left out: %s is not a run\n", path.c_str());
     else
       runs.push_back(path);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The runs among paths that a wildcard gives.
+/// Selects the runs among the paths that a wildcard yields.
 
 #include <string>
 #include <vector>
@@ -8,16 +8,15 @@
 
 namespace talus::app {
 
-/// The members of an ensemble's folder that are done. Throws Error(missing_input) where none is.
+/// Returns the finished members of an ensemble's folder. Throws Error(missing_input) if none is done.
 std::vector<ensemble::Member> done_members(const std::string& folder);
 
-/// Paths with the runs of its done members in place of the folder of an ensemble.
+/// Replaces each folder of an ensemble by the runs of its finished members.
 std::vector<std::string> with_members(const std::vector<std::string>& paths);
 
-/// Several paths without the files that are neither runs nor what `is_wanted_too` takes, such as the contact
-/// problem that `talus dump` has left beside them; each is named on standard error. Folders, and paths where
-/// nothing is, stay, and so does a path that is given alone: for these the command itself says what is wrong.
-/// Throws Error(bad_data) where nothing is left.
+/// Removes files that are neither runs nor accepted by `is_wanted_too`, such as a contact problem written by
+/// `talus dump`; each is reported on standard error. Folders, missing paths and a single path are kept: for
+/// these the command itself reports the error. Throws Error(bad_data) if no path is left.
 std::vector<std::string> runs_among(const std::vector<std::string>& paths,
                                     bool (*is_wanted_too)(const std::string&) = nullptr);
 

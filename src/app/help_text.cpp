@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t line_width = 80, name_width = 24;
 
 struct Example {
-  std::string_view command;  ///< its words after that of the program
+  std::string_view command;  ///< its name without that of the program
   std::string_view text;
 };
 
@@ -54,8 +54,8 @@ void add_examples_below(CLI::App& app, const std::string& words) {
   }
 }
 
-/// "DEG in [2 - 89]" of "DEG:in [2 - 89]", and the choices of "CHOICE:{a,b}"; nothing for an argument, whose
-/// name says what it is.
+/// Returns "DEG in [2 - 89]" for "DEG:in [2 - 89]", and the choices for "CHOICE:{a,b}"; empty for an
+/// argument, whose name is sufficient.
 std::string value_text(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t colon = type.find(":in ["), choices = type.find(":{");
@@ -65,7 +65,7 @@ std::string value_text(const CLI::Option& option) {
   return word + (word.empty() || range.empty() ? "" : " ") + range;
 }
 
-/// Several values are shown by the parser as "[0,10]".
+/// Removes the brackets in which the parser shows several values, as in "[0,10]".
 std::string without_brackets(const std::string& text) {
   const bool has_them = text.size() > 1 && text.starts_with('[') && text.ends_with(']');
   return has_them ? text.substr(1, text.size() - 2) : text;
@@ -74,10 +74,9 @@ std::string without_brackets(const std::string& text) {
 }  // namespace
 
 const char* const first_example =
-    "To begin with, from the folder with assets/scenarios (share/talus/scenarios where it is installed):\n"
-    "  talus run assets/scenarios/demo.toml -o demo.h5\n"
-    "  talus render demo.h5 --map clusters --at 0,10,repose\n"
-    "  talus view demo.h5";
+    "First steps, in the folder that contains assets/scenarios (share/talus/scenarios in an installation):\n "
+    " talus run assets/scenarios/demo.toml -o demo.h5\n  talus render demo.h5 --map clusters --at "
+    "0,10,repose\n  talus view demo.h5";
 
 std::string wrapped(const std::string& text, std::size_t width) {
   std::string result, rest = text;

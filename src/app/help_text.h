@@ -1,15 +1,15 @@
 #pragma once
-/// How the help of the program looks: what a line holds, and an example of each command.
+/// Layout of the help: line widths, and an example for each command.
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace talus::app {
 
-/// The text in lines of at most `width` characters, broken at blanks where it can be; lines stay lines.
+/// Wraps text at blanks to lines of at most `width` characters, if possible; keeps existing line breaks.
 std::string wrapped(const std::string& text, std::size_t width);
 
-/// Lines that fit a terminal of 80 columns, and each range once.
+/// Formatter of help for terminals of 80 columns that shows each range once.
 class HelpText : public CLI::Formatter {
  public:
   HelpText();
@@ -18,10 +18,10 @@ class HelpText : public CLI::Formatter {
   std::string make_subcommand(const CLI::App* command) const override;
 };
 
-/// What there is to type first.
+/// Commands for the first steps.
 extern const char* const first_example;
 
-/// Ends the help of each command below `app` that has an example with it.
+/// Appends to the help of each command below `app` its example, if it has one.
 void add_examples(CLI::App& app);
 
 }  // namespace talus::app

@@ -1,4 +1,4 @@
-/// `talus info`: what a run holds.
+/// `talus info`: prints a summary of a run.
 
 #include <algorithm>
 #include <cmath>
@@ -31,26 +31,26 @@ struct RunInfo {
   std::string path;
   bool complete = false;
   std::uint64_t seed = 0;
-  Index grains = 0;  ///< free
+  Index grains = 0;  ///< free grains
   Index floor_grains = 0;
-  std::size_t frames = 0;       ///< of the tilt
-  std::size_t flow_frames = 0;  ///< after failure
-  bool has_frames = true;       ///< false: only their times and tilts are kept
-  double tilt_first = none;     ///< rad, of the frames of the tilt
+  std::size_t frames = 0;       ///< frames of the tilt
+  std::size_t flow_frames = 0;  ///< frames after failure
+  bool has_frames = true;       ///< false: only times and tilts of the frames are kept
+  double tilt_first = none;     ///< rad, tilt of the first frame
   double tilt_last = none;
   bool has_program = false;
-  double tilt_lowest = none, tilt_highest = none;  ///< rad, of the same frames
-  double tilt = 0.0;                               ///< rad, of the last state
+  double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
+  double tilt = 0.0;                               ///< rad, tilt of the last state
   std::size_t steps = 0;
   std::vector<Command> commands;
-  std::vector<std::string> waiting;   ///< commands of the scenario that a complete run has not come to
-  std::vector<double> command_tilts;  ///< rad; none while the bed was being deposited
-  std::size_t unconverged_steps = 0;  ///< of the tilt
-  double solver_tolerance = none;     ///< asked of a bed at rest
+  std::vector<std::string> waiting;   ///< commands of the scenario that a complete run did not reach
+  std::vector<double> command_tilts;  ///< rad; NaN during the deposition
+  std::size_t unconverged_steps = 0;  ///< unconverged steps of the tilt
+  double solver_tolerance = none;     ///< tolerance for a bed at rest
   double residual_max = none;         ///< worst natural-map residual of the steps of the tilt
   std::string state_hash;
   std::optional<io::BranchOrigin> branch;
-  std::string lost;  ///< before the run was repaired
+  std::string lost;  ///< pieces lost before the run was repaired
   Facts provenance;
   Figures results;  ///< SI
   Figures timing;   ///< s
@@ -64,7 +64,7 @@ double figure(const Figures& figures, const std::string& name) {
   return find_value(figures, name).value_or(none);
 }
 
-/// What the stored scenario tells; nothing where it is a scenario of another version.
+/// Reads the entries that depend on the stored scenario; leaves them unset if this version cannot read it.
 void read_scenario(const io::RunFile& run, RunInfo& info) try {
   const scenario::Scenario scenario = runs::stored_scenario(run.header(), info.path);
   info.solver_tolerance = scenario.solver.tolerance;
@@ -167,7 +167,7 @@ void print_json(const RunInfo& info) {
   print("%s\n", json_text(json).c_str());
 }
 
-/// What it says may come from the file.
+/// Prints a line; `value` may come from the file.
 void print_line(const char* name, const std::string& value) { print("%-20s%s\n", name, value.c_str()); }
 
 std::string in_degrees(double angle) { return fmt::format("{:.3f} deg", degrees(angle)); }
@@ -201,11 +201,11 @@ void print_report(const RunInfo& info) {
   const double theta_c = figure(info.results, "theta_c");
   print_line("run",
              info.path + (info.complete ? "" : fmt::format(" (not complete, at {})", in_degrees(info.tilt))));
-  if (!info.complete) print_line("to go on", fmt::format("talus run --resume {}", info.path));
+  if (!info.complete) print_line("to continue", fmt::format("talus run --resume {}", info.path));
   if (!info.lost.empty()) print_line("lost", info.lost + " (the run was repaired)");
   if (info.branch)
     print_line("branch of",
-               fmt::format("{}, frame {}, at {}, step {}; the end of that run is {}", info.branch->run,
+               fmt::format("{}, frame {}, at {}, step {}; state hash of that run: {}", info.branch->run,
                            info.branch->frame, in_degrees(info.branch->start.world.tilt),
                            info.branch->start.world.step, info.branch->run_hash));
   print_line("version", runs::version_of(info.provenance));
@@ -214,7 +214,7 @@ void print_report(const RunInfo& info) {
   print_line("frames",
              std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
                  (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)) +
-                 (info.has_frames ? "" : "; only their times and tilts are kept (--keep analysis)"));
+                 (info.has_frames ? "" : "; only times and tilts of the frames are kept (--keep analysis)"));
   print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed"
                                             : in_degrees(theta_c) + beyond_repose(theta_c, info.tilt));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));
@@ -240,12 +240,11 @@ void add_info_command(CLI::App& app) {
     bool json = false;
   };
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("info", "Print what a run holds");
-  command->add_option("RUN", arguments->path, "Run file, or the name of a run that is not complete")
-      ->required();
-  command->add_flag(
-      "--json", arguments->json,
-      "As JSON: what ends in _deg is in degrees, all else in SI units, theta_c in results in radians");
+  CLI::App* command = app.add_subcommand("info", "Print a summary of a run");
+  command->add_option("RUN", arguments->path, "Run file, or the name of an incomplete run")->required();
+  command->add_flag("--json", arguments->json,
+                    "Print JSON: names ending in _deg are in degrees, all others in SI units, theta_c in "
+                    "results in radians");
   command->callback([arguments] {
     const RunInfo info = look_at(arguments->path);
     if (arguments->json)

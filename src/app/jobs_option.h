@@ -1,5 +1,5 @@
 #pragma once
-/// The option --jobs of commands that compute many beds.
+/// Option --jobs of commands that compute many beds.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace talus::app {
 
-/// Processors of this machine: how many beds are computed side by side where nothing is asked.
+/// Returns the number of processors of this machine, the default number of beds computed in parallel.
 inline int default_jobs() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 inline void add_jobs_option(CLI::App& command, int& jobs) {
   command
       .add_option("--jobs", jobs,
-                  "Workers side by side, each on one thread; with 0 what is missing is left to others "
-                  "(talus ensemble work, or submit)")
+                  "Number of parallel workers, each on one thread; 0 leaves missing members to others (talus "
+                  "ensemble work or submit)")
       ->capture_default_str()
       ->check(in_range(0, 256));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// JSON as commands print it.
+/// JSON output of commands.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,14 +8,15 @@
 
 namespace talus::app {
 
-/// A value of JSON; the members of an object stay in the order in which they were added.
+/// A JSON value; members of an object keep the order of insertion.
 using Json = nlohmann::ordered_json;
 
-/// Objects with one member a line, `depth` levels deep; arrays in one line. Numbers have the shortest digits
-/// that read back as the same number, and are null for NaN; bytes that are no UTF-8 become U+FFFD.
+/// Returns JSON text with one object member per line, `depth` levels deep, and arrays on one line. Numbers
+/// have the shortest digits that read back as the same number, and are null for NaN; invalid UTF-8 becomes
+/// U+FFFD.
 std::string json_text(const Json& value, std::size_t depth = 0);
 
-/// An object of names and values.
+/// Returns an object of names and values.
 template <typename Value>
 Json object_of(const std::vector<std::pair<std::string, Value>>& members) {
   Json object = Json::object();

@@ -20,8 +20,8 @@
 
 namespace {
 
-/// No option or argument means anything where it is empty, as `-o "$NAME"` is without the variable; some
-/// would take it for an option that was not given. The only place that looks.
+/// Rejects empty values of options and arguments, such as `-o "$NAME"` with an unset variable, which some
+/// options would treat as not given. No other function checks this.
 void refuse_empty_words(CLI::App& app) {
   const auto refuse = [](const std::string& word) {
     return word.empty() ? std::string("expected a value, found an empty one") : std::string();
@@ -32,7 +32,7 @@ void refuse_empty_words(CLI::App& app) {
   }
 }
 
-/// `talus help COMMAND` is `talus COMMAND --help`.
+/// Returns the arguments, with `talus help COMMAND` as `talus COMMAND --help`.
 std::vector<std::string> words_of(int argc, char** argv) {
   std::vector<std::string> words(argv + std::min(1, argc), argv + argc);
   if (words.empty() || words[0] != "help") return words;
@@ -49,22 +49,22 @@ void run(std::vector<std::string> words, CLI::App& app) {
   talus::app::add_examples(app);
   talus::app::name_values(app);
   app.footer(
-      "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n"
-      "69 no context, display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n"
-      "74 I/O error, 75 stopped and resumable.");
+      "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n69 no context, "
+      "display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n74 I/O error, 75 stopped "
+      "and resumable.");
   refuse_empty_words(app);
   talus::app::refuse_words(app, words);
-  std::ranges::reverse(words);  // as the parser takes them
+  std::ranges::reverse(words);  // the order that the parser expects
   app.parse(std::move(words));
 }
 
-/// What a command has printed is part of its result: a full disk must not cut it off unseen.
+/// Throws if standard output could not be written, because a full disk must not silently truncate results.
 void require_printed() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     throw talus::system_error(talus::ExitCode::io_error, "write", "standard output", errno);
 }
 
-/// Runs the command line; tells parse errors, and passes on the others.
+/// Runs the command line; converts parse errors to Error, and passes other exceptions on.
 int run_and_tell(int argc, char** argv) {
   CLI::App app{
       std::string("Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\n") +
@@ -72,14 +72,14 @@ int run_and_tell(int argc, char** argv) {
       "talus"};
   try {
     run(words_of(argc, argv), app);
-  } catch (const CLI::ParseError& error) {  // --help and --version among them, which are no errors
+  } catch (const CLI::ParseError& error) {  // includes --help and --version, which are no errors
     if (error.get_exit_code() != 0)
       throw talus::Error(talus::ExitCode::usage, talus::app::usage_message(app, error));
     app.exit(error);
   }
   require_printed();
   talus::app::note_missing_locks();
-  errno = 0;  // whatever could not be had was not needed
+  errno = 0;  // earlier failed calls did not matter
   return static_cast<int>(talus::ExitCode::done);
 }
 
@@ -87,14 +87,14 @@ int run_and_tell(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   talus::app::end_on_signals();
-  // Where a parent ignored it, nobody would learn how children end.
+  // If the parent ignored SIGCHLD, the exit status of children would be lost.
   std::signal(SIGCHLD, SIG_DFL);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its write, not the end
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not the end of the process
   try {
     return run_and_tell(argc, argv);
   } catch (...) {
     const int code = talus::app::report_exception();
-    errno = 0;  // it is told
+    errno = 0;  // already reported
     return code;
   }
 }

@@ -9,7 +9,7 @@
 namespace talus::app {
 namespace {
 
-/// Text as roff has it: nothing in it is a request or an escape, and hyphens can be copied.
+/// Escapes text for roff, so that nothing in it is a request or an escape, and hyphens can be copied.
 std::string roff(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -27,7 +27,7 @@ std::string roff(const std::string& text) {
 
 std::string bold(const std::string& text) { return fmt::format("\\fB{}\\fR", roff(text)); }
 
-/// "talus-ensemble-submit".
+/// Replaces blanks: "talus-ensemble-submit".
 std::string dashed(std::string name) {
   std::ranges::replace(name, ' ', '-');
   return name;
@@ -51,7 +51,7 @@ std::string arguments_of(const CommandPage& page) {
   return text;
 }
 
-/// The section of a page that lists its arguments, or its options; nothing where there are none.
+/// Returns the section of a page that lists its arguments or its options; empty if it has none.
 std::string items(const char* section, const CommandPage& page, bool arguments) {
   std::string text;
   for (const OptionPage& option : page.options)

@@ -1,5 +1,5 @@
 #pragma once
-/// Manual pages, of the program and of each of its commands.
+/// Manual pages of the program and of each command.
 
 #include <string>
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace talus::app {
 
-/// Names of files ("talus-run.1") and their texts, for section 1, in the language of man.
+/// Returns file names ("talus-run.1") and roff texts, for section 1.
 std::vector<std::pair<std::string, std::string>> man_pages(const CommandPage& program);
 
 }  // namespace talus::app

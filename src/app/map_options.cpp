@@ -18,10 +18,10 @@ std::string list_of_palettes() { return joined(pictures::cluster_palettes, " or 
 
 void add_live_options(CLI::App& command, pictures::MapOptions& options) {
   command
-      .add_option("--map", options.maps,
-                  "What is drawn: one map, or several with commas; two overlaid with a plus, as in "
-                  "gamma+forces. The maps: " +
-                      pictures::list_of_maps() + "; talus maps says what they show")
+      .add_option(
+          "--map", options.maps,
+          "Maps to draw, separated by commas; a plus overlays two, as in gamma+forces. Available maps: " +
+              pictures::list_of_maps() + "; talus maps describes them")
       ->delimiter(',')
       ->allow_extra_args(false);
   command
@@ -33,45 +33,42 @@ void add_live_options(CLI::App& command, pictures::MapOptions& options) {
                   "Angle of repose in degrees, for Gamma_c = sin(theta_c) [that of the run]")
       ->check(in_range(2.0, 89.0));
   command
-      .add_option(
-          "--l-min", options.l_min,
-          "Maps gamma, overloaded and clusters, and their traces: a grain is taken together with all "
-          "whose centres lie within half of this of its own, in mean diameters: 3 for a grain and its "
-          "first neighbours, 0 for the grain alone [3]")
+      .add_option("--l-min", options.l_min,
+                  "For maps gamma, overloaded and clusters, and their traces: diameter of the neighbourhood "
+                  "of a grain, in mean diameters: 3 includes its first neighbours, 0 is the grain alone [3]")
       ->check(in_range(0.0, 100.0));
   command.add_option("--colours", options.colours,
-                     fmt::format("Colours of the bar: {}, reversed with _r, as gray_r [each map its own]; of "
-                                 "clusters: {} [muted]; one of each with a comma",
+                     fmt::format("Colours of the bar: {}; _r reverses them, as in gray_r [default of each "
+                                 "map]; of clusters: {} [muted]; separate the two by a comma",
                                  list_of_colours(), list_of_palettes()));
   command
       .add_option("--context", options.context,
-                  "What draws it: osmesa, egl, or auto for the first of them that works")
+                  "Rendering context: osmesa, egl, or auto for the first of them that works")
       ->capture_default_str();
 }
 
 void add_scale_options(CLI::App& command, pictures::MapOptions& options) {
   command
-      .add_option("--threshold", options.threshold,
-                  "Grains are overloaded from this times Gamma_c on; the paper prints 1 and draws 2 [1]")
+      .add_option(
+          "--threshold", options.threshold,
+          "Grains are overloaded from this multiple of Gamma_c on; the paper states 1 and draws 2 [1]")
       ->check(in_range(0.01, 100.0));
   command
-      .add_option(
-          "--length", options.length,
-          "Maps coarse, density, stress, shear_rate and temperature: diameter of what is averaged over "
-          "around a grain, in mean diameters [10]")
+      .add_option("--length", options.length,
+                  "For maps coarse, density, stress, shear_rate and temperature: diameter of the region "
+                  "averaged over around a grain, in mean diameters [10]")
       ->check(in_range(1.0, 1000.0));
   command
       .add_option("--since", options.since,
-                  "Maps displacement, rotation, nonaffine, shear, dilation and vorticity: since this angle "
-                  "in degrees "
-                  "[in a degree of tilt, from the frame before]")
+                  "For maps displacement, rotation, nonaffine, shear, dilation and vorticity: motion since "
+                  "this angle in degrees [since the preceding frame, per degree of tilt]")
       ->check(in_range(0.0, 90.0));
   command.add_option("--joined", options.joined,
-                     "Clusters join by contacts that carry a force, or by neighbours: grains closer than 1.1 "
-                     "times the sum of their radii [contacts]");
+                     "Overloaded grains form a cluster through contacts that carry a force, or as neighbours "
+                     "closer than 1.1 times the sum of their radii [contacts]");
   command
       .add_option("--range", options.range,
-                  "LOW,HIGH: ends of the bar, in the unit of its title [as the map has them]")
+                  "LOW,HIGH: ends of the bar, in the unit of its title [default of the map]")
       ->delimiter(',')
       ->expected(2);
 }
@@ -79,36 +76,33 @@ void add_scale_options(CLI::App& command, pictures::MapOptions& options) {
 void add_frame_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option("--crop", options.crop,
-                  "X0,Y0,X1,Y1: this region of the bed only, in mean diameters; 0,0 is the left end on the "
-                  "floor")
+                  "X0,Y0,X1,Y1: draw only this region of the bed, in mean diameters; 0,0 is the left end of "
+                  "the floor")
       ->delimiter(',')
       ->expected(4);
   command.add_option(
       "--trace", options.traces,
-      "Curves over the tilt below the map, with a mark where the frame is; one, or several with "
-      "commas: " +
+      "Curves over the tilt below the map, with a mark at the tilt of the frame; separated by commas: " +
           list_of_traces());
-  command.add_flag("--turned", options.turned, "Draw the bed at its slope instead of in its own frame");
+  command.add_flag("--turned", options.turned, "Draw the bed at its tilt instead of in its own frame");
   command.add_flag("--transparent", options.transparent, "Transparent background instead of white");
-  command.add_flag("--bare", options.bare, "The bed alone: no caption, bar, scale or arrow");
+  command.add_flag("--bare", options.bare, "Draw the bed alone, without caption, bar, scale and arrow");
   command
-      .add_option(
-          "--printed", options.printed,
-          "How wide the picture will be printed, in cm, as 8.6 for a column: its letters have 8 points "
-          "there, unless --for says otherwise, and the file says its resolution [as --for]")
+      .add_option("--printed", options.printed,
+                  "Printed width of the picture in cm, e.g. 8.6 for a column; its letters are 8 points high "
+                  "in print, unless --for is given, and the file states its resolution [from --for]")
       ->check(in_range(4.0, 200.0));
   command
       .add_option("--for", options.purpose,
-                  "What the letters are for: paper (8 points, 17.8 cm wide), slide (16 points, 33.9 cm) or "
-                  "poster (24 "
-                  "points, 40 cm) [a screen; of PDF and SVG: paper]")
+                  "Purpose that sets the size of letters: paper (8 points, 17.8 cm wide), slide (16 points, "
+                  "33.9 cm) or poster (24 points, 40 cm) [a screen; for PDF and SVG: paper]")
       ->check(one_of({"paper", "slide", "poster"}));
 }
 
 }  // namespace
 
 void add_run_argument(CLI::App& command, std::string& run) {
-  command.add_option("RUN", run, "Run to draw: RUN.h5, or the folder RUN.h5.run of one that is under way")
+  command.add_option("RUN", run, "Run to draw: RUN.h5, or the folder RUN.h5.run of a run under way")
       ->required();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The options of maps, which `talus render`, `animate`, `panel` and `run --pictures` share.
+/// Options of maps, shared by `talus render`, `animate`, `panel` and `run --pictures`.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace talus::app {
 
-/// What of them a command has.
+/// Subset of the map options that a command has.
 enum class MapOptionSet {
   drawn_live,  ///< --map, --width, --theta-c, --l-min, --colours, --context
   all,
 };
 
-/// RUN: the run to draw.
+/// Adds the argument RUN, the run to draw.
 void add_run_argument(CLI::App& command, std::string& run);
 
-/// In the group "Maps" of the help. `needs`: the option without which they have no meaning, if any.
+/// Adds options to the group "Maps" of the help. `needs`: the option that they require, if any.
 void add_map_options(CLI::App& command, pictures::MapOptions& options, MapOptionSet set,
                      CLI::Option* needs = nullptr);
 

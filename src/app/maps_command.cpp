@@ -1,4 +1,4 @@
-/// `talus maps`: the maps, traces and colours that there are, as tables.
+/// `talus maps`: lists the available maps, traces and colours.
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t shows_width = 40, options_width = 21;
 
-/// The options that change a map, of those that do not change all.
+/// Returns the options that affect a map but not all maps.
 std::string options_of(pictures::MapKind kind) {
   std::string options;
   const auto add = [&options](bool has, const char* name) {
@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
   return all;
 }
 
-/// Adds a row; a cell takes as many lines as it needs.
+/// Adds a row; its cells may have several lines.
 void add_row(TextTable& table, std::string_view name, std::string_view shows, const std::string& options) {
   const std::vector<std::string> middle = lines_of(std::string(shows), shows_width),
                                  right = lines_of(options, options_width);
@@ -66,10 +66,9 @@ void print_maps() {
     add_row(traces, pictures::trace_name(kind), analysis::shown_title(pictures::trace_quantity(kind)),
             options_of(kind));
   print_text(fmt::format(
-      "{}\nTwo are overlaid with a plus: --map gamma+forces. Several with commas are several "
-      "pictures.\n\n{}\n"
-      "--colours: {}, with _r from the other end;\nof clusters: {}\n\n"
-      "talus render, panel, animate, view and run --pictures draw them; docs/maps.md shows each.\n",
+      "{}\nA plus overlays two maps: --map gamma+forces. Commas separate several pictures.\n\n{}\n--colours: "
+      "{}; _r reverses them;\nof clusters: {}\n\ntalus render, panel, animate, view and run --pictures draw "
+      "them; docs/maps.md shows each.\n",
       aligned_text(maps), aligned_text(traces), joined(render::colour_maps(), ", ", render::colour_map_name),
       joined(pictures::cluster_palettes, " or ", pictures::palette_name)));
 }
@@ -77,7 +76,7 @@ void print_maps() {
 }  // namespace
 
 void add_maps_command(CLI::App& app) {
-  app.add_subcommand("maps", "List what can be drawn: maps, traces and colours")->callback(print_maps);
+  app.add_subcommand("maps", "List the available maps, traces and colours")->callback(print_maps);
 }
 
 }  // namespace talus::app

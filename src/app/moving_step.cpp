@@ -6,7 +6,7 @@ namespace talus::app {
 
 namespace {
 
-/// As the solvers judge it (solver/solve.cpp).
+/// Uses the criterion of the solvers (solver/solve.cpp).
 bool reached(double eta, double tolerance) { return eta <= tolerance * (1.0 + 1e-9); }
 
 }  // namespace
@@ -18,7 +18,7 @@ std::string remark_on_moving(const problems::StepTolerance& of_run, double eta) 
                       : reached(eta, of_run.asked) ? "only the first"
                                                    : "neither of them";
   return fmt::format(
-      "The bed was moving in this step, at {:.2g} g h (rms), so the run asked for {:.1e} and not for the "
+      "The bed was moving in this step, at {:.2g} g h (rms), so the run required {:.1e} instead of the "
       "{:.1e} of a bed at rest; this solve has reached {}.",
       of_run.velocity, of_run.asked, of_run.at_rest, which);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What `talus solve` says of a step of a run in which the bed was moving.
+/// Remarks of `talus solve` on a step in which the bed was moving.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace talus::app {
 
-/// Whether the bed moved so fast that the run asked less of the step than of a bed at rest.
+/// Whether the bed moved fast enough that the run required a larger tolerance than for a bed at rest.
 bool is_moving(const problems::StepTolerance& of_run);
 
-/// A sentence on such a step: how fast the bed moved, what the run therefore asked, and which of its two
-/// tolerances a solve with the residual `eta` has reached.
+/// Returns a sentence on such a step: the velocity of the bed, the tolerance that the run required, and which
+/// of its two tolerances a solve with the residual `eta` has reached.
 std::string remark_on_moving(const problems::StepTolerance& of_run, double eta);
 
 }  // namespace talus::app

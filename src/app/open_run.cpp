@@ -24,7 +24,7 @@ namespace talus::app {
 
 namespace {
 
-/// The scenario of a branch, and its text.
+/// Returns the scenario of a branch, and its text in `text`.
 scenario::Scenario scenario_of_branch(const RunRequest& request, const io::RunHeader& parent,
                                       std::string& text) {
   if (!request.scenario.empty()) return scenario::read_scenario(request.scenario, request.settings, &text);
@@ -33,7 +33,7 @@ scenario::Scenario scenario_of_branch(const RunRequest& request, const io::RunHe
                                   request.settings);
 }
 
-/// Throws where the branch would have had another past than the run that it leaves.
+/// Throws if the scenario of the branch implies another past than that of its parent run.
 void require_same_past(const RunRequest& request, const scenario::Scenario& parent,
                        const scenario::Scenario& branch, const session::Schedule& start) {
   scenario::Scenario past = branch;
@@ -49,8 +49,8 @@ void require_same_past(const RunRequest& request, const scenario::Scenario& pare
   if (!differences.empty())
     throw Error(
         ExitCode::bad_data,
-        fmt::format("a branch of {} has its past: expected the same bed, deposition and course of the "
-                    "tilt, but {}; a command of the kind tilt_rate changes the tilt from there on",
+        fmt::format("a branch of {} shares its past: expected the same bed, deposition and course of the "
+                    "tilt, but {}; use a command of the kind tilt_rate to change the tilt from there on",
                     request.branch, differences));
   for (std::size_t k = 0; k < parent.commands.size(); ++k)
     if (session::is_reached(parent.commands[k], parent, start.script) &&
@@ -91,7 +91,7 @@ OpenRun start_branch(const RunRequest& request) {
   require_same_past(request, parent, scenario, session.schedule());
   if (const auto end = scenario.tilt.end_angle; end && degrees(session.world().tilt) >= *end)
     throw Error(ExitCode::bad_data,
-                fmt::format("the branch of {} begins at {:.2f} deg; expected tilt.end_angle beyond",
+                fmt::format("the branch of {} begins at {:.2f} deg; expected a tilt.end_angle beyond it",
                             request.branch, degrees(session.world().tilt)));
   session::check_branch_start(origin, scenario, request.branch);
   output_target(request.output, output_of_run(request.branch, request.overwrite));
@@ -113,11 +113,10 @@ OpenRun start_run(const RunRequest& request) {
   const session::RunOrigin origin =
       session::with_bed({text, request.scenario, request.command_line, request.threads}, session);
   if (!request.bed.empty() && request.bed != origin.bed)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{} (deposition.file) holds another bed than when the ensemble began with it; undo "
-                    "the change, and talus ensemble retry computes this member",
-                    visible(scenario.deposition.file)));
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} (deposition.file) holds another bed than when the ensemble was started; undo "
+                            "the change, then compute this member with talus ensemble retry",
+                            visible(scenario.deposition.file)));
   io::RunHeader header = session::run_header(session, origin);
   header.provenance.insert(header.provenance.end(), request.facts.begin(), request.facts.end());
   output_target(request.output, output_of_scenario(request.scenario, scenario));
@@ -132,8 +131,8 @@ void require_same_scenario(const RunRequest& request, const scenario::Scenario& 
   const scenario::Scenario asked = scenario::read_scenario(request.scenario, request.settings);
   if (asked != stored)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is a run of another scenario than {}: {}; name another run with -o, or begin "
-                            "this one anew with --overwrite instead of --resume",
+                fmt::format("{} is a run of another scenario than {}: {}; name another run with -o, or "
+                            "restart this one with --overwrite instead of --resume",
                             request.output, request.scenario, scenario::differences(stored, asked)));
 }
 
@@ -147,8 +146,8 @@ OpenRun resume_run(const RunRequest& request) {
   session::refuse_unfinished_replay(header, checkpoint.world, request.output);
   if (const std::string begun_by = runs::version_of(header.provenance); begun_by != version_and_commit())
     print_error(
-        "talus: note: %s was begun by version %s and goes on with %s, which may give other bits and measure "
-        "differently\n",
+        "talus: note: %s was started by version %s and continues with %s, so results may differ in the last "
+        "digits or in how they are measured\n",
         request.output.c_str(), begun_by.c_str(), version_and_commit().c_str());
   return {std::move(header), std::move(store),
           session::Session(scenario, std::move(checkpoint), request.output)};

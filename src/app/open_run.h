@@ -1,5 +1,5 @@
 #pragma once
-/// A run that is about to be computed: begun, or taken up where its last commit left it.
+/// Runs about to be computed: started, or resumed from the last commit.
 
 #include <string>
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace talus::app {
 
-/// What a command line asks for.
+/// Run that a command line requests.
 struct RunRequest {
-  std::string scenario;               ///< its file
-  std::string output;                 ///< the run file
-  std::vector<std::string> settings;  ///< "key=value", the seed among them
+  std::string scenario;               ///< scenario file
+  std::string output;                 ///< run file
+  std::vector<std::string> settings;  ///< "key=value", including the seed
   int threads = 1;
   bool overwrite = false;
   std::string command_line;  ///< for the provenance
-  Facts facts = {};          ///< more of them, for the provenance of a new run
-  std::string bed = {};      ///< hash that a bed of deposition.file has to have; empty: any
-  std::string branch = {};   ///< run that this one begins with a frame of; empty: none
-  std::string at = {};       ///< of a branch: the frame, as --at names it
+  Facts facts = {};          ///< additional entries in the provenance of a new run
+  std::string bed = {};      ///< required hash of the bed in deposition.file; empty: any
+  std::string branch = {};   ///< run whose frame this run starts from; empty: none
+  std::string at = {};       ///< frame of that run, in the syntax of --at
 };
 
 struct OpenRun {
@@ -28,23 +28,22 @@ struct OpenRun {
   session::Session session;
 };
 
-/// A new run, its first state committed: from now on it can be resumed. Throws as read_scenario,
-/// RunStore::create and RunStore::commit do, and Error(bad_data) where its bed is not the one asked for.
+/// Creates a run and commits its first state, from which it can be resumed. Throws as read_scenario,
+/// RunStore::create and RunStore::commit do, and Error(bad_data) if its bed is not the required one.
 OpenRun start_run(const RunRequest& request);
 
-/// A run that begins with a frame of another one, with the scenario of that run or, if one is given, another
-/// that differs from it only in what begins to matter then: [contact], [solver], [output], [guards], where
-/// the tilt ends, what follows failure, and commands that are still to come. Throws as start_run,
-/// chosen_frames, session::checkpoint_at_frame, and Error(bad_data) where the scenario differs in something
-/// else.
+/// Creates a run that starts from a frame of another run, with the scenario of that run or one that differs
+/// only in settings that take effect later: [contact], [solver], [output], [guards], the end of the tilt, the
+/// course after failure, and commands that are still due. Throws as start_run, chosen_frames and
+/// session::checkpoint_at_frame do, and Error(bad_data) if the scenario differs in another respect.
 OpenRun start_branch(const RunRequest& request);
 
-/// Throws Error(bad_data), with the keys that differ, where the file and the settings say another scenario
-/// than the one stored with the run. No scenario file: nothing is asked.
+/// Throws Error(bad_data), with the keys that differ, if file and settings describe another scenario than the
+/// one stored with the run. Does nothing without a scenario file.
 void require_same_scenario(const RunRequest& request, const scenario::Scenario& stored);
 
-/// The run whose folder is there. The scenario is the one stored with it (require_same_scenario).
-/// Throws Error(bad_data) for a replay that was stopped before its end.
+/// Resumes the run in an existing folder, with the scenario stored there (require_same_scenario). Throws
+/// Error(bad_data) for a replay that was stopped before its end.
 OpenRun resume_run(const RunRequest& request);
 
 }  // namespace talus::app

@@ -1,5 +1,5 @@
 #pragma once
-/// Files that a command is about to write.
+/// Rules for the output files of commands.
 
 #include <string>
 
@@ -8,15 +8,15 @@
 
 namespace talus::app {
 
-/// The rule for what a command makes of a run: it replaces neither the file nor anything in the folder of the
-/// run.
+/// Returns the rule for output made from a run: it replaces neither the run file nor anything in the folder
+/// of the run.
 OutputRule output_of_run(const std::string& run, bool overwrite);
 
-/// The rule for the run of a scenario, which may be replaced: not the scenario, and not the bed that it
-/// reads.
+/// Returns the rule for the run of a scenario: an existing run may be replaced, but neither the scenario nor
+/// the bed that it reads.
 OutputRule output_of_scenario(const std::string& file, const scenario::Scenario& scenario);
 
-/// Prints once that a file is written without a lock, where the file system has none.
+/// Prints once that a file is written without a lock, if the file system has no locks.
 void note_missing_locks();
 
 }  // namespace talus::app

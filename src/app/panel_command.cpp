@@ -1,4 +1,4 @@
-/// `talus panel`: a bed at several angles in one picture, as in the paper's Figs. 10 and 13.
+/// `talus panel`: draws a bed at several angles in one picture, as in the paper's Figs. 10 and 13.
 
 #include <cstdio>
 #include <fmt/core.h>
@@ -30,21 +30,19 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
   if (!output.ends_with(".png") && !render::is_document(output))
     throw Error(ExitCode::usage, output + ": expected a name that ends in .png, .pdf or .svg");
   if (!render::can_be_set(render::embedded_font(), arguments.panel.title))
-    throw Error(
-        ExitCode::usage,
-        fmt::format("--title {}: pictures have the letters of Latin-1 (UTF-8), some Greek ones and common "
-                    "signs only",
-                    visible_word(arguments.panel.title)));
+    throw Error(ExitCode::usage, fmt::format("--title {}: pictures support only Latin-1 letters (in UTF-8), "
+                                             "some Greek letters and common signs",
+                                             visible_word(arguments.panel.title)));
   pictures::MapOptions options = arguments.maps;
   options.document = render::is_document(output);
   pictures::MapPlan plan = pictures::plan_maps(options);
   if (!plan.traces.empty())
-    throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; see talus render");
+    throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; use talus render");
   if (arguments.maps.bare && !arguments.panel.title.empty())
-    throw Error(ExitCode::usage, "--title and --bare do not go together: a bed alone has no texts");
+    throw Error(ExitCode::usage, "--title and --bare exclude each other: a bare bed has no texts");
   if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width)
     throw Error(ExitCode::usage,
-                fmt::format("--width {}: each of {} maps beside each other takes {} px or more",
+                fmt::format("--width {}: each of {} maps next to each other needs at least {} px",
                             arguments.maps.width, plan.maps.size(), render::smallest_width));
   return plan;
 }
@@ -59,7 +57,7 @@ void make_panel(const PanelArguments& arguments) {
   const pictures::PanelDrawn drawn = pictures::draw_panel(run, arguments.panel);
   if (!arguments.quiet)
     print("%s: %zu angle%s%s\n", output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
-          drawn.there_before ? ", there before" : "");
+          drawn.there_before ? ", already up to date" : "");
 }
 
 }  // namespace
@@ -67,13 +65,13 @@ void make_panel(const PanelArguments& arguments) {
 void add_panel_command(CLI::App& app) {
   auto arguments = std::make_shared<PanelArguments>();
   CLI::App* command = app.add_subcommand(
-      "panel", "Draw a bed at several angles in one picture, a column for each map of --map");
+      "panel", "Draw a bed at several angles in one picture, with a column for each map of --map");
   add_run_argument(*command, arguments->run);
   add_at_option(*command, arguments->panel.at)->required();
-  command->add_option("--title", arguments->panel.title, "Text above all maps; _c sets c as a subscript");
+  command->add_option("--title", arguments->panel.title, "Title above all maps; _c sets c as a subscript");
   command
       ->add_option("-o,--output", arguments->panel.output,
-                   "Picture to write: FILE.png, or FILE.pdf or FILE.svg, which stay sharp at any size")
+                   "Picture to write: FILE.png, or FILE.pdf or FILE.svg for vector graphics")
       ->required();
   command->add_flag("--overwrite", arguments->panel.overwrite, "Replace an existing file");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");

@@ -11,16 +11,16 @@
 namespace talus::app {
 namespace {
 
-/// What stands before a part of a text; all of it if the part is not there.
+/// Returns the text before `part`; all of it if `part` does not occur.
 std::string before(const std::string& text, std::string_view part) { return text.substr(0, text.find(part)); }
 
-/// What stands after a part of a text; nothing if the part is not there.
+/// Returns the text after `part`; empty if `part` does not occur.
 std::string after(const std::string& text, std::string_view part) {
   const std::size_t at = text.find(part);
   return at == std::string::npos ? std::string() : text.substr(at + part.size());
 }
 
-/// The option of a command, or of one of its groups, called so; null if there is none.
+/// Returns the option with this name of a command or of one of its groups; null if there is none.
 const CLI::Option* option_called(const CLI::App& command, const std::string& name) {
   for (const CLI::Option* option : command.get_options())
     if (option->get_name() == name || option->get_name(true) == name) return option;
@@ -30,13 +30,13 @@ const CLI::Option* option_called(const CLI::App& command, const std::string& nam
   return nullptr;
 }
 
-/// "DEG" of "DEG:in [0 - 90]", or the choices.
+/// Returns "DEG" for "DEG:in [0 - 90]", or the choices.
 std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name(), choices = after(type, ":{");
   return choices.empty() ? before(type, ":in [") : "{" + choices;
 }
 
-/// The first sentence of a description, without the default behind it. "e.g. " ends no sentence.
+/// Returns the first sentence of a description, without the default. "e.g. " does not end a sentence.
 std::string first_sentence(const std::string& description) {
   std::string text = before(description, " [");
   for (std::size_t at = text.find(". "); at != std::string::npos; at = text.find(". ", at + 1))
@@ -44,7 +44,7 @@ std::string first_sentence(const std::string& description) {
   return text;
 }
 
-/// "--range: expected LOW,HIGH, found 0..1 (LOW,HIGH: ends of the bar ...)".
+/// Returns "--range: expected LOW,HIGH, found 0..1 (LOW,HIGH: ends of the bar ...)".
 std::string expected(const CLI::Option& option, const std::string& found) {
   return fmt::format("{}: expected {}, found {} ({})", option.get_name(), value_of(option), found,
                      first_sentence(option.get_description()));
@@ -61,7 +61,7 @@ std::string missing(const CLI::App& command, const std::string& said) {
   return fmt::format("{} is missing: expected {} {}", name, name, value_of(*option));
 }
 
-/// Too many values, too few, or none.
+/// Describes too many or too few values.
 std::string miscounted(const CLI::App& command, const std::string& said) {
   if (const std::string flag = before(said, " was given a disallowed"); flag != said)
     return flag + " takes no value";
@@ -75,7 +75,7 @@ std::string miscounted(const CLI::App& command, const std::string& said) {
   return expected(*option, values.empty() ? "nothing" : visible_word(joined(values, ",")));
 }
 
-/// "Could not convert: --seed = abc".
+/// Describes errors such as "Could not convert: --seed = abc".
 std::string unread(const CLI::App& command, const std::string& said) {
   if (!said.starts_with("Could not convert: ")) return before(said, ":") + " takes no value";
   const std::string name = before(after(said, ": "), " = "), found = visible_word(after(said, " = "));

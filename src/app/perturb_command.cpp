@@ -1,4 +1,4 @@
-/// `talus perturb`: how strong a push starts an avalanche, at tilts on the way to failure.
+/// `talus perturb`: finds how strong a push starts an avalanche, at tilts before failure.
 
 #include <chrono>
 #include <cmath>
@@ -43,15 +43,14 @@ struct PerturbArguments {
   int jobs = default_jobs();
 };
 
-/// One variant without a name: its runs are in the folder itself.
+/// Returns a manifest with one unnamed variant, whose runs are in the folder itself.
 ensemble::EnsembleManifest manifest_of(const PerturbArguments& arguments) {
   return {.seeds = ensemble::parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
           .variants = ensemble::plan_variants(arguments.scenario, arguments.settings, {}),
           .task = arguments.plan};
 }
 
-/// Adds one seed to the ensemble and has it computed here, whatever else is missing. Waits where another
-/// process computes it.
+/// Adds one seed to the ensemble and computes only that seed. Waits if another process computes it.
 void perturb_seed(const PerturbArguments& arguments, const ensemble::EnsembleManifest& wanted) {
   ensemble::KnownMembers known;
   begin_ensemble(arguments.folder, wanted, {arguments.scenario}, known);
@@ -62,10 +61,10 @@ void perturb_seed(const PerturbArguments& arguments, const ensemble::EnsembleMan
   refuse_failures(plan, "its trials are not complete");
   const std::string& run = plan.members.front().path;
   session::table_of(io::RunFile::open(run), arguments.plan,
-                    run);  // it may have been there before, without trials
+                    run);  // an existing run may lack the trials
 }
 
-/// A figure of no state would have nothing to show.
+/// Throws if no state was perturbed, because the figure would be empty.
 void refuse_no_states(const PerturbArguments& arguments, const figures::RunGroup& group,
                       const figures::Table& states) {
   if (!states.columns.front().values.empty()) return;
@@ -77,14 +76,13 @@ void refuse_no_states(const PerturbArguments& arguments, const figures::RunGroup
   const std::string end = std::isnan(lowest)
                               ? std::string("none of the beds failed")
                               : fmt::format("the beds failed at {:.2f} to {:.2f} deg", lowest, highest);
-  throw Error(
-      ExitCode::bad_data,
-      fmt::format("no copy was pushed: no tilt from --from {:g} deg on was reached before failure, and {}; "
-                  "give a lower --from, and another folder",
-                  arguments.plan.first, end));
+  throw Error(ExitCode::bad_data,
+              fmt::format("no copy was pushed: no tilt from --from {:g} deg on was reached before failure, "
+                          "and {}; use a lower --from and another folder",
+                          arguments.plan.first, end));
 }
 
-/// Reports the seeds that are done. The tables are written in any case, the figure where there is a gnuplot.
+/// Reports the finished seeds. Writes the tables in any case, and the figure if gnuplot is installed.
 void report(const PerturbArguments& arguments, const ensemble::EnsemblePlan& plan) {
   std::vector<std::string> paths;
   std::vector<session::PerturbationTable> tables;
@@ -115,7 +113,7 @@ void run_perturb(PerturbArguments& arguments) {
   const std::optional<session::SurfacePatch> patch = session::parse_patch(arguments.patch);
   if (!patch)
     throw Error(ExitCode::usage,
-                fmt::format("--patch {}: expected width and depth in mean diameters, such as 10x2",
+                fmt::format("--patch {}: expected width and depth in mean diameters, e.g. 10x2",
                             visible_word(arguments.patch)));
   arguments.plan.patch = *patch;
   const ensemble::EnsembleManifest wanted = manifest_of(arguments);
@@ -127,7 +125,7 @@ void run_perturb(PerturbArguments& arguments) {
   const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
-    print_text(ensemble_text(view));  // others are to compute it
+    print_text(ensemble_text(view));  // other workers compute it
     return;
   }
   report(arguments, plan);
@@ -140,27 +138,26 @@ void add_perturb_command(CLI::App& app) {
   auto arguments = std::make_shared<PerturbArguments>();
   CLI::App* command = app.add_subcommand(
       "perturb",
-      "Push on the surface at tilts up to failure, and find the weakest push that starts an avalanche");
+      "Push the surface at tilts up to failure, and find the weakest push that starts an avalanche");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
   command
-      ->add_option("-o,--output", arguments->folder,
-                   "Folder of runs and tables; what is complete in it is kept")
+      ->add_option("-o,--output", arguments->folder, "Folder of runs and tables; complete members are kept")
       ->required();
   CLI::Option* seeds =
       command->add_option("--seeds", arguments->seeds, "Seeds, e.g. 1-4 or 1-3,8")->capture_default_str();
-  command
-      ->add_option("--seed", arguments->seed, "Compute only this seed, and write no summary; for job arrays")
+  command->add_option("--seed", arguments->seed, "Compute only this seed, without a summary; for job arrays")
       ->excludes(seeds);
-  command->add_option("--from", arguments->plan.first, "First tilt at which copies are pushed, deg")
+  command
+      ->add_option("--from", arguments->plan.first, "First tilt at which copies of the bed are pushed, deg")
       ->capture_default_str()
       ->check(in_range(0.0, session::PerturbationPlan::highest));
-  command->add_option("--every", arguments->plan.every, "Tilt between these states, deg")
+  command->add_option("--every", arguments->plan.every, "Interval of tilt between these states, deg")
       ->capture_default_str()
       ->check(in_range(session::PerturbationPlan::least_every, session::PerturbationPlan::highest));
   command
       ->add_option("--patch", arguments->patch,
-                   "Width and depth of the part of the surface that is pushed, D")
+                   "Width and depth of the pushed part of the surface, in mean diameters")
       ->capture_default_str();
   command
       ->add_option("--set", arguments->settings,

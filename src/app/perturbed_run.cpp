@@ -14,13 +14,13 @@
 namespace talus::app {
 namespace {
 
-/// The tilt of a session in deg, to the step.
+/// Returns the tilt of a session in deg, rounded to the step.
 double tilt_of(const session::Session& session) {
   const double step = session.scenario().tilt.step;
   return static_cast<double>(std::llround(degrees(session.world().tilt) / step)) * step;
 }
 
-/// Whether the session stands at a tilt of the plan, on its way to failure.
+/// Whether the session is at a tilt of the plan, before failure.
 bool is_due(const session::Session& session, const session::PerturbationPlan& plan) {
   if (session.phase() != session::Phase::tilt || session.angle_of_repose()) return false;
   const auto steps = [&](double angle) { return std::llround(angle / session.scenario().tilt.step); };
@@ -28,9 +28,9 @@ bool is_due(const session::Session& session, const session::PerturbationPlan& pl
   return since_first >= 0 && since_first % std::max(1LL, steps(plan.every)) == 0;
 }
 
-/// "[0.32, 0.37] sqrt(g D)": between what started no avalanche and what did.
+/// Returns "[0.32, 0.37] sqrt(g D)": the strongest push without an avalanche and the weakest with one.
 std::string bracket_text(const session::Threshold& threshold) {
-  if (!threshold.held) return "does not hold by itself";
+  if (!threshold.held) return "does not hold without a push";
   if (std::isinf(threshold.with))
     return fmt::format("no avalanche up to {:.3g} sqrt(g D)", threshold.without);
   return fmt::format("threshold in [{:.3g}, {:.3g}] sqrt(g D){}", threshold.without, threshold.with,
@@ -43,7 +43,7 @@ std::function<std::vector<TrialRow>(const session::Session&)> trials_on_the_way(
     session::PerturbationTable known, const volatile std::sig_atomic_t* stop) {
   const auto keep_on = [stop] {
     if (*stop != 0)
-      throw Error(ExitCode::stopped, "the trials were stopped; they begin again with their state");
+      throw Error(ExitCode::stopped, "the trials were stopped; those of this state will be repeated");
   };
   return [keep_on, table = std::move(known)](const session::Session& session) mutable {
     const double tilt = tilt_of(session);

@@ -1,5 +1,5 @@
 #pragma once
-/// A run that is perturbed on its way: trials on copies of the bed.
+/// Perturbation trials on copies of the bed during a run.
 
 #include <csignal>
 #include <functional>
@@ -10,8 +10,9 @@
 
 namespace talus::app {
 
-/// Makes the trials of each state of the plan that `known` does not have yet, once the run comes to it, and
-/// says on stderr what was found: for RunControl::trials. They end with Error(stopped) where `stop` is set.
+/// Returns a function for RunControl::trials, which makes the trials of each state of the plan that `known`
+/// lacks when the run reaches it, and reports the result on stderr. Trials end with Error(stopped) if `stop`
+/// is set.
 std::function<std::vector<TrialRow>(const session::Session&)> trials_on_the_way(
     session::PerturbationTable known, const volatile std::sig_atomic_t* stop);
 

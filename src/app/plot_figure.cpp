@@ -9,13 +9,13 @@
 namespace talus::app {
 namespace {
 
-/// "packing/stress_ratio" as the name of a file and of a column.
+/// Converts "packing/stress_ratio" to the name of a file or column.
 std::string plain_name(std::string name) {
   std::ranges::replace(name, '/', '-');
   return name;
 }
 
-/// A curve without a quantity is told by its text.
+/// Returns the name of the quantity, or the text of a curve without a quantity.
 std::string column_name(const view::PlotSeries& series) {
   return series.quantity ? series.quantity->name : series.name;
 }
@@ -29,7 +29,7 @@ std::string unit_of(const view::PlotSeries& series) {
   return series.quantity->display.percent ? "%" : analysis::scaled_unit(series.quantity->unit);
 }
 
-/// The table of a figure with these places, made where there is none; tables are called `name`, "name-2", ...
+/// Returns the table with these x values, created if missing; tables are named `name`, "name-2", ...
 figures::Table& table_over(const std::vector<double>& x, const view::Plot& plot, const std::string& name,
                            figures::Figure& figure, std::size_t first) {
   for (std::size_t t = first; t < figure.tables.size(); ++t)

@@ -1,5 +1,5 @@
 #pragma once
-/// A plot of the window as a figure.
+/// Figures of plots in the window.
 
 #include <string>
 
@@ -9,9 +9,9 @@
 
 namespace talus::app {
 
-/// The plot as it is looked at, zoomed and logarithmic or not, with what stands behind its curves: named
-/// "plot-NAME", drawn by assets/figures/plot.gp. Curves over the same places share a table. `run`: its path,
-/// empty where it is in no file; `behind`: what the curves behind are of.
+/// Returns the plot as displayed, with its zoom, scale and the curves behind, as a figure named "plot-NAME"
+/// and drawn by assets/figures/plot.gp. Curves with the same x values share a table. `run`: path of the run,
+/// empty if it is in no file; `behind`: description of the curves behind.
 figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, const view::PlotMarks& marks,
                             const std::string& run, const std::string& behind);
 

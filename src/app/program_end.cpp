@@ -24,7 +24,7 @@ namespace {
 constexpr std::string_view out_of_memory =
     "talus: error: out of memory: use a smaller bed (bed.length, bed.depth)\n";
 
-/// Stopping on request is what was asked for, not an error: one plain sentence.
+/// Reports a requested stop, which is not an error, in one plain sentence.
 int report_stopped(std::string sentence) {
   if (!sentence.empty())
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
@@ -37,7 +37,7 @@ int report(ExitCode code, const char* message) {
   return static_cast<int>(code);
 }
 
-/// Takes no memory, and may be called in a signal handler.
+/// Writes to stderr without allocating; safe in a signal handler.
 void say(std::string_view text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
@@ -49,33 +49,33 @@ int report_out_of_memory() {
 
 int report_malformed(std::string_view path) {
   say("talus: error: ");
-  // visible() would take memory.
+  // visible() would allocate memory.
   for (const char& c : path) say(c >= ' ' && c <= '~' ? std::string_view(&c, 1) : "?");
-  say(": HDF5 crashes on it: the file is malformed, although its hash is right; restore it from a copy\n");
+  say(": HDF5 crashes on this file: it is malformed, although its hash is right; restore it from a copy\n");
   return static_cast<int>(ExitCode::bad_data);
 }
 
-/// For exceptions that main does not see: of a thread, or before main begins. There is none where even the
-/// memory for one is missing.
+/// Ends the program on exceptions that main does not see: those of threads, or before main begins. There is
+/// no exception if even the memory for one is missing.
 [[noreturn]] void end_without_main() noexcept {
   if (std::current_exception()) _exit(report_exception());
   if (errno == ENOMEM) _exit(report_out_of_memory());
   _exit(report(ExitCode::internal, "ended without a reason"));
 }
 
-/// HDF5 leaves with exit(-1) where some of its allocations fail.
+/// Reports lack of memory at exit, because HDF5 calls exit(-1) if some of its allocations fail.
 void tell_exit_out_of_memory() {
   if (errno == ENOMEM) _exit(report_out_of_memory());
 }
 
-/// By the sanitizers.
+/// Whether a sanitizer reports crashes.
 constexpr bool crashes_are_reported = sanitizes_addresses || sanitizes_threads;
 
-/// Signals by which HDF5 ends the program where others of its allocations fail, or a file is malformed.
+/// Signals raised in HDF5 if other allocations of it fail, or if a file is malformed.
 constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
 
-/// A crash is that of a missing allocation where the last error of the system was one: errno stays until the
-/// next. In HDF5 it is else that of the file that is being read. Any other crash takes its usual course, and
+/// Reports a crash as lack of memory if the last system error was ENOMEM, because errno stays until the next
+/// error; otherwise as a malformed file if HDF5 is reading one. Any other crash takes its usual course and
 /// leaves a core.
 void tell_crash(int signal) {
   if (errno == ENOMEM) _exit(report_out_of_memory());
@@ -84,7 +84,7 @@ void tell_crash(int signal) {
   std::raise(signal);
 }
 
-/// On a stack of its own: among the crashes is a recursion without end.
+/// Installs the crash handler on a separate stack, because a crash may be an endless recursion.
 void catch_crashes() {
   alignas(16) static char stack[16384];
   const stack_t other = {.ss_sp = stack, .ss_flags = 0, .ss_size = sizeof stack};
@@ -95,7 +95,7 @@ void catch_crashes() {
   for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
 }
 
-/// Comes before whatever else is done before main.
+/// Runs before all other initialisation.
 [[gnu::constructor(101)]] void catch_what_main_does_not_see() {
   std::set_terminate(end_without_main);
   std::atexit(tell_exit_out_of_memory);
@@ -119,7 +119,7 @@ int report_exception() {
     if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
     const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
     return report(no_thread ? ExitCode::out_of_memory : ExitCode::internal,
-                  no_thread ? "the system gives no more threads: give --threads 1" : error.what());
+                  no_thread ? "the system cannot start more threads; use --threads 1" : error.what());
   } catch (const std::exception& error) {
     return report(ExitCode::internal, error.what());
   }

@@ -1,10 +1,9 @@
 #pragma once
-/// How the program ends when something goes wrong or it is stopped: a message and an exit code, also where
-/// main has no say.
+/// End of the program on errors and stop requests: a message and an exit code, even outside of main.
 
 namespace talus::app {
 
-/// Reports the exception under way on stderr, and returns its exit code.
+/// Reports the current exception on stderr, and returns its exit code.
 int report_exception();
 
 }  // namespace talus::app

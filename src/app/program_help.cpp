@@ -17,7 +17,7 @@
 namespace talus::app {
 namespace {
 
-/// A file below the folder, where systems have such files below /usr/share.
+/// Writes a file below the folder, which corresponds to /usr/share.
 void write_below(const std::string& folder, const std::string& name, const std::string& text) {
   const std::string path = (std::filesystem::path(folder) / name).string();
   prepare_folder_of(path);
@@ -35,7 +35,7 @@ std::string version_report() {
       "run files     schema version {}\n"
       "analyses      version {}",
       version_text(), compiler, flags.substr(std::min(flags.find_first_not_of(' '), flags.size())),
-      has_window ? "built in (talus view)" : "left out: built without GLFW or Dear ImGui",
+      has_window ? "built in (talus view)" : "not included: built without GLFW or Dear ImGui",
       io::run_schema_version, io::analysis_version);
 }
 
@@ -44,12 +44,12 @@ void add_program_help_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("program-help", "Write man pages and completions for bash, zsh and fish");
   command->group("");
-  command->add_option("FOLDER", *folder, "Folder to write, which stands for /usr/share")->required();
+  command->add_option("FOLDER", *folder, "Folder to write, in place of /usr/share")->required();
   command->callback([folder, &app] {
     const CommandPage program = command_tree(app, app.get_name());
     for (const auto& [name, text] : man_pages(program)) write_below(*folder, "man/man1/" + name, text);
     write_below(*folder, "bash-completion/completions/talus", bash_completion(program));
-    // Debian's zsh looks into the one below /usr, and into the other below /usr/local.
+    // Debian's zsh searches the first below /usr, and the second below /usr/local.
     for (const char* place : {"zsh/vendor-completions/_talus", "zsh/site-functions/_talus"})
       write_below(*folder, place, zsh_completion(program));
     write_below(*folder, "fish/vendor_completions.d/talus.fish", fish_completion(program));

@@ -1,16 +1,16 @@
 #pragma once
-/// What the program says of itself.
+/// Information about the program itself.
 
 #include <CLI/CLI.hpp>
 #include <string>
 
 namespace talus::app {
 
-/// Version, compiler, what is built in, and the versions of files that it reads and writes.
+/// Returns version, compiler, optional features, and the versions of the files that it reads and writes.
 std::string version_report();
 
-/// Adds the hidden command `program-help`, by which the build makes the man pages and the completions of
-/// shells. The commands before it are those that it describes.
+/// Adds the hidden command `program-help`, which the build uses to make man pages and shell completions. It
+/// describes the commands added before it.
 void add_program_help_command(CLI::App& app);
 
 }  // namespace talus::app

@@ -23,7 +23,8 @@ File open_temporary() {
   return file;
 }
 
-/// What was written to the file, without blank lines at its ends. Nothing that is of use is longer than this.
+/// Returns the contents of the file without blank lines at the ends, limited to a length that no useful
+/// output exceeds.
 std::string text_of(std::FILE* file) {
   constexpr std::size_t limit = std::size_t{1} << 24;
   std::rewind(file);
@@ -47,7 +48,7 @@ ProgramOutput output_of(const std::vector<std::string>& words, const std::string
   if (program < 0) throw system_error(ExitCode::unavailable, "start", words[0], errno);
   const auto watch = until_its_end ? std::function<void()>() : stop_if_asked;
   const int status = wait_for_program(program, watch);
-  if (!until_its_end) stop_if_asked();  // Ctrl-C ends the program too: that is no error of what it does
+  if (!until_its_end) stop_if_asked();  // Ctrl-C ends the program too, which is not a failure of the program
   return {status, text_of(out.get()), text_of(err.get())};
 }
 

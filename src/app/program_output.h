@@ -1,5 +1,5 @@
 #pragma once
-/// Programs beside this one, and what they say.
+/// Child processes and their output.
 
 #include <string>
 #include <vector>
@@ -8,15 +8,15 @@
 
 namespace talus::app {
 
-/// How a program ended, and what it said, without blank lines at the ends.
+/// Exit status and output of a program, without blank lines at the ends.
 struct ProgramOutput {
-  int status = 0;  ///< as of waitpid; 0: well
+  int status = 0;  ///< wait status of waitpid; 0: success
   std::string out, err;
 };
 
-/// Runs words[0], as PATH finds it, in a folder and waits for it. Throws Error(unavailable), with `advice` as
-/// the message where there is no such program; and Error(stopped) where a signal asks for it, which ends the
-/// program, unless `until_its_end`: then it is waited for all the same.
+/// Runs words[0], found through PATH, in a folder and waits for it. Throws Error(unavailable) with the
+/// message `advice` if there is no such program. On a signal it ends the program and throws Error(stopped),
+/// unless `until_its_end` is set, in which case it still waits for the program.
 ProgramOutput output_of(const std::vector<std::string>& words, const std::string& folder,
                         ProgramEnvironment environment, const std::string& advice,
                         bool until_its_end = false);

@@ -16,7 +16,7 @@ namespace talus::app {
 namespace {
 
 constexpr double seconds_on_terminal = 0.1;
-constexpr int usual_columns = 80;  ///< where the terminal does not say
+constexpr int usual_columns = 80;  ///< used if the terminal does not report its width
 
 std::string progress_bar(double share) {
   constexpr int cells = 14;
@@ -24,14 +24,15 @@ std::string progress_bar(double share) {
   return fmt::format("[{:#<{}}{:-<{}}]", "", full, "", cells - full);
 }
 
-/// Columns that a line can fill: some terminals wrap when the last one is filled.
+/// Returns the usable columns: one less than the width, because some terminals wrap when the last column is
+/// filled.
 int columns_of_terminal() {
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   return (known ? size.ws_col : usual_columns) - 1;
 }
 
-/// What is expected of a run, and where it was when this process began its phase.
+/// Expected length of a run, and its state when this process began the phase.
 struct RunPace {
   explicit RunPace(bool quiet) : line(quiet, seconds_on_terminal, 10.0) {}
 
@@ -40,16 +41,16 @@ struct RunPace {
   std::optional<double> program_steps;
   std::optional<session::Phase> phase;
   double began = 0.0;       ///< wall seconds
-  double began_with = 0.0;  ///< share of the phase that was done by then
+  double began_with = 0.0;  ///< fraction of the phase done at that time
 };
 
-/// Steps until the bed is at rest; 0 where they cannot be estimated without the file that the bed came from.
+/// Returns the steps until the bed is at rest; 0 if its estimate would need the file of the bed.
 double expected_deposition(const scenario::Scenario& scenario) {
   if (scenario.deposition.method == scenario::DepositionMethod::file) return 0.0;
   return static_cast<double>(session::estimate(scenario).deposition_steps);
 }
 
-/// How far the phase is; above 1 where it takes longer than expected, none where nothing is known.
+/// Returns the fraction of the phase done; above 1 if it takes longer than expected, empty if unknown.
 std::optional<double> share_of(const session::Session& session, RunPace& pace) {
   const scenario::Scenario& scenario = session.scenario();
   if (session.phase() == session::Phase::deposition) {
@@ -83,7 +84,7 @@ RunShown shown_of(const session::Session& session, RunPace& pace) {
   return shown;
 }
 
-/// Seconds until the end of the phase, at the pace since this process began it.
+/// Returns the seconds until the end of the phase, at the pace since this process began it.
 std::optional<double> remaining(const RunShown& shown, double elapsed, RunPace& pace) {
   if (!shown.share) return std::nullopt;
   if (pace.phase != shown.phase) {
@@ -168,7 +169,7 @@ CountDone count_shown(std::string label, bool quiet) {
     const bool last = done > 0 && done == count;
     if (!line->is_due(last)) return;
     line->show(count_progress(label, done, count, line->elapsed()));
-    if (last) line.reset();  // who counts again begins another line
+    if (last) line.reset();  // a new count starts another line
   };
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Progress on stderr: one line, rewritten in place on a terminal, written now and then in a log.
+/// Progress on stderr: one line, rewritten in place on a terminal, printed at intervals in a log.
 
 #include <chrono>
 #include <functional>
@@ -13,31 +13,31 @@
 
 namespace talus::app {
 
-/// What a line of progress says.
+/// Contents of a progress line.
 struct Progress {
   std::string what;                 ///< "rendering 12/48"
-  std::optional<double> share;      ///< that is done; beyond 1 it promises nothing, and is not shown
+  std::optional<double> share;      ///< fraction done; not shown if above 1
   double elapsed = 0.0;             ///< s
   std::optional<double> remaining;  ///< s
-  /// Texts with ranks: where the line is too long, those of the highest rank are left out first. The bar has
-  /// rank 4, the percentage 3, the elapsed time 2, the remaining time 1.
+  /// Additional texts with ranks: if the line is too long, texts of the highest rank are omitted first. The
+  /// bar has rank 4, the percentage 3, the elapsed time 2, the remaining time 1.
   std::vector<std::pair<std::string, int>> more = {};
 };
 
-/// "rendering 12/48  [###-----------]  25 %  elapsed 10 s  ETA 30 s", cut to `width` columns. ASCII. Without
-/// a width, as in a log, the line is whole and has no bar.
+/// Returns "rendering 12/48  [###-----------]  25 %  elapsed 10 s  ETA 30 s", cut to `width` columns, in
+/// ASCII. Without a width, as in a log, the line is complete and has no bar.
 std::string progress_text(const Progress& progress, std::optional<int> width);
 
-/// Things that are made one by one.
+/// Returns the progress of a count.
 Progress count_progress(const std::string& label, std::size_t done, std::size_t count, double elapsed);
 
-/// Where a run is.
+/// Displayed state of a run.
 struct RunShown {
   session::Phase phase = session::Phase::deposition;
-  double time = 0.0;                     ///< s, of the model
+  double time = 0.0;                     ///< s, model time
   double tilt = 0.0;                     ///< deg
-  std::optional<double> share;           ///< of this phase that is done
-  std::optional<double> repose_assumed;  ///< deg, where the share assumes that the slope fails
+  std::optional<double> share;           ///< fraction of this phase done
+  std::optional<double> repose_assumed;  ///< deg, angle of failure assumed for the fraction
   double residual = 0.0;
   double kinetic_energy = 0.0;  ///< J
   double velocity = 0.0;        ///< rms, over g h
@@ -47,35 +47,37 @@ Progress run_progress(const RunShown& shown, double elapsed, std::optional<doubl
 
 class StatusLine {
  public:
-  /// A quiet line shows nothing. Between two lines pass at least `on_terminal` seconds, or `in_log`.
+  /// Creates a line that is updated at most every `on_terminal` seconds on a terminal, or `in_log` seconds in
+  /// a log. A quiet line shows nothing.
   StatusLine(bool quiet, double on_terminal, double in_log);
-  /// Finishes the line, so that an error message begins on a line of its own.
+  /// Finishes the line, so that an error message starts on a new line.
   ~StatusLine() { finish(); }
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Whether enough time has passed since the line was last shown, or made; at the end of the work a terminal
-  /// shows it in any case.
+  /// Whether enough time has passed since the line was last shown or created; at the end of the work a
+  /// terminal shows it in any case.
   bool is_due(bool at_end = false) const;
   void show(const Progress& progress);
-  /// Seconds since the line was made.
+  /// Seconds since the line was created.
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
-  /// Leaves the line as it is and goes to the next.
+  /// Ends the line and moves to the next.
   void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
   bool quiet_, terminal_;
-  bool open_ = false;  ///< a line of the terminal waits for its end
+  bool open_ = false;  ///< a line on the terminal is not ended yet
   std::chrono::duration<double> interval_;
   Clock::time_point begun_ = Clock::now(), shown_ = begun_;
 };
 
-/// Shows the progress of one who counts on a line of its own, from the first call on. Most calls do nothing,
-/// since little time has passed since the last.
+/// Returns a function that shows a count on a separate line, from the first call on. Most calls do nothing,
+/// because little time has passed since the last one.
 CountDone count_shown(std::string label, bool quiet);
 
-/// Shows where a run is, in the same way; the line ends when the last copy of the function is gone.
+/// Returns a function that shows the state of a run in the same way; the line ends when the last copy of the
+/// function is destroyed.
 std::function<void(const session::RunProgress&)> run_shown(bool quiet);
 
 }  // namespace talus::app

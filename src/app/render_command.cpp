@@ -1,4 +1,4 @@
-/// `talus render`: maps of a run as PNG, PDF or SVG files.
+/// `talus render`: draws maps of a run as PNG, PDF or SVG files.
 
 #include <cstdio>
 #include <filesystem>
@@ -27,7 +27,7 @@ struct RenderArguments {
   bool quiet = false;
 };
 
-/// RUN-maps for RUN, RUN.h5 and the folder RUN.h5.run, beside the run.
+/// Returns RUN-maps for RUN, RUN.h5 and the folder RUN.h5.run, next to the run.
 std::string default_folder(std::filesystem::path run) {
   if (!run.has_filename()) run = run.parent_path();  // RUN.h5.run/
   if (run.extension() == ".run") run.replace_extension();
@@ -54,7 +54,7 @@ void render(const RenderArguments& arguments) {
   if (arguments.quiet) return;
   const std::size_t count = choice.size() * plan.maps.size(), kept = count - missing.size();
   print("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());
-  if (kept > 0) print(", %zu of them there before", kept);
+  if (kept > 0) print(", %zu of them already up to date", kept);
   print("\n");
 }
 
@@ -67,12 +67,12 @@ void add_render_command(CLI::App& app) {
   add_run_argument(*command, arguments->run);
   add_frame_options(*command, arguments->frames, "every degree, and the last before failure");
   command->add_option("-o,--output", arguments->folder,
-                      "Folder of the pictures, created if it is missing [RUN-maps]");
-  command->add_option("--format", arguments->format, "png, or pdf or svg, which stay sharp at any size")
+                      "Folder of the pictures, created if missing [RUN-maps]");
+  command->add_option("--format", arguments->format, "png, or pdf or svg for vector graphics")
       ->capture_default_str()
       ->check(one_of({"png", "pdf", "svg"}));
   command->add_flag("--overwrite", arguments->overwrite,
-                    "Replace pictures of other runs or options; those that are right are kept anyway");
+                    "Replace pictures of other runs or options; up-to-date pictures are kept in any case");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
   command->callback([arguments] { render(*arguments); });

@@ -1,4 +1,4 @@
-/// `talus repair`: a new run with all that is whole of a damaged one.
+/// `talus repair`: writes a new run with the intact pieces of a damaged one.
 
 #include <cstdio>
 #include <memory>
@@ -23,10 +23,10 @@ void print_lines(const char* name, const std::vector<std::string>& lines) {
 void repair(const RepairArguments& arguments) {
   const io::RepairReport report = io::repair_run({arguments.run, arguments.output, arguments.overwrite});
   if (report.was_whole) {
-    print("%s is whole: there was nothing to repair, and nothing was written\n", arguments.run.c_str());
+    print("%s is intact: nothing to repair, and nothing was written\n", arguments.run.c_str());
     return;
   }
-  print("%s: what is whole of %s\n", arguments.output.c_str(), arguments.run.c_str());
+  print("%s: intact pieces of %s\n", arguments.output.c_str(), arguments.run.c_str());
   print_lines("kept", report.kept);
   print_lines("lost", report.lost);
   if (report.of_folder)
@@ -38,13 +38,11 @@ void repair(const RepairArguments& arguments) {
 void add_repair_command(CLI::App& app) {
   auto arguments = std::make_shared<RepairArguments>();
   CLI::App* command = app.add_subcommand(
-      "repair", "Save what is undamaged of a damaged run as a new run; the old one is left as it is");
-  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
+      "repair", "Save the intact pieces of a damaged run as a new run; the damaged run is not changed");
+  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
+  command->add_option("-o,--output", arguments->output, "New run (HDF5); a missing folder is created")
       ->required();
-  command
-      ->add_option("-o,--output", arguments->output, "The new run (HDF5); its folder is made where missing")
-      ->required();
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a run of this name");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing run of this name");
   command->callback([arguments] { repair(*arguments); });
 }
 

@@ -1,4 +1,4 @@
-/// `talus replay`: computes a run again from its scenario and its commands, and compares the end.
+/// `talus replay`: recomputes a run from its scenario and its commands, and compares the end states.
 
 #include <algorithm>
 #include <cstdio>
@@ -27,7 +27,7 @@ namespace {
 
 struct ReplayArguments {
   std::string run;
-  std::string output;  ///< empty: nothing is kept
+  std::string output;  ///< empty: the recomputed run is not kept
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool overwrite = false;
   bool quiet = false;
@@ -41,7 +41,7 @@ std::string end_text(const World& world) {
   return fmt::format("{} after {} steps", hash_text(state_hash(world)), world.step);
 }
 
-/// A run is never replaced by its own replay.
+/// Throws if the output would replace the run that is replayed.
 void refuse_same(const ReplayArguments& arguments) {
   output_target(arguments.output, output_of_run(arguments.run, true));
   const std::string output = resolved_path(arguments.output), run = resolved_path(arguments.run);
@@ -50,7 +50,8 @@ void refuse_same(const ReplayArguments& arguments) {
                 arguments.output + " is the run that is replayed; choose another output with -o");
 }
 
-/// The output says what it replays, and how far: until then it lacks commands (resume_run).
+/// Creates the output, which records the run that it replays and the number of steps; until then it lacks
+/// commands (resume_run).
 std::optional<io::RunStore> begin_output(const ReplayArguments& arguments, const session::Session& session,
                                          const io::RunFile& run) {
   if (arguments.output.empty()) return std::nullopt;
@@ -75,16 +76,15 @@ void compare(const ReplayArguments& arguments, const io::RunFile& run, const Wor
   if (!arguments.quiet)
     print("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
   if (state_hash(stored) == state_hash(recomputed)) return;
-  // Runs of earlier versions do not say which bed they began with.
+  // Runs of earlier versions do not record the bed that they started with.
   const std::string file = runs::stored_scenario(run.header(), arguments.run).deposition.file;
   const bool may_be_bed =
       !file.empty() && !run.header().branch && session::bed_of(run.header().provenance).empty();
   throw Error(ExitCode::internal,
               fmt::format("{}: its scenario and commands give another end state than the stored one; it was "
-                          "computed by version {}, which may give other bits{}",
+                          "computed by version {}, whose results may differ in the last digits{}",
                           arguments.run, runs::version_of(run.header().provenance),
-                          may_be_bed ? fmt::format(", or {} was changed since, which holds its bed "
-                                                   "(deposition.file)",
+                          may_be_bed ? fmt::format(", or its bed (deposition.file) in {} has changed since",
                                                    visible(file))
                                      : ""));
 }
@@ -92,15 +92,12 @@ void compare(const ReplayArguments& arguments, const io::RunFile& run, const Wor
 void replay_run(const ReplayArguments& arguments) {
   const io::RunFile run = io::RunFile::open(arguments.run);
   if (!run.has_state())
-    throw Error(ExitCode::bad_data,
-                arguments.run +
-                    " was repaired, and its last state is lost: there is nothing to compare with; "
-                    "compute it again from its scenario (talus info)");
+    throw Error(ExitCode::bad_data, arguments.run +
+                                        " was repaired, and its last state is lost, so there is nothing to "
+                                        "compare with; compute it again from its scenario (talus info)");
   if (!run.header().branch && !run.steps().empty() && at(run.steps().front(), StepField::step) != 1.0)
     throw Error(ExitCode::bad_data,
-                arguments.run +
-                    " was repaired, and the state that it began from is lost: it cannot be "
-                    "computed again");
+                arguments.run + " was repaired, and its first state is lost, so it cannot be computed again");
   const std::vector<Command> commands = run.commands();
   session::Session session = session::session_at_start(run.header(), arguments.run);
   session.use_threads(arguments.threads);
@@ -120,7 +117,7 @@ void replay_run(const ReplayArguments& arguments) {
   if (end == session::RunEnd::stopped)
     throw Error(
         ExitCode::stopped,
-        fmt::format("stopped after {} of {} steps: nothing was compared; replay it again from its beginning",
+        fmt::format("stopped after {} of {} steps: nothing was compared; repeat the replay from its start",
                     session.world().step, run.checkpoint().world.step));
   compare(arguments, run, session.world());
 }
@@ -130,9 +127,8 @@ void replay_run(const ReplayArguments& arguments) {
 void add_replay_command(CLI::App& app) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand(
-      "replay", "Compute a run again from its scenario and its commands, and compare its end state");
-  command->add_option("RUN", arguments->run, "Run file, or the name of a run that is not complete")
-      ->required();
+      "replay", "Recompute a run from its scenario and its commands, and compare the end states");
+  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
   CLI::Option* output =
       command->add_option("-o,--output", arguments->output, "Keep the recomputed run in this file (HDF5)");
   command
@@ -141,7 +137,7 @@ void add_replay_command(CLI::App& app) {
       ->check(in_range(1, 256));
   command
       ->add_flag("--overwrite", arguments->overwrite,
-                 "Replace a run of this name; the old file is kept until the new run is complete")
+                 "Replace an existing run of this name; the old file is kept until the new run is complete")
       ->needs(output);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors only");
   command->callback([arguments] { replay_run(*arguments); });

@@ -1,5 +1,5 @@
-/// `talus reproduce`: the paper's beds, tilted, analysed and drawn, and a report that stands beside the
-/// paper.
+/// `talus reproduce`: runs, analyses and draws the paper's beds, and writes a report that compares them with
+/// the paper.
 
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +39,7 @@ struct ReproduceArguments {
   int jobs = default_jobs();
 };
 
-/// Makes what is missing of members that are done, or is of another version.
+/// Completes readings of finished members that are missing or from another version.
 void complete(const studies::ReproductionPlan& plan) {
   const std::vector<std::size_t> done = ensemble::done_members(plan);
   const CountDone progress = count_shown("analyses", false);
@@ -50,7 +50,7 @@ void complete(const studies::ReproductionPlan& plan) {
   progress(done.size(), done.size());
 }
 
-/// What is still to be run, and how long that may take.
+/// Reports the number of missing runs and their estimated time.
 void announce(const studies::ReproductionPlan& plan, int jobs) {
   double seconds = 0.0;
   for (const ensemble::Member& member : plan.members) seconds += session::estimate(member.scenario).seconds;
@@ -63,21 +63,21 @@ void announce(const studies::ReproductionPlan& plan, int jobs) {
 
 std::vector<figures::RunGroup> open_groups(const studies::ReproductionPlan& plan) {
   std::vector<std::size_t> members = ensemble::done_members(plan);
-  // By bed, so that groups come in the order of the plan: the paper's preparation first.
+  // Sorted by bed, so that groups follow the order of the plan: the paper's preparation first.
   std::ranges::stable_sort(members, {}, [&](std::size_t m) { return plan.members[m].variant; });
   std::vector<std::string> paths;
   for (const std::size_t m : members) paths.push_back(plan.members[m].path);
   return figures::group_runs(open_figure_runs(paths, analysis::AnalysisParameters(), {}));
 }
 
-/// `talus figures` that makes the same figure.
+/// Returns the `talus figures` command that makes the same figure.
 std::string command_of(const figures::Figure& figure, const std::string& folder) {
   std::string text = "talus figures";
   for (const std::string& run : figure.runs) text += " " + run;
   return fmt::format("{} --only {} -o {}", text, figure.name, folder);
 }
 
-/// `talus reproduce` that makes the chart.
+/// Returns the `talus reproduce` command that makes the chart.
 std::string command_of(const studies::ReproductionPlan& plan, const std::string& folder) {
   return fmt::format("talus reproduce{} --seeds {} -o {}", plan.quick ? " --quick" : "",
                      joined(plan.seeds, ","), folder);
@@ -87,7 +87,7 @@ bool holds(const fs::path& file, const std::string& text) {
   return is_there(file.string()) && io::read_text(file.string()) == text;
 }
 
-/// Whether all files of a figure are there, drawn from the same data in the same way.
+/// Whether all files of a figure exist and were drawn from the same data in the same way.
 bool is_drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
               const fs::path& folder, const FigureOptions& options) {
   const auto there = [&](const std::string& file) { return is_there((folder / file).string()); };
@@ -96,13 +96,14 @@ bool is_drawn(const figures::Figure& figure, std::span<const figures::RunGroup> 
          holds(folder / (figure.name + ".gp"), gnuplot_text(figure, options.size));
 }
 
-/// Draws a figure, unless one with the same provenance and script is there, and returns it as a picture.
+/// Draws a figure, unless it exists with the same provenance and script, and returns it as a picture of the
+/// report.
 studies::ReportPicture drawn(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                              const std::string& folder, const FigureOptions& options) {
   try {
     if (!is_drawn(figure, groups, folder, options)) write_figure(figure, groups, folder, options);
   } catch (const Error&) {
-    stop_if_asked();  // Ctrl-C ends gnuplot too: that is no error of the figure
+    stop_if_asked();  // Ctrl-C ends gnuplot too, which is no error of the figure
     throw;
   }
   return {fmt::format("figures/{}.png", figure.name), figure.title, figure.caption, figure.wide};
@@ -123,8 +124,7 @@ std::vector<studies::ReportPicture>& part_of(studies::ReproductionPictures& pict
   return pictures.further;
 }
 
-/// Draws the chart of agreement, and all figures of the catalogue that can be made of the complete, analysed
-/// runs.
+/// Draws the chart of agreement, and all figures of the catalogue that the complete, analysed runs allow.
 studies::ReproductionPictures draw_figures(const studies::ReproductionPlan& plan,
                                            const studies::ReproductionResult& result,
                                            const std::string& folder) {
@@ -169,7 +169,7 @@ void reproduce(const ReproduceArguments& arguments) {
                        {folder, {}, "", arguments.jobs}, {});
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing is left to report");
-    print_text(ensemble_text(view));  // others are to compute it
+    print_text(ensemble_text(view));  // other workers compute it
     return;
   }
   complete(plan);
@@ -185,13 +185,14 @@ void add_reproduce_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "reproduce",
       "Run, analyse and draw the beds of the paper, and write a report that compares them with it");
-  command->add_flag(
-      "--quick", arguments->quick,
-      "Beds of half the depth, in some minutes; lengths cannot be compared with the paper then");
-  command->add_option("-o,--output", arguments->folder,
-                      "Folder of runs, figures and report; what is complete in it is kept [reproduction, or "
-                      "reproduction-quick]");
-  command->add_option("--seeds", arguments->seeds, "Seeds of each bed, e.g. 1-4 or 1-3,8 [1-2; quick: 1]");
+  command->add_flag("--quick", arguments->quick,
+                    "Use beds of half the depth, which take a few minutes; their lengths cannot be compared "
+                    "with the paper");
+  command->add_option(
+      "-o,--output", arguments->folder,
+      "Folder of runs, figures and report; complete members are kept [reproduction, or reproduction-quick]");
+  command->add_option("--seeds", arguments->seeds,
+                      "Seeds of each bed, e.g. 1-4 or 1-3,8 [1-2; with --quick: 1]");
   add_jobs_option(*command, arguments->jobs);
   command->callback([arguments] { reproduce(*arguments); });
 }

@@ -33,18 +33,18 @@ namespace talus::app {
 namespace {
 
 struct RunArguments {
-  std::string scenario;  ///< empty: that of the run
-  std::string branch;    ///< run to begin with a frame of; empty: none
-  std::string at;        ///< of a branch: its frame
+  std::string scenario;  ///< empty: scenario of the run
+  std::string branch;    ///< run whose frame the branch starts from; empty: none
+  std::string at;        ///< frame that the branch starts from
   std::string output;
   std::vector<std::string> settings;
-  std::string seed;  ///< empty: that of the scenario
+  std::string seed;  ///< empty: seed of the scenario
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::string max_wall;  ///< HH:MM; empty: no limit
   bool resume = false;
   bool overwrite = false;
   bool quiet = false;
-  std::string frames;  ///< folder of maps drawn meanwhile; empty: none
+  std::string frames;  ///< folder of maps drawn during the run; empty: none
   pictures::MapOptions maps;
 };
 
@@ -58,12 +58,11 @@ std::string command_line_of(const RunArguments& arguments) {
   return line;
 }
 
-/// Tells what the first argument names: a scenario or, with --resume and without -o, the file or folder of a
-/// run.
+/// Resolves the first argument: a scenario or, with --resume and without -o, the file or folder of a run.
 void settle_names(RunArguments& arguments) {
   if (arguments.scenario.empty() && arguments.branch.empty()) throw CLI::RequiredError("SCENARIO");
   if (!arguments.branch.empty() && !arguments.seed.empty())
-    throw Error(ExitCode::usage, "a branch has the bed of the run that it leaves: leave out --seed");
+    throw Error(ExitCode::usage, "a branch has the bed of its parent run: omit --seed");
   if (arguments.scenario.empty()) {
     if (arguments.output.empty())
       throw Error(ExitCode::usage, fmt::format("name the branch of {} with -o", arguments.branch));
@@ -78,8 +77,7 @@ void settle_names(RunArguments& arguments) {
     return;
   }
   if (!arguments.settings.empty() || !arguments.seed.empty())
-    throw Error(ExitCode::usage,
-                "a run is resumed with the scenario that it began with: leave out --set and --seed");
+    throw Error(ExitCode::usage, "a run is resumed with its own scenario: omit --set and --seed");
   std::string& run = arguments.output;
   run = std::move(arguments.scenario);
   arguments.scenario.clear();
@@ -87,12 +85,12 @@ void settle_names(RunArguments& arguments) {
   if (run.ends_with(io::run_folder(""))) run.resize(run.size() - io::run_folder("").size());
   if (io::run_presence(run) == io::RunPresence::none)
     throw Error(ExitCode::missing_input,
-                fmt::format("{}: no run to go on with; expected a run file, or its folder {} with a first "
-                            "commit; begin it with: talus run SCENARIO -o {}",
+                fmt::format("{}: no run to resume; expected a run file, or its folder {} with a first "
+                            "commit; start it with: talus run SCENARIO -o {}",
                             run, io::run_folder(run), run));
 }
 
-/// The settings of the scenario, the seed among them.
+/// Returns the request, with the seed among its settings.
 RunRequest request_of(const RunArguments& arguments) {
   RunRequest request;
   request.scenario = arguments.scenario;
@@ -116,11 +114,11 @@ void print_rest(const session::Session& session) {
     print("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n", tilt);
 }
 
-/// Commands of the scenario that a complete run has not come to.
+/// Warns of commands of the scenario that a complete run did not reach.
 void warn_of_waiting_commands(const session::Session& session) {
   const scenario::Scenario& scenario = session.scenario();
   for (const std::size_t k : session::waiting_commands(scenario, session.schedule()))
-    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended before, at %.3f deg\n",
+    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended earlier, at %.3f deg\n",
                 scenario::command_section(k).c_str(),
                 session::command_text(scenario::command_of(scenario.commands[k])).c_str(),
                 scenario::moment_text(scenario.commands[k]).c_str(), degrees(session.world().tilt));
@@ -132,7 +130,7 @@ void print_end(const RunArguments& arguments, const session::Session& session) {
   if (!remark.usual) print_error("talus: warning: %s\n", remark.text.c_str());
   for (std::size_t k = 0; k < session::guard_count; ++k)
     if (const std::int64_t steps = session.schedule().warnings.steps[k]; steps > 0)
-      print_error("talus: warning: guards.%s was broken in %lld steps, first in step %lld\n",
+      print_error("talus: warning: guards.%s was exceeded in %lld steps, first in step %lld\n",
                   std::string(session::guard_names[k]).c_str(), static_cast<long long>(steps),
                   static_cast<long long>(session.schedule().warnings.first[k]));
   if (arguments.quiet) return;
@@ -141,24 +139,24 @@ void print_end(const RunArguments& arguments, const session::Session& session) {
     print("The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
           beyond_repose(*theta_c, session.world().tilt).c_str());
   else
-    print("The slope stands at %.3f deg.\n", degrees(session.world().tilt));
+    print("The slope is stable at %.3f deg.\n", degrees(session.world().tilt));
   if (theta_c && session.scenario().tilt.after_failure != scenario::AfterFailure::stop) print_rest(session);
   if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
   print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
         static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
 }
 
-/// The maps that are drawn while the run computes, if any. Refuses before the run is touched.
+/// Returns the maps drawn during the run, if any. Throws on invalid options before the run is touched.
 std::optional<pictures::LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request,
                                                bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
   const pictures::MapPlan plan = pictures::plan_live_maps(arguments.maps);
   if (!request.scenario.empty())
-    scenario::read_scenario(request.scenario, request.settings);  // no folder is made for one that is refused
+    scenario::read_scenario(request.scenario, request.settings);  // creates no folder for an invalid scenario
   if (plan.maps[0].theta_c_assumed && !arguments.quiet)
     print_error(
-        "talus: note: the angle of repose is not known before the slope fails: maps are scaled by "
-        "%g deg; --theta-c DEG gives another\n",
+        "talus: note: the angle of repose is unknown before the slope fails: maps are scaled by %g deg; "
+        "--theta-c DEG sets another angle\n",
         pictures::assumed_theta_c);
   return std::optional<pictures::LiveMaps>(
       std::in_place, plan, arguments.frames, resumed, arguments.overwrite,
@@ -172,19 +170,20 @@ void begin_maps(pictures::LiveMaps& maps, const OpenRun& open, const RunArgument
     maps.meet(io::RunFile::open(arguments.output));
 }
 
-/// Maps that could not be drawn are reported last, since the run itself is complete.
+/// Reports maps that could not be drawn last, because the run itself is complete.
 void finish_maps(pictures::LiveMaps& maps, const RunArguments& arguments) {
   try {
     maps.finish();
   } catch (const Error& error) {
     throw Error(
         error.code(),
-        fmt::format("{}; the run is complete, but its maps in {} are not: talus render draws them from {}",
-                    error.what(), arguments.frames, arguments.output));
+        fmt::format(
+            "{}; the run is complete, but its maps in {} are not: draw them with talus render from {}",
+            error.what(), arguments.frames, arguments.output));
   }
 }
 
-/// Maps of a complete run that was ended before all of them were drawn.
+/// Draws the missing maps of a complete run that ended before all were drawn.
 void draw_what_is_missing(const RunArguments& arguments, const io::RunFile& file,
                           const scenario::Scenario& scenario) {
   std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
@@ -193,14 +192,13 @@ void draw_what_is_missing(const RunArguments& arguments, const io::RunFile& file
   maps->meet(file);
 }
 
-/// Of a complete run only what a kill at its end may have left behind remains to be done: its folder is
-/// removed and missing maps are drawn.
+/// Finishes a complete run that was killed at its end: removes its folder and draws missing maps.
 void resume_complete(const RunArguments& arguments) {
   const io::RunFile file = io::RunFile::open(arguments.output);
   const scenario::Scenario scenario = runs::stored_scenario(file.header(), arguments.output + ":/parameters");
   require_same_scenario(request_of(arguments), scenario);
   io::discard_folder(arguments.output);
-  if (!arguments.quiet) print("%s is complete already.\n", arguments.output.c_str());
+  if (!arguments.quiet) print("%s is already complete.\n", arguments.output.c_str());
   draw_what_is_missing(arguments, file, scenario);
 }
 
@@ -209,34 +207,34 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
   open.session.use_threads(arguments.threads);
   if (const std::string& remark = open.session.bed_remark(); !remark.empty() && !arguments.quiet)
     print("%s\n", remark.c_str());
-  note_missing_locks();  // now, since a run takes long
+  note_missing_locks();  // reported now, because a run takes long
   const std::vector<scenario::ScriptedCommand>& commands = open.session.scenario().commands;
   const std::optional<double> end = open.session.scenario().tilt.end_angle;
   const bool will_hold = std::ranges::any_of(commands, [&](const scenario::ScriptedCommand& hold) {
     if (hold.kind != CommandKind::tilt_rate || hold.x != 0.0 || (hold.at && end && *hold.at > *end))
       return false;
-    return std::ranges::none_of(commands,
-                                [&](const scenario::ScriptedCommand& later) {  // an angle is not reached
-                                  return later.kind == CommandKind::tilt_rate && later.x > 0.0 &&
-                                         later.time && (!hold.time || *later.time > *hold.time);
-                                });
+    return std::ranges::none_of(
+        commands,
+        [&](const scenario::ScriptedCommand& later) {  // the tilt is held, so no angle is reached
+          return later.kind == CommandKind::tilt_rate && later.x > 0.0 && later.time &&
+                 (!hold.time || *later.time > *hold.time);
+        });
   });
   if (will_hold || (open.session.schedule().course && open.session.tilt_rate() == 0.0))
     print_error(
-        "talus: note: a command holds the tilt: unless the slope fails, the run goes on until it is "
+        "talus: note: a command holds the tilt: unless the slope fails, the run continues until it is "
         "stopped\n");
   return open;
 }
 
 [[noreturn]] void end_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
   throw Error(ExitCode::stopped,
-              fmt::format("stopped at {:.3f} deg{}; talus run --resume {} goes on", degrees(world.tilt),
+              fmt::format("stopped at {:.3f} deg{}; talus run --resume {} continues", degrees(world.tilt),
                           by_signal ? "" : " for --max-wall", arguments.output));
 }
 
-/// Maps of the frames are drawn while the run goes on. Meanwhile the solver has a thread less where there is
-/// no processor beside its own: threads that share one hold up the others, which wait for them many times a
-/// step.
+/// Draws maps of the frames during the run. Meanwhile the solver uses one thread fewer if no processor is
+/// free, because threads that share a processor delay the others, which wait for them many times per step.
 void draw_beside(pictures::LiveMaps& maps, int threads, session::Session& session,
                  session::RunControl& control) {
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
@@ -280,8 +278,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Compute a run: deposition, rest, tilt to failure");
   command->add_option(
       "SCENARIO", arguments->scenario,
-      "Scenario file (TOML; see docs/scenario.md), or the run to resume; with --branch it may be "
-      "left out");
+      "Scenario file (TOML; see docs/scenario.md), or the run to resume; optional with --branch");
   command->add_option("-o,--output", arguments->output,
                       "Run file to write (HDF5) [name of the scenario + .h5]");
   command
@@ -293,31 +290,30 @@ void add_run_command(CLI::App& app) {
       ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
-  CLI::Option* resume =
-      command->add_flag("--resume", arguments->resume,
-                        "Continue from the last checkpoint: talus run --resume RUN. With SCENARIO "
-                        "-o RUN --resume the run is begun if it does not exist");
-  CLI::Option* branch = command
-                            ->add_option("--branch", arguments->branch,
-                                         "Begin with a frame of this run: its bed, and its scenario unless "
-                                         "another is given")
-                            ->excludes(resume);
+  CLI::Option* resume = command->add_flag("--resume", arguments->resume,
+                                          "Continue from the last checkpoint: talus run --resume RUN. With "
+                                          "SCENARIO -o RUN --resume a missing run is started");
+  CLI::Option* branch =
+      command
+          ->add_option(
+              "--branch", arguments->branch,
+              "Start from a frame of this run, with its bed and, unless another is given, its scenario")
+          ->excludes(resume);
   command
       ->add_option("--at", arguments->at,
-                   "The frame that a branch begins with: an angle in degrees, repose for the last before "
+                   "Frame that the branch starts from: an angle in degrees, repose for the last frame before "
                    "failure, or frameN")
       ->needs(branch);
   command->add_option("--max-wall", arguments->max_wall,
-                      "Stop with a checkpoint before this much wall time has passed, HH:MM or HH:MM:SS");
+                      "Stop with a checkpoint before this wall time is over, HH:MM or HH:MM:SS");
   command
       ->add_flag("--overwrite", arguments->overwrite,
-                 "Replace a run of this name; the old file is kept until the new run is complete")
+                 "Replace an existing run of this name; the old file is kept until the new run is complete")
       ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   CLI::Option* frames = command->add_option(
       "--pictures", arguments->frames,
-      "Folder into which maps of each frame are drawn while the run computes, also where its "
-      "name is a number; needs --map");
+      "Folder for maps of each frame, drawn during the run; a number is a folder name, too; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments] {
     if (!arguments->branch.empty() && arguments->at.empty()) throw CLI::RequiredError("--at");

@@ -1,5 +1,5 @@
 #pragma once
-/// The option --seed of commands that compute a run.
+/// Option --seed of commands that compute a run.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace talus::app {
 
-/// `seed`: its digits, for the setting "seed=..."; its range is checked with the scenario. Left empty where
-/// the option is not given.
+/// Adds --seed. `seed` receives its digits, for the setting "seed=...", whose range is checked with the
+/// scenario; it stays empty if the option is not given.
 inline void add_seed_option(CLI::App& command, std::string& seed) {
   command.add_option("--seed", seed, "Seed of the random deposition")->check([](const std::string& text) {
     const bool has_sign = text.starts_with('-') || text.starts_with('+');

@@ -1,4 +1,4 @@
-/// `talus solve`: solves a contact problem from a file, of a run or of another program.
+/// `talus solve`: solves a contact problem from a file, written by Talus or another program.
 
 #include <chrono>
 #include <cmath>
@@ -22,7 +22,7 @@
 namespace talus::app {
 namespace {
 
-/// Who asked for the tolerance of a solve.
+/// Source of the tolerance of a solve.
 enum class AskedBy { option, run, default_value };
 
 struct SolveArguments {
@@ -38,7 +38,7 @@ struct SolveArguments {
 
 struct SolveResult {
   Index contacts = 0;
-  Index bodies = 0;  ///< 0 where they are not known
+  Index bodies = 0;  ///< 0 if unknown
   solver::SolverReport report;
   std::optional<problems::StepTolerance> of_run;
   double siconos_error = 0.0;
@@ -65,7 +65,7 @@ const char* words_of(AskedBy asked_by) {
   return asked_by == AskedBy::option ? "--tol" : "the run";
 }
 
-/// The problem of a run is solved as the run would, unless an option says otherwise.
+/// Chooses the tolerance: that of the option, else that of the run from which the problem comes.
 void choose_tolerance(const problems::StoredProblem& stored, SolveArguments& arguments) {
   if (arguments.tolerance) {
     arguments.settings.tolerance = *arguments.tolerance;
@@ -76,7 +76,7 @@ void choose_tolerance(const problems::StoredProblem& stored, SolveArguments& arg
   }
 }
 
-/// Wall seconds that `work` takes.
+/// Returns the wall seconds that `work` takes.
 template <typename Work>
 double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
@@ -157,7 +157,7 @@ void print_report(const SolveArguments& arguments, const SolveResult& result) {
         result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
   print("%-25s%d\n", "contacts", result.contacts);
   print("%-25s%d\n", "iterations", report.iterations);
-  print("%-25s%.3e (%s, asked for %.1e by %s)\n", "residual eta", report.residual.eta,
+  print("%-25s%.3e (%s, %.1e required by %s)\n", "residual eta", report.residual.eta,
         report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
         words_of(arguments.asked_by));
   print_number("largest of one contact", "%.3e", report.residual.largest);
@@ -195,18 +195,18 @@ void add_settings(CLI::App& command, SolveArguments& arguments) {
       ->default_str("accelerated")
       ->check(one_of({"accelerated", "gauss-seidel"}));
   command
-      .add_option("--tol", arguments.tolerance,
-                  fmt::format("Natural-map residual eta to reach; without it what the run asked of the step, "
-                              "and {} where the file does not tell",
-                              scenario::short_text(settings.tolerance)))
+      .add_option(
+          "--tol", arguments.tolerance,
+          fmt::format("Natural-map residual eta to reach [that required by the run, or {} if unknown]",
+                      scenario::short_text(settings.tolerance)))
       ->check(in_range(1e-15, 1.0));
-  command.add_option("--max-iterations", settings.max_iterations, "Iterations, at most")
+  command.add_option("--max-iterations", settings.max_iterations, "Maximum number of iterations")
       ->capture_default_str()
       ->check(in_range(0, 1000000000));
   command
       .add_option(
           "--threads", settings.threads,
-          "Threads of the accelerated solver, where bodies are known; the result does not depend on it")
+          "Threads of the accelerated solver, if the bodies are known; the result does not depend on it")
       ->capture_default_str()
       ->check(in_range(1, 256));
 }
@@ -219,16 +219,18 @@ void add_solve_command(CLI::App& app) {
       app.add_subcommand("solve", "Solve a contact problem from a file and report on the solution");
   command
       ->add_option("PROBLEM", arguments->problem,
-                   "Problem file: of talus dump, or an FCLIB local problem in 2D")
+                   "Problem file from talus dump, or an FCLIB local problem in 2D")
       ->required();
   add_settings(*command, *arguments);
   command->add_flag("--cold", arguments->cold, "Start from zero instead of the guess in the file");
-  command->add_option("-o,--output", arguments->output, "Copy of the problem to write, with its /solution");
+  command->add_option("-o,--output", arguments->output,
+                      "Write a copy of the problem that includes the solution in /solution");
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
-  command->add_flag("--json", arguments->json, "As JSON; seconds are those of the solver alone");
+  command->add_flag("--json", arguments->json, "Print JSON; the seconds are those of the solver alone");
   command->footer(
-      "A solver that does not converge is a result: it is reported with its residual, and the exit code is "
-      "0. Where the bed was moving in the step, a sentence says so and compares it with what the run asked.");
+      "A solver that does not converge is a valid result: it is reported with its residual, and the exit "
+      "code is 0. If the bed was moving in the step, a sentence says so and compares the result with the "
+      "tolerance that the run required.");
   command->callback([arguments] { run(*arguments); });
 }
 

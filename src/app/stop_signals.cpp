@@ -10,7 +10,7 @@
 namespace talus::app {
 namespace {
 
-constexpr const char* sentence = "stopped; what was not finished is not kept";
+constexpr const char* sentence = "stopped; unfinished results are not kept";
 
 volatile std::sig_atomic_t stop_requested = 0;
 volatile std::sig_atomic_t commits_first = 0;
@@ -21,10 +21,11 @@ void set_alarm(int microseconds) {
   setitimer(ITIMER_REAL, &once, nullptr);
 }
 
-/// Long enough for a command that looks at stop_request() to tidy up.
+/// Starts the timer, long enough for a command that checks stop_request() to clean up.
 void arm() { set_alarm(300'000); }
 
-/// The first signal asks to stop; the second leaves at once (every file is whole at any time).
+/// Handles the first signal as a request to stop; the second ends the process at once (every file is complete
+/// at any time).
 void handle_stop(int) {
   if (stop_requested != 0) _exit(static_cast<int>(ExitCode::stopped));
   stop_requested = 1;
@@ -32,7 +33,7 @@ void handle_stop(int) {
 }
 
 void handle_alarm(int) {
-  constexpr std::string_view text = "Stopped; what was not finished is not kept.\n";
+  constexpr std::string_view text = "Stopped; unfinished results are not kept.\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
   _exit(static_cast<int>(ExitCode::stopped));
 }

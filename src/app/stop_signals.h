@@ -1,23 +1,23 @@
 #pragma once
-/// Signals that ask the program to end: SIGINT, SIGTERM, and SIGHUP where it is not ignored (nohup).
+/// Signals that ask the program to end: SIGINT, SIGTERM, and SIGHUP unless it is ignored (nohup).
 
 #include <csignal>
 
 namespace talus::app {
 
-/// From now on the first of these signals asks the command to stop, and ends the program a third of a second
-/// later, whatever it computes or waits for; the second ends it at once. Both with ExitCode::stopped.
+/// Installs the handlers: the first signal asks the command to stop, and ends the program a third of a second
+/// later in any case; the second ends it at once. Both end with ExitCode::stopped.
 void end_on_signals();
 
-/// Set by the first signal.
+/// Returns the flag that the first signal sets.
 const volatile std::sig_atomic_t* stop_request();
 bool asked_to_stop();
 
-/// Throws Error(stopped) where a signal has asked for it.
+/// Throws Error(stopped) if a signal has requested a stop.
 void stop_if_asked();
 
-/// While it lives the first signal only sets stop_request(): what is computed can be committed, however long
-/// that takes. The second ends the program at once all the same.
+/// Scope in which the first signal only sets stop_request(), so that computed data can be committed, however
+/// long that takes. The second signal still ends the program at once.
 class CommitOnSignals {
  public:
   CommitOnSignals();
@@ -26,7 +26,7 @@ class CommitOnSignals {
   CommitOnSignals& operator=(const CommitOnSignals&) = delete;
 };
 
-/// Catches SIGUSR1 from now on and returns the flag that it sets.
+/// Installs a handler of SIGUSR1 and returns the flag that it sets.
 volatile std::sig_atomic_t* catch_checkpoint_signal();
 
 }  // namespace talus::app

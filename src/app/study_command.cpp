@@ -1,4 +1,4 @@
-/// `talus study`: a scenario with one thing changed at a time, each variation with the same seeds.
+/// `talus study`: varies one setting of a scenario at a time, with the same seeds for each variation.
 
 #include <cstdio>
 #include <filesystem>
@@ -74,7 +74,7 @@ void study(const StudyArguments& arguments) {
                        {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be compared");
-    print_text(ensemble_text(view));  // others are to compute it
+    print_text(ensemble_text(view));  // other workers compute it
     return;
   }
   const studies::StudyResult result = studies::read_study(plan, arguments.reference);
@@ -89,14 +89,14 @@ void study(const StudyArguments& arguments) {
 void add_study_command(CLI::App& app) {
   auto arguments = std::make_shared<StudyArguments>();
   CLI::App* command = app.add_subcommand(
-      "study", "Run a scenario with one thing changed at a time, and compare the figures over seeds");
+      "study", "Vary one setting of a scenario at a time, and compare the results over seeds");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
-  command->add_option("-o,--output", arguments->folder, "Folder of the study; what is complete in it is kept")
+  command->add_option("-o,--output", arguments->folder, "Folder of the study; complete members are kept")
       ->required();
   command
       ->add_option("--vary", arguments->axes,
-                   "Values of a key, e.g. tilt.step=0.002,0.0005; or of several together, e.g. "
+                   "Values of a key, e.g. tilt.step=0.002,0.0005; or of several keys together, e.g. "
                    "tilt.rate:tilt.step=2:0.002,0.5:0.0005")
       ->allow_extra_args(false);
   command->add_option("--seeds", arguments->seeds, "Seeds of each variation, e.g. 1-4 or 1-3,8")
@@ -107,10 +107,10 @@ void add_study_command(CLI::App& app) {
       ->allow_extra_args(false);
   command
       ->add_option("--reference", arguments->reference,
-                   "Angle at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
+                   "Tilt at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
       ->check(in_range(0.0, 60.0));
   add_jobs_option(*command, arguments->jobs);
-  command->add_flag("--json", arguments->json, "Print the result as JSON");
+  command->add_flag("--json", arguments->json, "Print JSON");
   command->callback([arguments] { study(*arguments); });
 }
 

@@ -1,19 +1,19 @@
 #pragma once
-/// The only place where text goes to the terminal.
+/// Output of text to the terminal; no other file writes to it.
 
 #include <string_view>
 
 namespace talus::app {
 
-/// Print as std::printf does, to stdout or stderr, without anything that a terminal obeys: names, keys and
-/// texts of files hold what they like (visible_text.h). A format must hold no such character itself.
+/// Prints as std::printf does, to stdout or stderr, without terminal control characters, which names, keys
+/// and texts of files may contain (visible_text.h). The format itself must not contain any.
 [[gnu::format(printf, 1, 2)]] void print(const char* format, ...);
 [[gnu::format(printf, 1, 2)]] void print_error(const char* format, ...);
 
-/// The same of a text as it is.
+/// Prints a text without formatting.
 void print_text(std::string_view text);
 
-/// On stderr, in place of the line that was shown last if `rewrite`: progress.
+/// Prints progress on stderr, in place of the last line if `rewrite`.
 void print_status(std::string_view line, bool rewrite);
 
 }  // namespace talus::app

@@ -15,10 +15,10 @@ StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps) {
       "{:.2g} % of the steps did not reach their tolerance (largest residual {:.2g} at rest, {:.2g} while "
       "moving)",
       100.0 * share, record.residual_max_rest, record.residual_max_moving);
-  if (usual) return {true, fmt::format("{}; that is usual (docs/solver.md).", text)};
+  if (usual) return {true, fmt::format("{}; this is usual (docs/solver.md).", text)};
   return {false,
-          fmt::format("{}: {} of the deposition, {} of the tilt, {} after failure; one or two "
-                      "in a thousand are usual (docs/solver.md); raise solver.max_iterations",
+          fmt::format("{}: {} in the deposition, {} in the tilt, {} after failure; one or two in a thousand "
+                      "are usual (docs/solver.md); raise solver.max_iterations",
                       text, record.unconverged_deposition, record.unconverged_tilt, record.unconverged_flow)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run reports of the steps that did not reach their tolerance.
+/// Report on steps that did not reach their tolerance.
 
 #include <cstdint>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace talus::app {
 
-/// Up to this share of all steps is usual (docs/solver.md).
+/// Fraction of unconverged steps considered usual (docs/solver.md).
 inline constexpr double usual_unconverged_share = 0.002;
 
 struct StepRemark {
-  bool usual = true;  ///< a plain statement; else a warning
-  std::string text;   ///< empty where all steps converged
+  bool usual = true;  ///< false: the text is a warning
+  std::string text;   ///< empty if all steps converged
 };
-/// `steps` are those of the whole run.
+/// Returns the remark on a run of `steps` steps in total.
 StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps);
 
 }  // namespace talus::app

@@ -17,7 +17,7 @@
 namespace talus::app {
 namespace {
 
-/// What other programs call what these commands do.
+/// Other names for what these commands do.
 struct OtherWord {
   std::string_view written, meant;
 };
@@ -67,8 +67,8 @@ CLI::App* command_called(CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-/// What was meant by a word that is no command: one that is near, what other programs call so, a command of a
-/// command, or one that takes such a file; empty where nothing is known.
+/// Returns the likely meaning of a word that is not a command: a similar command, a synonym, a subcommand, or
+/// a command that takes such a file; empty if unknown.
 std::string meant_by(CLI::App& app, const std::string& word) {
   if (word.ends_with(".toml")) return fmt::format("'run {}'", visible_word(word));
   if (word.ends_with(".h5")) return fmt::format("'view {0}' or 'info {0}'", visible_word(word));
@@ -83,11 +83,11 @@ std::string meant_by(CLI::App& app, const std::string& word) {
 [[noreturn]] void refuse_command(CLI::App& app, const std::string& word) {
   const std::string meant = meant_by(app, word);
   throw Error(ExitCode::usage,
-              fmt::format("'{}' is no command; {}{} --help lists them", visible_word(word),
+              fmt::format("'{}' is not a command; {}{} --help lists them", visible_word(word),
                           meant.empty() ? "" : "did you mean " + meant + "? ", app.get_name()));
 }
 
-/// The names of the options of a command that have two dashes.
+/// Returns the names of a command's options with two dashes.
 std::vector<std::string> long_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const OptionPage& option : command_tree(command, "").options)
@@ -103,17 +103,17 @@ void refuse_one_dash(const CLI::App& command, const std::string& name, const std
   const std::vector<std::string> names = long_names(command);
   const std::string meant = "-" + without_value(word);
   if (std::ranges::find(names, meant) == names.end()) return;
-  throw Error(ExitCode::usage, fmt::format("'{}' is no option of {}; did you mean '-{}'?", visible_word(word),
-                                           name, visible_word(word)));
+  throw Error(ExitCode::usage, fmt::format("'{}' is not an option of {}; did you mean '-{}'?",
+                                           visible_word(word), name, visible_word(word)));
 }
 
-/// A command that was parsed, and how it is called.
+/// A parsed command and its full name.
 struct ParsedCommand {
   const CLI::App* command;
   std::string name;
 };
 
-/// The program, its command, and the command of that.
+/// Returns the program, its command, and the subcommand.
 std::vector<ParsedCommand> parsed_commands(const CLI::App& app) {
   std::vector<ParsedCommand> parsed = {{&app, app.get_name()}};
   while (!parsed.back().command->get_subcommands().empty()) {
@@ -125,8 +125,8 @@ std::vector<ParsedCommand> parsed_commands(const CLI::App& app) {
 
 const CLI::Option* settings_of(const CLI::App& command) { return command.get_option_no_throw("--set"); }
 
-/// The setting that `--contact.friction` or `--friction` stands for, or those, with "' or '" between them;
-/// empty for what is no key of a scenario, or where the command has none.
+/// Returns the setting that `--contact.friction` or `--friction` stands for, or several, joined by "' or '";
+/// empty if the word is not a key of a scenario, or the command has no settings of one.
 std::string setting_meant(const CLI::App& command, const std::string& word) {
   if (settings_of(command) == nullptr ||
       settings_of(command)->get_description().find("scenario") == std::string::npos)
@@ -147,11 +147,12 @@ std::string unknown_option(const ParsedCommand& parsed, const std::string& word)
   std::string meant = setting_meant(*parsed.command, word);
   if (!nearest.empty() && (meant.empty() || edit_distance(undashed, nearest) < 3)) meant = "--" + nearest;
   return fmt::format(
-      "'{}' is no option of {}; {}{} --help lists them", visible_word(without_value(word)), parsed.name,
+      "'{}' is not an option of {}; {}{} --help lists them", visible_word(without_value(word)), parsed.name,
       meant.empty() ? "" : fmt::format("did you mean '{}'? ", visible_word(meant, 200)), parsed.name);
 }
 
-/// `--set contact.friction 0.3` leaves 0.3, `contact.friction=0.3` without --set all of it.
+/// Explains words that a mistyped setting leaves: 0.3 from `--set contact.friction 0.3`, all of
+/// `contact.friction=0.3` without --set.
 std::optional<std::string> stray_setting(const CLI::App& command, const std::string& word) {
   const CLI::Option* option = settings_of(command);
   if (option == nullptr) return std::nullopt;
@@ -160,8 +161,8 @@ std::optional<std::string> stray_setting(const CLI::App& command, const std::str
                        visible_word(option->results().back()), visible_word(word),
                        visible_word(option->results().back()), visible_word(word));
   if (word.find('=') == std::string::npos) return std::nullopt;
-  return fmt::format("'{}': each setting follows a --set of its own; did you mean '--set {}'?",
-                     visible_word(word), visible_word(word));
+  return fmt::format("'{}': each setting needs its own --set; did you mean '--set {}'?", visible_word(word),
+                     visible_word(word));
 }
 
 std::string word_too_many(const ParsedCommand& parsed, const std::string& word) {
@@ -169,11 +170,11 @@ std::string word_too_many(const ParsedCommand& parsed, const std::string& word) 
   std::string arguments;
   for (const OptionPage& option : command_tree(*parsed.command, parsed.name).options)
     if (option.names.empty()) arguments += " " + option.argument;
-  return fmt::format("'{}' is one word too many; expected {}{} and options, which {} --help lists",
+  return fmt::format("'{}' is one argument too many; expected {}{} and options, which {} --help lists",
                      visible_word(word), parsed.name, arguments, parsed.name);
 }
 
-/// The first word that no command knows, options before others.
+/// Returns the message for the first word that no command accepts, options before others.
 std::string unknown_word(const std::vector<ParsedCommand>& commands) {
   for (const bool options : {true, false})
     for (const ParsedCommand& parsed : commands)
@@ -200,7 +201,7 @@ void refuse_words(CLI::App& app, const std::vector<std::string>& words) {
     if (next == nullptr && !is_path)
       if (const std::string nearest = nearest_word(words[1], below); !nearest.empty())
         throw Error(ExitCode::usage,
-                    fmt::format("'{}' is no file, and no command of {}; did you mean '{} {}'?",
+                    fmt::format("'{}' is neither a file nor a command of {}; did you mean '{} {}'?",
                                 visible_word(words[1]), name, name, nearest));
     if (next != nullptr) name += " " + words[first++], command = next;
   }
@@ -216,7 +217,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
                        app.get_name());
   std::string said = parse_error_text(*commands.back().command, error);
   while (said.ends_with('\n') || (said.ends_with('.') && !said.ends_with("..."))) said.pop_back();
-  return fmt::format("{}{} {} --help tells more", said, said.ends_with('?') ? "" : ";", commands.back().name);
+  return fmt::format("{}{} see {} --help", said, said.ends_with('?') ? "" : ";", commands.back().name);
 }
 
 }  // namespace talus::app

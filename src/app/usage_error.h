@@ -1,5 +1,5 @@
 #pragma once
-/// Words of a command line that mean nothing, told with those that were meant.
+/// Reports unrecognised arguments and suggests the intended ones.
 
 #include <CLI/CLI.hpp>
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace talus::app {
 
-/// Looks at the words before the parser does. Throws Error(usage) for a first word that is no command of
-/// `app`, for one that is near to a command of a command (`talus ensemble statsu`), and for an option with
-/// one dash of two, which would be read as a short one with its value: `-overwrite` as `-o verwrite`.
+/// Checks the words before they are parsed. Throws Error(usage) for a first word that is not a command of
+/// `app`, for a word close to a subcommand (`talus ensemble statsu`), and for a long option with a single
+/// dash, which would be parsed as a short option with a value: `-overwrite` as `-o verwrite`.
 void refuse_words(CLI::App& app, const std::vector<std::string>& words);
 
-/// What the parser has refused, in one line: the option that it does not know and the nearest that it does,
-/// the word that is one too many, or what the parser says, each with where to read on.
+/// Returns a line on a parse error: an unknown option and the nearest known one, a superfluous word, or the
+/// message of the parser, each with a pointer to the help.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace talus::app

@@ -10,7 +10,7 @@ namespace {
 struct ValueWord {
   std::string_view option;
   std::string_view word;
-  std::string_view command = {};  ///< its name, if the word is of this command alone
+  std::string_view command = {};  ///< command that the placeholder applies to; empty: all
 };
 
 constexpr ValueWord value_words[] = {
@@ -85,7 +85,7 @@ constexpr ValueWord value_words[] = {
     {"--max-iterations", "N"},
 };
 
-/// Whether the word is one of the parser's own, as "FLOAT", which says nothing to a user.
+/// Whether the word is a type name of the parser, such as "FLOAT".
 bool is_word_of_parser(const std::string& word) {
   constexpr std::string_view words[] = {"TEXT", "FLOAT", "INT",  "UINT",    "BOOLEAN",
                                         "CHAR", "ENUM",  "NONE", "COMPLEX", "[some_object]"};
@@ -108,7 +108,7 @@ void name_values_of(CLI::App& app, const std::string& command) {
     const bool is_flag = option->get_expected_max() == 0;
     if (is_flag || !is_word_of_parser(type.substr(0, type.find(':')))) continue;
     if (option->get_positional()) {
-      option->type_name(option->get_name(true));  // it is called by what it means
+      option->type_name(option->get_name(true));  // its name states its meaning
       continue;
     }
     std::string_view word = type.find(":{") == std::string::npos ? "" : "CHOICE";
@@ -122,7 +122,7 @@ void name_values_of(CLI::App& app, const std::string& command) {
 
 void name_values(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    // A group of options is a command without a name to the parser.
+    // The parser treats a group of options as a command without a name.
     name_values_of(*command, command->get_name().empty() ? app.get_name() : command->get_name());
     name_values(*command);
   }

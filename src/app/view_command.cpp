@@ -1,4 +1,4 @@
-/// `talus view`: a run in a window, as it is computed or from its file.
+/// `talus view`: shows a run in a window, during its computation or from its file.
 
 #include <algorithm>
 #include <chrono>
@@ -39,45 +39,45 @@ namespace {
 struct ViewArguments {
   std::string file;
   std::string output;
-  std::vector<std::string> settings;  ///< "key=value", the seed among them
+  std::vector<std::string> settings;  ///< "key=value", including the seed
   bool overwrite = false;
   std::string at;                   ///< angle, or "repose"; empty: the first frame
-  std::string map;                  ///< empty: that of the window
-  std::optional<int> grain;         ///< selected
-  std::vector<std::string> behind;  ///< runs or an ensemble, behind the curves
-  std::string beside;               ///< a run in the second view
-  std::string beside_map;           ///< of the second view
-  std::string beside_minus;         ///< angle of the frame that the second view is shown minus
-  std::string link;                 ///< empty: as the runs suggest
-  std::string select;               ///< a condition; empty: none
+  std::string map;                  ///< empty: default of the window
+  std::optional<int> grain;         ///< selected grain
+  std::vector<std::string> behind;  ///< runs or ensembles drawn behind the curves
+  std::string beside;               ///< run in the second view
+  std::string beside_map;           ///< map of the second view
+  std::string beside_minus;         ///< angle of the frame subtracted in the second view
+  std::string link;                 ///< empty: chosen from the runs
+  std::string select;               ///< condition; empty: none
   std::string screenshot;
   std::string size = "1400x900";
-  double scale = 0.0;  ///< 0: that of the display
+  double scale = 0.0;  ///< 0: scale of the display
   std::string theme = "light";
   std::string context = "auto";
   std::string places;
 };
 
-constexpr int picture_width = 1600;  ///< px, of maps that are saved
+constexpr int picture_width = 1600;  ///< px, width of saved maps
 
-/// "1400x900": width and height, px.
+/// Parses "1400x900": width and height, px.
 std::pair<int, int> parse_size(const std::string& text) {
   int width = 0, height = 0, end = 0;
   const bool read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2;
   if (!read || static_cast<std::size_t>(end) != text.size() || width < 200 || height < 200 || width > 16384 ||
       height > 16384)
     throw Error(ExitCode::usage,
-                fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each 200 ... 16384", text));
+                fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 200 to 16384", text));
   return {width, height};
 }
 
-/// The names of clocks that link two runs.
+/// Names of the clocks that link two runs.
 const std::vector<std::pair<std::string, view::PlotAxis>> clocks = {
     {"tilt", view::PlotAxis::tilt},
     {"angle-left", view::PlotAxis::angle_left},
     {"time", view::PlotAxis::time}};
 
-/// The second view, where it is asked for.
+/// Opens the second view, if requested.
 void show_beside(view::ViewModel& model, const ViewArguments& arguments) {
   view::BesideState& beside = model.state.beside;
   if (!arguments.beside_map.empty()) beside.layers = pictures::map_layers(arguments.beside_map);
@@ -91,8 +91,8 @@ void show_beside(view::ViewModel& model, const ViewArguments& arguments) {
       std::ranges::find(clocks, arguments.link, &std::pair<std::string, view::PlotAxis>::first)->second;
   if (!model.has_clock(beside.clock))
     throw Error(ExitCode::usage,
-                fmt::format("--link {}: both runs need an angle of repose, and the slope of {} "
-                            "has not failed; link them by the tilt",
+                fmt::format("--link {}: both runs need an angle of repose, and the slope of {} has not "
+                            "failed; link them by the tilt",
                             arguments.link, model.theta_c_known() ? arguments.beside : arguments.file));
 }
 
@@ -102,12 +102,12 @@ std::vector<std::string> names_of_themes() {
   return names;
 }
 
-/// What is shown first.
+/// Applies the options that set the initial display.
 void show_first(view::ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = pictures::map_layers(arguments.map);
   if (!arguments.at.empty()) model.go_to(model.frame_at_angle(arguments.at));
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
-    throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are 0 to {}", *arguments.grain,
+    throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are numbered 0 to {}", *arguments.grain,
                                              model.statics().free_count - 1));
   model.state.selected = arguments.grain;
   model.state.theme = view::theme_of(arguments.theme);
@@ -126,7 +126,7 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
   model.state.panel_asked = "select";
 }
 
-/// The rule for a picture of the window: it replaces nothing of what is shown in it.
+/// Returns the rule for a picture of the window: it must not replace any file shown in the window.
 OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
   std::vector<std::string> more = arguments.behind;
@@ -139,7 +139,7 @@ OutputRule output_of_view(const ViewArguments& arguments) {
   return rule;
 }
 
-/// Draws once what works in the background has come in: nothing new for half a second.
+/// Draws when background work has finished: nothing new for half a second.
 void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
   const auto [width, height] = parse_size(arguments.size);
@@ -156,12 +156,11 @@ void take_screenshot(const ViewArguments& arguments) {
   render::write_png(arguments.screenshot, gui.frame());
 }
 
-/// How to go on with a run that was recorded; empty for one that was not.
+/// Returns how to continue a recorded run; empty if it was not recorded.
 std::string way_on(const view::Recording& run) {
   if (run.output.empty()) return {};
   if (io::run_presence(run.output) == io::RunPresence::packed)
-    return fmt::format("{} holds the whole run; look at it again with: talus view {}", run.output,
-                       run.output);
+    return fmt::format("{} holds the complete run; view it with: talus view {}", run.output, run.output);
   if (run.scenario.empty())
     return fmt::format("{0} holds the branch so far; continue with: talus run --resume {0}", run.output);
   std::string line = fmt::format("talus run {} -o {}", run.scenario, run.output);
@@ -171,8 +170,8 @@ std::string way_on(const view::Recording& run) {
                      run.seed);
 }
 
-/// "NAME<tab>X0 Y0 X1 Y1" of each widget, px of the window, for scripts that click. Only where it differs
-/// from what was written before.
+/// Writes "NAME<tab>X0 Y0 X1 Y1" for each widget, px of the window, for scripts that click; only if the text
+/// has changed.
 void write_places(const std::string& path, const std::vector<gui::WidgetPlace>& places,
                   std::string& written) {
   std::string text;
@@ -184,11 +183,11 @@ void write_places(const std::string& path, const std::vector<gui::WidgetPlace>& 
   written = text;
 }
 
-/// Ends what was shown. Returns what there is to say about what was recorded.
+/// Closes the run that was shown. Returns a text on its recording.
 std::string close(view::ViewModel model) {
   const view::LiveStatus status = model.is_live() ? model.live()->status() : view::LiveStatus{};
   const view::Recording recording = model.recording();
-  { const view::ViewModel ended = std::move(model); }  // commits what there is
+  { const view::ViewModel ended = std::move(model); }  // commits the recorded steps
   if (!status.error.empty()) throw Error(status.error_code, status.error);
   return way_on(recording);
 }
@@ -202,7 +201,7 @@ void save_picture(const std::string& path, gui::GuiWindow& window, view::ViewMod
   model.state.message = "written: " + path;
 }
 
-/// Shows another run. What cannot be opened leaves what is shown.
+/// Shows another run; if it cannot be opened, the current one stays.
 void open(const std::string& path, std::optional<std::size_t> frame, view::ViewModel& model) {
   if (!model.may_discard()) return;
   model.hold();
@@ -213,7 +212,7 @@ void open(const std::string& path, std::optional<std::size_t> frame, view::ViewM
   std::fflush(stdout);
 }
 
-/// All plots as they are shown, or the one that is enlarged, as figures with their data.
+/// Saves all plots as displayed, or the enlarged one, as figures with their data.
 void save_plots(const std::string& folder, view::ViewModel& model) {
   const view::Ghost* ghost = model.ghost();
   std::vector<figures::Figure> figures;
@@ -241,7 +240,7 @@ void put_behind(const std::string& path, view::ViewModel& model) {
   model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
 }
 
-/// What widgets ask for beyond the model. What cannot be done is said in the window.
+/// Serves requests of widgets that the model cannot; errors are shown in the window.
 void serve(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
@@ -253,7 +252,7 @@ void serve(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewM
   }
 }
 
-/// Until the window is closed, or a signal asks to stop.
+/// Runs until the window is closed, or a signal asks to stop.
 void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& window,
           const volatile std::sig_atomic_t* stop) {
   std::string written;
@@ -266,8 +265,8 @@ void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& win
   }
 }
 
-/// The rule for a run that the window records. What is wrong with the input is said where there is no
-/// display, too.
+/// Returns the rule for a run that the window records, and reports errors of the input even without a
+/// display.
 OutputRule checked_input(const ViewArguments& arguments) {
   const bool is_missing_run = io::is_run(arguments.file) && !is_there(arguments.file) &&
                               io::run_presence(arguments.file) == io::RunPresence::none;
@@ -280,7 +279,7 @@ void view(const ViewArguments& arguments) {
   if (!arguments.screenshot.empty()) return take_screenshot(arguments);
   const auto [width, height] = parse_size(arguments.size);
   const OutputRule rule = checked_input(arguments);
-  gui::GuiWindow window(width, height);  // not shown yet: without a display no run is begun
+  gui::GuiWindow window(width, height);  // not shown yet; without a display no run is started
   if (!arguments.output.empty()) {
     output_target(arguments.output, rule);
     prepare_folder_of(arguments.output);
@@ -290,7 +289,7 @@ void view(const ViewArguments& arguments) {
   const CommitOnSignals commit;
   show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
-    print("Nothing is kept of this run until it is saved; talus view %s -o RUN.h5 records it.\n",
+    print("This run is not kept until it is saved; talus view %s -o RUN.h5 records it.\n",
           arguments.file.c_str());
   std::fflush(stdout);
   const volatile std::sig_atomic_t* stop = stop_request();
@@ -309,60 +308,63 @@ void add_view_command(CLI::App& app) {
   auto arguments = std::make_shared<ViewArguments>();
   auto seed = std::make_shared<std::string>();
   CLI::App* command =
-      app.add_subcommand("view", "Show a run in a window: a scenario as it is computed, or a run file");
+      app.add_subcommand("view", "Show a run in a window: a scenario during its computation, or a run file");
   command->add_option("FILE", arguments->file, "Scenario (SCENARIO.toml) or run (RUN.h5)")->required();
   CLI::Option* output =
       command->add_option("-o,--output", arguments->output,
-                          "Record a run that is computed in this run file [in memory, until it is saved]");
+                          "Record a computed run in this run file [in memory, until it is saved]");
   command
       ->add_option("--set", arguments->settings,
                    "Change a key of the scenario, e.g. --set contact.friction=0.3")
       ->allow_extra_args(false);
   add_seed_option(*command, *seed);
-  command->add_flag("--overwrite", arguments->overwrite, "Replace a run, or screenshot, of this name");
+  command->add_flag("--overwrite", arguments->overwrite,
+                    "Replace an existing run or screenshot of this name");
   command->add_option("--at", arguments->at,
-                      "Begin a replay at this angle in degrees, or at repose, the last frame before failure");
-  command->add_option("--map", arguments->map, "Begin with this map, or two overlaid as in gamma+forces");
-  command->add_option("--grain", arguments->grain, "Select this grain, by its number")
+                      "Start at this angle in degrees, or at repose, the last frame before failure");
+  command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
+  command->add_option("--grain", arguments->grain, "Select this grain, by number")
       ->check(in_range(0, 1000000000));
   command
       ->add_option(
           "--behind", arguments->behind,
-          "Draw another run, or an ensemble's mean and deviation, behind the curves; may be given again")
+          "Draw another run, or an ensemble's mean and deviation, behind the curves; can be repeated")
       ->allow_extra_args(false);
   CLI::Option* beside = command->add_option("--beside", arguments->beside,
-                                            "Show this run (RUN.h5) beside a replay, each at the same angle");
+                                            "Show this run (RUN.h5) next to the first, at the same angle");
   command->add_option("--beside-map", arguments->beside_map,
-                      "Show this map in a second view [that of the first]");
+                      "Show this map in a second view [map of the first view]");
   command->add_option("--beside-minus", arguments->beside_minus,
-                      "Show in a second view what has changed since the frame at this angle, or at repose: "
+                      "Show in a second view the changes since the frame at this angle, or at repose: "
                       "grains, and contacts gained and lost");
   command
-      ->add_option(
-          "--link", arguments->link,
-          "Frames of two runs belong together by tilt, angle-left (theta_c - theta) or time [tilt, or "
-          "time where the tilt of both follows a programme]")
+      ->add_option("--link", arguments->link,
+                   "Quantity that links the frames of two runs: tilt, angle-left (theta_c - theta) or time "
+                   "[tilt, or time if the tilt of both follows a programme]")
       ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
       ->needs(beside);
   command->add_option("--select", arguments->select,
-                      "Select the grains of which this holds, e.g. --select 'gamma > 0.7 && y > 30'");
+                      "Select the grains that satisfy a condition, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command
           ->add_option("--screenshot", arguments->screenshot,
                        "Write a picture of the window as a PNG file and exit; needs no display")
           ->excludes(output);
-  command->add_option("--theme", arguments->theme, "Colours of the window; print is for paper")
+  command->add_option("--theme", arguments->theme, "Colours of the window; print suits paper")
       ->capture_default_str()
       ->check(one_of(names_of_themes()));
   command
-      ->add_option("--scale", arguments->scale,
-                   "Size of text and widgets, 1 on a usual display [that of the display; 1 in a screenshot]")
+      ->add_option(
+          "--scale", arguments->scale,
+          "Size of text and widgets, 1 on a standard display [that of the display; 1 in a screenshot]")
       ->check(in_range(0.5, 4.0));
-  command->add_option("--context", arguments->context, "What draws the screenshot: auto, osmesa or egl")
+  command
+      ->add_option("--context", arguments->context,
+                   "Rendering context of the screenshot: auto, osmesa or egl")
       ->capture_default_str()
       ->needs(screenshot);
-  command->add_option("--places", arguments->places, "Keep the places of the widgets in this file")
+  command->add_option("--places", arguments->places, "Write the positions of the widgets to this file")
       ->group("");
   command->callback([arguments, seed] {
     if (!seed->empty()) arguments->settings.push_back(fmt::format("seed={}", *seed));

@@ -22,14 +22,14 @@ namespace {
 constexpr std::size_t most_grains = 2'000'000;
 constexpr std::uintmax_t largest_table = std::uintmax_t{1} << 30;  // bytes
 
-/// Two lengths of a run that are the same, but for the single precision in which a file may store them.
+/// Relative tolerance for equal lengths, which a file may store in single precision.
 constexpr double same_length = 1e-6;
 
-/// Grains as they were read, and where each of them stands.
+/// Grains read from a file, and their positions in it.
 struct FileGrains {
   std::string path;
-  std::size_t frame = 0;           ///< of a run
-  std::vector<std::size_t> lines;  ///< of a table
+  std::size_t frame = 0;           ///< frame of a run
+  std::vector<std::size_t> lines;  ///< line of each grain in a table
   std::vector<Vec2> centres;       ///< m
   std::vector<double> radii;       ///< m
   std::string remark{};
@@ -41,7 +41,7 @@ struct FileGrains {
                       : fmt::format("grain {}", grain);
   }
 
-  /// `message` goes on after "the grain": "overlaps ...".
+  /// Throws; `message` continues after "the grain": "overlaps ...".
   [[noreturn]] void refuse(Index grain, const std::string& message) const {
     if (is_table())
       throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:1: error: the grain {}", path,
@@ -54,23 +54,22 @@ struct FileGrains {
   throw Error(ExitCode::bad_data, fmt::format("{}: {}", path, message));
 }
 
-/// Where there is no such file: a run is replayed from its scenario, so the message says what it is needed
-/// for.
+/// Throws for a missing file. A run is also replayed from its scenario, so the message states what the file
+/// is needed for.
 [[noreturn]] void refuse_missing(const std::string& message) {
   throw Error(ExitCode::missing_input,
               message +
                   "; the scenario takes its bed from this file (deposition.file, relative to the working "
-                  "directory), which is needed to begin a run or to replay it, not to resume it");
+                  "directory), which is needed to start or replay a run, but not to resume it");
 }
 
-/// A length of a run against that of the scenario.
+/// Throws if a length of a run differs from that of the scenario.
 void compare(const std::string& path, const std::string& what, double found, const std::string& key,
              double expected) {
   if (std::fabs(found - expected) > same_length * expected)
-    refuse(path,
-           fmt::format("{} of the run is {:.6g} m, but {} makes it {:.6g} m; give the scenario the values of "
-                       "the run (talus info)",
-                       what, found, key, expected));
+    refuse(path, fmt::format("{} of the run is {:.6g} m, but {} makes it {:.6g} m; use the values of the run "
+                             "in the scenario (talus info)",
+                             what, found, key, expected));
 }
 
 io::RunFile open_run(const std::string& path) {
@@ -85,8 +84,8 @@ io::RunFile open_run(const std::string& path) {
 FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
   const std::string& path = file.path;
   if (file.unit != scenario::LengthUnit::mean_diameter)
-    refuse(path, "a run has units of its own: expected no deposition.file_unit, or \"D\"");
-  if (file.scale != 1.0) refuse(path, "a run has units of its own: expected no deposition.file_scale, or 1");
+    refuse(path, "a run states its own units: expected no deposition.file_unit, or \"D\"");
+  if (file.scale != 1.0) refuse(path, "a run states its own units: expected no deposition.file_scale, or 1");
   const io::RunFile run = open_run(path);
   const RunStatics& statics = run.header().statics;
   if (statics.periodic != plan.periodic)
@@ -108,7 +107,7 @@ FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
     refuse(path, fmt::format("not all grains have arrived in frame {}: choose a later one", frame));
   FileGrains grains{.path = path, .frame = frame, .lines = {}, .centres = {}, .radii = {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i) {
-    // In single precision the period itself can be reached.
+    // In single precision x may equal the period.
     const double x = plan.periodic && bed.x[i] >= plan.length ? bed.x[i] - plan.length : bed.x[i];
     grains.centres.push_back({x, bed.y[i]});
     grains.radii.push_back(statics.radius[i]);
@@ -127,14 +126,13 @@ std::string table_text(const std::string& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Of a dump with a periodic box this is the period.
+/// Throws if the periodic box of a dump does not have the period of the plan.
 void check_period(const BedFile& file, const BedTable& table, const dynamics::BedPlan& plan) {
   constexpr double same = 1e-4;
   if (!plan.periodic || !table.period || std::fabs(*table.period - plan.length) <= same * plan.length) return;
-  refuse(file.path,
-         fmt::format("its box is {:.6g} D long, and periodic: expected bed.length = {:.6g} D; check "
-                     "deposition.file_unit and deposition.file_scale",
-                     *table.period / plan.mean_diameter, plan.length / plan.mean_diameter));
+  refuse(file.path, fmt::format("its periodic box is {:.6g} D long: expected bed.length = {:.6g} D; check "
+                                "deposition.file_unit and deposition.file_scale",
+                                *table.period / plan.mean_diameter, plan.length / plan.mean_diameter));
 }
 
 FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
@@ -149,7 +147,7 @@ FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
     grains.remark += fmt::format("{}{} grains with their tops at y = 0 left out, as a floor",
                                  grains.remark.empty() ? "" : "; ", floor_grains);
   for (const TableGrain& grain : table.grains) {
-    // A dump may be unwrapped, and in single precision the period itself can be reached.
+    // Coordinates of a dump may be unwrapped, and x may equal the period in single precision.
     const double turns = table.period && plan.periodic ? std::floor(grain.x / plan.length) : 0.0;
     const double x = grain.x - turns * plan.length;
     grains.lines.push_back(grain.line);
@@ -159,20 +157,21 @@ FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
   return grains;
 }
 
-/// The unit with which the mean diameter would be right, as the end of a message; else what may be wrong.
+/// Returns the unit for which the mean diameter would be right, as the end of a message; otherwise general
+/// advice.
 std::string meant_unit(double mean, const dynamics::BedPlan& plan) {
   using scenario::LengthUnit;
   for (const auto& [unit, name] :
        {std::pair{LengthUnit::metre, "m"}, std::pair{LengthUnit::centimetre, "cm"},
         std::pair{LengthUnit::millimetre, "mm"}, std::pair{LengthUnit::micrometre, "um"}})
     if (std::fabs(in_metres(mean, unit, 1.0) / plan.mean_diameter - 1.0) <= mean_diameter_tolerance)
-      return fmt::format("; with deposition.file_unit = \"{}\" it is right", name);
-  return "; a table with lengths in mm has deposition.file_unit = \"mm\" or names its columns as in x [mm]";
+      return fmt::format("; it fits with deposition.file_unit = \"{}\"", name);
+  return "; for a table in mm, set deposition.file_unit = \"mm\" or name its columns as in x [mm]";
 }
 
 void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
   const std::size_t count = grains.radii.size();
-  if (count == 0) refuse(grains.path, "there is no grain: expected lines with x, y and radius");
+  if (count == 0) refuse(grains.path, "no grains: expected lines with x, y and radius");
   if (count > most_grains)
     refuse(grains.path, fmt::format("{} grains: expected at most {}", count, most_grains));
   const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
@@ -196,13 +195,13 @@ void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
           grain,
           fmt::format("is outside the period: x = {:.6g} D, expected a number in [0, {:.6g})", x, length));
     if (plan.rough_floor && !(y >= -0.5))
-      grains.refuse(grain, fmt::format("is below the floor: y = {:.6g} D, expected a place above that of the "
+      grains.refuse(grain, fmt::format("is below the floor: y = {:.6g} D, expected a position above the "
                                        "floor grains, whose tops are at 0",
                                        y));
   }
 }
 
-/// What a grain overlaps with.
+/// Returns the name of the body that a grain overlaps with.
 std::string body_name(const FileGrains& grains, const World& world, Index body) {
   if (body < world.grains.free_count) return grains.name_of(body);
   if (body < world.grains.count()) return "a grain of the floor";
@@ -242,11 +241,10 @@ World bed_of_file(const BedFile& file, const dynamics::BedPlan& plan, std::strin
   check_overlaps(grains, file.relax, plan, world);
   if (file.relax) {
     const dynamics::Displacement moved = dynamics::push_apart(world, relaxed_overlap * plan.mean_diameter);
-    grains.remark += fmt::format(
-        "{}overlaps pushed apart, which moved grains by {:.2g} D in the mean, {:.2g} D "
-        "at most",
-        grains.remark.empty() ? "" : "; ", moved.mean / plan.mean_diameter,
-        moved.largest / plan.mean_diameter);
+    grains.remark +=
+        fmt::format("{}overlaps pushed apart, which moved grains by {:.2g} D on average, {:.2g} D at most",
+                    grains.remark.empty() ? "" : "; ", moved.mean / plan.mean_diameter,
+                    moved.largest / plan.mean_diameter);
     check_overlaps(grains, false, plan, world);
   }
   if (remark != nullptr && !grains.remark.empty()) *remark = fmt::format("{}: {}", file.path, grains.remark);

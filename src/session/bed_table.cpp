@@ -17,13 +17,14 @@
 namespace talus::session {
 namespace {
 
-/// The text after its byte-order mark.
+/// Returns the text without its byte-order mark.
 std::string_view unmarked(std::string_view text, const std::string& name) {
   constexpr std::string_view utf8 = "\xef\xbb\xbf", low_first = "\xff\xfe", high_first = "\xfe\xff";
   if (text.starts_with(low_first) || text.starts_with(high_first) ||
       text.find('\0') != std::string_view::npos)
-    throw Error(ExitCode::bad_data,
-                name + ": this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
+    throw Error(
+        ExitCode::bad_data,
+        name + ": this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
   return text.starts_with(utf8) ? text.substr(utf8.size()) : text;
 }
 
@@ -32,7 +33,7 @@ bool are_names(std::string_view line) {
   return !is_number(cells_of(line, false).front()) && std::ranges::none_of(cells_of(line, true), is_number);
 }
 
-/// The value of a column, in its unit.
+/// Returns the value of a column, in its unit.
 double value_in(const TablePlace& place, const TableColumn& column, const TableCell& cell) {
   const std::optional<double> value = number_in(cell.text);
   if (value && std::isfinite(*value)) return *value;
@@ -53,11 +54,11 @@ void require_columns(const TablePlace& place, const TableColumns& columns,
                fmt::format("the line has {} values: expected {}", cells.size(), expected));
 }
 
-/// The rows of a table, and how they are read.
+/// Rules for reading the rows of a table.
 struct TableRows {
   const LengthRule& lengths;
   TableColumns columns;
-  const DumpFrame* box = nullptr;  ///< that scaled columns go through, if there is one
+  const DumpFrame* box = nullptr;  ///< box of scaled columns; null if the table has none
 };
 
 double length_in(const TablePlace& place, const TableRows& rows, const TableColumn& column,
@@ -92,7 +93,7 @@ TableGrain grain_of(const TablePlace& place, const TableRows& rows, const std::v
   return grain;
 }
 
-/// The columns that the last comment to name them has; x, y and radius if none does.
+/// Returns the columns named by the last comment that names them; x, y and radius if none does.
 TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string>>& comments,
                                  scenario::LengthUnit unit, std::size_t count) {
   for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment)
@@ -100,7 +101,7 @@ TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::st
   return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
 }
 
-/// "x y z r" of "format x_y_z_r", as YADE writes it (export.text).
+/// Returns "x y z r" for "format x_y_z_r", the format of YADE (export.text).
 std::string column_names(std::string_view comment) {
   std::string names(comment);
   if (!names.starts_with("format ")) return names;
@@ -113,22 +114,20 @@ std::string frame_text(int frame, std::size_t count, const std::string& label) {
                      label.empty() ? "" : fmt::format(" ({})", label));
 }
 
-/// The index of a frame among `count`.
+/// Returns the index of a frame among `count`.
 std::size_t chosen_frame(const std::string& name, int frame, std::size_t count) {
   if (frame < 0 && count > 0) return count - 1;
   if (static_cast<std::size_t>(frame) < count) return static_cast<std::size_t>(frame);
-  throw Error(ExitCode::bad_data,
-              fmt::format("{}: there is no frame {}: expected deposition.frame below {}, the number of its "
-                          "frames, or -1 for the last",
-                          name, frame, count));
+  throw Error(ExitCode::bad_data, fmt::format("{}: there is no frame {}: expected deposition.frame below {}, "
+                                              "the number of its frames, or -1 for the last",
+                                              name, frame, count));
 }
 
 void add_remark(BedTable& table, const std::string& more) {
   table.remark += (table.remark.empty() ? "" : "; ") + more;
 }
 
-/// Takes the two coordinates in which the grains lie: y is the height if z is the same for all, and z if y
-/// is.
+/// Selects the plane of the grains: y is the height if z is the same for all, and z if y is.
 void choose_plane(BedTable& table, const TablePlace& file, const TableColumns& columns) {
   if (!columns.depth || table.grains.empty()) return;
   constexpr double same = 1e-6;  // radii
@@ -143,8 +142,8 @@ void choose_plane(BedTable& table, const TablePlace& file, const TableColumns& c
   if (other(&TableGrain::y) != table.grains.end())
     TablePlace{file.table, out_of_plane->line}.refuse(
         1,
-        "this grain has another y and another z than others: expected a bed of disks, "
-        "with the same z (or the same y) for all; a section of a pile of spheres is none");
+        "this grain differs from others in both y and z: expected a bed of disks, with the same z (or the "
+        "same y) for all; a section of a pile of spheres is not one");
   for (TableGrain& grain : table.grains) std::swap(grain.y, grain.z);
   add_remark(table, "x and z are the plane, because y is the same for all");
 }
@@ -154,7 +153,7 @@ void finish(BedTable& table, const TablePlace& file, const TableRows& rows) {
   if (!rows.columns.ignored.empty()) add_remark(table, "ignored: " + joined(rows.columns.ignored, ", "));
 }
 
-/// The rows with the frame that is asked for, of a table with a column for it.
+/// Keeps only the rows of the requested frame in a table with a column `frame`.
 void take_frame(BedTable& table, const TableColumns& columns, const std::string& name, int frame) {
   if (!columns.frame && frame > 0)
     throw Error(ExitCode::bad_data, name + ": a table has no frames: expected deposition.frame = 0");
@@ -187,16 +186,15 @@ BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& 
     table.grains.push_back(grain_of(place, rows, cells));
   }
   if (taken.found < taken.count)
-    place.refuse(
-        1, fmt::format("the frame ends after {} of its {} grains: the file is cut off; expected the rest, "
-                       "or deposition.frame of a frame before",
-                       taken.found, taken.count));
+    place.refuse(1, fmt::format("the frame ends after {} of its {} grains: the file is cut off; expected the "
+                                "rest, or an earlier deposition.frame",
+                                taken.found, taken.count));
   std::ranges::stable_sort(table.grains, {}, &TableGrain::id);
   const auto twice = std::ranges::adjacent_find(table.grains, {}, &TableGrain::id);
   if (rows.columns.id && twice != table.grains.end())
     TablePlace{name, std::next(twice)->line}.refuse(
-        1, fmt::format("grain {} stands in line {} too: expected each id once",
-                       scenario::short_text(twice->id), twice->line));
+        1, fmt::format("grain {} is also in line {}: expected each id once", scenario::short_text(twice->id),
+                       twice->line));
   if (frames.size() > 1) add_remark(table, frame_text(frame, frames.size(), taken.label));
   finish(table, place, rows);
   if (!taken.has_box || !taken.periodic) return table;

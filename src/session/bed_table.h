@@ -1,5 +1,5 @@
 #pragma once
-/// A bed as a table of text: one grain a line.
+/// Text tables of beds: one grain per line.
 
 #include <cstddef>
 #include <optional>
@@ -10,44 +10,43 @@
 
 namespace talus::session {
 
-/// A line of a table. Lengths in m.
+/// A grain of a table. Lengths in m.
 struct TableGrain {
   double x = 0.0, y = 0.0;  ///< centre; y from the top of the floor
   double radius = 0.0;      ///< > 0
-  std::size_t line = 0;     ///< where it stands, from 1
-  double z = 0.0;           ///< of the plane of the bed
-  double id = 0.0;          ///< of a dump; else 0
-  double frame = 0.0;       ///< as a column of this name says
+  std::size_t line = 0;     ///< line of the file, from 1
+  double z = 0.0;           ///< position of the plane of the bed
+  double id = 0.0;          ///< id in a dump; otherwise 0
+  double frame = 0.0;       ///< value of the column `frame`
 };
 
 struct BedTable {
-  std::vector<TableGrain> grains;  ///< of a dump in the order of their ids, else in that of the file
-  std::optional<double> period;    ///< m, of a box that is periodic along x, which begins at x = 0 then
-  /// What was taken and what was not, where there was a choice: "frame 0 of 3; x and z are the plane;
-  /// ignored: type, vx".
+  std::vector<TableGrain> grains;  ///< sorted by id in a dump, otherwise in file order
+  std::optional<double> period;    ///< m, length of a box periodic along x; x then starts at 0
+  /// Choices made while reading: "frame 0 of 3; x and z are the plane; ignored: type, vx".
   std::string remark;
 };
 
-/// How the lengths of a file are meant.
+/// Conversion of the lengths of a file.
 struct LengthRule {
   scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter;
   double mean_diameter = 1.0;  ///< m
   double scale = 1.0;          ///< factor on all lengths
 };
 
-/// A length in m.
+/// Converts a length to m.
 double in_metres(double length, scenario::LengthUnit unit, double mean_diameter);
 
-/// The grains of a text in UTF-8: of a frame (from 0; -1: the last) of a dump of LAMMPS or LIGGGHTS or of
-/// extended XYZ, or of a table. That has one grain in each line: x, y and radius, or the columns that the
-/// first line names (or the last comment before the grains, if it names them all, "#format x_y_z_r" of YADE
-/// too), in any order: x, y or z, and the radius or the diameter. A name may have the unit of its column, "x
-/// [mm]"; a column `frame` divides it into frames, and columns of other names are skipped. Values are
-/// separated by semicolons, commas or white space, and may be quoted; what follows a # is a comment. Columns
-/// without a unit are in that of `lengths`. With x, y and z, y is the height if z is the same for all, and z
-/// if y is. `name` is what messages call the file. Throws LocatedError(bad_data) with the first place that
-/// cannot be read, or that names another unit than `lengths` (D, the default, gives way to it), and
-/// Error(bad_data) where there is no such frame.
+/// Parses the grains of a UTF-8 text: of a frame (from 0; -1: the last) of a dump of LAMMPS or LIGGGHTS or of
+/// extended XYZ, or of a table. A table has one grain per line: x, y and radius, or the columns named by the
+/// first line (or by the last comment before the grains, if it names them all, including "#format x_y_z_r" of
+/// YADE), in any order: x, y or z, and radius or diameter. A name may state the unit of its column, "x [mm]";
+/// a column `frame` divides the table into frames, and columns of other names are skipped. Values are
+/// separated by semicolons, commas or white space, and may be quoted; a # starts a comment. Columns without a
+/// unit use that of `lengths`. With x, y and z, y is the height if z is the same for all grains, and z if y
+/// is. `name` denotes the file in messages. Throws LocatedError(bad_data) with the first position that cannot
+/// be read, or that names another unit than `lengths` (the default D accepts any unit), and Error(bad_data)
+/// if the frame does not exist.
 BedTable parse_bed_table(const std::string& text, const std::string& name, const LengthRule& lengths,
                          int frame = 0);
 

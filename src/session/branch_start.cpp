@@ -20,7 +20,7 @@ constexpr double same_tilt = 1e-9;     // rad
 constexpr double fastest_grain = 1e6;  // sqrt(g D)
 constexpr double farthest_held = 1e6;  // D
 
-/// One start, and how it is refused.
+/// A start and the means to reject it.
 struct CheckedStart {
   const io::BranchOrigin& branch;
   const scenario::Scenario& scenario;
@@ -41,9 +41,8 @@ void check_boundary(const CheckedStart& start) {
   };
   start.must(found.periodic == expected.periodic, "periodic", "is not that of the scenario (bed.boundary)");
   start.must(found.length == expected.length, "length", "is not that of the scenario (bed.length)");
-  start.must(
-      std::ranges::equal(found.planes, expected.planes, same), "plane_normal",
-      "and what belongs to it are not the walls and the floor of the scenario (bed.boundary, bed.floor)");
+  start.must(std::ranges::equal(found.planes, expected.planes, same), "plane_normal",
+             "and related data are not the walls and the floor of the scenario (bed.boundary, bed.floor)");
 }
 
 void check_velocities(const CheckedStart& start) {
@@ -66,24 +65,24 @@ void check_phase(const CheckedStart& start, const Schedule& schedule) {
   const bool follows = start.scenario.tilt.after_failure != scenario::AfterFailure::stop;
   const std::int64_t steps = start.world().step;
   start.must(schedule.phase == Phase::tilt || schedule.phase == Phase::flow, "integers/phase",
-             fmt::format("is {}, but a branch begins in the tilt (1) or in the flow after failure (3)",
+             fmt::format("is {}, but a branch starts in the tilt (1) or in the flow after failure (3)",
                          static_cast<int>(schedule.phase)));
   start.must(schedule.phase == Phase::tilt || (follows && schedule.flow.failed), "integers/phase",
              "is that of a flow after failure, which this run does not have");
   start.must(schedule.tilt_steps <= steps && schedule.flow_steps <= steps - schedule.tilt_steps,
-             "integers/tilt_steps", fmt::format("is {}, of {} steps in all", schedule.tilt_steps, steps));
+             "integers/tilt_steps", fmt::format("is {}, of {} steps in total", schedule.tilt_steps, steps));
   start.must(schedule.quiet_steps <= steps, "integers/quiet_steps",
-             fmt::format("is {}, of {} steps in all", schedule.quiet_steps, steps));
+             fmt::format("is {}, of {} steps in total", schedule.quiet_steps, steps));
   start.must(schedule.baseline.volume > 0.0, "reals/baseline_volume",
              fmt::format("is {}, expected a volume above 0", scenario::short_text(schedule.baseline.volume)));
 }
 
-/// The tilt follows from the scenario, from the steps taken, and from what a command has set.
+/// Checks the tilt, which follows from the scenario, the number of steps, and the commands.
 void check_tilt(const CheckedStart& start, const Schedule& schedule) {
   const scenario::TiltProgram program(start.scenario);
   const std::int64_t last = schedule.last_tilt_step.value_or(0);
   start.must(schedule.last_tilt_step.has_value() != program.empty(), "integers/last_tilt_step",
-             program.empty() ? "is there, but the scenario has no programme of the tilt"
+             program.empty() ? "is present, but the scenario has no programme of the tilt"
                              : "is missing, but the scenario has a programme of the tilt");
   start.must(last <= start.world().step, "integers/last_tilt_step",
              fmt::format("is {}, after {} steps", last, start.world().step));
@@ -98,13 +97,13 @@ void check_tilt(const CheckedStart& start, const Schedule& schedule) {
                          scenario::short_text(degrees(expected)), schedule.tilt_steps));
 }
 
-/// What commands had set is what a command can set.
+/// Checks that settings of commands are values that a command can set.
 void check_commanded(const CheckedStart& start, const Schedule& schedule) {
   const auto check = [&](const Command& command, const char* data_set) {
     try {
       check_command(command, start.scenario, start.world());
     } catch (const Error& error) {
-      start.must(false, data_set, fmt::format("is none that a command sets: {}", error.what()));
+      start.must(false, data_set, fmt::format("cannot be set by a command: {}", error.what()));
     }
   };
   if (schedule.friction) check({0, CommandKind::friction, -1, *schedule.friction}, "reals/friction");

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the state that a branch begins from is one of its scenario.
+/// Check that the first state of a branch agrees with its scenario.
 
 #include <string>
 
@@ -8,9 +8,9 @@
 
 namespace talus::session {
 
-/// Throws Error(bad_data) where the stored start of a branch is not a state that a run of this scenario can
-/// have: its walls and floor, its phase and numbers of steps, its tilt, and what commands had set. `file` is
-/// what messages call the file. That its grains are those of the run is known of any header that was read.
+/// Throws Error(bad_data) if a run of this scenario cannot have the stored start of a branch as its state:
+/// walls and floor, phase and step counts, tilt, and settings of commands. `file` denotes the file in
+/// messages. Readers of the header have already checked that the grains are those of the run.
 void check_branch_start(const io::BranchOrigin& branch, const scenario::Scenario& scenario,
                         const std::string& file);
 

@@ -27,8 +27,8 @@ void check_drag(const Command& command, const scenario::Scenario& scenario, cons
                                 farthest_drag, farthest));
 }
 
-/// The rows around a step: the last one up to it, and the first one after it, or the same one at the end of
-/// the run. None before the first row.
+/// The last row up to a step and the first row after it, which are the same at the end of the run. None
+/// exists before the first row.
 struct RowsAround {
   const ObservableRow *before, *after;
 };
@@ -41,7 +41,7 @@ std::optional<RowsAround> rows_around(std::int64_t step, std::span<const Observa
   return RowsAround{before, after == rows.end() ? before : &*after};
 }
 
-/// A value that goes from one place to another linearly in the steps.
+/// Interpolates a value linearly in the steps.
 double between(double step, double first, double first_value, double last, double last_value) {
   return step <= first || last <= first
              ? first_value
@@ -64,7 +64,7 @@ std::string command_text(const Command& command) {
     case CommandKind::drag:
       return fmt::format("drag grain {} to ({:.4g}, {:.4g}) m", command.grain, command.x, command.y);
     case CommandKind::release:
-      return "let go of the grain";
+      return "release the grain";
     case CommandKind::tilt_rate:
       break;
   }
@@ -109,7 +109,7 @@ double tilt_before(const Command& command, std::span<const Command> commands,
   double last = at(*around->after, Observable::step), last_tilt = at(*around->after, Observable::tilt);
   const double h =
       (at(*around->after, Observable::time) - at(*around->before, Observable::time)) / (last - first);
-  // Back from the row after: each command that set the rate says what the tilt did until there.
+  // Proceeds backwards from the later row: each command that set the rate determines the tilt from there on.
   for (auto of = commands.rbegin(); of != commands.rend(); ++of) {
     const auto set = static_cast<double>(of->step);
     if (of->kind != CommandKind::tilt_rate || set <= first || set >= last) continue;

@@ -12,7 +12,7 @@
 namespace talus::session {
 namespace {
 
-/// Beyond this coefficient of restitution a bed comes to rest late, and never at 1.
+/// Coefficient of restitution above which a bed comes to rest late, and never at 1.
 constexpr double elastic = 0.9;
 
 dynamics::BedPlan bed_plan(const scenario::Scenario& scenario) {
@@ -84,7 +84,7 @@ std::string advice_for_rest(const scenario::Scenario& scenario, double velocity)
                usual = scenario::Scenario::Deposition().rest_velocity;
   const auto keeps = [](const char* key, double value) {
     const bool whole = std::fabs(value) == 1.0;
-    return fmt::format("with {} = {:g} impacts take {} energy{}: set it nearer to 0{}", key, value,
+    return fmt::format("with {} = {:g} impacts dissipate {} energy{}: set it closer to 0{}", key, value,
                        whole ? "no" : "little",
                        whole ? ", so that neither more time nor a tolerance helps" : "",
                        whole ? "" : ", or allow more time (deposition.max_time)");
@@ -93,10 +93,11 @@ std::string advice_for_rest(const scenario::Scenario& scenario, double velocity)
   if (std::fabs(law.tangential_restitution) > elastic)
     return keeps("contact.tangential_restitution", law.tangential_restitution);
   if (velocity < rest)
-    return "it has only just come below that, or the solver misses its tolerance: allow more time "
+    return "it has only just fallen below that, or the solver misses its tolerance: allow more time "
            "(deposition.max_time), or more solver.max_iterations";
   if (velocity < usual)
-    return fmt::format("set deposition.rest_velocity higher: beds are at rest by the default of {:g}", usual);
+    return fmt::format("set deposition.rest_velocity higher: beds come to rest with the default of {:g}",
+                       usual);
   return "allow more time (deposition.max_time), or set solver.moving_tolerance or solver.tolerance lower";
 }
 

@@ -1,4 +1,4 @@
-/// Grains lifted from the free surface and dropped elsewhere.
+/// Lifts grains from the free surface and drops them elsewhere.
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,11 @@
 namespace talus::session {
 namespace {
 
-/// Room between grains of the lattice, as a share of the largest diameter.
+/// Gap between grains of the lattice, as a fraction of the largest diameter.
 constexpr double room = 0.02;
 
-/// `count` grains at the surface, the farthest from x first; of two as far the one with the smaller id.
+/// Returns `count` grains at the surface, the farthest from x first; of equidistant grains, the smaller id
+/// first.
 std::vector<Index> farthest_grains(const World& world, Index count, double x) {
   std::vector<Index> grains = surface_grains(world);
   if (grains.size() < static_cast<std::size_t>(count))
@@ -37,7 +38,7 @@ struct Lattice {
   double half_width() const { return 0.5 * cell * columns; }
 };
 
-/// The highest point of the grains below a lattice that do not belong to it.
+/// Returns the highest point of the grains below a lattice that do not belong to it.
 double highest_below(const World& world, const std::vector<bool>& lifted, const Lattice& lattice) {
   const Grains& grains = world.grains;
   double highest = 0.0;
@@ -63,14 +64,14 @@ Lattice lattice_at(const World& world, const std::vector<Index>& chosen, double 
   return lattice;
 }
 
-/// Puts a grain to another place, at rest; in a periodic bed it goes there the shortest way.
+/// Moves a grain to another position, at rest; by the shortest way in a periodic bed.
 void place(World& world, Index i, Vec2 centre) {
   Grains& grains = world.grains;
   const double length = world.boundary.length;
   if (world.boundary.periodic) {
     const double way = offset_along(world.boundary, grains.x[i], centre.x);
     centre.x -= length * std::floor(centre.x / length);
-    if (centre.x >= length) centre.x = 0.0;  // what is just below 0 may round to the length
+    if (centre.x >= length) centre.x = 0.0;  // values just below 0 may round to the length
     grains.image[i] += static_cast<Index>(std::lround((grains.x[i] + way - centre.x) / length));
   }
   grains.x[i] = centre.x;

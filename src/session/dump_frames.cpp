@@ -12,7 +12,7 @@ namespace {
 
 constexpr double most_atoms = 1e9;
 
-/// A text that is read line by line.
+/// Text that is read line by line.
 struct DumpText {
   TablePlace place;
   std::string_view rest;
@@ -47,7 +47,7 @@ std::optional<std::size_t> count_in(std::string_view line) {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t") == std::string_view::npos; }
 
-/// Notes where the rows of a frame begin, and goes on behind them.
+/// Stores the start of the rows of a frame, and skips them.
 void skip_rows(DumpText& text, DumpFrame& frame) {
   frame.rows = text.rest;
   while (frame.found < frame.count && !text.at_end() && !text.rest.starts_with("ITEM:")) {
@@ -90,9 +90,9 @@ std::vector<DumpFrame> lammps_frames(DumpText text) {
       frames.emplace_back().label = "timestep " + visible_word(step);
       frames.back().unit = unit;
     } else if (line.starts_with("ITEM: UNITS")) {
-      unit = unit_of_style(text.next());  // once, before the first frame
+      unit = unit_of_style(text.next());  // given once, before the first frame
     } else if (!line.starts_with("ITEM: ")) {
-      text.refuse(line, "a line that begins with ITEM:, as in a dump of LAMMPS");
+      text.refuse(line, "a line that starts with ITEM:, as in a dump of LAMMPS");
     } else if (!frames.empty() && line.starts_with("ITEM: NUMBER OF ATOMS")) {
       const std::string_view count = text.next();
       if (const auto atoms = count_in(count))
@@ -104,17 +104,17 @@ std::vector<DumpFrame> lammps_frames(DumpText text) {
     } else if (!frames.empty() && line.starts_with("ITEM: ATOMS")) {
       constexpr std::string_view head = "ITEM: ATOMS";
       frames.back().names =
-          std::string(head.size(), ' ').append(line.substr(head.size()));  // in their places
+          std::string(head.size(), ' ').append(line.substr(head.size()));  // keeps the columns of the names
       frames.back().names_line = text.place.line;
       skip_rows(text, frames.back());
     } else {
-      text.next();  // ITEM: TIME, which comes first
+      text.next();  // skips ITEM: TIME, which precedes the frame
     }
   }
   return frames;
 }
 
-/// What follows `key=` in the second line of a frame of extended XYZ, without its quotes.
+/// Returns the value after `key=` in the second line of a frame of extended XYZ, without quotes.
 std::string_view value_of_entry(std::string_view line, std::string_view key) {
   for (auto at = line.find(key); at != std::string_view::npos; at = line.find(key, at + 1)) {
     const std::string_view rest = line.substr(at + key.size());
@@ -126,7 +126,7 @@ std::string_view value_of_entry(std::string_view line, std::string_view key) {
   return {};
 }
 
-/// "species x y z radius" of "species:S:1:pos:R:3:radius:R:1"; empty where it is none.
+/// Returns "species x y z radius" for "species:S:1:pos:R:3:radius:R:1"; empty if the text is invalid.
 std::string names_of_properties(std::string_view properties) {
   std::string names;
   while (!properties.empty()) {

@@ -16,14 +16,14 @@ namespace {
 // failure; see docs/scenario.md.
 constexpr double seconds_per_contact_and_iteration = 3.4e-9;
 constexpr double seconds_per_contact_and_sweep = 15e-9;  // Gauss-Seidel
-constexpr double contacts_per_grain = 1.9;               // near contacts included
+constexpr double contacts_per_grain = 1.9;               // including near contacts
 constexpr double iterations_of_deposition = 150.0;
 constexpr double iterations_of_tilt = 60.0;
 constexpr double iterations_of_tilt_of_collapsed = 105.0;
 constexpr double falls_until_rest = 5.0;         // times sqrt(H / g)
 constexpr double gauss_seidel_iterations = 5.0;  // times those of the accelerated solver
 
-constexpr double seconds_per_commit = 0.004;  // of a small bed
+constexpr double seconds_per_commit = 0.004;  // for a small bed
 constexpr double seconds_per_commit_and_grain = 2.2e-6;
 
 constexpr double bytes_of_process = 2e7;
@@ -38,7 +38,7 @@ constexpr double bytes_per_step = 12.0;
 
 constexpr double gravity = 9.81;  // m/s^2
 
-/// How many more iterations than at the default tolerance a smaller residual or the slower solver takes.
+/// Returns the factor on the number of iterations due to a smaller tolerance or the slower solver.
 double difficulty(const scenario::Scenario& scenario) {
   const double digits =
       std::log10(scenario.solver.tolerance) / std::log10(scenario::Scenario{}.solver.tolerance);
@@ -46,7 +46,8 @@ double difficulty(const scenario::Scenario& scenario) {
          (scenario.solver.method == scenario::SolverMethod::accelerated ? 1.0 : gauss_seidel_iterations);
 }
 
-/// A run commits at each frame, and every output.checkpoint_every, though not more often than it steps.
+/// Returns the seconds spent on commits: at each frame, and every output.checkpoint_every, but at most once
+/// per step.
 double seconds_of_commits(const scenario::Scenario& scenario, const Estimate& sizes, double computing) {
   const auto steps = static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
   const double commits = std::min(steps, computing / std::max(scenario.output.checkpoint_every, 1e-6)) +
@@ -54,7 +55,7 @@ double seconds_of_commits(const scenario::Scenario& scenario, const Estimate& si
   return commits * (seconds_per_commit + seconds_per_commit_and_grain * sizes.grains);
 }
 
-/// The steepest that the tilt comes to, deg.
+/// Returns the largest expected tilt, deg.
 double steepest_expected(const scenario::Scenario& scenario, const scenario::TiltProgram& program) {
   if (program.empty()) return scenario.tilt.end_angle.value_or(assumed_repose);
   double steepest = program.ends_at_repose() ? assumed_repose : 0.0;
@@ -64,7 +65,7 @@ double steepest_expected(const scenario::Scenario& scenario, const scenario::Til
   return steepest;
 }
 
-/// Steps that may follow failure, which a slope that holds up to tilt.end_angle does not see.
+/// Returns the steps that may follow failure; a slope that is stable up to tilt.end_angle takes none of them.
 double steps_of_flow(const scenario::Scenario& scenario, double end) {
   switch (scenario.tilt.after_failure) {
     case scenario::AfterFailure::lower:
@@ -128,7 +129,8 @@ Estimate estimate(const scenario::Scenario& scenario) {
   result.tilt_steps = expected_tilt_steps(scenario);
   result.program_parts = static_cast<std::int64_t>(program.segments().size());
   result.flow_steps = std::llround(steps_of_flow(scenario, end));
-  // The flow, and a programme, are stored at the same intervals of time as a tilt that grows.
+  // Frames of the flow and of a programme are stored at the same intervals of time as those of a growing
+  // tilt.
   const auto steps_of_tilt = static_cast<double>(result.tilt_steps);
   const double stored = (program.empty() ? end : steps_of_tilt * scenario.tilt.step) +
                         static_cast<double>(result.flow_steps) * scenario.tilt.step;
@@ -151,10 +153,10 @@ void require_memory(const scenario::Scenario& scenario) {
   if (expected.memory > most)
     throw Error(
         ExitCode::out_of_memory,
-        fmt::format("this run takes up to about {} of memory, but only {} are available: use a smaller "
-                    "bed (bed.length, bed.depth), fewer frames (output.frame_every), or a machine with "
-                    "more memory",
-                    size_text(expected.memory), size_text(most)));
+        fmt::format(
+            "this run needs up to about {} of memory, but only {} are available: use a smaller bed "
+            "(bed.length, bed.depth), fewer frames (output.frame_every), or a machine with more memory",
+            size_text(expected.memory), size_text(most)));
 }
 
 std::string size_text(double bytes) {

@@ -29,7 +29,7 @@ Contacts memory_of(const FrameContacts& from) {
   return contacts;
 }
 
-/// What a run knows of its course, and so how it stood at a step.
+/// Course of a run, from which its state at a step follows.
 class RunCourse {
  public:
   explicit RunCourse(const io::RunFile& run)
@@ -79,8 +79,9 @@ class RunCourse {
     return schedule;
   }
 
-  /// How far the commands of the scenario had come before the last step: those of the state after it are
-  /// still to be carried out. Where the tilt turns there is a row, and between two rows it is monotone.
+  /// Sets how far the commands of the scenario had advanced before the last step: commands due at the state
+  /// after it are still to be carried out. There is a row wherever the tilt turns, and between two rows it is
+  /// monotone.
   void follow_script(std::int64_t step, Schedule& schedule) const {
     const std::int64_t steps = schedule.tilt_steps + schedule.flow_steps - 1;
     if (steps < 0) return;
@@ -99,7 +100,7 @@ class RunCourse {
   }
 
  private:
-  /// What had been set before a branch began, and nothing else.
+  /// Returns only the settings made before a branch started.
   Schedule before_commands() const {
     Schedule schedule;
     if (!run_.header().branch) return schedule;
@@ -134,7 +135,7 @@ class RunCourse {
     return count;
   }
 
-  /// The last row not after a step.
+  /// Returns the last row not after a step.
   std::vector<ObservableRow>::const_iterator row_at(std::int64_t step) const {
     const auto after =
         std::ranges::upper_bound(rows_, static_cast<double>(step), {},
@@ -142,7 +143,7 @@ class RunCourse {
     return after == rows_.begin() ? rows_.end() : after - 1;
   }
 
-  /// A flow that failed the slope later, or had failed it: how far it had come by the rows.
+  /// Returns the progress, by the rows, of the flow that failed the slope at or after this step.
   dynamics::SurfaceFlow flow_at(std::int64_t step, const World& world, Phase phase) const {
     if (!end_.flow.failed || std::abs(world.tilt) < end_.flow.onset_tilt) return {};
     if (phase == Phase::flow) return end_.flow;
@@ -165,8 +166,8 @@ class RunCourse {
   std::vector<ObservableRow> rows_;
 };
 
-/// A run that was repaired tells how it stood at a frame only where none of its steps, rows of observables
-/// and commands is lost.
+/// Throws if a repaired run has lost steps, rows of observables or commands, because its state at a frame is
+/// then unknown.
 void require_course(const io::RunFile& run) {
   const std::string lost = run.lost();
   if (lost.empty()) return;
@@ -175,13 +176,12 @@ void require_course(const io::RunFile& run) {
   if (run.checkpoint().world.step - begun == steps && !may_lack_commands(run) &&
       lost.find("/observables") == std::string::npos)
     return;
-  throw Error(
-      ExitCode::bad_data,
-      "the run was repaired, and some of its steps, observables or commands are lost, so that it is not "
-      "known how it stood at a frame: no branch can begin there");
+  throw Error(ExitCode::bad_data,
+              "the run was repaired, and some of its steps, observables or commands are lost, so its state "
+              "at a frame is unknown: no branch can start there");
 }
 
-/// In single precision the period itself can be reached.
+/// Wraps grains whose x equals the period, which can occur in single precision.
 void wrap_rounded(World& world) {
   Grains& grains = world.grains;
   for (Index i = 0; i < grains.free_count && world.boundary.periodic; ++i)
@@ -239,7 +239,7 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
   Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
   if (schedule.phase == Phase::done)
     throw Error(ExitCode::usage,
-                fmt::format("the run ends with its frame at {:.3f} deg: a branch begins at an earlier one",
+                fmt::format("the run ends with its frame at {:.3f} deg: a branch starts from an earlier one",
                             degrees(checkpoint.world.tilt)));
   const scenario::Scenario& next = branch != nullptr ? *branch : course.scenario();
   if (!next.commands.empty()) course.follow_script(checkpoint.world.step, schedule);

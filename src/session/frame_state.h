@@ -1,34 +1,34 @@
 #pragma once
-/// The state of a run at one of its frames, so that something can begin there.
+/// State of a run at one of its frames, from which a computation can start.
 
 #include "io/run_file.h"
 #include "session/schedule.h"
 
 namespace talus::session {
 
-/// The world at frame k: from the checkpoint, to the last bit, where that is the same step; else from the
-/// single precision of the frame, with the contacts that carried force as memory. Throws Error(bad_data)
-/// where the run was repaired and has lost its last state.
+/// Returns the world at frame k: bit-identical from the checkpoint if it is of the same step; otherwise from
+/// the single precision of the frame, with the contacts that carried force as memory. Throws Error(bad_data)
+/// if the run was repaired and has lost its last state.
 World world_at_frame(const io::RunFile& run, std::size_t k);
 
-/// Whether a run was repaired and has lost what may have held commands: what was in force at a step is not
-/// known then.
+/// Whether a run was repaired and may have lost commands, so that the settings in force at a step are
+/// unknown.
 bool may_lack_commands(const io::RunFile& run);
 
-/// A schedule of which only that is set which the commands given before a step, and before the run began,
-/// have set: friction, rate of the tilt, drag.
+/// Returns a schedule with only the settings of commands given before a step, including those before the run
+/// started: friction, rate of the tilt, drag.
 Schedule set_by_commands(const io::RunFile& run, std::int64_t step);
 
-/// All that a run needs to go on from frame k. What the series of the run tell is that of the run: the phase
-/// and its steps, how long the bed has been at rest, what commands have set, where strains are counted from.
-/// What a run counts begins at nought: wall times, warnings, steps that did not converge. Throws as
-/// world_at_frame, Error(bad_data) where a repaired run lacks steps, rows or commands, and Error(usage) where
-/// the run ends with that frame. `branch` is the scenario with which it goes on [that of the run]: one that
-/// tells the same of what lies before.
+/// Returns everything that a run needs to continue from frame k. State that the series record is that of the
+/// run: the phase and its steps, the time at rest, settings of commands, the baseline of strains. Counters
+/// start at zero: wall times, warnings, unconverged steps. Throws as world_at_frame, Error(bad_data) if a
+/// repaired run lacks steps, rows or commands, and Error(usage) if the run ends with that frame. `branch` is
+/// the scenario with which the run continues [scenario of the run]; it must agree on everything before the
+/// frame.
 io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k,
                                    const scenario::Scenario* branch = nullptr);
 
-/// The checkpoint with which a stored branch begins: a file keeps its state, and no results.
+/// Returns the checkpoint that a stored branch starts from: a file stores its state, without results.
 io::Checkpoint start_of(const io::BranchOrigin& branch);
 
 }  // namespace talus::session

@@ -39,7 +39,7 @@ std::string guard_message(Guard guard, double value, double limit, std::int64_t 
       case Guard::count:
         break;
     }
-    return number + " steps in a row did not reach their tolerance";
+    return number + " consecutive steps did not reach their tolerance";
   };
   return fmt::format("step {}: {}; guards.{} allows {}", step, said(scenario::short_text(value)),
                      guard_names[static_cast<std::size_t>(guard)], scenario::short_text(limit));

@@ -49,8 +49,8 @@ void append_contact(const World& world, const dynamics::ContactLawParameters& la
   if (!contacts.moment.empty()) out.moment.push_back(contacts.moment[c]);
 }
 
-/// Files store places in single precision, in which one just below the period may be the period itself, and
-/// texts have as many digits: it becomes the place before.
+/// Moves x below the period in single precision, because files store positions in single precision, where a
+/// value just below the period may round to it, and texts have the same number of digits.
 double within_period(double x, double period) {
   const auto end = static_cast<float>(period);
   return static_cast<float>(x) >= end ? std::nextafter(end, 0.0F) : x;
@@ -72,7 +72,7 @@ ObservableRow measure(const World& world, const RowContext& context) {
   at(row, Observable::time) = world.time;
   at(row, Observable::tilt) = world.tilt;
   at(row, Observable::sigma_n) = sum.yy / volume;
-  // The paper's y axis points into the bed, ours out of it: the shear component changes its sign.
+  // The paper's y axis points into the bed, ours out of it, so the shear component changes sign.
   at(row, Observable::sigma_t) = -sum.yx / volume;
   at(row, Observable::sigma_t_over_n) = -sum.yx / sum.yy;
   at(row, Observable::stress_ratio) = stress::stress_state(sum).ratio;

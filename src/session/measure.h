@@ -1,5 +1,5 @@
 #pragma once
-/// From the world to what a run records of it.
+/// Quantities that a run records of its world.
 
 #include "core/snapshot.h"
 #include "dynamics/contact_law_parameters.h"
@@ -7,29 +7,29 @@
 
 namespace talus::session {
 
-/// Where strains are counted from: the bed at rest before the tilt.
+/// Reference of strains: the bed at rest before the tilt.
 struct Baseline {
   double volume = 0.0;                 ///< V0, m^2
   double centre_of_mass_height = 0.0;  ///< y0, m
 };
 Baseline measure_baseline(const World& world);
 
-/// What a row of observables needs besides the world.
+/// Inputs of a row of observables in addition to the world.
 struct RowContext {
   Baseline baseline;
   dynamics::ContactLawParameters law;
   double mean_diameter = 0.0;         ///< m
   double surface_displacement = 0.0;  ///< m
   double largest_overlap = 0.0;       ///< m
-  double residual = 0.0;              ///< worst eta since the last row
+  double residual = 0.0;              ///< largest eta since the last row
   bool at_rest = false;
 };
 ObservableRow measure(const World& world, const RowContext& context);
 
-/// One row of the series of steps.
+/// Returns a row of the series of steps.
 StepRow step_row(const World& world, const dynamics::StepReport& report, double phase);
 
-/// A frame: a copy of the state with grain stresses and the contacts that carry force.
+/// Returns a frame: a copy of the state with grain stresses and the contacts that carry force.
 Frame make_frame(const World& world, const dynamics::ContactLawParameters& law);
 
 }  // namespace talus::session

@@ -10,7 +10,8 @@
 namespace talus::session {
 namespace {
 
-/// Mean height of the free surface within `half_width` of a place, m; in a periodic bed beyond its ends too.
+/// Returns the mean height of the free surface within `half_width` of a position, m, continued periodically
+/// in a periodic bed.
 double mean_height(const World& world, double centre, double half_width) {
   const Boundary& boundary = world.boundary;
   const std::vector<stress::SurfaceArc> surface = stress::free_surface(world.grains, boundary);
@@ -27,7 +28,7 @@ double mean_height(const World& world, double centre, double half_width) {
   return width > 0.0 ? area / width : 0.0;
 }
 
-/// Free grains whose centres are more than `distance` from where they were.
+/// Returns the number of free grains whose centres have moved by more than `distance`.
 Index count_moved(const World& world, const Grains& before, double distance) {
   const Grains& grains = world.grains;
   Index count = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Perturbations of a bed at a fixed tilt: a push on a part of its surface, and what becomes of it.
-/// Free functions on worlds; strengths are dimensionless, so that beds of any grain size compare.
+/// Perturbations of a bed at a fixed tilt: a push on a part of its surface, and the response.
+/// Free functions on worlds; strengths are dimensionless, so that beds of any grain size can be compared.
 
 #include <functional>
 #include <span>
@@ -12,47 +12,46 @@
 
 namespace talus::session {
 
-/// A part of the free surface. Lengths in mean diameters D.
+/// Part of the free surface. Lengths in mean diameters D.
 struct SurfacePatch {
   double width = 10.0;  ///< along the bed
-  double depth = 2.0;   ///< below the free surface, its mean over the patch
+  double depth = 2.0;   ///< below the mean free surface over the patch
 
   bool operator==(const SurfacePatch&) const = default;
 };
 
-/// The free grains whose centres lie in the patch whose middle is at `centre` (m), ascending; across the edge
-/// of a periodic bed.
+/// Returns the free grains with centres in the patch around `centre` (m), ascending; the patch may cross the
+/// edge of a periodic bed.
 std::vector<Index> grains_in_patch(const World& world, const SurfacePatch& patch, double centre,
                                    double mean_diameter);
 
-/// Adds a velocity downslope, along the bed, to the grains. Returns the kinetic energy that this gives, J per
-/// metre.
+/// Adds a downslope velocity, along the bed, to the grains. Returns the kinetic energy added, J per metre.
 double push(Grains& grains, std::span<const Index> pushed, double velocity);
 
-/// How a trial ended. Rest: the bed is at rest as a deposition ends (rest_steps in a row slower than
-/// deposition.rest_velocity). Avalanche: the slope failed, by the rule that defines theta_c (flow_rule).
-/// Undecided: neither within trial_time.
+/// Outcome of a trial. Rest: the bed is at rest by the criterion of a deposition (rest_steps consecutive
+/// steps slower than deposition.rest_velocity). Avalanche: the slope failed, by the rule that defines theta_c
+/// (flow_rule). Undecided: neither within trial_time.
 enum class TrialEnd { rest, avalanche, undecided };
 std::string_view name_of(TrialEnd end);
 
-/// A trial is given up after this time, in sqrt(D / g).
+/// Maximum duration of a trial, sqrt(D / g).
 inline constexpr double trial_time = 200.0;
 
-/// What became of a bed that was left to itself at its tilt.
+/// Response of a bed at fixed tilt.
 struct Trial {
   double strength = 0.0;  ///< velocity of the push over sqrt(g D); 0: no push
-  double energy = 0.0;    ///< kinetic energy given, over m g D, m the mass of a disk of diameter D
+  double energy = 0.0;    ///< kinetic energy of the push over m g D, m the mass of a disk of diameter D
   TrialEnd end = TrialEnd::undecided;
-  double time = 0.0;          ///< until then, in sqrt(D / g)
-  Index moved = 0;            ///< free grains whose centres then were more than D from where they had been
-  double displacement = 0.0;  ///< D, mean of the surface layer downslope
+  double time = 0.0;          ///< duration, sqrt(D / g)
+  Index moved = 0;            ///< free grains displaced by more than D at the end
+  double displacement = 0.0;  ///< D, mean downslope displacement of the surface layer
 };
 
 /// Steps a world at its tilt, as a run of the scenario does, until it is at rest or has failed. `keep_on` is
-/// asked before each step, and throws where the trial is to be given up; it may be empty.
+/// called before each step, and throws to abandon the trial; it may be empty.
 Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& keep_on = {});
 
-/// A push of `strength` on the patch in the middle of a copy of the bed, and what became of it.
+/// Applies a push of `strength` to the patch in the middle of a copy of the bed, and returns the response.
 Trial push_trial(World world, const scenario::Scenario& scenario, const SurfacePatch& patch, double strength,
                  const std::function<void()>& keep_on = {});
 

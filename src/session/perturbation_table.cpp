@@ -66,7 +66,7 @@ PerturbationTable table_of(const io::RunFile& run, const PerturbationPlan& plan,
   const std::string found = find_value(run.header().provenance, trials_fact).value_or("none");
   if (found != plan_text(plan))
     throw Error(ExitCode::bad_data,
-                fmt::format("{} has the trials '{}', expected '{}'; give another folder, or remove the run",
+                fmt::format("{} has the trials '{}', expected '{}'; use another folder, or remove the run",
                             path, visible_word(found, 120), plan_text(plan)));
   PerturbationTable table{plan, {}};
   for (const TrialRow& row : run.trials()) {

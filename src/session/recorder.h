@@ -1,5 +1,5 @@
 #pragma once
-/// What a session records, into its store: when a commit is due, and the last of them.
+/// Commits of the data recorded by a session to its store.
 
 #include <chrono>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace talus::session {
 
-/// Commits a session to a store. Neither is owned.
+/// Commits a session to a store. It owns neither.
 class Recorder {
  public:
   Recorder(Session& session, io::RunStore& store) : session_(&session), store_(&store) {}
 
-  /// Takes a step of the session. Where it cannot be taken, the state before it, which is whole, is
-  /// committed, so that it can be looked at, and what the step throws goes through.
+  /// Takes a step of the session. If the step fails, commits the intact state before it, so that it can be
+  /// inspected, and rethrows.
   void advance();
-  /// Makes durable what the session has recorded since the last commit, and its state; with trials of it.
+  /// Commits the data recorded since the last commit and the current state, with the trials of that state.
   void commit(const std::vector<TrialRow>& trials = {});
-  /// The same where it is due: with a new frame, or output.checkpoint_every after the last commit.
+  /// Commits if a commit is due: with a new frame, or output.checkpoint_every after the last commit.
   void commit_if_due();
 
  private:

@@ -30,7 +30,7 @@ bool takes_checkpoint(const RunControl& control) {
   return true;
 }
 
-/// A command of a run. One that its session would not have taken cannot be the run's.
+/// Applies a recorded command; one that the session rejects cannot belong to the run.
 void apply(Session& session, const Command& command) {
   try {
     session.apply(command);
@@ -40,8 +40,8 @@ void apply(Session& session, const Command& command) {
   }
 }
 
-/// A step of a replay. The run that is replayed may have ended with an error after its last step: so does
-/// this one then.
+/// Takes a step of a replay. The original run may have ended with an error after its last step, and then so
+/// does this one.
 void advance_to(Session& session, std::int64_t steps) {
   try {
     session.advance();
@@ -87,7 +87,7 @@ RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> co
   const Clock::time_point start = Clock::now();
   std::optional<Recorder> recorder;
   if (store != nullptr) recorder.emplace(session, *store);
-  session.follow_script(false);  // its commands are among those that were recorded
+  session.follow_script(false);  // its commands are among the recorded ones
   auto next = commands.begin();
   while (true) {
     for (; next != commands.end() && next->step == session.world().step; ++next) apply(session, *next);

@@ -25,14 +25,14 @@ namespace {
 
 constexpr double smallest_force = 1e-9;  // m g
 
-/// The faults found so far, and where.
+/// Faults found so far.
 struct Findings {
   RunCheck& check;
   std::size_t more = 0;
 
   void add_changed(const std::string& what) {
     ++check.changed;
-    add(what, "is not as it was written: its hash is another");
+    add(what, "is not as it was written: its hash differs");
   }
   void add(const std::string& where, const std::string& what) {
     if (check.faults.size() < most_faults)
@@ -48,13 +48,13 @@ bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Friction of contacts between grains, and with side walls.
+/// Friction coefficients of contacts between grains, and with side walls.
 struct Frictions {
   double grains = 0.0, walls = 0.0;
 };
 
-/// The friction in force at a step: the scenario's, or what a command has set, before a branch began or
-/// since. Of a run that may lack a command, the largest that one can set.
+/// Returns the friction in force at a step: that of the scenario, or as set by a command in the run or before
+/// the start of a branch. For a run that may lack a command, the largest value that a command can set.
 double friction_at(const io::RunFile& run, double given, std::int64_t step) {
   if (may_lack_commands(run)) return scenario::largest_friction;
   if (run.header().branch) given = find_value(run.header().branch->start.reals, "friction").value_or(given);
@@ -63,7 +63,8 @@ double friction_at(const io::RunFile& run, double given, std::int64_t step) {
   return given;
 }
 
-/// Of frame k: the first has the forces of the last step of the deposition.
+/// Returns the friction coefficients of frame k; the first frame has the forces of the last step of the
+/// deposition.
 Frictions frictions_of(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k,
                        const Frame& frame) {
   Frictions mu{scenario.contact.friction, scenario.contact.wall_friction};
@@ -76,7 +77,7 @@ Frictions frictions_of(const io::RunFile& run, const scenario::Scenario& scenari
 
 // --- series ---
 
-/// A run that lacks some of what it held: its steps ascend, and that is all that they can be asked.
+/// Checks the steps of a run with lost data, which can only be required to ascend.
 void check_remaining_steps(const std::vector<StepRow>& rows, Findings& found) {
   const auto later = [](const StepRow& one, const StepRow& other) {
     return at(one, StepField::step) >= at(other, StepField::step);
@@ -84,7 +85,7 @@ void check_remaining_steps(const std::vector<StepRow>& rows, Findings& found) {
   if (std::ranges::adjacent_find(rows, later) != rows.end()) found.add("/steps/step", "does not ascend");
 }
 
-/// `begun`: the steps taken before the first one of the run, if it is a branch.
+/// Checks the series of steps. `begun`: steps taken before the first step of a branch, otherwise 0.
 void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const io::Checkpoint& checkpoint,
                  Findings& found) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -121,7 +122,7 @@ void check_observables(const std::vector<ObservableRow>& rows, double last_step,
   }
 }
 
-/// Whether the bed was at rest at a step; where no row was recorded then, it is taken to have moved.
+/// Whether the bed was at rest at a step; false if no row was recorded at it.
 bool at_rest(const std::vector<ObservableRow>& rows, std::int64_t step) {
   const auto row = std::ranges::lower_bound(rows, static_cast<double>(step), {},
                                             [](const ObservableRow& of) { return at(of, Observable::step); });
@@ -148,7 +149,7 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
     found.add(name, fmt::format("{} has a value that is not finite", set));
     finite = false;
   }
-  // In single precision the period itself can be reached.
+  // In single precision x may equal the period.
   const double room = 1e-5 * bed.statics.length;
   const auto outside = [&](double x) { return x < -room || x > bed.statics.length + room; };
   if (bed.statics.periodic && std::ranges::any_of(bed.frame.x, outside))
@@ -156,13 +157,13 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
   return finite;
 }
 
-/// D; how far two grains may overlap: what the guards of the run allow, and where these only warn, any of it.
+/// Returns the largest overlap allowed, D: that of the guards of the run, or any if these only warn.
 double overlap_allowed(const scenario::Scenario& scenario) {
   if (scenario.guards.action == scenario::GuardAction::warn) return std::numeric_limits<double>::infinity();
   return std::max(overlap_limit, scenario.guards.overlap);
 }
 
-/// Overlap of a contact of two grains, m; 0 for one with a plane.
+/// Returns the overlap of a contact of two grains, m; 0 for a contact with a plane.
 double overlap(const BedFrame& bed, std::size_t c) {
   const FrameContacts& contacts = bed.frame.contacts;
   if (contacts.b[c] >= bed.frame.grain_count()) return 0.0;
@@ -182,7 +183,7 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_all
     deepest = std::max(deepest, overlap(bed, c));
     if (contacts.fn[c] < 0.0) ++pulling;
     const bool wall = contacts.b[c] >= bed.frame.grain_count() && std::abs(contacts.nx[c]) > 0.5;
-    // Forces far below the weight of a grain have few digits in single precision.
+    // Forces far below the weight of a grain have few significant digits in single precision.
     const double limit = (wall ? mu.walls : mu.grains) * contacts.fn[c] + smallest_force * unit;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
@@ -198,7 +199,7 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_all
                                 scenario::short_text(mobilised)));
 }
 
-/// Moments within rolling friction (T38).
+/// Checks that moments stay within rolling friction (T38).
 void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Findings& found) {
   const FrameContacts& contacts = bed.frame.contacts;
   if (contacts.moment.size() != (mu_r > 0.0 ? contacts.a.size() : 0)) {
@@ -219,7 +220,7 @@ void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Fi
                                 scenario::short_text(mobilised)));
 }
 
-/// What contacts give each grain: the sum of forces, and the internal moment (paper, Eq. 4).
+/// Load of the contacts on each grain: the sum of forces, and the internal moment (paper, Eq. 4).
 struct Loads {
   std::vector<Vector2> force;
   std::vector<Tensor2> moment;
@@ -229,9 +230,9 @@ Loads loads_of(const BedFrame& bed) {
   const auto count = static_cast<std::size_t>(bed.frame.grain_count());
   Loads loads{std::vector<Vector2>(count, Vector2::Zero()), std::vector<Tensor2>(count)};
   const FrameContacts& contacts = bed.frame.contacts;
-  // On the other side of a contact lever and force are both opposite: the moment is not.
+  // On the other side of a contact lever arm and force both change sign, so the moment does not.
   const auto add = [&](Index body, double sign, const Vector2& normal, const Vector2& force) {
-    if (body >= bed.frame.grain_count()) return;  // a plane
+    if (body >= bed.frame.grain_count()) return;  // plane
     const auto grain = static_cast<std::size_t>(body);
     loads.force[grain] += sign * force;
     matrix(loads.moment[grain]) += bed.statics.radius[grain] * normal * force.transpose();  // (T19)
@@ -242,7 +243,7 @@ Loads loads_of(const BedFrame& bed) {
     add(contacts.a[c], -1.0, normal, force);
     add(contacts.b[c], 1.0, normal, force);
   }
-  for (std::size_t i = 0; i < count; ++i) {  // of what spins (paper, Eq. 4)
+  for (std::size_t i = 0; i < count; ++i) {  // contribution of the spin (paper, Eq. 4)
     const double spin = 0.25 * bed.statics.mass[i] * std::pow(bed.statics.radius[i] * bed.frame.omega[i], 2);
     matrix(loads.moment[i]).diagonal().array() -= spin;
   }
@@ -264,12 +265,12 @@ void check_moments(const Frame& frame, const Loads& loads, const std::string& na
   found.check.largest_moment_error = std::max(found.check.largest_moment_error, error / largest);
   if (error > moment_error_limit * largest)
     found.add(name,
-              fmt::format("internal_moment is not that of the contacts: it differs by {} of the largest",
+              fmt::format("internal_moment does not match the contacts: it differs by {} of the largest",
                           scenario::short_text(error / largest)));
 }
 
-/// m g; what a velocity may change by in one step of a bed at rest, from one bound of rest to the other,
-/// twice.
+/// Returns the allowed imbalance, m g: twice the change of a velocity from one bound of rest to the other in
+/// one step.
 double imbalance_allowed(const scenario::Scenario& scenario) {
   return std::max(imbalance_limit, 4.0 * scenario.deposition.rest_velocity);
 }
@@ -285,7 +286,7 @@ void add_drag(const io::RunFile& run, const scenario::Scenario& scenario, std::s
       run.header().statics.mass[static_cast<std::size_t>(drag->grain)] * Vector2{pulled.x, pulled.y};
 }
 
-/// Newton's law of a bed at rest: forces carry the weight.
+/// Checks Newton's law for a bed at rest: forces balance the weight.
 void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_allowed, const std::string& name,
                    Findings& found) {
   double squares = 0.0;
@@ -306,11 +307,11 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
                           scenario::short_text(imbalance)));
 }
 
-// --- what is stored twice ---
+// --- data stored twice ---
 
 bool is_same(double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); }
 
-/// The parameters that a reader finds without the scenario are those of the scenario.
+/// Checks that the parameters stored outside the scenario agree with it.
 void check_parameters(const io::RunHeader& header, const scenario::Scenario& scenario, Findings& found) {
   const RunStatics& statics = header.statics;
   if (header.seed != scenario.seed) found.add("/provenance", "the seed is not that of the scenario");
@@ -323,11 +324,11 @@ void check_parameters(const io::RunHeader& header, const scenario::Scenario& sce
   for (const auto& [name, pair] : values)
     if (!is_same(pair.first, pair.second))
       found.add(std::string("/parameters/").append(name), "is " + scenario::short_text(pair.first) +
-                                                              ", the scenario says " +
+                                                              ", but the scenario has " +
                                                               scenario::short_text(pair.second));
 }
 
-/// The grains that have arrived are those of the last state.
+/// Checks that the grains that have arrived are those of the last state.
 void check_grains(const RunStatics& all, const World& world, Findings& found) {
   const RunStatics statics = arrived_statics(all, world.grains.count());
   if (statics.radius != world.grains.radius)
@@ -335,19 +336,20 @@ void check_grains(const RunStatics& all, const World& world, Findings& found) {
   if (statics.mass != world.grains.mass) found.add("/particles/grains/mass", "is not that of /checkpoint");
 }
 
-/// Results follow from the state of the run.
+/// Checks that the results follow from the state of the run.
 void check_results(const scenario::Scenario& scenario, const io::Checkpoint& checkpoint,
                    Findings& found) try {
   const Figures results = Session(scenario, checkpoint, "/checkpoint").checkpoint(0.0).results;
   for (const auto& [name, value] : checkpoint.results)
     if (const auto expected = find_value(results, name); expected && !is_same(*expected, value))
-      found.add("/results/" + name, "is " + scenario::short_text(value) + ", the state of the run says " +
+      found.add("/results/" + name, "is " + scenario::short_text(value) +
+                                        ", but the state of the run gives " +
                                         scenario::short_text(*expected));
 } catch (const Error& error) {
   found.add("/checkpoint", error.what());
 }
 
-/// A branch begins with a state of its scenario, and its first frame is that state.
+/// Checks that a branch starts with a state of its scenario, and that its first frame is that state.
 void check_branch(const io::RunFile& run, const scenario::Scenario& scenario, Findings& found) try {
   const io::BranchOrigin& branch = *run.header().branch;
   check_branch_start(branch, scenario, "the run");

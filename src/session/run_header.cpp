@@ -73,7 +73,7 @@ void refuse_unfinished_replay(const io::RunHeader& header, const World& world, c
   const std::string run = find_value(header.provenance, "replay_of").value_or("RUN");
   throw Error(ExitCode::bad_data,
               fmt::format("{} is a replay of {} that was stopped after {} of its {} steps, without the "
-                          "commands that follow; begin it again with: talus replay {} -o {} --overwrite",
+                          "commands that follow; repeat it with: talus replay {} -o {} --overwrite",
                           path, run, world.step, *steps, run, path));
 }
 
@@ -85,9 +85,9 @@ Session session_at_start(const io::RunHeader& header, const std::string& name) {
     if (bed.empty() || bed == bed_of(session)) return session;
     throw Error(
         ExitCode::bad_data,
-        fmt::format("{} (deposition.file) holds another bed than when {} was computed from it; undo the "
-                    "change",
-                    visible(scenario.deposition.file), name));
+        fmt::format(
+            "{} (deposition.file) holds another bed than when {} was computed from it; undo the change",
+            visible(scenario.deposition.file), name));
   }
   check_branch_start(*header.branch, scenario, name);
   Session session(scenario, start_of(*header.branch), name, "/branch");

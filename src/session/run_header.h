@@ -1,5 +1,5 @@
 #pragma once
-/// What is known of a run when it begins.
+/// Header of a run at its start.
 
 #include <optional>
 #include <string>
@@ -9,33 +9,33 @@
 
 namespace talus::session {
 
-/// Where a run comes from, for its provenance.
+/// Origin of a run, for its provenance.
 struct RunOrigin {
   std::string scenario_text;  ///< TOML as the user wrote it
   std::string scenario_file;
   std::string command_line;
   int threads = 1;
   std::optional<io::BranchOrigin> branch{};
-  std::string bed{};  ///< hash of a bed that came from a file (with_bed)
+  std::string bed{};  ///< hash of a bed from a file (with_bed)
 };
 
-/// The origin of a run whose session stands at its start, with the hash of its bed where deposition.file
-/// holds that: a file may be changed while the scenario stays.
+/// Adds the hash of the bed to the origin of a run whose session is at its start, if deposition.file provides
+/// the bed, because the file may change while the scenario does not.
 RunOrigin with_bed(RunOrigin origin, const Session& at_start);
 
-/// The hash that with_bed noted, from the provenance of a run; empty where there is none.
+/// Returns the hash that with_bed stored in the provenance of a run; empty if there is none.
 std::string bed_of(const Facts& provenance);
 
-/// The header of a run that this program begins now, on this host.
+/// Returns the header of a run that this process starts, on this host.
 io::RunHeader run_header(const Session& session, const RunOrigin& origin);
 
-/// Throws Error(bad_data) where the run is a replay that was stopped: what goes on from there lacks the
-/// commands that were still to come.
+/// Throws Error(bad_data) if the run is a replay that was stopped, because a continuation would lack the
+/// remaining commands.
 void refuse_unfinished_replay(const io::RunHeader& header, const World& world, const std::string& path);
 
-/// The session of a stored run before its first step; of a branch, with what it records of its start. `name`
-/// is what messages call the file. Throws Error(bad_data) as stored_scenario and check_branch_start do, and
-/// where deposition.file now holds another bed.
+/// Returns the session of a stored run before its first step; for a branch, with the row and frame of its
+/// start recorded. `name` denotes the file in messages. Throws Error(bad_data) as stored_scenario and
+/// check_branch_start do, and if deposition.file holds another bed than at the start of the run.
 Session session_at_start(const io::RunHeader& header, const std::string& name);
 
 }  // namespace talus::session

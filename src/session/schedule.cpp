@@ -15,18 +15,18 @@
 namespace talus::session {
 namespace {
 
-constexpr double most_steps = 0x1p53;  // all numbers of steps up to this are doubles
+constexpr double most_steps = 0x1p53;  // step counts up to this are exact in a double
 
-/// Where in a checkpoint a value stands. Those of `timing` are no state, and need not be there.
+/// Group of a checkpoint that holds a value. Those of `timing` are not state, and may be missing.
 enum class CheckpointGroup { integers, reals, results, timing };
 
 enum class Kept {
   always,
-  where_not_zero,  ///< one that is not there is zero
-  as_result,       ///< follows from others: written, never read
+  where_not_zero,  ///< a missing value is zero
+  as_result,       ///< derived from others: written, never read
 };
 
-/// A value of the schedule (no value is stored as NaN), or a result as a number of its own.
+/// A value of the schedule (an empty one is stored as NaN), or a derived result.
 using Value = std::variant<Phase*, std::int64_t*, Index*, bool*, double*, std::optional<double>*, double>;
 
 struct ScheduleField {
@@ -38,7 +38,8 @@ struct ScheduleField {
 
 double count(std::int64_t steps) { return static_cast<double>(steps); }
 
-/// The table of all that a checkpoint holds of a schedule. Values of a command are there where it was given.
+/// Returns the table of all values that a checkpoint holds of a schedule. Values of a command are included if
+/// it was given.
 std::vector<ScheduleField> fields(Schedule& s, bool follows) {
   using enum CheckpointGroup;
   using enum Kept;
@@ -115,7 +116,7 @@ double number_of(const Value& value) {
       value);
 }
 
-/// The list of numbers that a place is; not for integers.
+/// Returns the list of numbers of a group; not for integers.
 auto& reals_at(CheckpointGroup place, auto& checkpoint) {
   return place == CheckpointGroup::reals     ? checkpoint.reals
          : place == CheckpointGroup::results ? checkpoint.results
@@ -129,7 +130,7 @@ std::optional<double> find(const ScheduleField& field, const io::Checkpoint& che
   return found ? std::optional(static_cast<double>(*found)) : std::nullopt;
 }
 
-/// Where a checkpoint comes from, for messages: the file, and its group there.
+/// Origin of a checkpoint, for messages: the file, and the group in it.
 struct CheckpointOrigin {
   const std::string& file;
   const std::string& group;
@@ -144,7 +145,7 @@ struct CheckpointOrigin {
                           field.name, fault));
 }
 
-/// Sets the value of a field, or refuses what it cannot be.
+/// Sets the value of a field, or throws if it is impossible.
 void take(double number, const ScheduleField& field, const io::Checkpoint& checkpoint,
           const CheckpointOrigin& origin) {
   const auto check = [&](double most, const char* expected) {
@@ -182,7 +183,7 @@ bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenar
   if (!course) return false;
   if (!command.at)
     return std::llround(command.time.value_or(0.0) / scenario::time_step(scenario)) <= course->steps;
-  constexpr double rounding = 1e-9;  // rad: a tilt is a sum of steps
+  constexpr double rounding = 1e-9;  // rad, because a tilt is a sum of steps
   const double angle = radians(*command.at);
   return angle < 0.0 ? course->lowest <= angle + rounding : course->highest >= angle - rounding;
 }
@@ -219,7 +220,7 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
     if (const std::optional<double> number = find(field, checkpoint))
       take(*number, field, checkpoint, origin);
     else if (field.kept == Kept::always && field.place != CheckpointGroup::timing)
-      refuse(field, origin, "is missing; without it the run cannot go on");
+      refuse(field, origin, "is missing; without it the run cannot continue");
   }
   return schedule;
 }

@@ -42,7 +42,8 @@ dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario) {
 }
 
 dynamics::StepSettings step_settings(const scenario::Scenario& scenario) {
-  // Beside what the velocities may close, which the step adds: room for what they become in the step.
+  // Margin in addition to the distance that velocities may close, which the step adds: room for their change
+  // in the step.
   constexpr double margin_over_d = 0.002;
   dynamics::StepSettings settings;
   settings.h = scenario::time_step(scenario);
@@ -159,7 +160,7 @@ void Session::apply(Command command) {
     case CommandKind::tilt_rate:
       if (schedule_.phase == Phase::flow)
         throw Error(ExitCode::usage,
-                    "tilt_rate: the slope has failed; its tilt now follows tilt.after_failure");
+                    "tilt_rate: the slope has failed, so its tilt follows tilt.after_failure");
       schedule_.course = TiltCourse{radians(command.x), scheduled_tilt(), schedule_.tilt_steps};
       break;
     case CommandKind::drag:
@@ -202,7 +203,7 @@ void Session::follow_commands() {
     try {
       apply(scenario::command_of(command));
     } catch (const Error& error) {
-      // None of those that are due has been carried out then, so that a resumed run finds them all.
+      // No command that is due counts as carried out, so that a resumed run finds them all.
       world_ = before->first;
       schedule_ = before->second;
       segment_.commands.resize(recorded);
@@ -302,7 +303,7 @@ void Session::advance_tilt() {
 
   const bool followed = schedule_.flow.failed && follows_failure(scenario_);
   const bool ends = followed || tilt_is_over();
-  // Where a programme turns, what lies between two such places is a loop of its own.
+  // Each part of a programme between two turning points is a separate loop.
   const bool turns = follows_program() && program_.turns_at(schedule_.tilt_steps);
   record(ends || turns, ends || turns || schedule_.flow.failed != failed_before);
   if (ends) schedule_.phase = followed ? Phase::flow : Phase::done;

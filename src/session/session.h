@@ -1,5 +1,5 @@
 #pragma once
-/// A run as a value that is stepped: deposition, rest, tilt, failure, and what follows it. The command line
+/// A run as a value that is stepped: deposition, rest, tilt, failure, and the flow after it. The command line
 /// and the interactive frontend are both thin clients of it.
 
 #include <optional>
@@ -17,97 +17,97 @@
 
 namespace talus::session {
 
-/// The tolerance asked of a step grows with the velocity of the bed, from solver.tolerance at rest to
-/// solver.moving_tolerance at an rms velocity of g h: an error of the solver is a velocity too, and stays
-/// well below the real one, so that a bed can always come to rest.
+/// Session of a run. The tolerance required of a step grows with the velocity of the bed, from
+/// solver.tolerance at rest to solver.moving_tolerance at an rms velocity of g h. An error of the solver acts
+/// as a velocity; it must stay well below the actual one, so that a bed can always come to rest.
 class Session {
  public:
-  /// A new run: the bed of the scenario before its first step. Throws Error(bad_data) where a command of the
-  /// scenario cannot be done to it.
+  /// Starts a new run, with the bed of the scenario before its first step. Throws Error(bad_data) if a
+  /// command of the scenario cannot be applied to it.
   explicit Session(const scenario::Scenario& scenario);
-  /// A run as its last commit left it. Throws Error(bad_data) where the checkpoint lacks a value; `origin` is
-  /// what messages call the file, and `group` where the checkpoint stands in it.
+  /// Restores a run from its last commit. Throws Error(bad_data) if the checkpoint lacks a value; messages
+  /// name the file `origin` and the `group` of the checkpoint in it.
   Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint,
           const std::string& origin = "the checkpoint", const std::string& group = "/checkpoint");
 
-  /// Records a row and a frame of the state as it is: those with which a branch of another run begins.
+  /// Records a row and a frame of the current state, with which a branch of another run starts.
   void record_start();
 
-  /// Takes one step; what it records goes to segment(). Does nothing once done.
-  /// Before a step of the tilt, or of the flow after it, commands of the scenario whose angle or time has
-  /// come are carried out, as by apply. Throws Error(bad_data) when the bed does not come to rest within
-  /// deposition.max_time, where a command of the scenario cannot be carried out, with all as before the step,
-  /// and where the step before has broken a guard of the scenario whose action is to stop: its state is
-  /// whole, to be looked at, and neither a copy nor a resumed run goes past it.
+  /// Takes one step; recorded data go to segment(). Does nothing once done.
+  /// Commands of the scenario whose angle or time has come are carried out before a step of the tilt or of
+  /// the flow, as by apply. Throws Error(bad_data) if the bed does not come to rest within
+  /// deposition.max_time; if a command of the scenario cannot be carried out, with the state of before the
+  /// step; and if the preceding step exceeded a guard whose action is to stop: its state is intact and can be
+  /// inspected, but neither a copy nor a resumed run can pass it.
   const dynamics::StepReport& advance();
 
-  /// Does a command before the next step, and records it with the number of steps taken. Friction holds from
-  /// then on, in a deposition for what is left of it as well; a rate of the tilt set in a deposition is that
-  /// with which the tilt begins. A rate of the tilt also ends a programme (tilt.program): from then on the
-  /// tilt grows at that rate until the slope fails, or is held. A drag goes on until the next one, or until
-  /// it is ended. Throws Error(usage), with nothing changed, where check_command or drop_grains refuses it,
-  /// once the run is done, and for a rate of the tilt after failure and the end of a drag where there is
-  /// none.
+  /// Applies a command before the next step, and records it with the number of steps taken. Friction applies
+  /// from then on, including the rest of a deposition; a rate of the tilt set in a deposition is the initial
+  /// rate of the tilt. A rate of the tilt also ends a programme (tilt.program): from then on the tilt changes
+  /// at that rate until the slope fails, or is held at rate 0. A drag lasts until the next one, or until it
+  /// is released. Throws Error(usage), with nothing changed, if check_command or drop_grains rejects it, if
+  /// the run is done, for a rate of the tilt after failure, and for a release without a drag.
   void apply(Command command);
 
-  /// Whether the commands of the scenario are carried out [yes]: not where those that were recorded are.
+  /// Sets whether the commands of the scenario are carried out [yes]; a replay applies the recorded ones
+  /// instead.
   void follow_script(bool follows) { follows_script_ = follows; }
 
-  /// Threads of the solver; the result does not depend on them.
+  /// Sets the number of threads of the solver; the result does not depend on it.
   void use_threads(int threads) { threads_ = threads; }
 
   const scenario::Scenario& scenario() const { return scenario_; }
-  /// Its grains stay where they are in memory, also while more of them arrive.
+  /// Returns the world; its grains keep their addresses in memory while more of them arrive.
   const World& world() const { return world_; }
   const Schedule& schedule() const { return schedule_; }
   Phase phase() const { return schedule_.phase; }
   const dynamics::StepReport& last_report() const { return report_; }
-  /// The course of the tilt that the scenario gives; empty: it grows.
+  /// Returns the programme of the tilt in the scenario; empty: the tilt grows.
   const scenario::TiltProgram& program() const { return program_; }
-  /// Whether the tilt follows it: a command that sets the rate of the tilt ends this.
+  /// Whether the tilt follows the programme, which a command that sets the rate of the tilt ends.
   bool follows_program() const { return !program_.empty() && !schedule_.course; }
-  /// The contact law of the next step.
+  /// Returns the contact law of the next step.
   dynamics::ContactLawParameters law() const;
-  /// rad/s, of the scenario or as a command has set it, or of the part of a programme that the next step
-  /// belongs to, below 0 where it lowers the tilt; 0: the tilt is held.
+  /// Returns the rate of the tilt, rad/s: that of the scenario, of a command, or of the part of a programme
+  /// that the next step belongs to; negative if the tilt decreases, 0 if it is held.
   double tilt_rate() const;
-  /// rad, the magnitude of the tilt; no value while the slope has not failed.
+  /// Returns the magnitude of theta_c, rad; no value while the slope has not failed.
   std::optional<double> angle_of_repose() const { return talus::session::angle_of_repose(schedule_); }
-  /// Slope of the free surface against the horizontal where the flow after failure has come to rest, rad; no
-  /// value before, or where it has not: by 0 deg where the tilt is lowered, within deposition.max_time where
-  /// it is held.
+  /// Returns the slope of the free surface against the horizontal when the flow after failure has come to
+  /// rest, rad; no value before, or if it does not: by 0 deg if the tilt is lowered, within
+  /// deposition.max_time if it is held.
   std::optional<double> angle_at_rest() const { return schedule_.angle_at_rest; }
 
-  /// The observables of the state as it is.
+  /// Returns the observables of the current state.
   ObservableRow row() const;
-  /// What was recorded since the last call of clear_segment.
+  /// Returns the data recorded since the last call of clear_segment.
   const io::Segment& segment() const { return segment_; }
   void clear_segment() { segment_ = {}; }
-  /// Puts back what had been recorded of a run that goes back to a state it had.
+  /// Restores the recorded data of a run that returns to an earlier state.
   void put_back(io::Segment segment) { segment_ = std::move(segment); }
 
-  /// What bed_of_file has to say of a new run; else empty.
+  /// Returns the remark of bed_of_file on a new run; otherwise empty.
   const std::string& bed_remark() const { return bed_remark_; }
 
-  /// The same state, on one thread, with nothing recorded.
+  /// Returns a session with the same state, on one thread, without recorded data.
   Session copy() const;
 
-  /// All that a resumed run needs. `seconds_writing` goes to the timing.
+  /// Returns everything that a resumed run needs. `seconds_writing` goes to the timing.
   io::Checkpoint checkpoint(double seconds_writing) const;
 
  private:
-  /// What is changed ahead of a step, which may turn out not to be possible.
+  /// Values changed before a step, for the case that the step fails.
   struct BeforeStep {
     std::int64_t step;
     double tilt;
     std::int64_t tilt_steps, flow_steps;
-    Vec2 dragged;  ///< velocity of the grain that is dragged, if any
+    Vec2 dragged;  ///< velocity of the dragged grain, if any
   };
 
   dynamics::StepSettings settings() const;
   BeforeStep before_step() const;
   void go_back_to(const BeforeStep& before);
-  bool is_quiet() const;  ///< after the last step slower than deposition.rest_velocity
+  bool is_quiet() const;  ///< last step slower than deposition.rest_velocity
   bool is_at_rest() const { return schedule_.quiet_steps >= dynamics::rest_steps; }
   bool have_all_arrived() const;
   void take_step();
@@ -118,21 +118,21 @@ class Session {
   void begin_tilt();
   void advance_tilt();
   void advance_flow();
-  /// Takes a step and follows the surface layer in it; returns its velocity, m/s.
+  /// Takes a step and tracks the surface layer; returns the velocity of the layer, m/s.
   double take_step_and_follow();
   void reserve_grains();
-  /// Records a row of observables and a frame where they are due, or where `row` or `frame` is true.
+  /// Records a row of observables and a frame if they are due, or if `row` or `frame` is true.
   void record(bool row, bool frame);
   void record_row();
   double scheduled_tilt() const;  ///< rad, after the steps of the tilt taken so far
-  bool tilt_is_over() const;      ///< after these steps, whatever follows
+  bool tilt_is_over() const;      ///< whether it ends at this step, whatever follows
 
   scenario::Scenario scenario_;
   scenario::TiltProgram program_;
   std::string bed_remark_;
   World world_;
   Schedule schedule_;
-  std::vector<dynamics::Arrival> arrivals_;  ///< all that are poured; those of the first ids are in the world
+  std::vector<dynamics::Arrival> arrivals_;  ///< all poured grains; those of the first ids are in the world
   io::Segment segment_;
 
   int threads_ = 1;
@@ -141,23 +141,24 @@ class Session {
   dynamics::StepWorkspace workspace_;
 };
 
-/// The contact law of a scenario, after deposition.
+/// Returns the contact law of a scenario after deposition.
 dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario);
 
-/// A step of the tilt of a bed at rest, on one thread.
+/// Returns the settings of a step of the tilt of a bed at rest, on one thread.
 dynamics::StepSettings step_settings(const scenario::Scenario& scenario);
 
-/// The next step of a world in the tilt, on one thread: with the tolerance that its velocity asks for.
+/// Returns the settings of the next step of a world in the tilt, on one thread, with the tolerance for its
+/// velocity.
 dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const World& world);
 
-/// rad, after the steps of the tilt taken so far.
+/// Returns the tilt after the steps of the tilt taken so far, rad.
 double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltProgram& program,
                       const Schedule& schedule);
 
-/// What does not change during the run: of all grains, those included that have not arrived yet.
+/// Returns the constants of the run, for all grains, including those that have not arrived yet.
 RunStatics run_statics(const scenario::Scenario& scenario, const World& world);
 
-/// A slope that has not failed at this angle ends its run, deg.
+/// Tilt at which a run ends if the slope has not failed, deg.
 inline constexpr double steepest_tilt = 60.0;
 
 }  // namespace talus::session

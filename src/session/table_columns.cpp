@@ -34,7 +34,7 @@ TableCell unquoted(TableCell cell) {
   return trimmed({text.substr(1, text.size() - 2), cell.column + 1});
 }
 
-/// The first of some characters that is not between double quotes.
+/// Returns the position of the first `wanted` character outside double quotes.
 std::size_t find_outside_quotes(std::string_view text, std::string_view wanted) {
   bool quoted = false;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -44,7 +44,7 @@ std::size_t find_outside_quotes(std::string_view text, std::string_view wanted) 
   return std::string_view::npos;
 }
 
-/// The line without its comment.
+/// Returns the line without its comment.
 TableCell values_of(std::string_view line) { return {line.substr(0, find_outside_quotes(line, "#")), 1}; }
 
 std::string_view separator_of(std::string_view line, bool tabs) {
@@ -54,7 +54,8 @@ std::string_view separator_of(std::string_view line, bool tabs) {
   return " \t";
 }
 
-/// "x [mm]" in a line with blanks between its names has the unit as a cell of its own.
+/// Joins units with their names, because "x [mm]" in a line separated by blanks has its unit in a separate
+/// cell.
 void join_units(std::string_view line, std::vector<TableCell>& cells) {
   std::vector<TableCell> joined;
   for (const TableCell& cell : cells) {
@@ -82,9 +83,9 @@ constexpr std::array units = {
     std::pair<std::string_view, scenario::LengthUnit>{"mm", scenario::LengthUnit::millimetre},
     std::pair<std::string_view, scenario::LengthUnit>{"um", scenario::LengthUnit::micrometre},
     std::pair<std::string_view, scenario::LengthUnit>{"\xc2\xb5m",
-                                                      scenario::LengthUnit::micrometre},  // the micro sign
+                                                      scenario::LengthUnit::micrometre},  // micro sign
     std::pair<std::string_view, scenario::LengthUnit>{"\xce\xbcm",
-                                                      scenario::LengthUnit::micrometre},  // the Greek letter
+                                                      scenario::LengthUnit::micrometre},  // Greek letter
 };
 
 std::optional<scenario::LengthUnit> unit_of(std::string_view word) {
@@ -99,8 +100,8 @@ constexpr std::size_t role_count = 7;
 struct RoleName {
   std::string_view name;
   Role role;
-  bool of_dump = false;  ///< gives way to another name of its role
-  bool scaled = false;   ///< from 0 to 1 through the box
+  bool of_dump = false;  ///< any other name of its role takes precedence
+  bool scaled = false;   ///< values from 0 to 1 across the box
 };
 constexpr std::array roles = {
     RoleName{"x", Role::x},
@@ -124,13 +125,13 @@ constexpr std::array roles = {
     RoleName{"zsu", Role::z, true, true},
 };
 
-/// A name of a column as it is meant.
+/// A column name with its meaning.
 struct NamedColumn {
   Role role = Role::x;
   TableColumn column;
 };
 
-/// Nothing for a name that has no meaning here: "id", "x_velocity".
+/// Returns the meaning of a column name; empty for a name without a role here, such as "x_velocity".
 std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& cell, std::size_t at,
                                       scenario::LengthUnit unit) {
   const std::string name = lower(cell.text);
@@ -153,14 +154,15 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
     place.refuse(cell.column,
                  fmt::format("the column \"{}\" has an unknown unit: expected D, m, cm, mm or um", shown));
   if (unit != scenario::LengthUnit::mean_diameter && *own != unit)
-    place.refuse(cell.column, fmt::format("the column \"{}\" names another unit than deposition.file_unit: "
-                                          "leave one of them out",
-                                          shown));
+    place.refuse(
+        cell.column,
+        fmt::format("the column \"{}\" names another unit than deposition.file_unit: omit one of them",
+                    shown));
   named.column.unit = *own;
   return named;
 }
 
-/// Finds the columns among the cells; a message about what is missing, or nothing.
+/// Finds the columns among the cells; returns a message about missing ones, or an empty text.
 std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells,
                          scenario::LengthUnit unit, TableColumns& columns) {
   std::array<std::optional<TableColumn>, role_count> found;
@@ -234,7 +236,7 @@ std::string_view comment_of(std::string_view line) {
 std::vector<TableCell> cells_of(std::string_view line, bool tabs) {
   const std::string_view separator = separator_of(line, tabs);
   const bool white = separator == " \t";
-  // An empty cell at an end is one between tabs.
+  // Between tabs, an empty cell at an end counts as a cell.
   TableCell rest = separator == "\t" ? values_of(line) : trimmed(values_of(line));
   std::vector<TableCell> cells;
   while (!rest.text.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The cells of a line of a table of grains, and which column of it is what. Private to bed_table.h.
+/// Cells of a line of a table of grains, and the meaning of its columns. Private to bed_table.h.
 
 #include <cstddef>
 #include <optional>
@@ -11,60 +11,60 @@
 
 namespace talus::session {
 
-/// A value or a name, without its quotes.
+/// A value or a name, without quotes.
 struct TableCell {
   std::string_view text;
-  std::size_t column = 0;  ///< of its first character in the line, from 1
+  std::size_t column = 0;  ///< position of its first character in the line, from 1
 };
 
 struct TablePlace {
   const std::string& table;
-  std::size_t line = 0;  ///< from 1
+  std::size_t line = 0;  ///< line number, from 1
 
   [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
 };
 
-/// The cells of a line without its comment, separated by semicolons, commas, `tabs` or else by any white
-/// space; none if all are empty.
+/// Returns the cells of a line without its comment, separated by semicolons, commas, `tabs` or otherwise any
+/// white space; none if all are empty.
 std::vector<TableCell> cells_of(std::string_view line, bool tabs);
 
-/// What follows a # that is not in quotes.
+/// Returns the text after a # that is not in quotes.
 std::string_view comment_of(std::string_view line);
 
-/// Takes the first line off a text; it ends with LF, CR LF or CR.
+/// Removes the first line from a text and returns it; it ends with LF, CR LF or CR.
 std::string_view take_line(std::string_view& rest);
 
-/// How a number is written; NaN and infinities are written as numbers too.
+/// Returns the number that a text denotes, including NaN and infinities; no value for other text.
 std::optional<double> number_in(std::string_view text);
 
 struct TableColumn {
-  std::size_t at = 0;  ///< among the cells of a line
+  std::size_t at = 0;  ///< index of its cell in a line
   std::string name;
   scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter;
-  bool scaled = false;   ///< its values go from 0 to 1 through the box
-  bool of_dump = false;  ///< by such a name as xu, which gives way to x
+  bool scaled = false;   ///< values from 0 to 1 across the box
+  bool of_dump = false;  ///< named as in a dump, e.g. xu; a column x takes precedence
 };
 
 struct TableColumns {
   TableColumn x, height, size;
-  std::optional<TableColumn> depth{};  ///< a z beside y
+  std::optional<TableColumn> depth{};  ///< z, if there is a y
   std::optional<TableColumn> id{}, frame{};
-  std::vector<std::string> ignored{};  ///< names of the others
-  bool is_diameter = false;            ///< the size
-  std::size_t count = 3;               ///< of all columns
-  std::size_t line = 0;                ///< that names them; 0: none does
-  bool tabs = false;                   ///< separate the names, which may hold blanks
+  std::vector<std::string> ignored{};  ///< names of other columns
+  bool is_diameter = false;            ///< whether the size is a diameter
+  std::size_t count = 3;               ///< number of columns
+  std::size_t line = 0;                ///< line that names them; 0: none
+  bool tabs = false;                   ///< whether tabs separate the names, which may contain blanks
 };
 
-/// "mean diameters D", or the name of another unit.
+/// Returns "mean diameters D", or the name of another unit.
 std::string unit_text(scenario::LengthUnit unit);
 
-/// The columns that a line names. Throws LocatedError(bad_data) where x, the height or the size is missing or
-/// there twice, or has a unit that is unknown or contradicts `unit` (bed_table.h).
+/// Returns the columns that a line names. Throws LocatedError(bad_data) if x, the height or the size is
+/// missing or duplicated, or has a unit that is unknown or contradicts `unit` (bed_table.h).
 TableColumns named_columns(const TablePlace& place, std::string_view line, scenario::LengthUnit unit);
 
-/// The columns that a comment names if it has a name for each of `count`, with x, height and size among them;
-/// else nothing.
+/// Returns the columns that a comment names, if it has a name for each of `count`, including x, height and
+/// size; otherwise nothing.
 std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
                                                scenario::LengthUnit unit, std::size_t count);
 

@@ -85,7 +85,7 @@ TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew)
     if (number % 2 == 0) {
       const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
       EXPECT_EQ(retry.exit_code, 0) << retry.err;
-      EXPECT_NE(retry.out.find("1 members wait again"), std::string::npos) << retry.out;
+      EXPECT_NE(retry.out.find("1 members are waiting again"), std::string::npos) << retry.out;
     }
     const Outcome again = run_talus(ensemble_of("e", "1-3"), folder.path());
     EXPECT_EQ(again.exit_code, 0) << again.err;

@@ -90,7 +90,8 @@ TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
   command("squeue", "printf '13|PENDING|Priority\\n12|RUNNING|None\\n12|RUNNING|None\\n12|RUNNING|None\\n'");
   const Outcome enough = ensemble("submit");
   EXPECT_EQ(enough.exit_code, 0);
-  EXPECT_TRUE(has(enough.out, "4 members are missing, and 4 tasks are in the queue")) << enough.out;
+  EXPECT_TRUE(has(enough.out, "4 members are missing, and 4 tasks for them are already in the queue"))
+      << enough.out;
   command("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
   command("sbatch", "echo 14");
   EXPECT_TRUE(has(ensemble("submit").out, "job 14: 4 tasks"));
@@ -158,7 +159,7 @@ TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
   const std::string before = called();
   const Outcome enough = talus(words, task);
   EXPECT_EQ(enough.exit_code, 75);
-  EXPECT_TRUE(has(enough.err, "after 3 starts in a row no member had come further")) << enough.err;
+  EXPECT_TRUE(has(enough.err, "3 consecutive starts made no progress on any member")) << enough.err;
   EXPECT_EQ(called(), before) << "it asks for no other start";
   std::ofstream(file("seed-1.h5")) << "done";
   std::ofstream(file("seed-2.failed")) << "exit code 65\n\n";

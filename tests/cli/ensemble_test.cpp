@@ -185,7 +185,7 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   words.insert(words.end(), {"--keep", "1"});
   const Outcome less = run_talus(words, folder.path());
   ASSERT_EQ(less.exit_code, 0) << less.err;
-  EXPECT_NE(less.err.find("the frames of 2 members that are done are removed (--keep 1)"), std::string::npos)
+  EXPECT_NE(less.err.find("the frames of 2 members that are done were removed (--keep 1)"), std::string::npos)
       << less.err;
   EXPECT_TRUE(has_frames(1) && !has_frames(2) && !has_frames(3));
   EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
@@ -223,10 +223,9 @@ TEST(Ensemble, of_an_earlier_version_goes_on_with_what_it_has_kept_of_runs) {
   for (const std::vector<std::string>& words : {ensemble_of("e", "1-2"), {"ensemble", "work", "e"}}) {
     const Outcome lost = run_talus(words, folder.path());
     EXPECT_EQ(lost.exit_code, 65);
-    EXPECT_NE(
-        lost.err.find("e/seed-2.csv is the table of a member whose run an earlier version of Talus has not "
-                      "kept; go on in another folder, or remove it"),
-        std::string::npos)
+    EXPECT_NE(lost.err.find("e/seed-2.csv is the table of a member whose run was not kept by an earlier "
+                            "version of Talus; use another folder, or remove the table"),
+              std::string::npos)
         << lost.err;
   }
   std::filesystem::remove(folder.path("e/seed-2.csv"));
@@ -351,7 +350,7 @@ TEST(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
   EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("begun"), std::string::npos)
       << "what failed stays as it is";
   const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
-  EXPECT_NE(retry.out.find("2 members wait again"), std::string::npos) << retry.out;
+  EXPECT_NE(retry.out.find("2 members are waiting again"), std::string::npos) << retry.out;
   EXPECT_NE(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("seed-1 begun"), std::string::npos);
 }
 
@@ -426,7 +425,7 @@ TEST(Ensemble, leaves_a_member_for_later_whose_run_somebody_else_writes) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_TRUE(others_are_done());
     EXPECT_FALSE(has_ended(work)) << "it waits";
-    EXPECT_NE(errors_in(folder.path()).find("seed-1 is left for later: process 12 on host a writes its run"),
+    EXPECT_NE(errors_in(folder.path()).find("seed-1 is postponed: process 12 on host a is writing its run"),
               std::string::npos)
         << errors_in(folder.path());
     EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.claim-0")));
@@ -446,7 +445,7 @@ TEST(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
   const Outcome work = run_talus({"ensemble", "work", "e"}, folder.path());
   EXPECT_NE(work.out.find("seed-1 done\n"), std::string::npos) << work.out;
   const std::string log = text_of(folder.path("e/seed-1.log"));
-  EXPECT_NE(log.find("is e/seed-1.h5.damaged now; the member is begun anew"), std::string::npos) << log;
+  EXPECT_NE(log.find("is e/seed-1.h5.damaged now; the member is restarted"), std::string::npos) << log;
   EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.h5.damaged/manifest"))) << "nothing is lost";
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.failed")));
 }

@@ -72,7 +72,7 @@ TEST_F(Export, refuses_what_makes_no_sense) {
       {{"--to", "lammps", "-o", "x.xyz"}, 64, "ends in .dump"},
       {{"--to", "html", "-o", "x"}, 64, "x: expected a name that ends in .html"},
       {{"--to", "graphml", "-o", "x.graphml"}, 64, "there are 4 frames, each in a file of its own"},
-      {{"--to", "observables", "-o", "x.csv", "--at", "1"}, 64, "have no meaning for it"},
+      {{"--to", "observables", "-o", "x.csv", "--at", "1"}, 64, "have no effect on it"},
       {{"--to", "observables", "-o", "x.csv", "--flow"}, 65, "after failure"},
       {{"--to", "paraview"}, 64, "--output"},
       {{"-o", "x"}, 64, "--to"},

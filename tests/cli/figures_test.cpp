@@ -123,8 +123,8 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
         run_talus({"figures", input, "-o", output, "--only", "4,14,force-chains"}, folder_.path());
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     EXPECT_EQ(alone.err,
-              "left out: force-chains needs a run that has failed; given are only values of members, without "
-              "frames of their runs\n");
+              "left out: force-chains needs a run that has failed; the input has only values of members, "
+              "without frames of their runs\n");
     for (const char* table : {"fig04-shear-stress-pbc-l-10-d.csv", "fig14-volume-strain-pbc-l-10-d.csv",
                               "fig14-volume-strain-theta_d-pbc-l-10-d.csv"}) {
       const std::vector<double> runs = numbers_in(content(folder_.path() / "of-runs" / table)),
@@ -143,7 +143,7 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
   const Outcome settings =
       run_talus({"figures", "moved", "-o", "out", "--set", "gamma_c=0.3"}, folder_.path());
   EXPECT_EQ(settings.exit_code, 64);
-  expect_parts(settings.err, {"--set gamma_c=0.3: moved/ensemble.h5 has the values of an analysis"});
+  expect_parts(settings.err, {"--set gamma_c=0.3: moved/ensemble.h5 holds values of an analysis"});
 }
 
 TEST_F(Figures, are_drawn_again_by_their_script) {
@@ -168,7 +168,7 @@ TEST_F(Figures, have_the_size_and_the_frames_that_are_asked_for) {
       << "12 x 6 cm at 300 dpi are 1417 x 708 px";
   const Outcome none = figures({"--only", "5", "--at", "1"});
   EXPECT_EQ(none.exit_code, 64);
-  expect_parts(none.err, {"--at: no figure that is asked for shows single frames"});
+  expect_parts(none.err, {"--at: no requested figure shows single frames"});
   const Outcome far = figures({"--only", "8", "--set", "gamma_c=0.3", "--at", "80"});
   EXPECT_EQ(far.exit_code, 65);
   expect_parts(far.err, {"--at 80: no run of", "has such a frame"});
@@ -210,7 +210,7 @@ TEST_F(Figures, of_a_wildcard_are_of_the_runs_in_it) {
   const Outcome all =
       run_talus({"figures", "bed.h5", "bed.toml", "problem.h5", "-o", "out", "--only", "4"}, folder_.path());
   ASSERT_EQ(all.exit_code, 0) << all.err;
-  EXPECT_EQ(all.err, "left out: bed.toml is no run\nleft out: problem.h5 is no run\n");
+  EXPECT_EQ(all.err, "left out: bed.toml is not a run\nleft out: problem.h5 is not a run\n");
   const Outcome none = run_talus({"figures", "bed.toml", "problem.h5", "-o", "none"}, folder_.path());
   EXPECT_EQ(none.exit_code, 65);
   expect_parts(none.err, {"none of these 2 files is a run"});
@@ -220,7 +220,7 @@ TEST_F(Figures, of_a_wildcard_are_of_the_runs_in_it) {
   EXPECT_EQ(missing.exit_code, 66);
   const Outcome analysis = run_talus({"analyze", "problem.h5", "bed.h5", "-q"}, folder_.path());
   EXPECT_EQ(analysis.exit_code, 0) << analysis.err;
-  EXPECT_EQ(analysis.err, "left out: problem.h5 is no run\n");
+  EXPECT_EQ(analysis.err, "left out: problem.h5 is not a run\n");
 }
 
 TEST_F(Figures, of_one_run_twice_are_refused) {
@@ -253,7 +253,8 @@ TEST_F(Figures, need_gnuplot_before_anything_is_done) {
   const auto written = fs::last_write_time(folder_.path("bed.h5"));
   const Outcome outcome = figures();
   EXPECT_EQ(outcome.exit_code, 69);
-  expect_parts(outcome.err, {"gnuplot is not installed", "apt-get install gnuplot-nox"});
+  expect_parts(outcome.err,
+               {"gnuplot, which draws the figures, is not installed", "apt-get install gnuplot-nox"});
   EXPECT_EQ(fs::last_write_time(folder_.path("bed.h5")), written) << "no analysis was stored";
   EXPECT_FALSE(fs::exists(out("")));
 }
@@ -265,7 +266,7 @@ TEST_F(Figures, pass_on_what_gnuplot_says) {
   const Path path(folder_.path().string() + ":/bin:/usr/bin");
   const Outcome outcome = figures({"--only", "4"});
   EXPECT_EQ(outcome.exit_code, 74);
-  expect_parts(outcome.err, {"fig04-shear-stress.gp: gnuplot gave up: line 7: no such thing"});
+  expect_parts(outcome.err, {"fig04-shear-stress.gp: gnuplot failed: line 7: no such thing"});
   EXPECT_TRUE(names().empty()) << "nothing half-made is left";
 }
 

@@ -62,7 +62,7 @@ TEST_F(ForeignBed, of_soft_grains_is_told_how_far_they_were_moved) {
   EXPECT_EQ(
       run.out.find(
           "soft.txt: x and z are the plane, because y is the same for all; overlaps pushed apart, which "
-          "moved grains by 0.017 D in the mean, 0.025 D at most\n"),
+          "moved grains by 0.017 D on average, 0.025 D at most\n"),
       0u)
       << run.out;
   const Outcome check =

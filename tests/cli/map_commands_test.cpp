@@ -178,7 +178,8 @@ TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
 
   const Outcome again = render(first);
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_NE(again.out.find("4 pictures in maps, 3 of them there before"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("4 pictures in maps, 3 of them already up to date"), std::string::npos)
+      << again.out;
   EXPECT_EQ(fs::last_write_time(kept), fs::file_time_type{}) << "it was written again";
   EXPECT_EQ(files("maps").size(), 4u);
 
@@ -330,7 +331,7 @@ TEST_F(MapCommands, a_stopped_job_is_taken_up_where_it_was) {
     EXPECT_TRUE(file_bytes(folder_.path() / "maps" / name).ends_with("IEND\xae\x42\x60\x82")) << name;
   const Outcome rest = talus(job);
   EXPECT_EQ(rest.exit_code, 0) << rest.err;
-  EXPECT_NE(rest.out.find("20 pictures in maps, " + std::to_string(there) + " of them there before"),
+  EXPECT_NE(rest.out.find("20 pictures in maps, " + std::to_string(there) + " of them already up to date"),
             std::string::npos)
       << rest.out;
 }
@@ -356,12 +357,13 @@ TEST_F(MapCommands, a_panel_stacks_angles_and_sets_maps_beside_each_other) {
   EXPECT_GT(shape("three.png").height, 2 * shape("one.png").height);
   EXPECT_LT(shape("three.png").height, 3 * shape("one.png").height) << "one legend for all";
   EXPECT_EQ(shape("two.png").width, 1200);
-  EXPECT_NE(talus(two + Words{"-o", "two.png"}).out.find("there before"), std::string::npos);
+  EXPECT_NE(talus(two + Words{"-o", "two.png"}).out.find("already up to date"), std::string::npos);
   EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png"}).exit_code, 73);
   EXPECT_EQ(talus(one + Words{"--at", "0", "-o", "two.png", "--overwrite"}).exit_code, 0);
   for (const char* document : {"one.pdf", "one.svg"}) {
     EXPECT_EQ(talus(one + Words{"--at", "0", "-o", document}).exit_code, 0);
-    EXPECT_NE(talus(one + Words{"--at", "0", "-o", document}).out.find("there before"), std::string::npos)
+    EXPECT_NE(talus(one + Words{"--at", "0", "-o", document}).out.find("already up to date"),
+              std::string::npos)
         << document;
   }
   EXPECT_EQ(talus(one + Words{"--at", "0,1", "--bare", "-o", "bare.png"}).exit_code, 0);

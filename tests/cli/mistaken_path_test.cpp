@@ -78,7 +78,7 @@ TEST_F(MistakenPath, a_stopped_run_in_place_of_a_scenario_is_told_with_the_comma
   expect_refused({"run", "X", "--resume", "-o", "other.h5"}, "stopped.h5",
                  {"go on with it: talus run --resume stopped.h5\n"});
   const Outcome info = call({"info", "X"}, "stopped.h5");
-  EXPECT_NE(info.out.find("to go on            talus run --resume stopped.h5\n"), std::string::npos)
+  EXPECT_NE(info.out.find("to continue         talus run --resume stopped.h5\n"), std::string::npos)
       << info.out;
   EXPECT_EQ(call({"check", "X"}, "stopped.h5.run/").exit_code, 0);
 }

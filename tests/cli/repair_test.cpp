@@ -68,7 +68,7 @@ TEST_F(Repair, says_that_a_whole_run_is_whole) {
   compute("bed.h5", true);
   const Outcome repair = talus({"repair", "bed.h5", "-o", "new.h5"});
   EXPECT_EQ(repair.exit_code, 0) << repair.err;
-  EXPECT_EQ(repair.out, "bed.h5 is whole: there was nothing to repair, and nothing was written\n");
+  EXPECT_EQ(repair.out, "bed.h5 is intact: nothing to repair, and nothing was written\n");
   EXPECT_FALSE(fs::exists(folder_.path("new.h5")));
 }
 

@@ -160,7 +160,7 @@ TEST(Run, is_resumed_by_its_name_or_its_folder_alone) {
     EXPECT_NE(begun.err.find("; talus run --resume bed.h5 goes on.\n"), std::string::npos) << begun.err;
     const Outcome again = run_talus({"run", "--resume", name, "--max-wall", "00:00:01"}, folder.path());
     EXPECT_EQ(again.exit_code, 75) << again.err;
-    EXPECT_EQ(again.err.find("was begun by version"), std::string::npos) << again.err;
+    EXPECT_EQ(again.err.find("was started by version"), std::string::npos) << again.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5")));
     std::filesystem::remove_all(folder.path("bed.h5.run"));
   }
@@ -175,7 +175,7 @@ TEST(Run, that_cannot_be_resumed_says_why) {
   };
   const Outcome nothing = resume({"bed.h5"});
   EXPECT_EQ(nothing.exit_code, 66);
-  EXPECT_NE(nothing.err.find("begin it with: talus run SCENARIO -o bed.h5"), std::string::npos)
+  EXPECT_NE(nothing.err.find("start it with: talus run SCENARIO -o bed.h5"), std::string::npos)
       << nothing.err;
   write_file(folder, "text.h5", "precious");
   EXPECT_EQ(resume({"text.h5"}).exit_code, 65);
@@ -192,7 +192,7 @@ TEST(Run, that_is_complete_has_nothing_to_resume_but_a_folder_left_behind) {
   write_file(folder, "bed.h5.run/segment_000001.h5", "left by a kill");
   const Outcome outcome = run_talus({"run", "--resume", "bed.h5"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, "bed.h5 is complete already.\n");
+  EXPECT_EQ(outcome.out, "bed.h5 is already complete.\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
 }
 

@@ -33,7 +33,7 @@ TEST_F(ScriptedCommandLine, a_run_tells_what_was_carried_out_and_what_was_not) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(
       run.err.find("talus: warning: command.3 (push grain 7 by (0, 0.5) m/s, at 30 deg) was not carried "
-                   "out: the run ended before, at 4.000 deg\n"),
+                   "out: the run ended earlier, at 4.000 deg\n"),
       std::string::npos)
       << run.err;
   const std::string text = talus({"info", "bed.h5"}).out;
@@ -99,7 +99,7 @@ TEST_F(ScriptedCommandLine, a_branch_that_cannot_be_is_refused) {
   refused({"-o", "b.h5", "--at", "repose"}, 65, "the slope has not failed");
   refused({"-o", "b.h5", "--at", "frame99"}, 65, "frame");
   refused({"-o", "b.h5", "--at", "4"}, 64, "plain.h5: the run ends with its frame at 4.000 deg");
-  refused({"-o", "b.h5", "--at", "1", "--seed", "2"}, 64, "leave out --seed");
+  refused({"-o", "b.h5", "--at", "1", "--seed", "2"}, 64, "omit --seed");
   refused({"-o", "b.h5", "--at", "1", "--set", "bed.length=12"}, 65, "bed.length is 10 there, 12 here");
   refused({"-o", "b.h5", "--at", "1", "--resume"}, 64, "--resume");
   refused({"-o", "plain.h5", "--at", "1", "--overwrite"}, 64, "plain.h5 is read by this command");

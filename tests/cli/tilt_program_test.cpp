@@ -97,7 +97,7 @@ TEST_F(TiltProgramCommands, the_analysis_says_what_its_angles_refer_to) {
   take_run(folder_, "bed.h5", cycled_bed);
   const Outcome analysis = talus({"analyze", "bed.h5"});
   ASSERT_EQ(analysis.exit_code, 0) << analysis.err;
-  EXPECT_NE(analysis.out.find("theta_c, theta_d and the first slide are of the last rise, from 0"),
+  EXPECT_NE(analysis.out.find("theta_c, theta_d and the first slide refer to the last rise, from 0"),
             std::string::npos)
       << analysis.out;
   EXPECT_NE(talus({"analyze", "bed.h5"}).out.find("(analysis read from the file)"), std::string::npos);

@@ -48,7 +48,7 @@ TEST_F(KeptRun, that_was_stopped_goes_on_to_the_same_end) {
   std::filesystem::copy(kept_runs / (kept_name + "_stopped.h5.run"), run + ".run");
   succeed({"check", run}, folder_);
   const Outcome resumed = succeed({"run", "--quiet", "--resume", run}, folder_);
-  EXPECT_NE(resumed.err.find("was begun by version"), std::string::npos) << resumed.err;
+  EXPECT_NE(resumed.err.find("was started by version"), std::string::npos) << resumed.err;
   EXPECT_EQ(state_hash(run, folder_), state_hash(kept_run(), folder_));
   succeed({"check", run}, folder_);
 }

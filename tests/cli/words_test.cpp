@@ -42,12 +42,12 @@ Words names_below(const std::string& help, const std::string& heading) {
 
 TEST_F(TypedWords, a_command_is_suggested) {
   expect_refused({"redner", "x"}, "did you mean 'render'? talus --help lists them");
-  expect_refused({"plot", "x"}, "'plot' is no command; did you mean 'figures' or 'render'?");
+  expect_refused({"plot", "x"}, "'plot' is not a command; did you mean 'figures' or 'render'?");
   expect_refused({"status", "x"}, "did you mean 'ensemble status'?");
   expect_refused({"slope.toml"}, "did you mean 'run slope.toml'?");
   expect_refused({"slope.h5"}, "did you mean 'view slope.h5' or 'info slope.h5'?");
   EXPECT_EQ(talus({"ensemble", "work.toml", "-o", "beds"}).exit_code, 66) << "a scenario that is missing";
-  expect_refused({"frobnicate"}, "'frobnicate' is no command; talus --help lists them");
+  expect_refused({"frobnicate"}, "'frobnicate' is not a command; talus --help lists them");
   expect_refused({"ensemble", "statsu", "x"}, "did you mean 'talus ensemble status'?");
   expect_refused({}, "a command is missing, such as talus run SCENARIO.toml; talus --help lists them");
 }
@@ -55,9 +55,8 @@ TEST_F(TypedWords, a_command_is_suggested) {
 TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
   expect_refused({"animate", "x.h5", "--fps", "abc"}, "--fps: expected a number from 0.1 to 120, found abc;");
   expect_refused({"animate", "x.h5", "--fps", "nan"}, "--fps: expected a number from 0.1 to 120, found nan;");
-  expect_refused(
-      {"ensemble", "x.toml", "--jobs", "1.5"},
-      "--jobs: expected a whole number from 0 to 256, found 1.5; talus ensemble --help tells more");
+  expect_refused({"ensemble", "x.toml", "--jobs", "1.5"},
+                 "--jobs: expected a whole number from 0 to 256, found 1.5; see talus ensemble --help");
   expect_refused({"figures", "x.h5", "-o", "x", "--size", "3"},
                  "--size 3: expected a width in cm from 8 to 60, or WIDTHxHEIGHT");
   expect_refused({"forces", "x.h5", "--seed", "abc"}, "--seed: expected a number, found abc;");
@@ -76,9 +75,9 @@ TEST_F(TypedWords, options_without_what_they_need_are_told_in_plain_words) {
       {{"animate", "x.h5", "--speed"}, "--speed: expected DEG/S, found nothing ("},
       {{"render", "x.h5", "--at", "1", "--every", "2"},
        "--at and --every exclude each other: leave one out;"},
-      {{"render"}, "RUN is missing; talus render --help"},
+      {{"render"}, "RUN is missing; see talus render --help"},
       {{"export", "x.h5", "-o", "y"}, "--to is missing: expected --to {paraview,"},
-      {{"panel", "x.h5", "-o", "y"}, "--at is missing: expected --at DEG,...; talus panel --help"},
+      {{"panel", "x.h5", "-o", "y"}, "--at is missing: expected --at DEG,...; see talus panel --help"},
       {{"dump", "x.h5", "-o", "y"}, "--at is missing"},
       {{"run", "x.toml", "--colours", "gray"}, "--colours needs --pictures;"},
       {{"run", "x.toml", "-o", "a", "-o", "b"}, "--output was given 2 times; expected one FILE;"},
@@ -88,18 +87,19 @@ TEST_F(TypedWords, options_without_what_they_need_are_told_in_plain_words) {
 }
 
 TEST_F(TypedWords, an_option_is_suggested_by_every_command) {
-  expect_refused({"render", "x.h5", "--map", "gamma", "--colors", "viridis"},
-                 "'--colors' is no option of talus render; did you mean '--colours'? talus render --help");
+  expect_refused(
+      {"render", "x.h5", "--map", "gamma", "--colors", "viridis"},
+      "'--colors' is not an option of talus render; did you mean '--colours'? talus render --help");
   expect_refused({"animate", "x.h5", "--colors=gray"}, "did you mean '--colours'?");
   expect_refused({"ensemble", "x.toml", "--seed", "1-3"}, "did you mean '--seeds'?");
   expect_refused({"ensemble", "status", "x", "--jsno"},
-                 "no option of talus ensemble status; did you mean '--json'?");
+                 "not an option of talus ensemble status; did you mean '--json'?");
   expect_refused({"run", "x.toml", "--over"}, "did you mean '--overwrite'?");
   expect_refused({"run", "x.toml", "-overwrite"}, "did you mean '--overwrite'?");
   expect_refused({"render", "x.h5", "--map", "gamma", "-at", "3"}, "did you mean '--at'?");
   expect_refused({"info", "x.h5", "--zzzzzz"},
-                 "'--zzzzzz' is no option of talus info; talus info --help lists them");
-  expect_refused({"--verbose"}, "'--verbose' is no option of talus;");
+                 "'--zzzzzz' is not an option of talus info; talus info --help lists them");
+  expect_refused({"--verbose"}, "'--verbose' is not an option of talus;");
   for (const std::string& command : names_below(talus({"--help"}).out, "Runs:"))
     expect_refused({command, "x", "--hepl"}, "did you mean '--help'?");
 }
@@ -117,7 +117,7 @@ TEST_F(TypedWords, a_key_is_no_option_but_a_setting) {
 
 TEST_F(TypedWords, a_word_too_many_is_named) {
   expect_refused({"render", "a.h5", "b.h5", "--map", "gamma"},
-                 "'b.h5' is one word too many; expected talus render RUN and options");
+                 "'b.h5' is one argument too many; expected talus render RUN and options");
 }
 
 TEST_F(TypedWords, a_value_is_suggested) {
@@ -232,8 +232,7 @@ TEST_F(TypedWords, pages_and_completions_say_what_values_mean) {
 }
 
 TEST_F(TypedWords, frames_are_a_folder_of_a_run_and_numbers_of_an_export) {
-  EXPECT_NE(talus({"run", "--help"}).out.find("--pictures FOLDER     Folder into which maps"),
-            std::string::npos);
+  EXPECT_NE(talus({"run", "--help"}).out.find("--pictures FOLDER     Folder for maps"), std::string::npos);
   EXPECT_NE(talus({"export", "--help"}).out.find("--frames K,K-K,... "), std::string::npos);
 }
 

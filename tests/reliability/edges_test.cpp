@@ -222,7 +222,7 @@ TEST_F(Edges, a_bed_for_which_there_is_no_memory_is_refused_before_it_is_made) {
   const Outcome outcome =
       talus({"run", "bed.toml", "--set", "bed.length=100000", "--set", "bed.depth=20", "-o", "large.h5"});
   EXPECT_EQ(outcome.exit_code, 71);
-  EXPECT_NE(outcome.err.find("this run takes up to about 1"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("this run needs up to about 1"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("only 4.3 GB are available"), std::string::npos) << outcome.err;
   EXPECT_FALSE(fs::exists(folder->path("large.h5.run")));
 }

@@ -370,7 +370,7 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   EXPECT_EQ(whole_again.exit_code, done) << whole_again.out;
   const test::Outcome replay = talus({"replay", "kept.h5"});
   EXPECT_EQ(replay.exit_code, bad_data);
-  EXPECT_NE(replay.err.find("the state that it began from is lost"), std::string::npos) << replay.err;
+  EXPECT_NE(replay.err.find("its first state is lost"), std::string::npos) << replay.err;
   EXPECT_THROW(session::checkpoint_at_frame(kept, 1), Error)
       << "what had been set before is not known any more";
 }

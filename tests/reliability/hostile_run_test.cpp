@@ -193,7 +193,7 @@ TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_the_program) {
       const test::Outcome outcome = test::run_talus({command, path}, folder->path());
       EXPECT_EQ(outcome.exit_code, 65);
       EXPECT_EQ(outcome.err, "talus: error: " + path +
-                                 ": HDF5 crashes on it: the file is malformed, although its hash is right; "
+                                 ": HDF5 crashes on this file: it is malformed, although its hash is right; "
                                  "restore it from a copy\n");
     }
   }

@@ -34,7 +34,7 @@ TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) 
     run.analysis.first_slide = first_slide;
     return analysis_text(run);
   };
-  EXPECT_NE(text_with(0.3, 0.4).find("22.92 deg, after theta_c: the bed was tilted on while the flow"),
+  EXPECT_NE(text_with(0.3, 0.4).find("22.92 deg, after theta_c: tilting continued while the flow"),
             std::string::npos);
   EXPECT_EQ(text_with(0.3, 0.29).find("after theta_c"), std::string::npos);
   EXPECT_EQ(text_with(not_known, 0.29).find("after theta_c"), std::string::npos);
@@ -43,7 +43,7 @@ TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) 
 TEST(BeyondRepose, is_told_from_a_degree_on) {
   EXPECT_EQ(beyond_repose(0.3, 0.31), "");
   EXPECT_EQ(beyond_repose(0.3, 0.2), "");
-  EXPECT_TRUE(beyond_repose(0.3, 0.4).starts_with("; the bed was tilted on to 22.92 deg while this flow"));
+  EXPECT_TRUE(beyond_repose(0.3, 0.4).starts_with("; tilting continued to 22.92 deg while this flow"));
 }
 
 }  // namespace

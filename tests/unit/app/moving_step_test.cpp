@@ -11,10 +11,9 @@ TEST(MovingStep, IsOneOfWhichTheRunAskedLessThanOfABedAtRest) {
 }
 
 TEST(MovingStep, IsNamedWithItsTolerances) {
-  EXPECT_EQ(
-      remark_on_moving({0.234, 2.34e-5, 3e-7}, 2.1e-5),
-      "The bed was moving in this step, at 0.23 g h (rms), so the run asked for 2.3e-05 and not for the "
-      "3.0e-07 of a bed at rest; this solve has reached only the first.");
+  EXPECT_EQ(remark_on_moving({0.234, 2.34e-5, 3e-7}, 2.1e-5),
+            "The bed was moving in this step, at 0.23 g h (rms), so the run required 2.3e-05 instead of the "
+            "3.0e-07 of a bed at rest; this solve has reached only the first.");
 }
 
 TEST(MovingStep, TellsWhichToleranceWasReached) {

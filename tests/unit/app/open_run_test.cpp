@@ -34,7 +34,7 @@ TEST_F(OpenRunTest, names_the_run_and_the_value_that_its_checkpoint_lacks) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_EQ(error.what(),
               request_.output +
-                  ": data set /checkpoint/integers/phase is missing; without it the run cannot go on");
+                  ": data set /checkpoint/integers/phase is missing; without it the run cannot continue");
   }
 }
 

@@ -19,14 +19,14 @@ TEST(UnconvergedSteps, AreStatedWhereTheyAreFew) {
   EXPECT_EQ(
       remark.text,
       "0.089 % of the steps did not reach their tolerance (largest residual 6.6e-06 at rest, 0.00021 while "
-      "moving); that is usual (docs/solver.md).");
+      "moving); this is usual (docs/solver.md).");
 }
 
 TEST(UnconvergedSteps, AreAWarningWhereTheyAreMany) {
   EXPECT_TRUE(remark_on(record_of(20), 10000).usual);
   const StepRemark remark = remark_on(record_of(21), 10000);
   EXPECT_FALSE(remark.usual);
-  EXPECT_NE(remark.text.find("0 of the deposition, 21 of the tilt, 0 after failure"), std::string::npos);
+  EXPECT_NE(remark.text.find("0 in the deposition, 21 in the tilt, 0 after failure"), std::string::npos);
   EXPECT_NE(remark.text.find("solver.max_iterations"), std::string::npos);
 }
 

@@ -97,8 +97,8 @@ TEST(BedOfTable, stays_within_walls_and_above_the_floor) {
   EXPECT_TRUE(message_of("5.5,0.25,0.5\n")
                   .starts_with("bed.csv:1:1: error: the grain overlaps with a grain of the floor by 0.25"));
   EXPECT_EQ(message_of("5.5,-7,0.5\n"),
-            "bed.csv:1:1: error: the grain is below the floor: y = -7 D, expected a place above that of the "
-            "floor grains, whose tops are at 0");
+            "bed.csv:1:1: error: the grain is below the floor: y = -7 D, expected a position above the floor "
+            "grains, whose tops are at 0");
 }
 
 TEST(BedOfTable, stays_within_the_period) {
@@ -112,11 +112,10 @@ TEST(BedOfTable, stays_within_the_period) {
 TEST(BedOfTable, is_in_mean_diameters) {
   EXPECT_EQ(message_of("3,2,0.54\n"), "accepted");
   EXPECT_EQ(message_of("3,2,0.46\n"), "accepted");
-  EXPECT_EQ(
-      message_of("3,2,0.25\n"),
-      "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
-      "(grains.mean_diameter); a table with lengths in mm has deposition.file_unit = \"mm\" or names its "
-      "columns as in x [mm]");
+  EXPECT_EQ(message_of("3,2,0.25\n"),
+            "bed.csv: the mean diameter of its grains is 0.5 D: expected 1 D within 10 %, with D = 0.01 m "
+            "(grains.mean_diameter); for a table in mm, set deposition.file_unit = \"mm\" or name its "
+            "columns as in x [mm]");
   EXPECT_EQ(bed_of_file({Table("30 20 5.4\n").path, 0, scenario::LengthUnit::millimetre}, plan_of())
                 .grains.radius[0],
             0.0054);
@@ -131,8 +130,8 @@ TEST(BedOfTable, of_soft_grains_is_pushed_apart_if_that_is_asked_for) {
   std::string remark;
   const World world =
       bed_of_file({table.path, 0, scenario::LengthUnit::mean_diameter, 1.0, true}, plan, &remark);
-  EXPECT_EQ(remark, table.path +
-                        ": overlaps pushed apart, which moved grains by 0.038 D in the mean, 0.05 D at most");
+  EXPECT_EQ(remark,
+            table.path + ": overlaps pushed apart, which moved grains by 0.038 D on average, 0.05 D at most");
   const double d = plan.mean_diameter;
   EXPECT_NEAR(world.grains.x[0], 2.96 * d, 1e-12);
   EXPECT_NEAR(world.grains.x[1], 3.96 * d, 1e-12);
@@ -164,12 +163,12 @@ TEST(BedOfDump, fits_the_period_and_leaves_out_another_floor) {
   EXPECT_NEAR(world.grains.x[0], 0.025, 1e-15) << "unwrapped before";
   EXPECT_EQ(remark, dump.path + ": ignored: type; 2 grains with their tops at y = 0 left out, as a floor");
   EXPECT_TRUE(
-      message_of(head + "11" + rows).starts_with("bed.csv: its box is 11 D long, and periodic: expected "));
-  EXPECT_TRUE(message_of("3,2,0.005\n").ends_with("; with deposition.file_unit = \"m\" it is right"));
+      message_of(head + "11" + rows).starts_with("bed.csv: its periodic box is 11 D long: expected "));
+  EXPECT_TRUE(message_of("3,2,0.005\n").ends_with("; it fits with deposition.file_unit = \"m\""));
 }
 
 TEST(BedOfTable, has_grains_and_no_frames) {
-  EXPECT_EQ(message_of("# none\n"), "bed.csv: there is no grain: expected lines with x, y and radius");
+  EXPECT_EQ(message_of("# none\n"), "bed.csv: no grains: expected lines with x, y and radius");
   const Table table("3,2,0.5\n");
   EXPECT_EQ(message_of(table.path, 1, plan_of(), ExitCode::bad_data),
             "bed.csv: a table has no frames: expected deposition.frame = 0");
@@ -180,7 +179,7 @@ TEST(BedOfFile, says_what_a_missing_one_is_needed_for) {
   for (const char* name : {"bed.csv", "run.h5"}) {
     const std::string message = message_of(folder.path(name), 0, plan_of(), ExitCode::missing_input);
     EXPECT_TRUE(message.starts_with(std::string(name) + ": ")) << message;
-    EXPECT_NE(message.find("needed to begin a run or to replay it, not to resume it"), std::string::npos);
+    EXPECT_NE(message.find("needed to start or replay a run, but not to resume it"), std::string::npos);
   }
 }
 
@@ -242,14 +241,13 @@ TEST(BedOfRun, fits_the_plan) {
   dynamics::BedPlan longer = plan_of();
   longer.length *= 1.1;
   EXPECT_EQ(message_of(run.path, 0, longer, ExitCode::bad_data),
-            "run.h5: the period of the run is 0.1 m, but bed.length makes it 0.11 m; give the scenario the "
-            "values of the run (talus info)");
+            "run.h5: the period of the run is 0.1 m, but bed.length makes it 0.11 m; use the values of the "
+            "run in the scenario (talus info)");
   dynamics::BedPlan larger = plan_of();
   larger.mean_diameter *= 1.05;
-  EXPECT_EQ(
-      message_of(run.path, 0, larger, ExitCode::bad_data),
-      "run.h5: the mean diameter of the run is 0.01 m, but grains.mean_diameter makes it 0.0105 m; give "
-      "the scenario the values of the run (talus info)");
+  EXPECT_EQ(message_of(run.path, 0, larger, ExitCode::bad_data),
+            "run.h5: the mean diameter of the run is 0.01 m, but grains.mean_diameter makes it 0.0105 m; use "
+            "the values of the run in the scenario (talus info)");
 }
 
 TEST(RunOfFile, has_as_many_grains_as_the_file) {

@@ -57,9 +57,9 @@ TEST(BedTable, has_any_ends_of_lines_and_a_byte_order_mark) {
   expect_two_grains("x,y,radius\r0.5,1.25,0.4\r\r3,-0.125,0.6\r", 2, 4);
   for (const std::string mark : {"\xff\xfe", "\xfe\xff"})
     EXPECT_EQ(message_of(mark + "1,2,0.5\n"),
-              "bed.csv: this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
+              "bed.csv: this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
   EXPECT_EQ(message_of(std::string("1\0,\0002\0", 6)),
-            "bed.csv: this is not a table in UTF-8, but in UTF-16 or no text: save it as UTF-8 text");
+            "bed.csv: this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
 }
 
 TEST(BedTable, has_its_columns_in_the_order_of_their_names) {
@@ -94,7 +94,7 @@ TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
   } catch (const LocatedError& error) {
     EXPECT_STREQ(error.what(),
                  "bed.csv:1:3: error: the column \"y [m]\" names another unit than deposition.file_unit: "
-                 "leave one of them out");
+                 "omit one of them");
   }
   EXPECT_EQ(in_metres(2.0, scenario::LengthUnit::mean_diameter, 0.01), 0.02);
 }
@@ -111,10 +111,9 @@ TEST(BedTable, refuses_names_with_a_sentence_about_names) {
   EXPECT_EQ(message_of("x,y,r,d\n"),
             refused("\"x\", \"y\", \"r\", \"d\"", "more than one column for the size"));
   EXPECT_EQ(message_of("x,y,x,d\n"), refused("\"x\", \"y\", \"x\", \"d\"", "more than one column for x"));
-  EXPECT_EQ(
-      message_of("x,y,z,r\n1,2,3,0.5\n2,2,3,0.5\n1,3,4,0.5\n"),
-      "bed.csv:4:1: error: this grain has another y and another z than others: expected a bed of disks, with "
-      "the same z (or the same y) for all; a section of a pile of spheres is none");
+  EXPECT_EQ(message_of("x,y,z,r\n1,2,3,0.5\n2,2,3,0.5\n1,3,4,0.5\n"),
+            "bed.csv:4:1: error: this grain differs from others in both y and z: expected a bed of disks, "
+            "with the same z (or the same y) for all; a section of a pile of spheres is not one");
   EXPECT_EQ(message_of("x,y,r,id\n1,2,0.5\n"),
             "bed.csv:2:1: error: the line has 3 values: expected 4, one for each column that line 1 names");
   EXPECT_EQ(

@@ -29,21 +29,21 @@ TEST(AdviceForRest, names_the_key_that_keeps_a_bed_from_rest) {
     change(scenario);
     return advice_for_rest(scenario, velocity);
   };
-  EXPECT_EQ(advice([](scenario::Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
-            "with contact.restitution = 1 impacts take no energy, so that neither more time nor a tolerance "
-            "helps: set it nearer to 0");
   EXPECT_EQ(
-      advice([](scenario::Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
-      "with contact.restitution = 0.97 impacts take little energy: set it nearer to 0, or allow more time "
-      "(deposition.max_time)");
+      advice([](scenario::Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
+      "with contact.restitution = 1 impacts dissipate no energy, so that neither more time nor a tolerance "
+      "helps: set it closer to 0");
+  EXPECT_EQ(advice([](scenario::Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
+            "with contact.restitution = 0.97 impacts dissipate little energy: set it closer to 0, or allow "
+            "more time (deposition.max_time)");
   for (const double e_t : {-1.0, 1.0})
     EXPECT_TRUE(
         advice([e_t](scenario::Scenario& s) { s.contact.tangential_restitution = e_t; }, 1.0)
             .starts_with("with contact.tangential_restitution = " + std::string(e_t < 0 ? "-1" : "1")));
   EXPECT_EQ(advice([](scenario::Scenario& s) { s.deposition.rest_velocity = 1e-9; }, 1e-4),
-            "set deposition.rest_velocity higher: beds are at rest by the default of 0.005");
+            "set deposition.rest_velocity higher: beds come to rest with the default of 0.005");
   EXPECT_TRUE(advice([](scenario::Scenario&) {}, 1e-4)
-                  .starts_with("it has only just come below that, or the solver misses"));
+                  .starts_with("it has only just fallen below that, or the solver misses"));
   EXPECT_TRUE(
       advice([](scenario::Scenario&) {}, 1.0).starts_with("allow more time (deposition.max_time), or set"));
 }

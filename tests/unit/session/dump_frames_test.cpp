@@ -85,18 +85,16 @@ TEST(LammpsDump, of_a_bed_in_x_and_z_is_taken_so) {
   EXPECT_EQ(grains_of(bed), "2 1.5 0.5, 4 0.5 0.5, ");
   EXPECT_EQ(bed.remark, "x and z are the plane, because y is the same for all");
   EXPECT_EQ(message_about(snapshot("id x y z radius", "1 1 0.2 1.5 0.5\n2 3 0.3 0.5 0.5\n")),
-            "d:11:1: error: this grain has another y and another z than others: expected a bed of disks, "
-            "with the same "
-            "z (or the same y) for all; a section of a pile of spheres is none");
+            "d:11:1: error: this grain differs from others in both y and z: expected a bed of disks, with "
+            "the same z (or the same y) for all; a section of a pile of spheres is not one");
 }
 
 TEST(LammpsDump, that_is_wrong_is_refused_at_its_line) {
-  EXPECT_EQ(
-      message_about(snapshot("id x y radius", "1 1 1 0.5\n", 2)),
-      "d:10:1: error: the frame ends after 1 of its 2 grains: the file is cut off; expected the rest, or "
-      "deposition.frame of a frame before");
+  EXPECT_EQ(message_about(snapshot("id x y radius", "1 1 1 0.5\n", 2)),
+            "d:10:1: error: the frame ends after 1 of its 2 grains: the file is cut off; expected the rest, "
+            "or an earlier deposition.frame");
   EXPECT_EQ(message_about(snapshot("id x y radius", "1 1 1 0.5\n1 3 1 0.5\n")),
-            "d:11:1: error: grain 1 stands in line 10 too: expected each id once");
+            "d:11:1: error: grain 1 is also in line 10: expected each id once");
   EXPECT_EQ(message_about(snapshot("x y radius", "1 1 -0.5\n2 1 0.5\n")),
             "d:10:5: error: radius = -0.5: expected a finite number > 0, in mean diameters D");
   EXPECT_EQ(message_about(snapshot("x y radius", "1 nan 0.5\n2 1 0.5\n")),
@@ -115,7 +113,7 @@ TEST(LammpsDump, that_is_wrong_is_refused_at_its_line) {
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n7\n"),
             "d: frame 0 of 1 (timestep 7) is cut off: expected a line such as ITEM: ATOMS id x y radius");
   EXPECT_EQ(message_about("ITEM: TIMESTEP\n1\nhello\n"),
-            "d:3:1: error: \"hello\": expected a line that begins with ITEM:, as in a dump of LAMMPS");
+            "d:3:1: error: \"hello\": expected a line that starts with ITEM:, as in a dump of LAMMPS");
   for (const char* bounds :
        {"xy xz yz pp pp pp\n0 9 1\n0 5 0\n0 1 0\n", "pp pp pp\n9 0\n0 5\n0 1\n", "pp pp pp\n0\n"})
     EXPECT_NE(message_about(snapshot("x y radius", "1 1 1\n", 1, 0, bounds)).find(":6:1: error: "),

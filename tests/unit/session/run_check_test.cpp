@@ -82,7 +82,7 @@ const Damage damages[] = {
      [](io::Segment& s) { s.frames[1].contacts.ft[3] = 2.0 * s.frames[1].contacts.fn[3]; },
      "Coulomb's law allows 1"},
     {"another_force", [](io::Segment& s) { s.frames[0].contacts.fn[5] *= 1.5; },
-     "frame 0: internal_moment is not that of the contacts"},
+     "frame 0: internal_moment does not match the contacts"},
     {"another_moment", [](io::Segment& s) { s.frames[2].internal_moment[4].xy += 0.5; },
      "frame 2: internal_moment"},
     {"another_tilt", [](io::Segment& s) { s.frames[0].tilt = 0.5; }, "forces and weight differ by"},

@@ -128,7 +128,7 @@ TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
   io::Checkpoint lacks = checkpoint;
   std::erase_if(lacks.reals, [](const auto& named) { return named.first == "tilt_from"; });
   EXPECT_EQ(refusal(lacks),
-            "run.h5: data set /checkpoint/reals/tilt_from is missing; without it the run cannot go on");
+            "run.h5: data set /checkpoint/reals/tilt_from is missing; without it the run cannot continue");
   io::Checkpoint phase = checkpoint, steps = checkpoint;
   phase.integers[0].second = 4;
   EXPECT_EQ(refusal(phase), "run.h5: data set /checkpoint/integers/phase is 4, expected 0, 1, 2 or 3");
