@@ -1,4 +1,4 @@
-// What if? From one bed close to failure, copies with more and less friction.
+// Copies a bed close to failure, and tilts the copies with more and less friction.
 // usage: branches SCENARIO.toml TILT [KEY=VALUE...]
 
 #include <talus/talus.h>

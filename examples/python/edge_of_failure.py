@@ -1,6 +1,6 @@
 """Holds a slope at the edge of failure: friction decreases while the bed is quiet, and increases while it slips.
 
-usage: python3 edge_of_failure.py [KEY=VALUE...]      such as bed.length=30 seed=2"""
+usage: python3 edge_of_failure.py [KEY=VALUE...]      e.g. bed.length=30 seed=2"""
 
 import sys
 import tomllib
@@ -13,7 +13,7 @@ BED = {"bed.length": 40, "bed.depth": 15, "tilt.rate": 4, "tilt.step": 0.008}
 TILT = 14.0       # deg
 EVERY = 0.02      # s between two decisions of the controller
 DECAY = 0.10      # 1/s, relative rate at which friction falls while the bed is quiet
-GROWTH = 1.5      # 1/s, and at which it rises while the bed slips
+GROWTH = 1.5      # 1/s, relative rate at which friction rises while the bed slips
 QUIET = 2e-3      # rms velocity, sqrt(g D), below which the bed is quiet
 DURATION = 25.0   # s
 

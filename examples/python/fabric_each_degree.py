@@ -1,9 +1,9 @@
-"""Measures at each degree of the tilt what Talus does not: how strong contacts and weak ones are oriented.
+"""Measures a quantity that Talus does not provide, at each degree of the tilt: the orientation of strong and weak contacts.
 
 The fabric tensor of a set of contacts is the mean of n n over their normals n. Its anisotropy is twice the difference of its
 principal values, and its direction is that of the larger one. Contacts that carry more than the mean force are strong.
 
-usage: python3 fabric_each_degree.py [KEY=VALUE...]      such as bed.length=30 seed=2"""
+usage: python3 fabric_each_degree.py [KEY=VALUE...]      e.g. bed.length=30 seed=2"""
 
 import sys
 import tomllib
@@ -16,14 +16,14 @@ BED = {"bed.length": 60, "bed.depth": 20, "tilt.rate": 4, "tilt.step": 0.008}
 
 
 def normals():
-    """The normals of strong and of weak contacts."""
+    """Returns the normals of strong and of weak contacts."""
     force = sim.contacts.force[:, 0]
     mean = force[force > 0].mean()
     return sim.contacts.normal[force > mean], sim.contacts.normal[(force > 0) & (force <= mean)]
 
 
 def fabric(normal):
-    """Anisotropy, and principal direction in deg, counter-clockwise from the x axis, which points downslope."""
+    """Returns anisotropy and principal direction in deg, counter-clockwise from the x axis, which points downslope."""
     values, axes = np.linalg.eigh(normal.T @ normal / len(normal))
     return 2 * (values[1] - values[0]), np.degrees(np.arctan2(axes[1, 1], axes[0, 1])) % 180
 
@@ -37,7 +37,7 @@ while not sim.done:
 tilt, strong, weak = zip(*(row for row in measured if row[0] <= sim.theta_c))  # the slope flows after theta_c
 
 figure = plt.figure(figsize=(8, 4), layout="constrained")
-figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.94))  # room for what belongs to the polar axes
+figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.94))  # room for labels and legend of the polar axes
 grid = figure.add_gridspec(2, 2, width_ratios=[1.25, 1])
 top, bottom = (figure.add_subplot(place) for place in (grid[0, 0], grid[1, 0]))
 polar = figure.add_subplot(grid[:, 1], projection="polar")

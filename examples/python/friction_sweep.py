@@ -1,6 +1,6 @@
-"""Deposits beds, and tilts copies of each with different frictions side by side, in a pool of threads.
+"""Deposits beds, and tilts copies of each with different friction in parallel, in a pool of threads.
 
-usage: python3 friction_sweep.py [KEY=VALUE...]      such as bed.length=30"""
+usage: python3 friction_sweep.py [KEY=VALUE...]      e.g. bed.length=30"""
 
 import os
 import sys
@@ -23,7 +23,7 @@ def deposited(seed):
 
 
 def tilted(sim, friction):
-    """Tilts a bed until it fails; gives its tilts (deg) and changes of volume (%), and its angle of repose (deg)."""
+    """Tilts a bed until it fails; returns its tilts (deg) and changes of volume (%), and its angle of repose (deg)."""
     sim.friction, history = friction, []
     while not sim.done:
         sim.tilt_by(0.25)

@@ -1,6 +1,6 @@
 """Gives the same push to ten grains at the surface of a bed at several tilts, and shows how far the disturbance reaches.
 
-usage: python3 push.py [KEY=VALUE...]      such as bed.length=30 seed=2"""
+usage: python3 push.py [KEY=VALUE...]      e.g. bed.length=30 seed=2"""
 
 import sys
 import tomllib

@@ -1,6 +1,6 @@
 """Tilts a bed until half of its grains are overloaded, holds it there for three seconds, and draws it. The run is recorded.
 
-usage: python3 stop_at_fraction.py [SCENARIO.toml] [KEY=VALUE...]      such as bed.length=30 seed=2"""
+usage: python3 stop_at_fraction.py [SCENARIO.toml] [KEY=VALUE...]      e.g. bed.length=30 seed=2"""
 
 import sys
 import tomllib
@@ -34,7 +34,7 @@ def measure():
 
 if not sim.done:
     sim.tilt_rate = 0
-    sim.run(HOLD, until=measure, every=0.02)  # measure() returns nothing, so it ends nothing
+    sim.run(HOLD, until=measure, every=0.02)  # measure() returns None, so it does not end the run
 measure()
 time, overloaded, speed = np.transpose(held)
 

@@ -1,5 +1,5 @@
-/// The extension module talus._core: Simulation for Python, thin. python/talus/simulation.py is what users
-/// see.
+/// Extension module talus._core: thin bindings of Simulation for Python. The public interface is
+/// python/talus/simulation.py.
 
 #include <pthread.h>
 #include <pybind11/numpy.h>
@@ -25,16 +25,16 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// Steps that are under way in threads that do not hold the interpreter: they must end before it does.
+/// Number of steps running in threads that do not hold the interpreter; they must end before it does.
 std::atomic<int> steps_under_way = 0;
 std::atomic<bool> interpreter_ends = false;
 std::atomic<int> draws_under_way = 0;
-/// In a child of fork, if another thread of its parent was drawing, or was in a simulation, which may have
-/// been writing: the locks of Mesa and of HDF5 stay as they were then.
+/// Flags of a forked child whose parent had another thread that was drawing, or was in a simulation, which
+/// may have been writing: the locks of Mesa and HDF5 stay as they were at the fork.
 bool cannot_draw = false, cannot_use_files = false;
 
-/// For children of fork, which have none of the other threads. Mesa draws without threads of its own, for
-/// which a child would wait when it draws, or ends.
+/// Prepares for forked children, which lack the other threads. Mesa draws without threads of its own, because
+/// a child would wait for them when it draws or ends.
 void survive_forks() {
   ::setenv("LP_NUM_THREADS", "0", 0);
   ::pthread_atfork(nullptr, nullptr, [] {
@@ -44,7 +44,7 @@ void survive_forks() {
   });
 }
 
-/// Counts something while it lasts.
+/// Increments a counter during its lifetime.
 class Count {
  public:
   explicit Count(std::atomic<int>& of) : of_(of) { ++of_; }
@@ -56,8 +56,8 @@ class Count {
   std::atomic<int>& of_;
 };
 
-/// A simulation and who uses it. While a thread steps it, no other may use it, and what is called by the step
-/// itself may only look at it.
+/// A simulation and its current user. While a thread steps it, no other thread may use it, and callbacks of
+/// the step may only read it.
 class Driven {
  public:
   explicit Driven(Simulation simulation) : simulation_(std::move(simulation)) { all.insert(this); }
@@ -65,14 +65,14 @@ class Driven {
   Driven(const Driven&) = delete;
   Driven& operator=(const Driven&) = delete;
 
-  /// Commits what was recorded, of all simulations that no thread is in. The interpreter does not destroy
-  /// those that a daemon thread holds.
+  /// Commits the recorded data of all simulations that no thread is using. The interpreter does not destroy
+  /// simulations held by a daemon thread.
   static void commit_all() {
     for (Driven* const driven : all) {
       if (driven->busy_) continue;
       try {
         driven->simulation_.commit();
-      } catch (const std::exception&) {  // what was committed before is whole
+      } catch (const std::exception&) {  // earlier commits are intact
       }
     }
   }
@@ -83,9 +83,8 @@ class Driven {
   }
   const Simulation& seen() const { return const_cast<Driven*>(this)->seen(); }
 
-  /// Does something with the simulation that nothing else may interfere with, without holding the
-  /// interpreter. `tick` is called some twenty times a second, while it steps; an exception in it, or of a
-  /// signal, goes through.
+  /// Runs `work` on the simulation exclusively, without holding the interpreter. `tick` is called about
+  /// twenty times a second during steps; its exceptions, and those of signals, are propagated.
   template <typename Work>
   auto use(const py::object& tick, Work&& work) {
     if (busy_.exchange(true, std::memory_order_acq_rel)) refuse();
@@ -104,8 +103,8 @@ class Driven {
       if (!tick.is_none()) tick();
       return false;
     });
-    // A thread without the interpreter when that ends could never go on: it is waited for, and from then on
-    // none lets go of it.
+    // A thread without the interpreter could never continue once the interpreter ends, so it is waited for,
+    // and from then on no thread releases the interpreter.
     std::optional<Count> count;
     std::optional<py::gil_scoped_release> let_go;
     if (!interpreter_ends) {
@@ -123,12 +122,12 @@ class Driven {
   [[noreturn]] void refuse() const {
     throw Error(ExitCode::usage,
                 owner_ == std::this_thread::get_id()
-                    ? "the simulation is being stepped, and cannot be stepped or changed in between"
-                    : "another thread is using the simulation: wait for it, or give each thread its own, "
-                      "as copy() makes them");
+                    ? "the simulation is being stepped, and cannot be stepped or changed meanwhile"
+                    : "another thread is using the simulation: wait for it, or give each thread its own "
+                      "simulation with copy()");
   }
 
-  inline static std::set<Driven*> all;  ///< changed by who holds the interpreter
+  inline static std::set<Driven*> all;  ///< changed only while holding the interpreter
   Simulation simulation_;
   std::atomic<bool> busy_ = false;
   std::atomic<std::thread::id> owner_;
@@ -140,7 +139,7 @@ void forbid_writing(py::array& array) {
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
 }
 
-/// A read-only view of the memory of a simulation, which `self` keeps alive.
+/// Returns a read-only view of memory of a simulation, which `self` keeps alive.
 template <typename Number>
 py::array view(const std::vector<Number>& values, const py::object& self) {
   py::array_t<Number> array(std::vector<py::ssize_t>{std::ssize(values)}, {sizeof(Number)}, values.data(),
@@ -149,7 +148,7 @@ py::array view(const std::vector<Number>& values, const py::object& self) {
   return array;
 }
 
-/// The same of two arrays as the columns of one: from the first to the second is a stride.
+/// Returns a view of two arrays as the columns of one; the stride is their distance in memory.
 py::array view(const std::vector<double>& first, const std::vector<double>& second, const py::object& self) {
   const py::ssize_t apart =
       reinterpret_cast<const char*>(second.data()) - reinterpret_cast<const char*>(first.data());
@@ -170,7 +169,7 @@ py::array columns(const std::vector<Number>& first, const std::vector<Number>& s
   return array;
 }
 
-/// Rows of one number, of two, or of a tensor.
+/// Returns rows of one number, of two numbers, or of a tensor.
 py::array rows(const std::vector<double>& values, std::size_t count) {
   const std::size_t width = count == 0 ? 1 : values.size() / count;
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(count)};
@@ -181,7 +180,7 @@ py::array rows(const std::vector<double>& values, std::size_t count) {
   return array;
 }
 
-/// (height, width, 4): sRGB and alpha.
+/// Returns an array (height, width, 4), sRGB and alpha.
 py::array pixels(const render::Image& image) {
   py::array_t<std::uint8_t> array({image.height, image.width, 4});
   std::uint8_t* to = array.mutable_data();
@@ -216,13 +215,13 @@ const char* name_of(session::Phase phase) {
   return "done";
 }
 
-/// Errors of Talus as talus.Error, with the exit code that the command line has for them.
+/// Translates errors of Talus to talus.Error, with the exit code of the command line.
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {
     const py::object type = py::module_::import("talus.errors").attr("Error");
-    const char* const text = error.what();  // which may quote the name of a file, of any bytes
+    const char* const text = error.what();  // may quote a file name with arbitrary bytes
     const py::object raised = type(py::reinterpret_steal<py::object>(
         PyUnicode_DecodeUTF8(text, static_cast<py::ssize_t>(std::strlen(text)), "backslashreplace")));
     raised.attr("exit_code") = static_cast<int>(error.code());
@@ -230,7 +229,7 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
-/// To be called before HDF5 is.
+/// Throws if HDF5 cannot be used in this process; call before using it.
 void require_files() {
   if (cannot_use_files)
     throw Error(ExitCode::unavailable,
@@ -238,7 +237,7 @@ void require_files() {
                 "record runs: start it by the method \"spawn\" of multiprocessing");
 }
 
-/// What is drawn by a simulation or a frame.
+/// Returns the picture that a simulation or a frame draws.
 template <typename Draw>
 py::array drawn(Draw&& draw) {
   if (cannot_draw)
@@ -249,8 +248,7 @@ py::array drawn(Draw&& draw) {
   return pixels(draw());
 }
 
-/// Waits for steps that other threads are in, since they end in the interpreter, and commits what was
-/// recorded.
+/// Waits for steps in other threads, because they end in the interpreter, and commits recorded data.
 void end_steps() {
   interpreter_ends = true;
   {
@@ -398,7 +396,7 @@ void bind_measures(py::class_<Driven, Holder>& type) {
   });
 }
 
-/// How a map is drawn.
+/// Binds the options of maps.
 void bind_options(py::module_& module) {
   py::class_<pictures::MapOptions>(module, "MapOptions")
       .def(py::init())
@@ -413,7 +411,7 @@ void bind_options(py::module_& module) {
       .def_readwrite("bare", &pictures::MapOptions::bare);
 }
 
-/// Frames of files, which have the same measures.
+/// Binds frames of files, which have the same measures as simulations.
 void bind_frames(py::module_& module) {
   py::class_<MeasuredFrame>(module, "MeasuredFrame")
       .def(py::init([](const std::string& path, std::size_t k) {

@@ -1,4 +1,4 @@
-"""Reads the run files and ensembles of Talus.
+"""Drives runs of Talus, and reads its run files and ensembles.
 
     import talus
     run = talus.open("runs/demo.h5", units="D")          # lengths in D, angles in deg; without: SI, rad
@@ -6,7 +6,7 @@
     frame.position, frame.contacts.force, run.observables["volume_strain"], run.analysis["overloaded/fraction"]
     talus.open_ensemble("runs/ensemble").mean("theta_c")
 
-The names of data sets are those of docs/file_format.md and docs/analysis.md; signs are those of docs/notation.md: x
+Names of data sets are those of docs/file_format.md and docs/analysis.md; signs are those of docs/notation.md: x
 downslope, y away from the floor, compression positive, rotation counter-clockwise. docs/cookbook.md has ten recipes."""
 
 from talus.contacts import Contacts

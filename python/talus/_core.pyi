@@ -1,4 +1,4 @@
-"""The extension: talus.simulation is what to use."""
+"""Stub of the extension, for internal use by talus.simulation."""
 
 from collections.abc import Callable
 from typing import Any

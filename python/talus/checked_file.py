@@ -1,5 +1,5 @@
-"""Files that nobody vouches for: their bytes have the hash that was made when they were written, and of an HDF5 file only
-data sets of the table of run files are read, which lie in the file itself and are no larger than it can hold."""
+"""Safe reading of untrusted files: bytes must match the hash stored when they were written. Only HDF5 data sets in the
+table of run files are read, if they are in the file itself and no larger than it can hold."""
 
 import os
 import stat
@@ -17,23 +17,23 @@ from talus.schema import DATA_SETS
 SEAL = b"talus run file 1\n"
 SEAL_SIZE = 512
 READ_SIZE = 1 << 20
-#: Bytes of a text file: the manifest of a run with a million segments has fewer.
+#: Maximum size of a text file, bytes; the manifest of a run with a million segments is smaller.
 MAX_TEXT = 1 << 27
-#: Values that are read at once: 4 GiB of doubles.
+#: Maximum number of values read at once: 4 GiB of doubles.
 MAX_VALUES = 1 << 29
-#: Deflate makes bytes at most so many times fewer.
+#: Maximum compression ratio of deflate.
 MAX_DEFLATION = 1032
-#: Deflate, shuffle, and checksums. HDF5 would look for a plugin, a library to load, for a filter that it does not have.
+#: Filters accepted: deflate, shuffle, and checksums. For any other filter HDF5 would load a plugin library.
 FILTERS = (h5py.h5z.FILTER_DEFLATE, h5py.h5z.FILTER_SHUFFLE, h5py.h5z.FILTER_FLETCHER32)
 TYPES = {"float32": h5py.h5t.IEEE_F32LE, "float64": h5py.h5t.IEEE_F64LE, "int8": h5py.h5t.STD_I8LE,
          "int32": h5py.h5t.STD_I32LE, "int64": h5py.h5t.STD_I64LE, "uint64": h5py.h5t.STD_U64LE}
-#: What tells that a file is the one whose bytes were checked: device, inode, size and time of the last change.
+#: Identity of a file whose bytes were checked: device, inode, size and time of the last change.
 Identity = tuple[int, int, int, int]
 
 
 def open_regular(path: Path) -> BinaryIO:
-    """A regular file to read, without waiting for the other end of a pipe. Throws OSError, or Error if it is not
-    regular."""
+    """Opens a regular file for reading, without waiting for the other end of a pipe. Raises OSError, or Error if it is
+    not regular."""
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0))
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):
         os.close(descriptor)
@@ -42,15 +42,15 @@ def open_regular(path: Path) -> BinaryIO:
 
 
 def read_text(path: Path) -> str:
-    """A small text file. Throws OSError, or Error if it is not regular or too large."""
+    """Reads a small text file. Raises OSError, or Error if it is not regular or too large."""
     with open_regular(path) as file:
         if (size := os.fstat(file.fileno()).st_size) > MAX_TEXT:
-            raise Error(f"{path}: has {size} bytes, more than a file of its kind can have")
+            raise Error(f"{path}: has {size} bytes, more than such a file can have")
         return file.read(size).decode("utf-8", "surrogateescape")
 
 
 def text_hash(text: str) -> str:
-    """The hash of a text as Talus writes it: 16 hexadecimal digits."""
+    """Returns the hash of a text in the format of Talus: 16 hexadecimal digits."""
     return xxhash.xxh3_64_hexdigest(text.encode("utf-8", "surrogateescape"))
 
 
@@ -67,7 +67,7 @@ def hash_of_rest(file: BinaryIO) -> str:
 
 
 def read_seal(path: Path) -> tuple[bytes, Identity]:
-    """The first lines of a packed file and its identity. Throws OSError, or Error if it is no run."""
+    """Returns the first lines of a packed file and its identity. Raises OSError, or Error if it is not a run."""
     with open_regular(path) as file:
         begin = file.read(SEAL_SIZE)
         identity = identity_of(file.fileno())
@@ -77,26 +77,26 @@ def read_seal(path: Path) -> tuple[bytes, Identity]:
 
 
 def check_seal(path: Path) -> tuple[bytes, Identity]:
-    """Throws Error if the bytes of a packed file are not those that its first lines, the seal, tell of. Returns the
-    seal and the identity of the file."""
+    """Raises Error if the bytes of a packed file do not match its first lines, the seal. Returns the seal and the
+    identity of the file."""
     begin, identity = read_seal(path)
     with open_regular(path) as file:
         file.seek(SEAL_SIZE)
         size = identity[2]
         said = begin[len(SEAL):].split(b"\n")[0]
-        # The size first: a truncated file is told without reading it.
+        # Compares the size first, so that a truncated file is detected without reading it.
         seal = b"%ssize %d\nxxh3 of all after byte 512 %s\n" % (
             SEAL, size, hash_of_rest(file).encode() if said == b"size %d" % size else b"")
         if begin != seal.ljust(SEAL_SIZE, b"\0") or identity_of(file.fileno()) != identity:
             raise Error(f"{path}: is damaged: it has {size} bytes, but its first lines say otherwise, or have another "
-                        f"hash; restore it from a copy, or save what is undamaged with: talus repair {path} -o NEW.h5")
+                        f"hash; restore it from a copy, or save its intact pieces with: talus repair {path} -o NEW.h5")
     return begin, identity
 
 
 def check_stored(path: Path, size: int, expected: str) -> Identity:
-    """Throws Error if a file does not have the size and hash that the manifest of its folder says. Returns its
+    """Raises Error if a file does not have the size and hash stated in the manifest of its folder. Returns its
     identity."""
-    hint = "; save what is undamaged with: talus repair RUN.h5 -o NEW.h5"
+    hint = "; save its intact pieces with: talus repair RUN.h5 -o NEW.h5"
     with open_regular(path) as file:
         identity = identity_of(file.fileno())
         if identity[2] != size:
@@ -107,8 +107,9 @@ def check_stored(path: Path, size: int, expected: str) -> Identity:
 
 
 def open_unlocked(path: Path) -> tuple[h5py.File, Identity]:
-    """The file and its identity, whatever locks it or the file system has: a file that has its name is whole. HDF5 opens
-    it as h5py.File does by itself first, because in one process it refuses one file opened with other ideas of locks."""
+    """Opens a file and returns it with its identity, regardless of locks, because a file under its final name is
+    complete. Opens it first with the default settings of h5py, because HDF5 refuses to open one file in one process
+    with different lock settings."""
     for options in ({}, {"locking": False}):
         try:
             file = h5py.File(path, "r", **options)
@@ -122,8 +123,8 @@ def open_unlocked(path: Path) -> tuple[h5py.File, Identity]:
 
 
 def is_encodable(name: str) -> bool:
-    """Whether a text can be the name of something in a file: one surrogate alone cannot, but for those by which Python
-    writes bytes that are no UTF-8."""
+    """Whether a text can be a name in a file: not if it contains lone surrogates, apart from those by which Python
+    represents bytes that are not UTF-8."""
     try:
         name.encode("utf-8", "surrogateescape")
         return True
@@ -132,8 +133,8 @@ def is_encodable(name: str) -> bool:
 
 
 def field_of(name: str) -> tuple[str, str, str] | None:
-    """Type, shape and unit of a data set, by the path without its first slash; None if no run file has it. Texts below
-    /help have none in the table."""
+    """Returns type, shape and unit of a data set by its path without the first slash; None if run files have no such
+    data set. Texts below /help are not in the table."""
     if name in DATA_SETS:
         return DATA_SETS[name]
     group, _, last = name.rpartition("/")
@@ -145,10 +146,10 @@ def field_of(name: str) -> tuple[str, str, str] | None:
 
 
 class CheckedFile:
-    """An HDF5 file that is open."""
+    """An open HDF5 file."""
 
     def __init__(self, path: Path, identity: Identity, sizes: dict[str, int]) -> None:
-        """`identity`: that of the file whose bytes were checked. `sizes`: what is known of the letters of shapes."""
+        """`identity`: identity of the file whose bytes were checked. `sizes`: known values of the letters of shapes."""
         self.path = path
         self._file, opened = open_unlocked(path)
         self._size = identity[2]
@@ -166,20 +167,20 @@ class CheckedFile:
         return Error(f"{self.path}: data set /{name} {problem}")
 
     def has(self, name: str) -> bool:
-        """Whether there is something of this name, whatever it is."""
+        """Whether the file has an object of this name, of any kind."""
         return name in self._sets or self._find(name) is not None
 
     def rows(self, name: str) -> int:
         return int(self._open(name).shape[0])
 
     def read(self, name: str, first: int = 0, count: int | None = None) -> Any:
-        """All values of a data set, or those of some rows; of a text its bytes. Throws Error if it is not as the table
-        of run files has it."""
+        """Returns all values of a data set, or those of some rows, or the bytes of a text. Raises Error if it does not
+        agree with the table of run files."""
         data_set = self._open(name)
         shape = data_set.shape
         if shape and count is not None:
             if not 0 <= first <= first + count <= shape[0]:
-                raise self.refuse(name, f"has {shape[0]} rows; row {first + count} was asked for")
+                raise self.refuse(name, f"has {shape[0]} rows; row {first + count} was requested")
             shape = (count, *shape[1:])
         if prod(shape) > MAX_VALUES:
             raise self.refuse(name, f"has {prod(shape)} values, more than can be read at once; read it frame by frame")
@@ -187,7 +188,7 @@ class CheckedFile:
         return values[()] if not shape else values[first : first + shape[0]]
 
     def definition(self, name: str) -> str:
-        """The sentence beside a data set; empty if there is none."""
+        """Returns the definition stored with a data set; empty if there is none."""
         data_set = self._open(name)
         if not h5py.h5a.exists(data_set, b"definition"):
             return ""
@@ -200,7 +201,8 @@ class CheckedFile:
         return as_text(text[()])
 
     def names(self, group: str) -> list[str]:
-        """The data sets below a group that the table has and the file holds, by their paths from there."""
+        """Returns the data sets below a group that are both in the table and in the file, by their paths relative to
+        the group."""
         below = [name for name in DATA_SETS if name.startswith(group + "/")]
         found = {name for name in below if not name.endswith("/*") and self.has(name)}
         for parent in (name[:-2] for name in below if name.endswith("/*")):
@@ -208,7 +210,7 @@ class CheckedFile:
         return sorted((name[len(group) + 1 :] for name in found), key=lambda name: name.split("/"))
 
     def _children(self, group: str) -> list[str]:
-        """The names in a group but those of groups."""
+        """Returns the names in a group except those of subgroups."""
         parent = self._find(group)
         if not isinstance(parent, h5py.h5g.GroupID):
             return []
@@ -216,8 +218,8 @@ class CheckedFile:
         return [name for name in names if not isinstance(self._find(f"{group}/{name}", links=True), h5py.h5g.GroupID)]
 
     def _find(self, name: str, links: bool = False) -> Any:
-        """What the path leads to; None if it leads nowhere. Throws Error if it passes a link to another place, which
-        is not followed; with `links` a link is None."""
+        """Returns the object at a path; None if there is none. Raises Error if the path contains a link, because links
+        are not followed; with `links` a link gives None."""
         here = h5py.h5g.open(self._file.id, b"/")
         for part in name.split("/"):
             key = part.encode("utf-8", "surrogateescape")
@@ -248,7 +250,7 @@ class CheckedFile:
         if layout.get_layout() == h5py.h5d.VIRTUAL or layout.get_external_count() > 0:
             raise self.refuse(name, "has its values in another file")
         if any(layout.get_filter(i)[0] not in FILTERS for i in range(layout.get_nfilters())):
-            raise self.refuse(name, "is packed by a filter that Talus does not use")
+            raise self.refuse(name, "is compressed by a filter that Talus does not use")
         if found.get_space().get_simple_extent_type() == h5py.h5s.NULL:
             raise self.refuse(name, "has no shape")
         self._check_shape(name, field[1], found.shape)
@@ -258,7 +260,8 @@ class CheckedFile:
         return found
 
     def _check_shape(self, name: str, expected: str, shape: tuple[int, ...]) -> None:
-        """Compares with "T+1", "T N 2": a letter has the same size wherever it stands, that of the analysis apart."""
+        """Compares a shape with "T+1", "T N 2": a letter has the same value in all data sets, separately for the
+        analysis."""
         sizes = self._sizes["analysis" if name.startswith("analysis/") else ""]
         extents = expected.split()
         fits = len(extents) == len(shape)

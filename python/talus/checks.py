@@ -1,4 +1,4 @@
-"""What the values of a run must be, as the program checks them: nothing that is computed from them leaves its arrays."""
+"""Checks of the values of a run, as in the program, so that nothing computed from them exceeds its arrays."""
 
 from typing import TYPE_CHECKING
 
@@ -9,7 +9,7 @@ from talus.errors import Error
 if TYPE_CHECKING:
     from talus.run import Run
 
-#: Series whose values are always known; others may lack some.
+#: Series without missing values.
 ALWAYS_FINITE = {f"{table}/{name}" for table in ("frames", "observables", "steps") for name in ("time", "tilt", "phase", "step")}
 
 
@@ -21,12 +21,13 @@ def check_between(place: object, name: str, values: np.ndarray, low: float, high
     values = np.asarray(values)
     if not np.all(np.isfinite(values) & (values >= low) & (values <= high)):
         wanted = f"finite numbers >= {low:.6g}" if high == np.inf else f"numbers from {low:.6g} to {high:.6g}"
-        raise refuse(place, name, f"holds other values than {wanted}")
+        raise refuse(place, name, f"holds values other than {wanted}")
 
 
 def check_statics(place: object, d: float, edges: np.ndarray, radius: np.ndarray, mass: np.ndarray,
                   species: np.ndarray) -> None:
-    """Lengths must be those of one bed, with free grains before those of the floor; d, edges and radius in m."""
+    """Checks that lengths are consistent with one bed, and that free grains precede those of the floor; d, edges and
+    radius in m."""
     grains = "particles/grains/"
     check_between(place, "parameters/mean_diameter", np.array(d), 1e-9, 1e9)
     check_between(place, grains + "box/edges", edges, 0.1 * d, 1e6 * d)
@@ -39,17 +40,17 @@ def check_statics(place: object, d: float, edges: np.ndarray, radius: np.ndarray
 
 def check_series(place: object, name: str, values: np.ndarray) -> None:
     if name in ALWAYS_FINITE and not np.all(np.isfinite(values)):
-        raise refuse(place, name, "holds a value that is no finite number")
+        raise refuse(place, name, "holds a value that is not a finite number")
 
 
 def check_frame_values(run: "Run", name: str, values: np.ndarray) -> None:
-    """`values` of one frame, as the file has them."""
+    """Checks the `values` of one frame, in the units of the file."""
     if values.dtype.kind == "f" and not name.endswith("gamma/value") and not np.all(np.isfinite(values)):
-        raise refuse(run.path, name, "holds a value that is no finite number")
+        raise refuse(run.path, name, "holds a value that is not a finite number")
     if name in ("particles/grains/position/value", "contacts/point") and np.any(np.abs(values) > run.farthest):
         raise refuse(run.path, name, "holds a position farther away than a grain can be")
     if name == "particles/grains/image/value" and np.any(values[:, 1]):
-        raise refuse(run.path, name, "holds an image across the bed, where there is no period")
+        raise refuse(run.path, name, "holds a periodic image across the depth of the bed, which is not periodic")
     if name == "contacts/status" and np.any((values < 0) | (values > 2)):
         raise refuse(run.path, name, "holds a value other than 0, 1 and 2")
     if name == "contacts/shift" and np.any((values < -1) | (values > 1)):
@@ -57,4 +58,4 @@ def check_frame_values(run: "Run", name: str, values: np.ndarray) -> None:
     if name == "contacts/pair":
         a, b, grains = *values.T, len(run.id)
         if np.any((a < 0) | (a >= grains) | (b <= a) | (b >= grains + run.planes)):
-            raise refuse(run.path, name, f"joins other bodies than a < b < {grains + run.planes} with a grain a")
+            raise refuse(run.path, name, f"joins bodies other than a < b < {grains + run.planes} with a grain a")

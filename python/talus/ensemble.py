@@ -1,4 +1,4 @@
-"""An ensemble: many runs of one scenario in a folder, and the numbers that each has given."""
+"""Ensembles: many runs of one scenario in a folder, and the results of each."""
 
 import os
 import re
@@ -23,20 +23,20 @@ from talus.table import numbered
 from talus.units import Units, check_units
 
 FIRST_LINE = "talus ensemble 1"
-#: Types and shapes of what there is one of in a run, one for each threshold, or one for each strain.
+#: Types and shapes of the scalars of a run, with one value per run, threshold or strain.
 NUMBERS = tuple(("float64", shape) for shape in ("", "F", "2"))
-#: What a run finds by itself, with the unit in which members have it.
+#: Results of a run that need no analysis, with their units in the table of members.
 FOUND = {"theta_r": "deg", "unconverged_steps_deposition": "1", "unconverged_steps": "1"}
 MOST_SEEDS = 10000
 MOST_VARIANTS = 10000
 LARGEST_SEED = 2**63 - 1
-LONGEST_NAME = 255  # bytes, of a folder
-#: As "theta_c:0.2": a number of a run, and the standard error that is asked of its mean.
+LONGEST_NAME = 255  # bytes, for a folder
+#: Syntax of "theta_c:0.2": a number of a run, and the required standard error of its mean.
 PRECISION = re.compile(r"[\w/]+(?:@\w+)?(\[\d+\])?:((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf(inity)?)", re.IGNORECASE | re.ASCII)
 
 
 class Mean(NamedTuple):
-    """A mean over members, as Talus computes it; values that are NaN do not count."""
+    """Mean over members, as computed by Talus; NaN values do not count."""
 
     count: int
     mean: float  #: NaN for count 0
@@ -45,7 +45,7 @@ class Mean(NamedTuple):
 
 
 def mean_of(values: Sequence[float] | np.ndarray) -> Mean:
-    """The mean of values, and how well it is known."""
+    """Returns the mean of values with its standard error."""
     try:
         numbers = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
@@ -62,26 +62,26 @@ def mean_of(values: Sequence[float] | np.ndarray) -> Mean:
 class Member:
     """One run of an ensemble."""
 
-    variant: str  #: "contact.friction=0.3"; empty where nothing varies
+    variant: str  #: "contact.friction=0.3"; empty without variations
     seed: int
-    path: Path  #: of its run file
-    stage: str  #: "done", "failed", "claimed" (under way, or left by a worker) or "waiting"
-    state_hash: str = ""  #: of its last state, once it is done; so are the following
-    version: str = ""  #: of the Talus that computed it
-    seconds: float = np.nan  #: of its steps
-    numbers: dict[str, float] = field(default_factory=dict)  #: of its run and analysis, by name; NaN: no value
-    units: dict[str, str] = field(default_factory=dict)  #: of the numbers: "deg", "D", "1", ...
+    path: Path  #: run file
+    stage: str  #: "done", "failed", "claimed" (under way, or abandoned by a worker) or "waiting"
+    state_hash: str = ""  #: hash of its last state; this and the following are set once it is done
+    version: str = ""  #: version of Talus that computed it
+    seconds: float = np.nan  #: wall time of its steps
+    numbers: dict[str, float] = field(default_factory=dict)  #: scalars of its run and analysis, by name; NaN: no value
+    units: dict[str, str] = field(default_factory=dict)  #: units of the numbers: "deg", "D", "1", ...
 
     def open(self, units: Units = "SI") -> Run:
-        """The run, as talus.open gives it; without frames where the ensemble does not keep them. Throws Error where it
-        is not there, before it has begun."""
+        """Opens the run like talus.open; without frames if the ensemble does not keep them. Raises Error if the run
+        does not exist yet."""
         return open_run(self.path, units)
 
 
 def read_member(variant: str, seed: int, path: Path, scenario_of: Callable[[str], dict[str, Any]], bed: str = "") -> Member:
-    """What the run file of a member, or what lies beside it, tells of it. `scenario_of`: gives that of a variant; `bed`: the
-    hash of its bed, if that is known. Throws as talus.open does, and Error where the run is that of another member, or its
-    analysis is not one that this package reads."""
+    """Reads a member from its run file, or its stage from the files next to it. `scenario_of`: returns the scenario of
+    a variant; `bed`: the hash of its bed, if known. Raises as talus.open does, and Error if the run belongs to another
+    member, or its analysis has a version that this package does not read."""
     if not path.is_file():
         failed = path.with_suffix(".failed").is_file()
         claimed = any(path.parent.glob(path.stem + ".claim-*"))
@@ -95,7 +95,8 @@ def read_member(variant: str, seed: int, path: Path, scenario_of: Callable[[str]
 
 
 def check_owner(run: Run, seed: int, scenario: dict[str, Any], bed: str) -> None:
-    """Throws Error where a run is not that of a member. What earlier versions did not have in a scenario is left out."""
+    """Raises Error if a run does not belong to a member. Keys that earlier versions did not have in a scenario are
+    ignored."""
     sections = {name: (keys, run.scenario.get(name)) for name, keys in scenario.items()}
     differing = [f"{name}.{key}" for name, (keys, known) in sections.items()
                  if isinstance(keys, dict) and isinstance(known, dict)
@@ -110,8 +111,8 @@ def check_owner(run: Run, seed: int, scenario: dict[str, Any], bed: str) -> None
 
 
 def numbers_of(run: Run) -> tuple[dict[str, float], dict[str, str]]:
-    """What there is one of in a run, or one for each threshold: of its analysis, and what it found by itself; with the
-    units. Nothing of a run that is not analysed yet."""
+    """Returns the scalars of a run, and those of each threshold, from its analysis and from its own results, with
+    units. Empty for a run without analysis."""
     numbers: dict[str, float] = {}
     units: dict[str, str] = {}
     if not run.storage.has("analysis/version"):
@@ -130,28 +131,28 @@ def numbers_of(run: Run) -> tuple[dict[str, float], dict[str, str]]:
 
 
 class Ensemble:
-    """The members of an ensemble at the time when it was opened.
+    """Members of an ensemble at the time of opening.
 
         ensemble = talus.open_ensemble("runs/friction")
         ensemble.variants, ensemble.mean("theta_c", "contact.friction=0.3")
         for member in ensemble.done():
             with member.open() as run: ...
 
-    Numbers are those of `members.csv`, by the names and in the units of its columns: angles in deg, lengths in D."""
+    Numbers are those of `members.csv`, with the names and units of its columns: angles in deg, lengths in D."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.version = ""  #: of the Talus that began it
-        self.until = ""  #: the precision that was asked for; empty: none
-        self.keep = "all"  #: whose frames stay: of "all", "analysis" (of none), or of so many seeds, the lowest
+        self.version = ""  #: version of Talus that started it
+        self.until = ""  #: required precision; empty: none
+        self.keep = "all"  #: members whose frames are kept: "all", "analysis" (none), or the number of lowest seeds
         self.seeds: list[int] = []
-        self.variants: list[str] = []  #: names, as "contact.friction=0.3"; [""] where nothing varies
-        #: By the names of variants that were shortened: all of them, as "deposition.file=/beds/dense.csv".
+        self.variants: list[str] = []  #: names such as "contact.friction=0.3"; [""] without variations
+        #: Full names of variants with shortened names, e.g. "deposition.file=/beds/dense.csv".
         self.full_names: dict[str, str] = {}
         self._origins: list[dict[str, str]] = []  #: hashes of the scenario and the bed of each variant
         self._read_manifest()
-        scenario_of = cache(self.scenario)  # each is read once, where a member of it is done
-        #: All of them, by seed, and of each seed by variant.
+        scenario_of = cache(self.scenario)  # each is read once, if a member of it is done
+        #: All members, by seed, and by variant for each seed.
         self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", scenario_of, origin.get("bed", ""))
                         for seed in self.seeds for variant, origin in zip(self.variants, self._origins)]
         self._refuse_copies()
@@ -159,7 +160,7 @@ class Ensemble:
     def _read_manifest(self) -> None:
         path = self.folder / "ensemble.manifest"
         if not path.is_file():
-            raise Error(f"{self.folder}: no ensemble here; begin one with: talus ensemble SCENARIO --seeds 1-50 -o "
+            raise Error(f"{self.folder}: no ensemble here; start one with: talus ensemble SCENARIO --seeds 1-50 -o "
                         f"{self.folder}")
         try:
             text = read_text(path)
@@ -178,7 +179,7 @@ class Ensemble:
             refuse_manifest(path)
 
     def _take_line(self, kind: str, rest: str) -> None:
-        """Adds what a line of the manifest says. Throws ValueError where talus writes no such line."""
+        """Adds the contents of a line of the manifest. Raises ValueError for an invalid line."""
         if kind == "version":
             self.version = rest
         elif kind == "until":
@@ -200,7 +201,8 @@ class Ensemble:
             raise ValueError(f"there is no {short(kind)}")
 
     def _refuse_copies(self) -> None:
-        """Throws Error where two seeds of a variant have one state hash, but for the bed of a file: nothing is random there."""
+        """Raises Error if two seeds of a variant have the same state hash, except for beds from a file, where nothing
+        is random."""
         first: dict[tuple[str, str], Member] = {}
         for member in self.done():
             other = first.setdefault((member.variant, member.state_hash), member)
@@ -216,27 +218,27 @@ class Ensemble:
         return f"<ensemble {self.folder}: {len(self.done())} of {len(self.members)} members done>"
 
     def scenario(self, variant: str | None = None) -> dict[str, Any]:
-        """The scenario of a variant with every key, in its own units; the seed is that of the first member. Throws Error
-        where its file is not there, or was changed since the ensemble began."""
+        """Returns the scenario of a variant with every key, in the units of the scenario; the seed is that of the first
+        member. Raises Error if its file is missing, or has changed since the ensemble was started."""
         variant = self._variant(variant)
         path = self.folder / "scenarios" / f"{variant or 'scenario'}.toml"
         try:
             text = read_text(path)
             if text_hash(text) != self._origins[self.variants.index(variant)]["scenario"]:
-                raise Error(f"{path}: was changed since the ensemble began; expected the scenario that it was made with: "
-                            "undo the change, or begin another ensemble with it")
+                raise Error(f"{path}: has changed since the ensemble was started; expected the original scenario: "
+                            "undo the change, or start another ensemble with it")
             return tomllib.loads(text)
         except (OSError, ValueError, RecursionError) as error:
             raise Error(f"{path}: cannot be read: {error}") from error
 
     def done(self, variant: str | None = None) -> list[Member]:
-        """The members whose run files are there; of all variants, or of one."""
+        """Returns the members with complete runs, of all variants or of one."""
         chosen = self.variants if variant is None else [self._variant(variant)]
         return [member for member in self.members if member.stage == "done" and member.variant in chosen]
 
     def numbers(self, name: str, variant: str | None = None) -> np.ndarray:
-        """A number of each member of a variant that is done, by seed; NaN where a member has no value. The variant may
-        be left out where there is one only. Throws Error where no member has a number of this name."""
+        """Returns a number of each finished member of a variant, by seed; NaN if a member has no value. The variant may
+        be omitted if there is only one. Raises Error if no member has a number of this name."""
         check_text(name, "the number")
         members = self.done(self._variant(variant))
         known = dict.fromkeys(name for member in members for name in member.numbers)
@@ -245,11 +247,11 @@ class Ensemble:
         return np.array([member.numbers.get(name, np.nan) for member in members])
 
     def mean(self, name: str, variant: str | None = None) -> Mean:
-        """The mean of a number over the members of a variant that are done and have it."""
+        """Returns the mean of a number over the finished members of a variant that have it."""
         return mean_of(self.numbers(name, variant))
 
     def unit(self, name: str) -> str:
-        """The unit of a number: "deg", "D", "1". Throws Error where no member has it."""
+        """Returns the unit of a number: "deg", "D", "1". Raises Error if no member has it."""
         check_text(name, "the number")
         for member in self.done():
             if name in member.units:
@@ -257,8 +259,8 @@ class Ensemble:
         raise Error(f"{self.folder}: members have no number {name}")
 
     def measure(self, function: Callable[[Run], Any], variant: str | None = None, units: Units = "SI") -> np.ndarray:
-        """What a function of your own gives for the run of each member of a variant that is done, by seed; values or
-        arrays of one shape."""
+        """Applies a function to the run of each finished member of a variant and returns the results by seed; they must
+        be values, or arrays of the same shape."""
         if not callable(function):
             raise WrongType(f"measure({short(function)}): expected a function of a run")
         check_units(units)
@@ -272,8 +274,8 @@ class Ensemble:
             raise Error(f"{self.folder}: the function gives arrays of several shapes; expected one") from None
 
     def to_pandas(self) -> Any:
-        """A DataFrame as `members.csv`: one row for each member that is done, with variant, seed, state_hash, version,
-        seconds, and its numbers. Throws ImportError without pandas."""
+        """Returns a DataFrame like `members.csv`: one row for each finished member, with variant, seed, state_hash,
+        version, seconds, and its numbers. Raises ImportError without pandas."""
         rows = [{"variant": m.variant, "seed": m.seed, "state_hash": m.state_hash, "version": m.version,
                  "seconds": m.seconds, **m.numbers} for m in self.done()]
         return need("pandas", "to_pandas()").DataFrame(rows)
@@ -288,13 +290,13 @@ class Ensemble:
 
 
 def parse_seeds(text: str) -> list[int]:
-    """ "1-3,8": 1, 2, 3, 8, each once. Throws ValueError where the text has another form, or too many seeds or too large
-    ones for an ensemble."""
+    """Parses "1-3,8" as 1, 2, 3, 8, each once. Raises ValueError if the text has another form, or too many or too large
+    seeds for an ensemble."""
     seeds: set[int] = set()
     for part in text.split(","):
         first, dash, last = part.partition("-")
         if not all(digits.isascii() and digits.isdigit() and len(digits) < 20 for digits in (first, last or first)):
-            raise ValueError("expected seeds as 1-3,8")
+            raise ValueError("expected seeds such as 1-3,8")
         begin, end = int(first), int(last if dash else first)
         if end < begin or end > LARGEST_SEED or end - begin >= MOST_SEEDS:
             raise ValueError(f"expected seeds up to {LARGEST_SEED}, at most {MOST_SEEDS}")
@@ -305,20 +307,20 @@ def parse_seeds(text: str) -> list[int]:
 
 
 def refuse_manifest(path: Path, reason: str = "") -> NoReturn:
-    raise Error(f"{path}: is not what talus wrote{reason}; the runs beside it are not affected: talus.open opens "
-                "each") from None
+    raise Error(f"{path}: was not written by talus{reason}; the runs next to it are not affected: open each "
+                "with talus.open") from None
 
 
 def check_precision(text: str) -> str:
-    """The text. Throws ValueError if it has another form than "theta_c:0.2", or asks for no error above 0."""
+    """Returns the text. Raises ValueError if it has another form than "theta_c:0.2", or the error is not above 0."""
     found = PRECISION.fullmatch(text)
     if not found or not float(found[2]) > 0:
-        raise ValueError("expected a quantity and the standard error asked of its mean, such as theta_c:0.2")
+        raise ValueError("expected a quantity and the standard error required of its mean, such as theta_c:0.2")
     return text
 
 
 def check_keep(text: str) -> str:
-    """The text. Throws ValueError unless it is "all", "analysis" or a number."""
+    """Returns the text. Raises ValueError unless it is "all", "analysis" or a number."""
     is_number = text.isascii() and text.isdigit() and int(text.lstrip("0")[:21] or 0) < 2**64
     if text not in ("all", "analysis") and not is_number:
         raise ValueError("expected all, analysis, or the number of seeds whose runs are kept")
@@ -326,7 +328,7 @@ def check_keep(text: str) -> str:
 
 
 def check_name(name: str, others: Sequence[str]) -> None:
-    """Throws ValueError where the name of a variant is not that of a folder in the one of the ensemble, or one of others."""
+    """Raises ValueError if the name of a variant is not that of a folder in the ensemble's folder, or is already used."""
     parts = name.split("/") if name else []
     if not name.isprintable() or "\ufffd" in name or any(
             part in ("", ".", "..") or len(part.encode()) > LONGEST_NAME for part in parts):
@@ -338,8 +340,8 @@ def check_name(name: str, others: Sequence[str]) -> None:
 
 
 def open_ensemble(folder: str | Path) -> Ensemble:
-    """Opens the folder of an ensemble, whatever of it is done. Throws Error where there is none, or its manifest or the
-    run of a member is damaged or that of another."""
+    """Opens the folder of an ensemble, finished or not. Raises Error if there is none, or if its manifest or the run of
+    a member is damaged or belongs to another ensemble or member."""
     path = as_path(folder)
     try:
         return Ensemble(Path(os.path.abspath(path)))  # another process may be in another folder

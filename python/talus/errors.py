@@ -1,48 +1,48 @@
-"""The errors of this package."""
+"""Errors of this package."""
 
 from typing import Any
 
 
 class Error(Exception):
-    """What was found, where, what was expected, and what to do. Control characters, which names in a file may hold, are
-    written as escapes."""
+    """Error that states what was found, where, what was expected, and what to do. Control characters, which names in a
+    file may contain, are escaped."""
 
     def __init__(self, text: str) -> None:
         super().__init__("".join(c if c.isprintable() else c.encode("unicode_escape", "backslashreplace").decode()
                                  for c in text))
 
-    __str__ = Exception.__str__  # that of a KeyError is in quotation marks
+    __str__ = Exception.__str__  # that of KeyError adds quotation marks
 
 
 class MissingIndex(Error, IndexError):
-    """An index outside of a sequence, which Python knows as an IndexError."""
+    """Error for an index outside a sequence; also an IndexError."""
 
 
 class MissingName(Error, KeyError):
-    """A name that a table does not have, which Python knows as a KeyError."""
+    """Error for a name that a table does not have; also a KeyError."""
 
 
 class WrongType(Error, TypeError):
-    """A value of a type that a call does not take, which Python knows as a TypeError."""
+    """Error for a value of a wrong type; also a TypeError."""
 
 
 class WrongValue(Error, ValueError):
-    """A value that a call does not take, which Python knows as a ValueError."""
+    """Error for an invalid value; also a ValueError."""
 
 
 class MissingPackage(Error, ImportError):
-    """A package that only some calls need, and that is not installed."""
+    """Error for an optional package that is not installed; also an ImportError."""
 
 
 def check_text(name: Any, what: str) -> str:
-    """The name. Throws WrongType if it is not a text."""
+    """Returns the name. Raises WrongType if it is not a text."""
     if not isinstance(name, str):
         raise WrongType(f"{what} {short(name)}: expected a text")
     return name
 
 
 def short(value: Any) -> str:
-    """A value as a message quotes it."""
+    """Returns a short form of a value for messages."""
     try:
         text = repr(value)
     except Exception:

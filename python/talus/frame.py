@@ -1,4 +1,4 @@
-"""One frame of a run: its grains and its contacts."""
+"""Frame of a run: its grains and its contacts."""
 
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class FrameGrains:
-    """The grains of a frame by themselves, with the names that those of a Simulation have."""
+    """Grains of a frame, with the same names as those of a Simulation."""
 
     def __init__(self, frame: "Frame") -> None:
         self._frame = frame
@@ -27,7 +27,7 @@ class FrameGrains:
 
     @property
     def free_count(self) -> int:
-        """Grains that are not of the floor: the first ones."""
+        """Number of free grains, which come first."""
         return int(self._frame.free.sum())
 
     def __getattr__(self, name: str) -> Any:
@@ -39,14 +39,14 @@ class FrameGrains:
 
 
 class Frame:
-    """The grains of a run at one tilt, as arrays of N rows, free grains first and grains of the floor after them, in the
-    frame of the bed: x along it, downslope when the tilt is positive, y away from the floor. What is asked for is read
-    then, and kept. Lengths and angles are in the units of the run; all else is SI, per metre of thickness."""
+    """Grains of a run at one tilt, as arrays of N rows, free grains first and grains of the floor after them, in the
+    frame of the bed: x along it, downslope when the tilt is positive, y away from the floor. Data are read on access
+    and kept. Lengths and angles are in the units of the run; everything else is in SI units, per metre of thickness."""
 
     def __init__(self, run: "Run", index: int) -> None:
         self.run = run
         self.index = index = run.frame_index(index)  #: counted from 0
-        self.step = int(run.step[index])  #: steps since the beginning of the run
+        self.step = int(run.step[index])  #: steps since the start of the run
         self.time = float(run.time[index])  #: s
         self.tilt = float(run.tilt[index])  #: angle of the bed to the horizontal
 
@@ -62,7 +62,7 @@ class Frame:
     def __hash__(self) -> int:
         return hash((self.index, self.run.path))
 
-    # What the extension measures, by the same names as those of a Simulation; SI units.
+    # Measurements of the extension, with the same names as those of a Simulation; SI units.
 
     @cached_property
     def _measured(self) -> Any:
@@ -71,7 +71,7 @@ class Frame:
         return _extension().MeasuredFrame(_path(self.run.path), self.index)
 
     def __getitem__(self, name: str) -> float:
-        """A number of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable."""
+        """Returns a scalar of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable."""
         return self._measured._quantity(check_text(name, "quantity"))
 
     @property
@@ -80,7 +80,7 @@ class Frame:
         return FrameGrains(self)
 
     def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Any:
-        """A map of the frame, as that of Simulation.draw."""
+        """Draws a map of the frame, like Simulation.draw."""
         from talus.simulation import draw
 
         return draw(self._measured, map, width, options)
@@ -98,17 +98,17 @@ class Frame:
 
     @cached_property
     def image(self) -> np.ndarray:
-        """(N, 2) how often a grain left through the right periodic edge minus the left, and 0."""
+        """(N, 2) net number of crossings of the periodic edge, right minus left, and 0."""
         return self._read("image")
 
     @property
     def unwrapped(self) -> np.ndarray:
-        """(N, 2) centres as if the bed had no edge: differences of two frames are displacements."""
+        """(N, 2) centres without periodic wrapping: differences of two frames are displacements."""
         return self.position + self.image * np.array([self.run.length, self.run.depth])
 
     @cached_property
     def angle(self) -> np.ndarray:
-        """(N,) angle turned since the beginning, counter-clockwise positive."""
+        """(N,) rotation since the start of the run, counter-clockwise positive."""
         return self._read("angle")
 
     @cached_property
@@ -118,19 +118,20 @@ class Frame:
 
     @cached_property
     def angular_velocity(self) -> np.ndarray:
-        """(N,) rotation velocities, rad/s, counter-clockwise positive."""
+        """(N,) angular velocities, rad/s, counter-clockwise positive."""
         return self._read("angular_velocity")
 
     @cached_property
     def internal_moment(self) -> np.ndarray:
-        """(N, 2, 2) internal moments M_ij, J/m, lever first, force second; compression positive. The stress of grains
-        is the sum of their M over an area. x and y are those of the bed, y up: the paper's shear has the other sign."""
+        """(N, 2, 2) internal moments M_ij, J/m, lever arm first, force second; compression positive. The stress of
+        grains is the sum of their M divided by an area. x and y are those of the bed, with y away from the floor, so
+        the paper's shear has the opposite sign."""
         return self._read("internal_moment")
 
     @cached_property
     def gamma(self) -> np.ndarray:
-        """(N,) stress ratio q/p of each grain alone (l_min = 0); NaN where it carries nothing. That of an analysis is
-        of neighbourhoods: talus.stress_ratio of sums of internal moments."""
+        """(N,) stress ratio q/p of each grain alone (l_min = 0); NaN if it carries no load. The gamma of an analysis is
+        that of neighbourhoods: talus.stress_ratio of sums of internal moments."""
         return self._read("gamma")
 
     @property
@@ -140,7 +141,7 @@ class Frame:
 
     @property
     def free(self) -> np.ndarray:
-        """(N,) whether a grain is free, not glued to the floor."""
+        """(N,) whether a grain is free, not fixed to the floor."""
         return self.run.free
 
     @cached_property
@@ -159,9 +160,8 @@ class Frame:
                         period=self.run.length if self.run.periodic else 0.0, frame=self)
 
     def to_pandas(self) -> Any:
-        """A DataFrame with one row for each grain, its index the id: free, x, y, radius, mass, angle, v_x, v_y,
-        angular_velocity, gamma, and the internal moment as M_xx, M_xy, M_yx, M_yy. Throws ImportError without
-        pandas."""
+        """Returns a DataFrame with one row for each grain, indexed by id: free, x, y, radius, mass, angle, v_x, v_y,
+        angular_velocity, gamma, and the internal moment as M_xx, M_xy, M_yx, M_yy. Raises ImportError without pandas."""
         moment = {f"M_{i}{j}": self.internal_moment[:, m, n] for m, i in enumerate("xy") for n, j in enumerate("xy")}
         columns = {"free": self.free, "x": self.position[:, 0], "y": self.position[:, 1], "radius": self.radius,
                    "mass": self.run.mass, "angle": self.angle, "v_x": self.velocity[:, 0], "v_y": self.velocity[:, 1],
@@ -170,10 +170,10 @@ class Frame:
         return pandas.DataFrame(columns, index=pandas.Index(self.run.id, name="id"))
 
     def to_networkx(self) -> Any:
-        """The contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice). Nodes are
-        ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are contacts, with
-        their row in `contacts` as `contact`, and `f_n`, `f_t` (N/m), `sliding` and `shift`. Throws ImportError without
-        networkx."""
+        """Returns the contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice).
+        Nodes are ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are
+        contacts, with their row in `contacts` as `contact`, and `f_n`, `f_t` (N/m), `sliding` and `shift`. Raises
+        ImportError without networkx."""
         graph = need("networkx", "to_networkx()").MultiGraph(tilt=self.tilt)
         for i in range(len(self.position)):
             x, y = self.position[i].tolist()

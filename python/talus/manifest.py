@@ -1,4 +1,4 @@
-"""The manifest of the folder in which a run is being computed: which of its files count."""
+"""Manifest of the folder in which a run is being computed, which lists the valid files."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,8 +14,8 @@ FIRST_LINE = "talus run folder 1"
 class StoredFile:
     path: Path
     size: int  #: bytes
-    hash: str  #: of all bytes, 16 hexadecimal digits
-    sizes: dict[str, int] = field(default_factory=dict)  #: of a segment, by the letters of the shapes
+    hash: str  #: hash of all bytes, 16 hexadecimal digits
+    sizes: dict[str, int] = field(default_factory=dict)  #: row counts of a segment, by the letters of the shapes
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Manifest:
 
 
 def replaces_packed(text: str) -> bool:
-    """Whether the run in the folder takes the place of a packed file of its name."""
+    """Whether the run in the folder replaces a packed file of its name."""
     return "\nreplaces the packed file\n" in text
 
 
@@ -37,8 +37,8 @@ def is_sealed(text: str) -> bool:
 
 
 def stored_file(folder: Path, words: list[str]) -> StoredFile:
-    """A file by its line: "header header.h5 SIZE HASH", and of a segment how much it holds. Throws ValueError if it is
-    none of the folder."""
+    """Parses the line of a file: "header header.h5 SIZE HASH", with row counts for a segment. Raises ValueError for an
+    invalid line."""
     kind, name, size, hash_text, *counts = words
     if not name.endswith(".h5") or "/" in name or len(counts) != (4 if kind == "segment" else 0):
         raise ValueError
@@ -46,7 +46,7 @@ def stored_file(folder: Path, words: list[str]) -> StoredFile:
 
 
 def parse_manifest(text: str, folder: Path) -> Manifest:
-    """What a manifest says. Throws Error if it is not what talus wrote, or of another version, or names a file outside of
+    """Parses a manifest. Raises Error if it was not written by Talus, is of another version, or names a file outside
     its folder."""
     lines = text.split("\n")
     if lines[0] != FIRST_LINE:
@@ -61,6 +61,6 @@ def parse_manifest(text: str, folder: Path) -> Manifest:
         if len({file.path for _, file in files}) < len(files):
             raise ValueError
     except ValueError:
-        raise Error(f"{folder / NAME}: is damaged (its hash does not match its lines, or they name what is no file of a "
-                    "run folder); keep what is whole of the run: talus repair RUN.h5 -o NEW.h5") from None
+        raise Error(f"{folder / NAME}: is damaged (its hash does not match its lines, or they name a file that does not belong "
+                    "to a run folder); save the intact pieces of the run: talus repair RUN.h5 -o NEW.h5") from None
     return Manifest(header, checkpoint, segments)

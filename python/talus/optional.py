@@ -7,7 +7,7 @@ from talus.errors import MissingPackage
 
 
 def need(name: str, purpose: str) -> ModuleType:
-    """The package `name`. Throws ImportError, with what to install, where it is missing."""
+    """Returns the package `name`. Raises ImportError, with installation instructions, if it is missing."""
     try:
         return importlib.import_module(name)
     except ImportError as missing:

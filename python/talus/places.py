@@ -1,11 +1,11 @@
-"""Numbers of frames at places on the way to failure, as `members.csv` has them: "overloaded/fraction@theta_c"."""
+"""Values at characteristic frames before failure, named as in `members.csv`: "overloaded/fraction@theta_c"."""
 
 import numpy as np
 
 from talus.run import Run, last_rise
 from talus.table import numbered
 
-#: The same table is in src/analysis/failure/place.cpp.
+#: Places of each quantity; the same table is in src/analysis/failure/place.cpp.
 PLACES = {
     "packing/solid_fraction": ("0", "theta_c"),
     "contacts/coordination_number": ("0", "theta_d", "theta_c"),
@@ -17,14 +17,14 @@ PLACES = {
     "lc/mean": ("0", "theta_d", "theta_c"),
     "lc/max": ("0", "before_theta_d", "theta_d", "theta_c"),
 }
-#: The number of the run, or of each threshold, that is the tilt of a place.
+#: Scalar of the run, or of each threshold, that gives the tilt of a place.
 TILTS = {"theta_c": "theta_c", "theta_d": "theta_d/lc_jump", "before_theta_d": "theta_d/lc_jump",
          "percolation": "theta_d/percolation"}
 SAME_TILT = 1e-9  # rad
 
 
 def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
-    """Values and units of a run that is analysed; NaN where it does not get to the place."""
+    """Returns values and units for an analysed run; NaN if it does not reach the place."""
     tilts = run.storage.read("frames/tilt")[: run.frames_of_tilt]
     first, end = last_rise(tilts)
     rise = np.abs(tilts[first:end])
@@ -44,7 +44,7 @@ def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
 
 
 def _frame_at(run: Run, rise: np.ndarray, place: str, f: int) -> int:
-    """The last frame of a rise that is not after the tilt of a place, of those at one tilt the first; -1: none."""
+    """Returns the last frame of a rise up to the tilt of a place, the first of several at the same tilt; -1: none."""
     if place == "0":
         return 0 if len(rise) else -1
     if not run.storage.has("analysis/" + TILTS[place]):

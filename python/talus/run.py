@@ -1,4 +1,4 @@
-"""A run, read from its packed file or from the folder in which it is being computed."""
+"""Run, read from its packed file or from the folder in which it is being computed."""
 
 import os
 import tomllib
@@ -21,8 +21,8 @@ from talus.units import Units, check_units, unit_in, values_in
 
 
 def last_rise(tilts: np.ndarray) -> tuple[int, int]:
-    """First place and the place after the last of the last part of tilts whose magnitude rises and does not fall; all of
-    what never rises."""
+    """Returns the first index and the index after the last of the last stretch of tilts whose magnitude rises and does
+    not fall; all tilts if none rises."""
     change = np.diff(np.abs(tilts))
     rises = np.flatnonzero(change > 0)
     if not len(rises):
@@ -33,13 +33,13 @@ def last_rise(tilts: np.ndarray) -> tuple[int, int]:
 
 
 def is_by_frame(name: str) -> bool:
-    """Whether a data set has values of grains, or of contacts, for each frame, by its shape."""
+    """Whether a data set has values of grains or contacts for each frame, according to its shape."""
     field = field_of(name)
     return field is not None and field[1].startswith(("T N", "M"))
 
 
 class Frames(Sequence[Frame]):
-    """All frames of a run in their order: `run.frames[3]`, `run.frames[-1]`, `len(run.frames)`, `for frame in ...`."""
+    """All frames of a run in order: `run.frames[3]`, `run.frames[-1]`, `len(run.frames)`, `for frame in ...`."""
 
     def __init__(self, run: "Run") -> None:
         self._run = run
@@ -56,17 +56,17 @@ class Frames(Sequence[Frame]):
         return Frame(self._run, k)
 
     def index(self, value: Any, start: int = 0, stop: int | None = None) -> int:
-        """The index of a frame of this run. Throws Error where it is none."""
+        """Returns the index of a frame of this run. Raises Error if it is not one."""
         try:
             return super().index(value, start, stop)  # type: ignore[arg-type]
         except (TypeError, ValueError):
-            raise WrongValue(f"{short(value)} is no frame of {self._run.path} between {short(start)} and "
+            raise WrongValue(f"{short(value)} is not a frame of {self._run.path} between {short(start)} and "
                              f"{short(stop)}") from None
 
 
 class Run:
     """A run. Arrays are those of the file (docs/file_format.md), floats as float64; lengths and angles are in the units
-    in which it was opened, all else is SI, per metre of thickness.
+    in which it was opened, everything else is in SI units, per metre of thickness.
 
         with talus.open("runs/demo.h5", units="D") as run:
             frame = run.frame_at("repose")
@@ -79,27 +79,27 @@ class Run:
         self.storage = storage
         self.path = storage.place  #: the packed file, or the folder
         self.units = units
-        self.complete = storage.complete  #: False: it is being computed, or was stopped
+        self.complete = storage.complete  #: False: being computed, or stopped
         schema = storage.read("parameters/schema_version")
         if schema != SCHEMA:
             raise Error(f"{self.path}: has schema version {schema}, this package reads version {SCHEMA}: use the "
-                        "package of the Talus that wrote it, or compute the run again")
+                        "package of the Talus version that wrote it, or compute the run again")
         self._check_statics()
         self.D = float(storage.read("parameters/mean_diameter"))  #: mean diameter of the free grains, always in m
         self.gravity = float(storage.read("parameters/gravity"))  #: m/s^2
         self.friction = float(storage.read("parameters/friction"))  #: coefficient of friction between grains, mu
         self.periodic = bool(storage.read("parameters/periodic"))
-        self.length: float  #: L, the period, or the distance between the walls
+        self.length: float  #: L, the period or the distance between the walls
         self.depth: float  #: H, nominal
         self.length, self.depth = map(float, self["particles/grains/box/edges"])
         self.id: np.ndarray = self["particles/grains/id"]  #: (N,) index of a grain in every array
         self.radius: np.ndarray = self["particles/grains/radius"]  #: (N,)
         self.mass: np.ndarray = self["particles/grains/mass"]  #: (N,) kg/m
-        self.free: np.ndarray = self["particles/grains/species"] == 0  #: (N,) False: glued to the floor
-        self.step: np.ndarray = self["frames/step"]  #: (frames,) steps since the beginning
+        self.free: np.ndarray = self["particles/grains/species"] == 0  #: (N,) False: fixed to the floor
+        self.step: np.ndarray = self["frames/step"]  #: (frames,) steps since the start
         self.time: np.ndarray = self["frames/time"]  #: (frames,) s
         self.tilt: np.ndarray = self["frames/tilt"]  #: (frames,) angle of the bed to the horizontal
-        #: What the run found: theta_c (NaN if the slope has not failed), theta_r, residual_max, ...
+        #: Results of the run: theta_c (NaN if the slope has not failed), theta_r, residual_max, ...
         self.results: dict[str, float] = {name: self["results/" + name] for name in storage.names("results")}
 
     def _check_statics(self) -> None:
@@ -110,10 +110,10 @@ class Run:
                       read("particles/grains/species"))
         for name in ("gravity", "friction"):
             check_between(self.path, f"parameters/{name}", read(f"parameters/{name}"), 0)
-        self.farthest = min(1e4 * float(edges.sum()), 1e8 * d)  #: where a grain can be, m
+        self.farthest = min(1e4 * float(edges.sum()), 1e8 * d)  #: largest possible coordinate of a grain, m
 
     def __reduce__(self) -> Any:
-        """A copy, or what pickle brings to another process, is the run opened again: by its path, in its units."""
+        """Copies and pickles of a run reopen it by its path, in its units."""
         return reopen, (self.storage.absolute, self.units, self.storage.mark, self.storage.known)
 
     def __enter__(self) -> "Run":
@@ -127,20 +127,19 @@ class Run:
         return f"<run {self.path}: {len(self.id)} grains, {len(self.tilt)} frames{rest}>"
 
     def close(self) -> None:
-        """Closes the file. What is asked for later opens it again."""
+        """Closes the file. Later access opens it again."""
         self.storage.close()
 
     def __getitem__(self, name: str) -> Any:
-        """All values of any data set of the file, in the units of the run: `run["steps/iterations"]`. An array, a
-        number or a text. Throws Error where there is none of this name."""
+        """Returns all values of a data set of the file, in the units of the run, e.g. `run["steps/iterations"]`: an
+        array, a number or a text. Raises Error if there is no such data set."""
         name = self._known(name)
         values = self.storage.read(name)
         check_series(self.path, name, values)
         return self._converted(name, values)
 
     def _known(self, name: Any) -> str:
-        """The path of a data set as the storage has it: `step` and `time` beside the values of grains are those of the
-        frames."""
+        """Returns the path of a data set in the storage: `step` and `time` of grain data are those of the frames."""
         name = check_text(name, "the data set").strip("/")
         if name.startswith("particles/grains/") and name.endswith(("/step", "/time")):
             return "frames/" + name.rpartition("/")[2]
@@ -153,13 +152,13 @@ class Run:
         return values.item() if isinstance(values, np.generic) else values
 
     def unit(self, name: str) -> str:
-        """The unit in which `run[name]` is given; "1": a number."""
+        """Returns the unit of `run[name]`; "1" for a plain number."""
         name = self._known(name)
         self.storage.check(name)
         return unit_in(self.units, self.storage.unit(name))
 
     def meaning(self, name: str) -> str:
-        """What a data set is, a sentence; empty where the file does not say (a folder, /results)."""
+        """Returns the definition of a data set, a sentence; empty if the file has none (a folder, /results)."""
         name = self._known(name)
         self.storage.check(name)
         return self.storage.meaning(name)
@@ -171,15 +170,15 @@ class Run:
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
-        """The scenario with every key, in its own units (docs/scenario.md): `run.scenario["tilt"]["rate"]`."""
+        """The scenario with every key, in the units of the scenario (docs/scenario.md): `run.scenario["tilt"]["rate"]`."""
         try:
             return tomllib.loads(self["parameters/scenario_resolved"])
         except (ValueError, RecursionError) as error:
-            raise refuse(self.path, "parameters/scenario_resolved", f"is no scenario: {error}") from None
+            raise refuse(self.path, "parameters/scenario_resolved", f"is not a scenario: {error}") from None
 
     @cached_property
     def provenance(self) -> dict[str, Any]:
-        """How the run was made: seed, version, git_hash, command, ..."""
+        """Origin of the run: seed, version, git_hash, command, ..."""
         names = [name for name in self.storage.names("provenance") if not name.startswith("timing/")]
         return {name: self["provenance/" + name] for name in names}
 
@@ -189,14 +188,14 @@ class Run:
 
     @property
     def frames(self) -> Frames:
-        """All frames, those of the flow after failure included."""
+        """All frames, including those of the flow after failure."""
         return Frames(self)
 
     @cached_property
     def frames_of_tilt(self) -> int:
-        """How many frames there are up to the first highest tilt, with a programme of the tilt (tilt.program) up to its
-        last step. The analysis has these; those after it are frames of the flow that follows failure
-        (tilt.after_failure)."""
+        """Number of frames up to the first occurrence of the largest tilt, or, with a programme of the tilt
+        (tilt.program), up to its last step. These are the frames of the analysis; later ones belong to the flow after
+        failure (tilt.after_failure)."""
         if not len(self.tilt):
             return 0
         if (last := self._last_tilt_step) is not None:
@@ -205,18 +204,18 @@ class Run:
 
     @cached_property
     def _last_tilt_step(self) -> int | None:
-        """Steps taken when the tilt ended; None for a run without a programme."""
+        """Step number at the end of the tilt; None for a run without a programme."""
         return int(self.storage.read("checkpoint/integers/last_tilt_step")) if self.has_program else None
 
     @cached_property
     def has_program(self) -> bool:
-        """Whether the tilt follows a programme: then it may fall, be held, and change its sign."""
+        """Whether the tilt follows a programme, in which it may fall, be held, and change sign."""
         return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
     @cached_property
     def has_frames(self) -> bool:
-        """False for a file that an ensemble has kept for its analysis alone: of its frames only `step`, `time` and `tilt`
-        are known."""
+        """Whether the run has the data of its frames. False for a file that an ensemble has kept for its analysis
+        alone: only `step`, `time` and `tilt` of its frames are known."""
         return not self.complete or self.storage.has("contacts/pair")
 
     @cached_property
@@ -226,15 +225,15 @@ class Run:
 
     @cached_property
     def planes(self) -> int:
-        """How many planes (floor, walls) there are; without the last state of the run, as many as there can be."""
+        """Number of planes (floor, walls); the largest possible number if the last state of the run is missing."""
         name = "checkpoint/plane_offset"
         return len(self.storage.read(name)) if self.storage.has(name) else 3
 
     def frame_at(self, angle: float | Literal["repose"]) -> Frame:
-        """The frame of the tilt nearest to an angle in degrees, or with "repose" the last one with a tilt up to theta_c,
-        as `--at` of `talus render` has it: where the tilt goes up and down, the first frame that reaches the angle, and
-        "repose" in the last rise. Throws Error where no frame lies within half the spacing of the frames, or
-        theta_c is not known."""
+        """Returns the frame of the tilt nearest to an angle in degrees, or, for "repose", the last frame with a tilt up
+        to theta_c, like `--at` of `talus render`. If the tilt goes up and down, this is the first frame that reaches
+        the angle, and "repose" refers to the last rise. Raises Error if no frame lies within half the spacing of the
+        frames, or if theta_c is unknown."""
         degrees = as_angle(angle)
         tilts = np.degrees(self.storage.read("frames/tilt")[: self.frames_of_tilt])
         if not len(tilts):
@@ -242,7 +241,7 @@ class Run:
         if degrees is None:
             theta_c = np.degrees(float(self.storage.read("results/theta_c")))
             if np.isnan(theta_c):
-                raise Error(f"{self.path}: the angle of repose is not known, as the slope has not failed")
+                raise Error(f"{self.path}: the angle of repose is unknown, because the slope has not failed")
             first, end = last_rise(tilts)
             rise = np.abs(tilts[first:end])
             return self.frames[first + max(int(np.searchsorted(rise, theta_c + 1e-7, side="right")) - 1, 0)]
@@ -258,21 +257,21 @@ class Run:
         return self.frames[int(near[0]) + int(np.argmin(distance[near[0] : last + 1]))]
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
-        """What a data set by frame holds of frame k, in the units of the run. Throws Error where the run has no frame k
-        or no such data set, or the values are impossible."""
+        """Returns the values of a data set for frame k, in the units of the run. Raises Error if the run has no frame k
+        or no such data set by frame, or if the values are impossible."""
         name = self._known(name)
         if not is_by_frame(name):
-            raise Error(f"{self.path}: {name} is no data set by frame")
+            raise Error(f"{self.path}: {name} is not a data set by frame")
         if not self.has_frames:
             raise Error(f"{self.path}: has no frames: it was kept for its analysis alone (--keep analysis); compute it "
-                        "again with talus run for them")
+                        "again with talus run to get them")
         k = self.frame_index(k)
         values = self.storage.read_frame(name, k)
         check_frame_values(self, name, values)
         return np.asarray(self._converted(name, values))
 
     def frame_index(self, k: Any) -> int:
-        """The index of a frame, counted from 0; one below 0 counts from the end, as in a list."""
+        """Returns the index of a frame, counted from 0; negative indices count from the end, as in a list."""
         try:
             if isinstance(k, (bool, np.bool_)):
                 raise TypeError
@@ -285,12 +284,12 @@ class Run:
 
     @cached_property
     def observables(self) -> Table:
-        """Series of the packing in short intervals of the tilt: "tilt", "sigma_t_over_n", "volume_strain", ..."""
+        """Series of the packing at short intervals of the tilt: "tilt", "sigma_t_over_n", "volume_strain", ..."""
         return self._series("observables")
 
     @cached_property
     def steps(self) -> Table:
-        """What the solver did in each step: "iterations", "residual", ..."""
+        """Record of the solver for each step: "iterations", "residual", ..."""
         return self._series("steps")
 
     def _series(self, group: str) -> Table:
@@ -302,15 +301,15 @@ class Run:
 
     @cached_property
     def analysis(self) -> Table:
-        """What `talus analyze` has stored, by the names of docs/analysis.md: "overloaded/fraction", "theta_d/dilation",
-        ... Row k is frame k. Throws Error where there is no analysis, or one of another version."""
+        """Results stored by `talus analyze`, with the names of docs/analysis.md: "overloaded/fraction",
+        "theta_d/dilation", ... Row k is frame k. Raises Error if there is no analysis, or one of another version."""
         if "version" not in self.storage.names("analysis"):
-            raise Error(f"{self.path}: holds no analysis; " + (f"make it: talus analyze {self.path}" if self.complete
-                        else "the run is not complete, and its analysis is stored once it is"))
+            raise Error(f"{self.path}: holds no analysis; " + (f"create it with: talus analyze {self.path}" if self.complete
+                        else "an analysis is stored only once the run is complete"))
         version = self["analysis/version"]
         if version != ANALYSIS:
-            raise Error(f"{self.path}: its analysis has version {version}, this package reads version {ANALYSIS}; make "
-                        f"it again: talus analyze {self.path}")
+            raise Error(f"{self.path}: its analysis has version {version}, this package reads version {ANALYSIS}; repeat "
+                        f"it with: talus analyze {self.path}")
         rows = len(self["analysis/packing/volume"])
         if rows != self.frames_of_tilt:
             raise refuse(self.path, "analysis", f"has rows for {rows} frames, the tilt has {self.frames_of_tilt}")
@@ -318,7 +317,7 @@ class Run:
 
 
 def as_angle(angle: Any) -> float | None:
-    """An angle in degrees; None for "repose"."""
+    """Returns an angle in degrees; None for "repose"."""
     if isinstance(angle, str) and angle == "repose":
         return None
     try:
@@ -333,7 +332,7 @@ def as_angle(angle: Any) -> float | None:
 
 
 def as_path(path: Any) -> Path:
-    """The path of a file or folder. Throws Error for what names none."""
+    """Returns the path of a file or folder. Raises Error for an invalid path."""
     try:
         if not os.fspath(path) or "\0" in os.fspath(path):
             raise TypeError
@@ -343,7 +342,7 @@ def as_path(path: Any) -> Path:
 
 
 def reopen(path: Path, units: Units, mark: bytes, known: tuple[bytes, Identity] | None) -> Run:
-    """A run that was open elsewhere. Throws Error where it is not there, or has changed since."""
+    """Opens a run that was open elsewhere. Raises Error if it is missing, or has changed since."""
     place = find_run(path)
     storage = Storage(place, "" if place.is_file() else manifest_text(place), known)
     if place != path or storage.mark != mark:
@@ -353,14 +352,14 @@ def reopen(path: Path, units: Units, mark: bytes, known: tuple[bytes, Identity] 
 
 def open(path: str | Path, units: Units = "SI") -> Run:
     """Opens a run: a file RUN.h5, or its folder RUN.h5.run while it is being computed, which is found under either
-    name. Such a run is the one of its last commit: what comes later is there when it is opened again.
+    name. Such a run has the state of its last commit; later data are available once it is opened again.
 
-    units: "SI" gives lengths in m and angles in rad, as in the file; "D" in mean diameters and in degrees.
+    units: "SI" for lengths in m and angles in rad, as in the file; "D" for mean diameters and degrees.
 
-    Throws Error where there is no run, nothing of it is committed yet, it is no run or one of another version, or it is
-    damaged. All bytes of a packed file are compared with the hash of its seal, and those of a file of a folder with that
-    of the manifest before it is first read. What is read then must have the type and shape that docs/file_format.md
-    tells, and values that are possible; nothing that lies in other files is read."""
+    Raises Error if there is no run, nothing of it is committed yet, the file is not a run or one of another version, or
+    it is damaged. All bytes of a packed file are compared with the hash of its seal, and those of a file in a folder
+    with the hash in the manifest, before it is first read. Data must have the type and shape stated in
+    docs/file_format.md, and possible values; data in other files are not read."""
     path = as_path(path)
     check_units(units)
     for attempts_left in reversed(range(20)):
@@ -372,7 +371,7 @@ def open(path: str | Path, units: Units = "SI") -> Run:
         try:
             return Run(Storage(place, manifest), units)
         except Error:
-            # While it is read the run may go on, or be packed: then look again.
+            # Tries again, because the run may continue or be packed while it is read.
             as_before = place.is_file() or manifest_text(place) == manifest != ""
             if as_before or attempts_left == 0:
                 raise

@@ -1,4 +1,4 @@
-"""A run that a script drives: stepped, steered, measured, drawn, recorded and copied."""
+"""Run that a script drives: stepped, steered, measured, drawn, recorded and copied."""
 
 import atexit
 import operator
@@ -23,14 +23,14 @@ else:
 
 def _extension() -> Any:
     if _core is None:
-        raise MissingPackage("talus.Simulation needs the extension talus._core, which is not built or not of this Python "
+        raise MissingPackage("talus.Simulation needs the extension talus._core, which is not built, or not for this Python "
                              f"({_missing}): install the Debian package talus, or build the wheel with ./bootstrap wheel; "
-                             "run files are read without it")
+                             "run files can be read without it")
     return _core
 
 
 def _path(path: Any) -> bytes:
-    """A path as its bytes. Throws WrongType where it is none."""
+    """Returns the bytes of a path. Raises WrongType for an invalid path."""
     try:
         name = os.fsencode(path)
     except (TypeError, UnicodeError):
@@ -41,17 +41,17 @@ def _path(path: Any) -> bytes:
 
 
 def _number(value: Any, what: str) -> float:
-    """A number. Throws WrongType where it is none."""
+    """Returns a number. Raises WrongType for other values."""
     try:
         if not isinstance(value, str | bytes):
             return float(value)
-    except Exception:  # of whatever __float__ it has
+    except Exception:  # raised by a user-defined __float__
         pass
     raise WrongType(f"{what} = {short(value)}: expected a number")
 
 
 def _seconds(value: Any, what: str) -> float:
-    """A time. Throws WrongType where it is none."""
+    """Returns a time. Raises WrongType for other values."""
     seconds = _number(value, what)
     if np.isnan(seconds):
         raise WrongType(f"{what} = {short(value)}: expected a number of seconds")
@@ -59,7 +59,7 @@ def _seconds(value: Any, what: str) -> float:
 
 
 def _whole(value: Any, what: str) -> int:
-    """A whole number, of those beyond 2^62 that. Throws WrongType where it is none."""
+    """Returns a whole number, at most 2^62. Raises WrongType for other values."""
     try:
         return max(-1, min(operator.index(value), 2**62))
     except Exception:
@@ -67,7 +67,7 @@ def _whole(value: Any, what: str) -> int:
 
 
 def _toml(value: Any, key: str) -> str:
-    """A value of Python as TOML writes it. Throws WrongType where TOML has none."""
+    """Returns a Python value in TOML syntax. Raises WrongType if TOML has no such value."""
     if isinstance(value, bool | np.bool_):
         return "true" if value else "false"
     if isinstance(value, int | np.integer):
@@ -85,7 +85,7 @@ def _toml(value: Any, key: str) -> str:
 
 
 def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
-    """Keys with their values in TOML, also those of tables in tables."""
+    """Returns keys with their values in TOML, including those of nested tables."""
     found: dict[str, str] = {}
     for key, value in keys.items():
         name = before + check_text(key, "key")
@@ -94,31 +94,31 @@ def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
 
 
 def _settings(*mappings: Mapping[str, Any]) -> list[str]:
-    """All of them as `--set` has them; of keys that are there several times, the last. Throws WrongType for what TOML
-    cannot write."""
+    """Returns all keys in the syntax of `--set`; for repeated keys, the last value. Raises WrongType for values that
+    TOML cannot represent."""
     values: dict[str, str] = {}
     for keys in mappings:
         try:
             values |= _values(keys)
         except RecursionError:
-            raise WrongType(f"{short(keys)}: a list or a table contains itself, or has too many others in it") from None
+            raise WrongType(f"{short(keys)}: a list or a table contains itself, or is nested too deeply") from None
     return [f"{key}={value}" for key, value in values.items()]
 
 
 class Image(np.ndarray):
-    """A picture: (h, w, 4) of uint8, sRGB and alpha, rows from top to bottom. A notebook shows it."""
+    """Picture, (h, w, 4) of uint8, sRGB and alpha, rows from top to bottom. A notebook displays it."""
 
     def _repr_png_(self) -> bytes:
         return _extension()._png(np.asarray(self))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes it as a PNG."""
+        """Writes the picture as a PNG file."""
         with open(_path(path), "wb") as file:
             file.write(self._repr_png_())
 
 
 def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
-    """A map of what the extension measures."""
+    """Draws a map of a simulation or frame of the extension."""
     chosen = _extension().MapOptions()
     for name, value in {"width": width, **options}.items():
         try:
@@ -126,15 +126,15 @@ def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
         except AttributeError:
             raise WrongType(f"draw has no option {short(name)}") from None
         except TypeError:
-            raise WrongType(f"draw: {name} = {short(value)}: a value of another type is expected") from None
+            raise WrongType(f"draw: {name} = {short(value)}: expected a value of another type") from None
     return core._draw(check_text(map, "map"), chosen).view(Image)
 
 
 class Grains:
-    """The grains of a simulation: views of its own memory, read-only, without a copy. Rows are ids: free grains first, and
-    after them those of the floor. A view follows the steps of its simulation; while a bed is poured, a later view has more
-    rows, and rows of the floor move on in an earlier one. `grains["gamma"]` is a quantity of the table in docs/export.md, as
-    it is now, in SI units."""
+    """Grains of a simulation: read-only views of its memory, without a copy. Rows are ids: free grains first, then
+    those of the floor. A view follows the steps of its simulation; while a bed is poured, a later view has more rows,
+    and rows of the floor move in an earlier view. `grains["gamma"]` is the current value of a quantity of the table in
+    docs/export.md, in SI units."""
 
     def __init__(self, simulation: "Simulation") -> None:
         self._core = simulation._core
@@ -150,12 +150,12 @@ class Grains:
 
     @property
     def free_count(self) -> int:
-        """Grains that are not of the floor: the first ones."""
+        """Number of free grains, which come first."""
         return self._core._free_count
 
     @property
     def free(self) -> np.ndarray:
-        """(N,) whether a grain is free, not glued to the floor."""
+        """(N,) whether a grain is free, not fixed to the floor."""
         return np.arange(len(self)) < self.free_count
 
     @property
@@ -170,12 +170,12 @@ class Grains:
 
     @property
     def angle(self) -> np.ndarray:
-        """(N,) angle turned since the beginning, rad, counter-clockwise positive."""
+        """(N,) rotation since the start of the run, rad, counter-clockwise positive."""
         return self._core._angle
 
     @property
     def angular_velocity(self) -> np.ndarray:
-        """(N,) rotation velocities, rad/s, counter-clockwise positive."""
+        """(N,) angular velocities, rad/s, counter-clockwise positive."""
         return self._core._angular_velocity
 
     @property
@@ -190,13 +190,13 @@ class Grains:
 
     @property
     def image(self) -> np.ndarray:
-        """(N,) how often a grain left through the right periodic edge minus the left."""
+        """(N,) net number of crossings of the periodic edge, right minus left."""
         return self._core._image
 
 
 class LiveContacts:
-    """The contacts after the last step, near ones without force among them: copies, which later steps do not change.
-    `contacts["mobilisation"]` is a quantity of the table in docs/export.md, of those that carry force."""
+    """Contacts after the last step, including near ones without force: copies, which later steps do not change.
+    `contacts["mobilisation"]` is a quantity of the table in docs/export.md for the contacts that carry force."""
 
     def __init__(self, simulation: "Simulation") -> None:
         self._core = simulation._core
@@ -227,7 +227,7 @@ class LiveContacts:
 
     @property
     def gap(self) -> np.ndarray:
-        """(C,) gaps, m; negative where bodies overlap."""
+        """(C,) gaps, m; negative if bodies overlap."""
         return self._core._gap
 
     @property
@@ -237,7 +237,7 @@ class LiveContacts:
 
 
 class Simulation:
-    """A bed that is stepped by a script, with the bits of `talus run` of the same scenario and commands.
+    """A bed that is stepped by a script, bit-identical to `talus run` with the same scenario and commands.
 
         sim = talus.Simulation("paper-pbc.toml", seed=7, **{"bed.length": 60})
         sim.deposit()
@@ -246,9 +246,9 @@ class Simulation:
         sim.tilt_rate = 0
         sim.run(3.0)
 
-    `scenario` is a file, or a mapping of keys; further keys, as `--set` takes them, change it. SI units; tilts in deg. One
-    thread uses a simulation at a time; several simulations in several threads run side by side. Errors are talus.Error, with
-    the exit code of the command line as `exit_code`."""
+    `scenario` is a file, or a mapping of keys; further keys change it, as with `--set`. SI units; tilts in deg. One thread
+    uses a simulation at a time; several simulations can run in parallel threads. Errors are talus.Error, with the exit code
+    of the command line as `exit_code`."""
 
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
@@ -270,12 +270,12 @@ class Simulation:
         return f"<simulation of {len(self.grains)} grains, {self.phase}: tilt {self.tilt:.4g} deg, step {self.step_count}>"
 
     def __reduce__(self) -> Any:
-        raise WrongType("a simulation cannot be pickled: record it, and resume it in the other process")
+        raise WrongType("a simulation cannot be pickled; record it, and resume it in the other process")
 
     # Steps.
 
     def _tick(self) -> Any:
-        """Called by what steps: progress on a terminal."""
+        """Returns the function that shows progress on a terminal during steps; None if progress is off."""
         if not (sys.stderr.isatty() if self._progress is None else self._progress):
             return None
 
@@ -288,30 +288,31 @@ class Simulation:
         tick = self._tick()
         try:
             if not method(*goal, tick):
-                raise SystemExit  # the interpreter ends
+                raise SystemExit  # the interpreter is ending
         finally:
             if tick is not None:
                 print("\r\x1b[K", end="", file=sys.stderr, flush=True)
 
     def step(self, count: int = 1) -> None:
-        """Takes so many time steps, or fewer if the run is over before."""
+        """Takes `count` time steps, or fewer if the run ends earlier."""
         self._steps(self._core._step, _whole(count, "step: count"))
 
     def deposit(self) -> None:
-        """Steps until the bed rests, and its tilt begins."""
+        """Steps until the bed is at rest and its tilt starts."""
         self._steps(self._core._deposit)
 
     def tilt_to(self, angle: float) -> None:
-        """Steps until the tilt is at least that (deg), or the run is over."""
+        """Steps until the tilt is at least `angle` (deg), or the run is over."""
         self._steps(self._core._tilt_to, _number(angle, "tilt_to: angle"))
 
     def tilt_by(self, angle: float) -> None:
-        """Steps until the tilt has grown by that (deg), or the run is over."""
+        """Steps until the tilt has grown by `angle` (deg), or the run is over."""
         self._steps(self._core._tilt_by, _number(angle, "tilt_by: angle"))
 
     def run(self, seconds: float | None = None, *, until: Callable[[], bool] | None = None, every: float | None = None) -> None:
-        """Steps for so many seconds of simulated time, to the end of the run without them, and not beyond the moment at which
-        `until()` is true; it is asked before the first step and every so many seconds, after each step without `every`."""
+        """Steps for `seconds` of simulated time, or by default to the end of the run, but not beyond the moment at
+        which `until()` is true. `until()` is called before the first step and every `every` seconds of simulated time,
+        by default after each step."""
         if until is None:
             if seconds is None:
                 self._steps(self._core._finish)
@@ -322,18 +323,18 @@ class Simulation:
         pause = 0.0 if every is None else _seconds(every, "run: every")
         while not until() and not self.done and self.time < end * (1 - 1e-12):
             begin = self.time
-            self._steps(self._core._step, 1)  # also where `every` is less than a step
+            self._steps(self._core._step, 1)  # at least one step, even if `every` is shorter
             if pause > 0 and not self.done:
                 self._steps(self._core._run, min(begin + pause, end) - self.time)
 
     # Commands.
 
     def push(self, grain: int | Any, velocity: Any) -> None:
-        """Adds (v_x, v_y), m/s, to the velocity of a free grain, or of each of several: (2,), or one row for each. All are
-        pushed, or none if one of them cannot be."""
+        """Adds (v_x, v_y), m/s, to the velocity of one or several free grains: (2,), or one row for each. Pushes all of
+        them, or none if one cannot be pushed."""
         try:
             grains = np.atleast_1d(np.asarray(grain))
-        except ValueError:  # rows of unlike lengths
+        except ValueError:  # rows of different lengths
             grains = np.empty((0, 0))
         if grains.dtype.kind not in "iu" or grains.ndim != 1:
             raise WrongType(f"push({short(grain)}): expected the id of a grain, or a list of ids")
@@ -346,11 +347,11 @@ class Simulation:
         self._core._push(grains.tolist(), values.tolist())
 
     def drop(self, grains: int, x: float, height: float) -> None:
-        """Lifts so many grains from the free surface and lets them fall at x (m), from a height (m) above it."""
+        """Lifts `grains` grains from the free surface and drops them at x (m), from a height (m) above it."""
         self._command(self._core._drop, grains, x, height)
 
     def drag(self, grain: int, to: Any) -> None:
-        """Pulls a grain to a place (x, y), m, by a damped spring, from the next step on."""
+        """Pulls a grain to a position (x, y), m, with a damped spring, from the next step on."""
         try:
             x, y = to
         except (TypeError, ValueError):
@@ -378,28 +379,28 @@ class Simulation:
 
     @property
     def tilt_rate(self) -> float:
-        """deg/s; setting it is a command, and 0 holds the tilt."""
+        """Rate of the tilt, deg/s; setting it is a command, and 0 holds the tilt."""
         return self._core._tilt_rate
 
     @tilt_rate.setter
     def tilt_rate(self, value: float) -> None:
         self._command(self._core._set_tilt_rate, value)
 
-    # Where it stands.
+    # State.
 
     @property
     def tilt(self) -> float:
-        """deg."""
+        """Tilt, deg."""
         return self._core.tilt
 
     @property
     def time(self) -> float:
-        """s, simulated."""
+        """Simulated time, s."""
         return self._core.time
 
     @property
     def step_count(self) -> int:
-        """Time steps taken since the beginning."""
+        """Number of time steps since the start."""
         return self._core.step_count
 
     @property
@@ -414,7 +415,7 @@ class Simulation:
 
     @property
     def residual(self) -> float:
-        """eta of the last step (docs/solver.md)."""
+        """Residual eta of the last step (docs/solver.md)."""
         return self._core.residual
 
     @property
@@ -424,7 +425,7 @@ class Simulation:
 
     @property
     def state_hash(self) -> str:
-        """Of all that the future depends on, to the last bit."""
+        """Hash of the complete state on which later steps depend, to the last bit."""
         return self._core.state_hash
 
     @property
@@ -439,7 +440,7 @@ class Simulation:
 
     @property
     def length(self) -> float:
-        """L, the period or the distance between the walls, m."""
+        """Length L, the period or the distance between the walls, m."""
         return self._core.length
 
     @property
@@ -449,7 +450,7 @@ class Simulation:
 
     @property
     def gravity(self) -> float:
-        """g, m/s^2."""
+        """Gravity g, m/s^2."""
         return self._core.gravity
 
     @property
@@ -460,17 +461,18 @@ class Simulation:
     # Measures.
 
     def __getitem__(self, name: str) -> float:
-        """A number of the state as it is: a quantity of a frame (docs/analysis.md), "overloaded/fraction", at the second
-        threshold "overloaded/fraction[1]", or an observable (docs/file_format.md), "kinetic_energy"; SI units."""
+        """Returns a scalar of the current state: a quantity of a frame (docs/analysis.md), "overloaded/fraction", or at
+        the second threshold "overloaded/fraction[1]"; or an observable (docs/file_format.md), "kinetic_energy". SI
+        units."""
         return self._core._quantity(check_text(name, "quantity"))
 
     def analyse_with(self, **parameters: Any) -> None:
-        """Sets parameters of the analysis, as `talus analyze --set` takes them: l_min=0, gamma_c=0.3."""
+        """Sets parameters of the analysis, as with `talus analyze --set`: l_min=0, gamma_c=0.3."""
         self._core._set_analysis(_settings(parameters))
 
     def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Image:
-        """A map of the state, as `talus render --map` draws it, `width` px wide: theta_c, l_min, length, threshold, range,
-        colours, turned, bare are those of its options."""
+        """Draws a map of the state, like `talus render --map`, `width` px wide, with its options theta_c, l_min,
+        length, threshold, range, colours, turned and bare."""
         return draw(self._core, map, width, options)
 
     def _repr_png_(self) -> bytes:
@@ -479,25 +481,25 @@ class Simulation:
     # Recording and copies.
 
     def record(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Records what happens from now on as a run, which `talus replay` repeats: an ordinary one before the first step, and
-        later one that branches off from the state as it is."""
+        """Records the run from now on, for `talus replay`: as an ordinary run before the first step, and later as a
+        branch that starts from the current state."""
         self._core._record(_path(path), overwrite)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the state as it is as a run of its own, from which resume goes on."""
+        """Writes the current state as a separate run, which resume continues."""
         self._core._save(_path(path), overwrite)
 
     @property
     def recorded(self) -> bool:
-        """Whether it is being recorded."""
+        """Whether the simulation is being recorded."""
         return self._core.recorded
 
     def commit(self) -> None:
-        """Makes all that was recorded durable, as is done at each frame and at the end."""
+        """Commits all recorded data to disk, as happens at each frame and at the end."""
         self._core.commit()
 
     def copy(self) -> "Simulation":
-        """The same state, which goes on by itself and is not recorded."""
+        """Returns an independent simulation with the same state, which is not recorded."""
         other = object.__new__(Simulation)
         other._begin(self._core._copy(), self._progress)
         return other
@@ -509,7 +511,7 @@ class Simulation:
 
 
 def resume(path: str | os.PathLike[str], *, threads: int = 1, progress: bool | None = None) -> Simulation:
-    """A recorded run that was stopped, where its last commit left it, as a Simulation that goes on in the same file."""
+    """Resumes a recorded run that was stopped, from its last commit, as a Simulation that continues in the same file."""
     simulation = object.__new__(Simulation)
     simulation._begin(_extension().Simulation._resume(_path(path)), progress)
     if threads != 1:

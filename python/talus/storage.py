@@ -1,4 +1,4 @@
-"""Where the data sets of a run lie: in its packed file, or in the folder that it has while it is computed."""
+"""Storage of the data sets of a run: its packed file, or its folder while it is being computed."""
 
 import os
 from collections.abc import Iterator
@@ -18,8 +18,8 @@ STATE = ("checkpoint/", "results/", "provenance/timing/")
 
 
 def find_run(path: Path) -> Path:
-    """The packed file of the run called `path`, or its folder while it is being computed. Throws Error where there is
-    neither."""
+    """Returns the packed file of the run called `path`, or its folder while it is being computed. Raises Error if
+    neither exists."""
     beside = path.parent / (path.name + ".run")
     if path.is_file() and not replaces_packed(manifest_text(beside)):
         return path
@@ -29,15 +29,15 @@ def find_run(path: Path) -> Path:
     if path.is_file():
         return path
     if (path / "ensemble.manifest").exists():
-        raise Error(f"{path}: is the folder of an ensemble: talus.open_ensemble opens it")
+        raise Error(f"{path}: is the folder of an ensemble; open it with talus.open_ensemble")
     if beside.is_dir() or path.name.endswith(".run") and path.is_dir():
         raise Error(f"{beside if beside.is_dir() else path}: nothing is committed there yet; wait for the first "
-                    "checkpoint, or start the command of the run again")
+                    "checkpoint, or repeat the command of the run")
     raise Error(f"{path}: no such run; expected a run file, or a folder {beside}")
 
 
 def manifest_text(folder: Path) -> str:
-    """The manifest of a folder; empty where there is none."""
+    """Returns the manifest of a folder; empty if there is none."""
     try:
         return read_text(folder / NAME)
     except OSError:
@@ -45,19 +45,19 @@ def manifest_text(folder: Path) -> str:
 
 
 class Storage:
-    """The data sets of one run by their paths in docs/file_format.md, without the first slash. One file at a time is
-    open, and each is compared with its hash before it is read for the first time."""
+    """The data sets of one run by their paths in docs/file_format.md, without the first slash. One file is open at a
+    time, and each file is compared with its hash before it is first read."""
 
     def __init__(self, place: Path, manifest: str = "", known: tuple[bytes, Identity] | None = None) -> None:
-        """`manifest`: the text of the manifest where `place` is a folder. `known`: the mark and the identity of a packed
-        file that was compared with its hash before."""
+        """`manifest`: text of the manifest if `place` is a folder. `known`: seal and identity of a packed file whose
+        hash was already checked."""
         self.place = place
-        #: Where it is, even if the process has gone to another folder since.
+        #: Absolute path, which stays valid if the process changes its folder.
         self.absolute = place = Path(os.path.abspath(place))
         self.complete = place.is_file()
         self._open_file: CheckedFile | None = None
         self._identities: dict[Path, Identity] = {}
-        #: By which a file of this name tells whether it is the same: the seal, or the manifest.
+        #: Mark that identifies the contents under this name: the seal, or the manifest.
         self.mark: bytes = manifest.encode("utf-8", "surrogateescape")
         if self.complete:
             with told_as_damage(place):
@@ -69,34 +69,34 @@ class Storage:
             files = parse_manifest(manifest, place)
             self._stored = {file.path: file for file in (files.header, files.checkpoint, *files.segments)}
             for path in self._stored:
-                if not os.path.isfile(path):  # no OSError where the whole path is too long
+                if not os.path.isfile(path):  # raises no OSError if the whole path is too long
                     raise Error(f"{path}: is missing, although the manifest names it")
             self.header, self.state = files.header.path, files.checkpoint.path
             self.parts = [segment.path for segment in files.segments]
         with self._file(self.header) as file:
             self.grains = file.rows("particles/grains/species")
-        self.frames = [self._rows(path, "frames/tilt") for path in self.parts]  #: of each part
+        self.frames = [self._rows(path, "frames/tilt") for path in self.parts]  #: number in each part
 
     @property
     def known(self) -> tuple[bytes, Identity] | None:
-        """What to give to another Storage of the same packed file."""
+        """Value of `known` for another Storage of the same packed file."""
         return (self.mark, self._identities[self.absolute]) if self.complete else None
 
     def has(self, name: str) -> bool:
-        """Whether a file of the run holds the data set; while it has no segment yet, any series may be there."""
+        """Whether a file of the run has the data set; true for any series while the run has no segment yet."""
         files = self._files_of(name)
         return field_of(name) is not None and (not files or any(self._holds(path, name) for path in files))
 
     def check(self, name: str) -> None:
-        """Throws Error where the run has no data set of this name."""
+        """Raises Error if the run has no data set of this name."""
         if not self.has(name):
             raise Error(f"{self.place}: has no data set {name}")
 
     def read(self, name: str) -> Any:
-        """All values of a data set; none of a series while the run has no segment. Throws Error where the run has no
-        data set of this name, or one that is not as the table of data sets has it."""
+        """Returns all values of a data set; none for a series while the run has no segment. Raises Error if the run has
+        no data set of this name, or if it does not agree with the table of data sets."""
         self.check(name)
-        # Segments without contacts have no moments of them; all else is in each.
+        # Segments without contacts have no moments; all other data sets are in each segment.
         holds = self._holds if name == "contacts/moment" else lambda *_: True
         values = [self._whole(path, name) for path in self._files_of(name) if holds(path, name)]
         if len(values) < 2:
@@ -105,7 +105,8 @@ class Storage:
             return joined_offsets(values) if name == "contacts/offset" else np.concatenate(values)
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
-        """What a data set holds of frame k: a row of it, or the contacts of the frame. 0 <= k < sum(frames)."""
+        """Returns the values of a data set for frame k: a row of it, or the contacts of the frame. 0 <= k <
+        sum(frames)."""
         if field_of(name) is None:
             raise Error(f"{self.place}: has no data set {name}")
         part = 0
@@ -126,7 +127,7 @@ class Storage:
         return field[2] if field else ""
 
     def meaning(self, name: str) -> str:
-        """What a data set means; empty in a folder, which says nothing of it."""
+        """Returns the definition of a data set; empty if no file states it."""
         for path in self._files_of(name)[:1]:
             with self._file(path) as file:
                 if text := file.definition(name):
@@ -135,8 +136,8 @@ class Storage:
             return as_text(file.read("help/" + name)) if file.has("help/" + name) else ""
 
     def names(self, group: str) -> list[str]:
-        """The data sets below a group, in alphabetical order, by their paths from there; none where there is no such
-        group."""
+        """Returns the data sets below a group in alphabetical order, by their paths relative to it; none if the group
+        does not exist."""
         for path in self._files_of(group + "/")[:1]:
             with self._file(path) as file:
                 return file.names(group)
@@ -181,31 +182,31 @@ class Storage:
 
     @contextmanager
     def _file(self, path: Path) -> Iterator[CheckedFile]:
-        """The file at `path`. What cannot be read of it is an Error."""
+        """Yields the file at `path`; failures to read it are raised as Error."""
         with told_as_damage(path):
             yield self._opened(path)
 
 
 @contextmanager
 def told_as_damage(path: Path) -> Iterator[None]:
-    """Makes an Error of all that a file can do to h5py and numpy."""
+    """Converts everything that a file can raise in h5py and numpy to Error."""
     try:
         yield
     except Error:
         raise
     except FileNotFoundError:
-        raise Error(f"{path}: is not there any more: the run has gone on, or is complete, since it was opened; "
+        raise Error(f"{path}: no longer exists: the run has continued or was completed since it was opened; "
                     "open it again") from None
     except PermissionError as error:
         raise Error(f"{path}: cannot be opened: {error.strerror}") from None
     except MemoryError:
-        raise Error(f"{path}: out of memory while it was read; where there is enough, the file is malformed") from None
+        raise Error(f"{path}: out of memory while it was read; if enough memory is available, the file is malformed") from None
     except Exception as error:
         raise Error(f"{path}: is damaged: {error.args[0] if error.args else error}; restore it from a copy, or "
-                    "save what is undamaged with: talus repair RUN.h5 -o NEW.h5") from error
+                    "save its intact pieces with: talus repair RUN.h5 -o NEW.h5") from error
 
 
 def joined_offsets(parts: list[np.ndarray]) -> np.ndarray:
-    """The offsets of contacts, which begin at 0 in each part, counted on through all of them."""
+    """Returns the offsets of contacts, which start at 0 in each part, as offsets into all parts together."""
     lengths = np.concatenate([np.diff(part) for part in parts])
     return np.concatenate([[0], np.cumsum(lengths)])

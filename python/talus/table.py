@@ -1,4 +1,4 @@
-"""Data sets of a run under the names of their table."""
+"""Tables of data sets of a run."""
 
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
@@ -10,14 +10,14 @@ if TYPE_CHECKING:
     from talus.run import Run
 
 
-#: What an analysis has once, whatever the number of its frames.
+#: Data sets that an analysis has once, whatever the number of its frames.
 OF_THE_RUN = ("threshold", "theta_d/", "correlation/distance", "lc/end_ratio", "events/")
 
 
 class Table(Mapping[str, Any]):
-    """The data sets of a group of the run file by their names in its table: `run.observables["tilt"]`,
+    """The data sets of a group of the run file, by name: `run.observables["tilt"]`,
     `run.analysis["overloaded/fraction"]`. Values are arrays, in the units of the run, or plain numbers and texts; they
-    are read when they are asked for. NaN means "no value"."""
+    are read on access. NaN means "no value"."""
 
     def __init__(self, run: "Run", group: str) -> None:
         self._run = run
@@ -40,20 +40,20 @@ class Table(Mapping[str, Any]):
         return f"<{len(self)} data sets of /{self._group}: {', '.join(self._names)}>"
 
     def unit(self, name: str) -> str:
-        """The unit in which the values of `name` are given here; "1": a number."""
+        """Returns the unit of the values of `name`; "1" for a plain number."""
         self._known(name)
         return self._run.unit(f"{self._group}/{name}")
 
     def meaning(self, name: str) -> str:
-        """What `name` is, a sentence; empty while the run is being computed."""
+        """Returns the definition of `name`, a sentence; empty while the run is being computed."""
         self._known(name)
         return self._run.meaning(f"{self._group}/{name}")
 
     def to_pandas(self) -> Any:
-        """A DataFrame with one row for each row of a series; of /analysis one for each frame of the tilt. Its columns
-        are the data sets of one number a row and, called `name`, `name[1]`, ..., those of up to four, as there are of
-        each threshold; that of /analysis begins with `tilt`. Throws ImportError without pandas, Error where there are
-        no rows yet."""
+        """Returns a DataFrame with one row for each row of a series; for /analysis one for each frame of the tilt. Its
+        columns are the data sets with one number per row and, as `name`, `name[1]`, ..., those with up to four, e.g.
+        one for each threshold; the table of /analysis starts with `tilt`. Raises ImportError without pandas, and Error
+        if there are no rows yet."""
         pandas = need("pandas", "to_pandas()")
         columns: dict[str, Any] = {}
         rows = None
@@ -84,5 +84,5 @@ class Table(Mapping[str, Any]):
 
 
 def numbered(name: str, i: int) -> str:
-    """Number i of several, as Talus writes it: "lc/mean", "lc/mean[1]"."""
+    """Returns the name of number i of several: "lc/mean", "lc/mean[1]"."""
     return name if i == 0 else f"{name}[{i}]"

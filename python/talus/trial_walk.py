@@ -1,5 +1,5 @@
-"""HDF5 crashes, or hangs, on some files that were malformed and have the right hash nevertheless, and would end the
-program that reads one. So a child process walks through such a file first."""
+"""Test of files in a child process: HDF5 crashes or hangs on some malformed files whose hash is right, which would end the
+reading program, so a child process walks through each file first."""
 
 import contextlib
 import os
@@ -13,16 +13,16 @@ from h5py._objects import phil
 from talus.checked_file import Identity, open_unlocked
 from talus.errors import Error
 
-#: A walk takes some milliseconds.
+#: Time limit; a walk takes a few milliseconds.
 MAX_SECONDS = 60.0
-#: How the child ends: the file is sound, h5py refuses it, or the system lacks something.
+#: Exit codes of the child: the file is sound, h5py rejects it, or the system lacks a resource.
 WALKED, MALFORMED, NOT_KNOWN = 0, 1, 2
 _walked: set[Identity] = set()
 
 
 def walk(path: Path) -> None:
-    """Opens all that is in the file, and looks up where values lie. Throws whatever h5py does where a group cannot be
-    read; what is wrong with one data set is told where it is read."""
+    """Opens everything in the file, and looks up where values are stored. Raises the exceptions of h5py if a group
+    cannot be read; faults of single data sets are reported when they are read."""
     file, _ = open_unlocked(path)
 
     def look(name: bytes) -> None:
@@ -39,7 +39,8 @@ def walk(path: Path) -> None:
 
 
 def _in_child(path: Path) -> None:
-    """Ends the process, by a crash if there is one: what Python does then is for the reader's own."""
+    """Walks through the file and ends the process, possibly by a crash, without the cleanup of Python, which belongs to
+    the parent."""
     with contextlib.suppress(BaseException):
         for crash in (signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGABRT, signal.SIGALRM):
             signal.signal(crash, signal.SIG_DFL)
@@ -48,25 +49,25 @@ def _in_child(path: Path) -> None:
 
             resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # the C library has a word for its end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # silences messages of the C library on a crash
         signal.setitimer(signal.ITIMER_REAL, MAX_SECONDS)
         try:
             walk(path)
             os._exit(WALKED)
         except MemoryError:
             os._exit(NOT_KNOWN)
-        except OSError as error:  # what HDF5 says of a file has no number
+        except OSError as error:  # errors of HDF5 about a file have no errno
             os._exit(NOT_KNOWN if error.errno else MALFORMED)
     os._exit(MALFORMED)
 
 
 def require_walkable(path: Path, identity: Identity) -> None:
-    """Throws Error if HDF5 crashes or hangs on the file. Each file is walked through once, while it stays as it is; not
-    where the system has no fork."""
+    """Raises Error if HDF5 crashes or hangs on the file. Each file is tested once while its identity stays the same;
+    not on systems without fork."""
     if identity in _walked or not hasattr(os, "fork"):
         return
     with phil, warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # threads: the child calls nothing but HDF5, whose lock is ours
+        warnings.simplefilter("ignore", DeprecationWarning)  # the child calls only HDF5, whose lock we hold
         try:
             child = os.fork()
         except OSError:  # too many processes, or too little memory
@@ -75,7 +76,7 @@ def require_walkable(path: Path, identity: Identity) -> None:
             _in_child(path)
     try:
         _, status = os.waitpid(child, 0)
-    except ChildProcessError:  # the program has all its children reaped by itself: nothing is known
+    except ChildProcessError:  # the program reaps its children itself, so the status is unknown
         return
     except BaseException:  # Ctrl-C
         with contextlib.suppress(OSError):
@@ -83,8 +84,8 @@ def require_walkable(path: Path, identity: Identity) -> None:
             os.waitpid(child, 0)
         raise
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) == NOT_KNOWN:
-        return  # whoever opens the file says what is missing
+        return  # opening the file will report the missing resource
     if status != 0:
-        what = "crashes on it, or hangs" if os.WIFSIGNALED(status) else "cannot walk through it"
-        raise Error(f"{path}: HDF5 {what}: the file is malformed, although its hash is right; restore it from a copy")
+        what = "crashes or hangs on this file" if os.WIFSIGNALED(status) else "cannot read this file"
+        raise Error(f"{path}: HDF5 {what}: it is malformed, although its hash is right; restore it from a copy")
     _walked.add(identity)

@@ -1,4 +1,4 @@
-"""The units in which values are given: those of the file, or those of the tables that Talus prints."""
+"""Units of values: those of the file, or those of the tables that Talus prints."""
 
 from typing import Any, Literal
 
@@ -7,23 +7,23 @@ import numpy as np
 from talus.errors import Error, short
 
 #: "SI": as in the file, lengths in m and angles in rad. "D": lengths in mean diameters and angles in degrees, as in
-#: scenarios and in the tables of Talus. All else (m^2, m/s, Pa, N/m, J/m, 1/rad) is the same in both.
+#: scenarios and in the tables of Talus. All other units (m^2, m/s, Pa, N/m, J/m, 1/rad) are the same in both.
 Units = Literal["SI", "D"]
 
 
 def check_units(units: str) -> None:
-    """Throws Error where `units` is neither "SI" nor "D"."""
+    """Raises Error if `units` is neither "SI" nor "D"."""
     if not isinstance(units, str) or units not in ("SI", "D"):
         raise Error(f'units={short(units)}: expected "SI" (m, rad) or "D" (mean diameters, deg)')
 
 
 def unit_in(units: Units, unit: str) -> str:
-    """The unit of values that the file has in `unit`: "D" and "deg" for "m" and "rad" where units are "D"."""
+    """Returns the unit of values stored in `unit`: "D" and "deg" for "m" and "rad" if `units` is "D"."""
     return unit if units == "SI" else {"m": "D", "rad": "deg"}.get(unit, unit)
 
 
 def values_in(units: Units, unit: str, values: Any, mean_diameter: float) -> Any:
-    """Values in `unit` of the file, converted; `mean_diameter` in m."""
+    """Returns converted values, stored in `unit`; `mean_diameter` in m."""
     if units == "SI" or unit not in ("m", "rad"):
         return values
     if isinstance(values, np.ndarray):

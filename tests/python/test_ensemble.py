@@ -112,9 +112,9 @@ def test_errors_name_what_there_is(ensemble, folder_of, tmp_path):
         ensemble.mean("theta_c", "contact.friction=0.4")
     with pytest.raises(talus.Error, match="no number theta_k; they have theta_c, first_slide"):
         ensemble.mean("theta_k", VARIANTS[0])
-    with pytest.raises(talus.Error, match="no ensemble here; begin one with"):
+    with pytest.raises(talus.Error, match="no ensemble here; start one with"):
         talus.open_ensemble(tmp_path)
-    with pytest.raises(talus.Error, match="talus.open_ensemble opens it"):
+    with pytest.raises(talus.Error, match="open it with talus.open_ensemble"):
         talus.open(folder_of)
 
 
@@ -122,7 +122,7 @@ def test_errors_name_what_there_is(ensemble, folder_of, tmp_path):
                                   "talus ensemble 1\nseeds 1-3\nvariant 0 \n"])
 def test_damaged_manifests(tmp_path, text):
     (tmp_path / "ensemble.manifest").write_text(text)
-    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote"):
+    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus"):
         talus.open_ensemble(tmp_path)
 
 
@@ -131,14 +131,14 @@ def test_damaged_manifests(tmp_path, text):
 def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
     text = sealed_text(f"talus ensemble 1\nseeds 1-3\nvariant 0 {name}\nhash 0\n")
     (tmp_path / "ensemble.manifest").write_text(text, newline="")
-    with pytest.raises(talus.Error, match=r"ensemble.manifest: is not what talus wrote, in line [34]: "):
+    with pytest.raises(talus.Error, match=r"ensemble.manifest: was not written by talus, in line [34]: "):
         talus.open_ensemble(tmp_path)
 
 
 @pytest.mark.parametrize("line", ["frob 1", "", "Seeds 1"])
 def test_lines_that_talus_does_not_write_are_refused(tmp_path, line):
     (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\n{line}\nseeds 1\nvariant 0 \nhash 0\n"))
-    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 2: "):
+    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus, in line 2: "):
         talus.open_ensemble(tmp_path)
 
 
@@ -147,7 +147,7 @@ def test_lines_that_talus_does_not_write_are_refused(tmp_path, line):
 def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):
     text = sealed_text(f"talus ensemble 1\nseeds {seeds}\nvariant 0 \nhash 0\n")
     (tmp_path / "ensemble.manifest").write_text(text)
-    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 2: "):
+    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus, in line 2: "):
         talus.open_ensemble(tmp_path)
 
 

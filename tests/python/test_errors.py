@@ -50,7 +50,7 @@ def test_another_version_of_the_analysis(copied):
 
 
 def test_run_without_an_analysis_says_how_to_make_it(walls):
-    with talus.open(walls) as run, pytest.raises(talus.Error, match=f"holds no analysis; make it: talus analyze {walls}"):
+    with talus.open(walls) as run, pytest.raises(talus.Error, match=f"holds no analysis; create it with: talus analyze {walls}"):
         run.analysis
 
 

@@ -52,7 +52,7 @@ def test_folder_and_file_are_found_under_either_name(stopped):
 
 
 def test_analysis_of_a_stopped_run_is_not_there_yet(stopped):
-    with talus.open(stopped) as run, pytest.raises(talus.Error, match="is not complete, and its analysis"):
+    with talus.open(stopped) as run, pytest.raises(talus.Error, match="an analysis is stored only once the run is complete"):
         run.analysis
 
 
@@ -67,7 +67,7 @@ def test_run_is_read_while_it_is_computed_and_packed(folder):
                 assert not frames[-1] or run.frames[-1].gamma.shape == run.id.shape
         except talus.Error as error:
             waiting = ("no such run", "nothing is committed there yet")
-            assert any(text in str(error) for text in (*waiting, "is not there any more")), error
+            assert any(text in str(error) for text in (*waiting, "no longer exists")), error
     assert process.returncode == 0
     with talus.open(path) as run:
         frames.append(len(run.frames))
@@ -104,7 +104,7 @@ def test_run_that_is_packed_meanwhile_says_so(stopped, tmp_path):
     shutil.copytree(f"{stopped}.run", f"{copy}.run")
     with talus.open(copy) as run:
         run_talus("run", "--resume", copy)
-        with pytest.raises(talus.Error, match="is complete, since it was opened; open it again"):
+        with pytest.raises(talus.Error, match="was completed since it was opened; open it again"):
             run.frames[2].position
 
 

@@ -139,14 +139,14 @@ def test_nothing_outside_of_the_file_is_read(packed, secret, tmp_path, name):
     (with_values("contacts/offset", lambda v: np.put(v, 2, v[4])), "does not ascend"),
     (with_values("contacts/offset", lambda v: np.put(v, 5, 10**9)), "does not ascend within"),
     (with_values("contacts/offset", lambda v: np.put(v, 1, -5)), "does not ascend"),
-    (with_values("contacts/pair", lambda v: np.put(v, 1, 10**6)), "joins other bodies"),
-    (with_values("contacts/pair", lambda v: np.put(v, 0, -1)), "joins other bodies"),
+    (with_values("contacts/pair", lambda v: np.put(v, 1, 10**6)), "joins bodies other"),
+    (with_values("contacts/pair", lambda v: np.put(v, 0, -1)), "joins bodies other"),
     (with_values("contacts/status", lambda v: np.put(v, 0, 7)), "other than 0, 1 and 2"),
-    (with_values("particles/grains/position/value", lambda v: np.put(v, 0, np.nan)), "no finite number"),
+    (with_values("particles/grains/position/value", lambda v: np.put(v, 0, np.nan)), "not a finite number"),
     (with_values("particles/grains/position/value", lambda v: np.put(v, 0, 1e30)), "farther away"),
-    (with_values("particles/grains/radius", lambda v: np.put(v, 0, -1)), "holds other values than numbers from"),
+    (with_values("particles/grains/radius", lambda v: np.put(v, 0, -1)), "holds values other than numbers from"),
     (with_values("particles/grains/species", lambda v: np.put(v, 0, 1)), "has no free grain, or one after"),
-    (with_values("frames/tilt", lambda v: np.put(v, 0, np.inf)), "no finite number"),
+    (with_values("frames/tilt", lambda v: np.put(v, 0, np.inf)), "not a finite number"),
 ])
 def test_what_the_program_refuses_is_refused(packed, change, text):
     def make(file):
@@ -180,7 +180,7 @@ def test_values_are_no_more_bytes_than_the_file_can_hold(packed):
 def test_a_manifest_names_files_of_its_folder_once(folder_of_run, name):
     shutil.copy(folder_of_run / "segment_000003.h5", folder_of_run.parent / "other.h5")
     change_manifest(folder_of_run, r"^segment segment_000003.h5", f"segment {name}")
-    with pytest.raises(talus.Error, match="manifest: is damaged .*no file of a run folder"):
+    with pytest.raises(talus.Error, match="manifest: is damaged .*does not belong to a run folder"):
         talus.open(folder_of_run)
 
 
@@ -195,7 +195,7 @@ def test_a_manifest_names_files_of_its_folder_once(folder_of_run, name):
     (lambda f: [(f / "header.h5").unlink(), os.mkfifo(f / "header.h5")], "header.h5: is missing"),
     (lambda f: [(f / "manifest").unlink(), os.mkfifo(f / "manifest")], "nothing is committed"),
     (lambda f: change_manifest(f, r"^segment segment_000003.h5", f"segment {'x' * 300}.h5"), "x.h5: is missing, although"),
-    (lambda f: os.truncate(f / "manifest", HUGE), "more than a file of its kind can have"),
+    (lambda f: os.truncate(f / "manifest", HUGE), "more than such a file can have"),
 ])
 def test_folders_are_what_their_manifest_says(folder_of_run, change, text):
     change(folder_of_run)
@@ -209,7 +209,7 @@ def test_an_ensemble_has_no_more_seeds_than_there_can_be(tmp_path, seeds):
     text = f"talus ensemble 1\nversion 0.1.0\nseeds {seeds}\nvariant 0 \nhash \n"
     (tmp_path / "ensemble.manifest").write_text(sealed_text(text))
     tracemalloc.start()
-    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote"):
+    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus"):
         talus.open_ensemble(tmp_path)
     assert tracemalloc.get_traced_memory()[1] < 1 << 20
     tracemalloc.stop()
@@ -235,7 +235,7 @@ OF_FILE = '[deposition]\nmethod = "file"\n'
 @pytest.mark.chosen
 @pytest.mark.parametrize("scenario", ["x = 1\n", "deposition = 1\n", "[deposition]\nx = 1\n", OF_FILE + "# more\n"])
 def test_a_scenario_of_an_ensemble_is_the_one_that_it_began_with(analysed, tmp_path, scenario):
-    with pytest.raises(talus.Error, match="scenario.toml: was changed since the ensemble began; expected"):
+    with pytest.raises(talus.Error, match="scenario.toml: has changed since the ensemble was started; expected"):
         talus.open_ensemble(ensemble_with(tmp_path, analysed, scenario, OF_FILE))
 
 
@@ -252,7 +252,7 @@ def test_a_scenario_that_was_changed_is_not_given(analysed, tmp_path):
     assert ensemble.scenario() == {"deposition": {"method": "file"}}
     with (tmp_path / "scenarios/scenario.toml").open("a") as file:
         file.write("# a line\n")
-    with pytest.raises(talus.Error, match="scenario.toml: was changed since the ensemble began; expected"):
+    with pytest.raises(talus.Error, match="scenario.toml: has changed since the ensemble was started; expected"):
         ensemble.scenario()
 
 
@@ -263,7 +263,7 @@ def test_a_scenario_that_was_changed_is_not_given(analysed, tmp_path):
                                    f"variant 0 {'x' * 256}", f"variant 0 {'é' * 128}", f"variant 0 a/{'x' * 300}"])
 def test_lines_of_an_ensemble_are_those_that_talus_writes(tmp_path, lines):
     (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\nseeds 1\nvariant 0 \n{lines}\nhash \n"))
-    with pytest.raises(talus.Error, match="ensemble.manifest: is not what talus wrote, in line 4: .*expected"):
+    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus, in line 4: .*expected"):
         talus.open_ensemble(tmp_path)
 
 
@@ -389,7 +389,7 @@ def test_a_file_that_hdf5_crashes_on_is_an_error(tmp_path, changes):
         data[at] = value
     path = tmp_path / "run.h5"
     path.write_bytes(data)
-    with pytest.raises(talus.Error, match="HDF5 cannot walk through it"):
+    with pytest.raises(talus.Error, match="HDF5 cannot read this file"):
         talus.open(seal(path))
 
 
@@ -398,7 +398,7 @@ def test_a_crash_of_the_trial_walk_is_an_error_and_a_file_is_walked_through_once
     path = shutil.copy(KEPT, tmp_path / "run.h5")
     with monkeypatch.context() as crashing:
         crashing.setattr(trial_walk, "walk", lambda _: os.kill(os.getpid(), signal.SIGSEGV))
-        with pytest.raises(talus.Error, match="HDF5 crashes on it, or hangs"):
+        with pytest.raises(talus.Error, match="HDF5 crashes or hangs on this file"):
             talus.open(path)
     talus.open(path).close()
     monkeypatch.setattr(os, "fork", None)

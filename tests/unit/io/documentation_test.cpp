@@ -31,14 +31,14 @@ TEST(FileFormat, is_documented_as_it_is) {
 }
 
 constexpr const char* schema_for_python =
-    R"("""Every data set of a run file and of its analysis. The test FileFormat of unit_io makes this table from that of the
-program, compares them, and says where a new one is."""
+    R"("""Table of every data set of a run file and of its analysis. The test FileFormat of unit_io generates it from the table of
+the program, compares the two, and reports where the generated one is."""
 
 #: Versions of the tables in docs/file_format.md and docs/analysis.md.
 SCHEMA = {}
 ANALYSIS = {}
 
-#: Type, shape and unit by the path without its first slash; `*` stands for names that the run chooses. Letters of a
+#: Type, shape and unit by the path without its first slash; `*` stands for names that depend on the run. Letters of a
 #: shape are sizes (docs/file_format.md).
 DATA_SETS = {{
 )";
