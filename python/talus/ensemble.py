@@ -201,7 +201,7 @@ class Ensemble:
             raise ValueError(f"there is no {short(kind)}")
 
     def _refuse_copies(self) -> None:
-        """Raises Error if two seeds of a variant have the same state hash, except for beds from a file, where nothing
+        """Raises Error if two seeds of a variant have the same state hash, except for beds from a file, in which nothing
         is random."""
         first: dict[tuple[str, str], Member] = {}
         for member in self.done():

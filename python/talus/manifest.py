@@ -61,6 +61,6 @@ def parse_manifest(text: str, folder: Path) -> Manifest:
         if len({file.path for _, file in files}) < len(files):
             raise ValueError
     except ValueError:
-        raise Error(f"{folder / NAME}: is damaged (its hash does not match its lines, or they name a file that does not belong "
-                    "to a run folder); save the intact pieces of the run: talus repair RUN.h5 -o NEW.h5") from None
+        raise Error(f"{folder / NAME}: is damaged (its hash does not match its lines, or they name a file that does not "
+                    "belong to a run folder); save the intact pieces of the run: talus repair RUN.h5 -o NEW.h5") from None
     return Manifest(header, checkpoint, segments)

@@ -132,7 +132,7 @@ void add_export_command(CLI::App& app) {
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_frame_options(*command, arguments->frames, "all during the tilt");
   command->footer(
-      "docs/export.md lists the written data and their units. To write the contact problem of a step, use "
+      "docs/export.md lists the written data and their units. To write the contact\nproblem of a step, use "
       "`talus dump` (FCLIB).");
   command->callback([arguments] { export_run(*arguments); });
 }

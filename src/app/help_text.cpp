@@ -74,9 +74,11 @@ std::string without_brackets(const std::string& text) {
 }  // namespace
 
 const char* const first_example =
-    "First steps, in the folder that contains assets/scenarios (share/talus/scenarios in an installation):\n "
-    " talus run assets/scenarios/demo.toml -o demo.h5\n  talus render demo.h5 --map clusters --at "
-    "0,10,repose\n  talus view demo.h5";
+    "First steps, in the folder that contains assets/scenarios (in an installation\n"
+    "share/talus/scenarios):\n"
+    "  talus run assets/scenarios/demo.toml -o demo.h5\n"
+    "  talus render demo.h5 --map clusters --at 0,10,repose\n"
+    "  talus view demo.h5";
 
 std::string wrapped(const std::string& text, std::size_t width) {
   std::string result, rest = text;

@@ -228,9 +228,9 @@ void add_solve_command(CLI::App& app) {
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("--json", arguments->json, "Print JSON; the seconds are those of the solver alone");
   command->footer(
-      "A solver that does not converge is a valid result: it is reported with its residual, and the exit "
-      "code is 0. If the bed was moving in the step, a sentence says so and compares the result with the "
-      "tolerance that the run required.");
+      "A solver that does not converge is a valid result: it is reported with its\nresidual, and the exit "
+      "code is 0. If the bed was moving in the step, a\nsentence says so and compares the result with the "
+      "tolerance that the run\nrequired.");
   command->callback([arguments] { run(*arguments); });
 }
 
