@@ -25,9 +25,8 @@ struct RunCheck {
 inline constexpr std::size_t most_faults = 20;
 
 /// Tolerances for a frame as stored (single precision).
-inline constexpr double overlap_limit = 0.5;  ///< D; larger if the guards of the run allow more
-inline constexpr double mobilisation_limit =
-    1.001;  ///< allows for the solver's tolerance and single precision
+inline constexpr double overlap_limit = 0.5;         ///< D; larger if the guards of the run allow more
+inline constexpr double mobilisation_limit = 1.001;  ///< margin for solver and single precision
 /// m g: twice the change of velocity in a step that rest allows with the default deposition.rest_velocity; a
 /// larger rest_velocity allows more.
 inline constexpr double imbalance_limit = 0.02;

@@ -36,9 +36,9 @@ class Session {
   /// Takes one step; recorded data go to segment(). Does nothing once done.
   /// Commands of the scenario whose angle or time has come are carried out before a step of the tilt or of
   /// the flow, as by apply. Throws Error(bad_data) if the bed does not come to rest within
-  /// deposition.max_time; if a command of the scenario cannot be carried out, with the state of before the
-  /// step; and if the preceding step exceeded a guard whose action is to stop: its state is intact and can be
-  /// inspected, but neither a copy nor a resumed run can pass it.
+  /// deposition.max_time; if a command of the scenario cannot be carried out, leaving the state as
+  /// before the step; and if the preceding step exceeded a guard whose action is to stop: its state is intact
+  /// and can be inspected, but neither a copy nor a resumed run can pass it.
   const dynamics::StepReport& advance();
 
   /// Applies a command before the next step, and records it with the number of steps taken. Friction applies
