@@ -6,7 +6,7 @@
 namespace talus::analysis {
 namespace {
 
-/// The grid around the points, without the points.
+/// Returns the grid around the points, still empty.
 Cells make_grid(const std::vector<double>& x, const std::vector<double>& y, double size, double period) {
   const auto [lowest, highest] = std::minmax_element(y.begin(), y.end());
   const auto [leftmost, rightmost] = std::minmax_element(x.begin(), x.end());
@@ -15,7 +15,7 @@ Cells make_grid(const std::vector<double>& x, const std::vector<double>& y, doub
   cells.x_min = period > 0.0 ? 0.0 : *leftmost;
   cells.y_min = *lowest;
   const double length = period > 0.0 ? period : *rightmost - *leftmost;
-  // A grain far away from all others must not cost memory without bound.
+  // Limits the memory if a grain is far away from all others.
   const double most = 4.0 * static_cast<double>(x.size());
   while ((length / size) * ((*highest - *lowest) / size) > most) size *= 2.0;
   cells.size = cells.width = size;

@@ -1,5 +1,5 @@
 #pragma once
-/// Points sorted into cells, to find those near a place.
+/// Points sorted into the cells of a grid, for neighbour searches.
 
 #include <vector>
 
@@ -7,38 +7,39 @@
 
 namespace talus::analysis {
 
-/// Points in the cells of a grid. In a periodic bed x is taken modulo the period.
+/// Points sorted into the cells of a grid. In a periodic bed, x is taken modulo the period.
 struct Cells {
-  double size = 1.0;                  ///< m, along y
-  double width = 1.0;                 ///< m, along x, `size` or more: whole cells make up a period
-  double period = 0.0;                ///< m; 0 where the bed is not periodic
-  double x_min = 0.0, y_min = 0.0;    ///< m, the corner of the first cell
-  Index columns = 1, rows = 1;        ///< cell k = row * columns + column
-  std::vector<Index> start = {0, 0};  ///< of each cell in `point`; one more than there are cells
-  std::vector<Index> point;           ///< ids, ascending within a cell
+  double size = 1.0;    ///< height of the cells along y, m
+  double width = 1.0;   ///< along x, m, at least `size`; a whole number of cells makes up a period
+  double period = 0.0;  ///< m; 0 if the bed is not periodic
+  double x_min = 0.0, y_min = 0.0;  ///< lower left corner of the first cell, m
+  Index columns = 1, rows = 1;      ///< cell k = row * columns + column
+  /// Position in `point` of the first point of each cell; the last entry is the end.
+  std::vector<Index> start = {0, 0};
+  std::vector<Index> point;  ///< ids of the points, cell by cell, ascending within a cell
 };
 
-/// Points (x, y), m, in cells of at least `size` m, but no finer than a few for each point. `period` 0: not
-/// periodic.
+/// Sorts the points (x, y), m, into cells of at least `size` m. The cells are enlarged if there would be more
+/// than a few for each point. `period` is 0 if the bed is not periodic.
 Cells sort_into_cells(const std::vector<double>& x, const std::vector<double>& y, double size, double period);
 
 Index column_of(const Cells& cells, double x);
 Index row_of(const Cells& cells, double y);
 
-/// How many periods bring a distance dx along x, at most a period long, to the shortest of its images; 0 for
-/// period 0.
+/// Returns the number of periods to add to a distance dx along x, at most one period long, to obtain its
+/// shortest periodic image; 0 for period 0.
 inline Index nearest_image(double dx, double period) {
   if (dx > 0.5 * period) return period > 0.0 ? -1 : 0;
   return dx < -0.5 * period && period > 0.0 ? 1 : 0;
 }
 
-/// Calls visit(id) for the points of the cells that are `ring` cells away from (column, row), the ring being
-/// a square; ring 0 is the cell itself. Points that are in no ring up to this one are farther than
-/// ring * size from all points of (column, row). Each cell of a periodic bed is met once, in the smallest
-/// ring that has it. Returns false where the whole ring lies outside the grid.
+/// Calls visit(id) for the points in the square ring of cells that are `ring` cells away from (column, row);
+/// ring 0 is the cell itself. Points in none of the rings up to this one are farther than ring * size from
+/// every point of (column, row). In a periodic bed each cell is visited once, in the smallest ring that
+/// contains it. Returns false if the whole ring lies outside the grid.
 template <typename Visit>
 bool visit_ring(const Cells& cells, Index column, Index row, Index ring, const Visit& visit) {
-  // How far columns differ at most: half a turn, where the bed is periodic.
+  // Largest difference in columns to either side: half the circumference if the bed is periodic.
   const bool periodic = cells.period > 0.0;
   const Index left = periodic ? (cells.columns - 1) / 2 : column;
   const Index right = periodic ? cells.columns / 2 : cells.columns - 1 - column;

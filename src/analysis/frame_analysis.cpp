@@ -29,7 +29,8 @@ double correlated_up_to(const RunStatics& statics) {
   return std::min(largest_distance * statics.mean_diameter, 0.5 * statics.length);
 }
 
-/// Of the bins of normal forces over their mean: the tail and the small ones span decades.
+/// Returns edges of the bins of normal forces over their mean; both the tail and the small forces span
+/// decades.
 std::vector<double> force_edges(int bins) { return logarithmic_edges(force_range[0], force_range[1], bins); }
 
 void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
@@ -63,7 +64,7 @@ void take_gamma(const BedFrame& bed, int bins, FrameRecord& record) {
   record.gamma_share_above_one = histogram.outside / histogram.total;
 }
 
-/// Angles of contact normals come in degrees.
+/// Converts from degrees, the unit of the angles of contact normals, to radians.
 void take_directions(const Frame& frame, int bins, FrameRecord& record) {
   const auto per_radian = [](std::vector<double> densities) {
     for (double& density : densities) density = degrees(density);
@@ -95,7 +96,7 @@ void take_correlations(const BedFrame& bed, int bins, FrameRecord& record) {
   record.mean_stress_correlation = mean_stress_correlation(bed, largest, bins).value;
 }
 
-/// What clusters of any threshold are made of.
+/// Input of the search for clusters that is common to all thresholds.
 struct ClusterGround {
   std::vector<Link> links;
   BedEdges edges;
@@ -111,7 +112,7 @@ void take_directed(const BedFrame& bed, const std::vector<bool>& overloaded, con
   }
 }
 
-/// `height`: mean height of the bed, m.
+/// Returns the record at one threshold. `height`: mean height of the bed, m.
 FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& rule,
                                  const ClusterGround& ground, double height) {
   FrameThreshold record;

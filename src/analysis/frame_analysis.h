@@ -1,5 +1,5 @@
 #pragma once
-/// The analysis of one frame: all that is measured of it, into its record.
+/// The analysis of one frame, stored in its record.
 
 #include <span>
 #include <vector>
@@ -15,31 +15,35 @@
 
 namespace talus::analysis {
 
-/// The frame with the gamma by which grains count. With `min_contacts` above 1, gamma of a free grain with
-/// fewer force-carrying contacts is NaN, as if it carried nothing; its moment stays. Then gamma is that of
-/// the neighbourhood of diameter `l_min` of each grain (with_gamma_of_neighbourhoods).
+/// Returns the frame with the gamma that the analysis uses. If `min_contacts` is above 1, gamma of a free
+/// grain with fewer force-carrying contacts is set to NaN, as for a grain that carries nothing; its moment is
+/// kept. Each remaining gamma is then replaced by that of the neighbourhood of diameter `l_min` around the
+/// grain (with_gamma_of_neighbourhoods).
 Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const AnalysisParameters& parameters);
 
-/// The pairs of grains that clusters are made of.
+/// Returns the pairs of grains that may join clusters.
 std::vector<Link> links_of(const BedFrame& bed, Joining joining);
 
-/// What a record says of the overloaded grains as a whole, of their l_c, and of their clusters; without the
-/// values of single grains.
+/// Set the members of a record that describe the overloaded grains as a whole, their l_c, and their clusters;
+/// the values of single grains are not set.
 void take_overloaded(const stress::OverloadCount& count, const RunStatics& statics, FrameThreshold& record);
 void take_lengths(const CoarseGraining& lengths, FrameThreshold& record);
 void take_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record);
 
-/// An analysis without frames: its thresholds, edges of bins and sections, and directions. `theta_c` in rad,
-/// NaN where the slope has not failed; without it and without gamma_c there are no thresholds.
+/// Returns an analysis without frames: its thresholds, the edges of bins and sections, and the directions of
+/// paths. `theta_c` is in rad, NaN if the slope has not failed. There are no thresholds if neither theta_c
+/// nor gamma_c is known.
 Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c);
 
-/// What a frame tells at each threshold of `analysis`: overloaded grains, their l_c and clusters. `frame` and
-/// `analysis` as for analyse_frame, `volume` of the bed as of frame_volume, m^2.
+/// Returns the records of a frame at each threshold of `analysis`: overloaded grains, their l_c, and their
+/// clusters. `frame` and `analysis` are as for analyse_frame; `volume` of the bed is that of frame_volume,
+/// m^2.
 std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const AnalysisParameters& parameters,
                                                const Analysis& analysis, double volume);
 
-/// All that a frame tells by itself. `frame` is one of with_analysed_gamma, `analysis` one of begin_analysis,
-/// made with the same parameters. What comes from the observables of a run is left open.
+/// Returns everything that can be measured in one frame. The frame comes from with_analysed_gamma and
+/// `analysis` from begin_analysis, both with the same parameters. Quantities taken from the observables of
+/// the run are left unset.
 FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& parameters,
                           const Analysis& analysis);
 

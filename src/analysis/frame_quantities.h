@@ -1,8 +1,7 @@
 #pragma once
-/// What is known of each grain and of each contact of a frame, in one table each: name, components, unit,
-/// meaning, what it needs, where the values come from, and how a map shows them. Maps, exports, and
-/// conditions, tables and histograms of the window go by them; docs/export.md and docs/view.md are compared
-/// with them by tests.
+/// Tables of the quantities of each grain and each contact of a frame: name, components, unit, definition,
+/// what the quantity needs, its values, and how a map shows it. Maps, exports, conditions, tables and
+/// histograms use these tables; tests compare docs/export.md and docs/view.md with them.
 
 #include <cstddef>
 #include <span>
@@ -15,59 +14,63 @@
 
 namespace talus::analysis {
 
-/// A frame, and what its grains are judged with.
-struct GrainSource : BedFrame {       // as it is stored, with the gamma of single grains
-  std::size_t number = 0;             ///< in the run, counted from 0
-  std::span<const double> gamma{};    ///< of the neighbourhood of each grain
-  const Frame* first = nullptr;       ///< of the run, where displacements begin; null where there is none yet
-  std::span<const double> factors{};  ///< of the thresholds, in Gamma_c
+/// A frame and the data needed to compute the quantities of its grains.
+struct GrainSource : BedFrame {     // the frame as stored, with the gamma of single grains
+  std::size_t number = 0;           ///< number of the frame in the run, counted from 0
+  std::span<const double> gamma{};  ///< gamma of the neighbourhood of each grain
+  /// First frame of the run, the reference of displacements; null if it does not exist yet.
+  const Frame* first = nullptr;
+  std::span<const double> factors{};             ///< thresholds, in units of Gamma_c
   std::span<const FrameThreshold> thresholds{};  ///< l_c and clusters at each of them
-  const Frame* earlier = nullptr;  ///< from which deformation is measured; null where there is none yet
-  double degrees = 1.0;            ///< of tilt since then, by which it is divided; 1: it is not
-  double length = not_known;       ///< diameter over which fields are coarse-grained, m
+  const Frame* earlier = nullptr;  ///< reference frame of the deformation; null if it does not exist yet
+  /// Degrees of tilt since that frame, by which the deformation is divided; 1 for no division.
+  double degrees = 1.0;
+  double length = not_known;  ///< diameter over which fields are coarse-grained, m
 };
 
-/// Components: 1; x, y; xx, xy, yx, yy.
+/// Number of components: 1; x, y; or xx, xy, yx, yy.
 enum class FieldShape { scalar = 1, vector = 2, tensor = 4 };
 
-/// Which numbers a quantity has: what the run file stores in single precision has no more digits than that.
+/// Type of the values. Numbers stored in single precision in the run file are written with no more digits.
 enum class FieldNumber { integer, single, real };
 
-/// What a quantity needs of its source besides the frame.
+/// Input that a quantity needs in addition to the frame.
 enum class FrameNeed { nothing, threshold, earlier_frame, length };
 
-/// How the colours of a map follow a number of each grain.
+/// Colour scale of the map of a grain quantity.
 enum class ScaleRule {
-  none,        ///< there is no map of it
-  fixed,       ///< from low to high
-  by_depth,    ///< from 0 to the depth of the bed in D times high, rounded up
-  sizes,       ///< logarithmic; of the frames that are drawn, or from low to high
-  about_zero,  ///< to either side of 0; of the frames that are drawn, or up to high
+  none,        ///< no map
+  fixed,       ///< linear, from low to high
+  by_depth,    ///< linear, from 0 to the depth of the bed in D times high, rounded up
+  sizes,       ///< logarithmic; over the range in the drawn frames, or from low to high
+  about_zero,  ///< symmetric about 0; over the range in the drawn frames, or up to high
 };
 
-/// A number of each grain as a map. Texts are rich texts (render/frame_view.h); the unit is that of bed_unit.
+/// The map of a grain quantity. Texts are rich text (render/frame_view.h); the unit is that of bed_unit.
 struct MapRule {
-  std::string_view name, help;          ///< of the map, and a line for users
-  std::string_view title, bar, symbol;  ///< "Speed of grains", what the bar measures, and in short
+  std::string_view name, help;  ///< name of the map, and one line of help
+  /// Title ("Speed of grains"), label of the colour bar, and short form.
+  std::string_view title, bar, symbol;
   ScaleRule scale = ScaleRule::none;
   double low = 0.0, high = 1.0;
-  bool outlines = false;                                ///< grains without a value only show where they are
-  std::string_view without{};                           ///< what these are, for the legend
-  double low_per_degree = low, high_per_degree = high;  ///< of what is divided by degrees of tilt
-  std::string_view sign{};                              ///< ", counter-clockwise positive"
+  bool outlines = false;       ///< only outlines are drawn for grains without a value
+  std::string_view without{};  ///< description of these grains in the legend
+  double low_per_degree = low, high_per_degree = high;  ///< range of a quantity per degree of tilt
+  std::string_view sign{};  ///< convention of the sign: ", counter-clockwise positive"
 };
 
 struct FrameQuantity {
-  std::string_view name;  ///< with _x or _xx for each component in tables; empty for the centre: x and y
+  /// With _x or _xx for each component in tables; empty for the centre (columns x and y).
+  std::string_view name;
   FieldShape shape = FieldShape::scalar;
   FieldNumber number = FieldNumber::real;
   std::string_view unit;        ///< SI, or "1"
   std::string_view definition;  ///< one sentence
-  /// Row by row, floor included, in the order of ids or keys; `threshold` is that of a quantity that depends
-  /// on one.
+  /// Returns the values row by row, floor included, in the order of ids or keys. `threshold` is the number of
+  /// the threshold, for a quantity that depends on one.
   std::vector<double> (*values)(const GrainSource& of, std::size_t threshold) = nullptr;
   FrameNeed need = FrameNeed::nothing;
-  bool flag = false;  ///< 1 or 0
+  bool flag = false;  ///< whether the values are 1 or 0
   MapRule map{};
 };
 
@@ -78,40 +81,40 @@ inline std::size_t components(const FrameQuantity& quantity) {
   return static_cast<std::size_t>(quantity.shape);
 }
 
-/// Whether it is known of every frame by itself, perhaps at thresholds: what exports write.
+/// Whether the quantity is known for a single frame, perhaps at a threshold. Exports write these quantities.
 inline bool is_of_frame(const FrameQuantity& quantity) {
   return quantity.need == FrameNeed::nothing || quantity.need == FrameNeed::threshold;
 }
 
-/// The unit of maps for a unit of the table: D, sqrt(g D), rho g D, degrees, ... "1" and units that are not
-/// known stay as they are.
+/// The unit of maps that corresponds to a unit of the table: D, sqrt(g D), rho g D, degrees, ... "1" and
+/// other units remain as they are.
 struct BedUnit {
   std::string text;    ///< rich text, empty for "1"
   double value = 1.0;  ///< SI
 };
 BedUnit bed_unit(std::string_view unit, const RunStatics& statics);
 
-/// "velocity_x", "velocity_y": names of the components in tables.
+/// Returns the names of the components in tables, such as "velocity_x" and "velocity_y".
 std::vector<std::string> component_names(const FrameQuantity& quantity);
 
-/// One number of each grain: a quantity, or a component of one.
+/// A scalar quantity of grains, or one component of a vector or tensor quantity.
 struct GrainNumber {
   std::string name;
   const FrameQuantity* quantity = nullptr;
   std::size_t component = 0;
 };
 
-/// Of all quantities of grains, in their order.
+/// Returns the scalars and components of all quantities of grains, in their order.
 const std::vector<GrainNumber>& grain_numbers();
-/// The one of a name. Throws Error(internal) where there is none.
+/// Returns the entry with this name. Throws Error(internal) if it does not exist.
 const GrainNumber& grain_number(std::string_view name);
 
-/// Of all grains, by their ids, in the unit of tables (scaled, quantities.h); at the first threshold. NaN
-/// where there is no value.
+/// Returns the values of all grains by id, at the first threshold, in the unit of tables (`scaled` in
+/// quantities.h). NaN for a grain without a value.
 std::vector<double> values_of(const GrainNumber& number, const GrainSource& of);
 
-/// Appends the shortest decimal that reads back as the same number, in single precision where the quantity
-/// has no more; `nan` for a number that is none.
+/// Appends the shortest decimal that reads back as the same number, in single precision if the quantity has
+/// no more digits; appends `nan` for NaN.
 void append_number(std::string& text, double value, FieldNumber number, std::string_view nan = "nan");
 
 }  // namespace talus::analysis

@@ -22,7 +22,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-/// What each of `says` tells of each grain by its id, or of each contact by its number, row by row.
+/// Returns the values of each function for each grain by id, or each contact by number, row by row.
 template <typename... Says>
 Numbers each(Index count, const Says&... says) {
   Numbers numbers;
@@ -85,8 +85,8 @@ Numbers sliding(const GrainSource& of) {
   return counts;
 }
 
-/// What is known of free grains at a threshold; `other` is said of those of the floor, and where there is no
-/// threshold.
+/// Returns the values of free grains at a threshold. Floor grains have `other`, as do all grains if the
+/// threshold does not exist.
 template <typename Number>
 Numbers at_threshold(const GrainSource& of, std::size_t threshold,
                      const std::vector<Number> FrameThreshold::*member, double other) {
@@ -108,12 +108,12 @@ Numbers overloaded(const GrainSource& of, std::size_t threshold) {
   return numbers;
 }
 
-/// The mass of a grain over its area, kg/m^2; all are of one material.
+/// Returns the mass of a grain over its area, kg/m^2; all grains have the same material.
 double material_density(const RunStatics& statics) {
   return statics.mass.empty() ? 1.0 : statics.mass[0] / (pi * statics.radius[0] * statics.radius[0]);
 }
 
-/// Of free grains, with no number for those of the floor.
+/// Appends NaN for the floor grains to the values of the free grains.
 Numbers with_floor(Numbers of_free, const GrainSource& of) {
   of_free.resize(of.frame.x.size(), not_known);
   return of_free;
@@ -124,7 +124,7 @@ Numbers each_free(const GrainSource& of, const Value& value) {
   return with_floor(each(of.statics.free_count, value), of);
 }
 
-/// What `value` says of each free grain and the earlier frame, per degree; 0 where there is no such frame.
+/// Returns value(earlier frame, i) for each free grain, per degree; 0 if there is no such frame.
 template <typename Value>
 Numbers since_earlier(const GrainSource& of, const Value& value) {
   const bool known = of.earlier != nullptr && of.earlier->grain_count() == of.frame.grain_count();
@@ -215,8 +215,8 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
      "internal moment tensor M_ij per metre of thickness (paper, Eq. 4), compression positive; the stress is "
      "M over an area",
      [](const GrainSource& of, std::size_t) { return moments(of); }},
-    // Below a depth H of grains their pressure is about 2 rho g H on the average, that of the bed about
-    // 1.5 rho g H, and more where forces concentrate.
+    // Below a depth of H grains the mean pressure in grains is about 2 rho g H and that of the bed about 1.5
+    // rho g H. Both are larger where forces concentrate.
     mapped({"pressure", FieldShape::scalar, FieldNumber::real, "Pa",
             "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk",
             [](const GrainSource& of, std::size_t) { return pressures(of); }},

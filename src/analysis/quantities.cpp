@@ -9,7 +9,7 @@
 namespace talus::analysis {
 namespace {
 
-/// The numbers of one member, of a run, a threshold or a frame.
+/// Returns the numbers of one member of the record of a run, a threshold or a frame.
 template <typename T>
 std::span<const T> numbers(const T& number) {
   return {&number, 1};
@@ -36,7 +36,7 @@ void assign(std::vector<T>& array, std::span<const T> part) {
   array.assign(part.begin(), part.end());
 }
 
-/// Calls use(record) for each record of one type, in the order in which their values are stored.
+/// Calls use(record) for each record of one type, in the order in which values are stored.
 template <typename Record, typename SomeAnalysis, typename Use>
 void for_each_record(SomeAnalysis& analysis, const Use& use) {
   if constexpr (std::is_same_v<Record, Analysis>)
@@ -54,7 +54,7 @@ void for_each_record(SomeAnalysis& analysis, const Use& use) {
     }
 }
 
-/// A value as the record has it: rounded where it counts something, and 0 where it is not known.
+/// Converts a value to the type in the record: rounded if it is an integer, which is 0 for NaN.
 template <typename Number>
 Number number_from(double value) {
   if constexpr (std::is_same_v<Number, Index>)
@@ -63,7 +63,7 @@ Number number_from(double value) {
     return value;
 }
 
-/// The frame itself, or its record at threshold f; null where it has none.
+/// Returns the frame itself or its record at threshold f; null if it has none.
 template <typename Record, typename SomeFrame>
 auto* record_of(SomeFrame& frame, std::size_t f) {
   if constexpr (std::is_same_v<Record, FrameRecord>)
@@ -77,7 +77,7 @@ inline constexpr bool is_fixed_list = false;
 template <typename T, std::size_t n>
 inline constexpr bool is_fixed_list<std::array<T, n>> = true;
 
-/// What is_list_of_frame asks; the vectors at thresholds are of grains.
+/// Whether the member is a list in the sense of is_list_of_frame. Vectors at thresholds are lists of grains.
 template <typename Record, typename T>
 inline constexpr bool is_list = (std::is_same_v<Record, FrameRecord> &&
                                  (is_fixed_list<T> || std::is_same_v<T, std::vector<double>>)) ||

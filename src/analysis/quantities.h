@@ -1,7 +1,8 @@
 #pragma once
-/// All quantities of an analysis in one table: the member that holds each, how it is stored, what it means
-/// and how it is shown. The file of a run, JSON, plots, traces and figures go by it; docs/analysis.md is
-/// compared with it by a test. Whoever wants a quantity names its member; strings are for files and users.
+/// Table of all quantities of an analysis: the member that holds each quantity, its storage, its definition,
+/// and its display. The run file, JSON, plots, traces and figures use this table; a test compares
+/// docs/analysis.md with it. In the code a quantity is identified by its member; names are for files and
+/// users.
 
 #include <array>
 #include <optional>
@@ -16,8 +17,8 @@
 
 namespace talus::analysis {
 
-/// Where a quantity is found in an Analysis. The type of the record says what it is one of: a run, a
-/// threshold, a frame, a frame at a threshold, or an event.
+/// The member of an Analysis that holds a quantity. The type of the record determines whether the quantity
+/// belongs to a run, a threshold, a frame, a frame at a threshold, or an event.
 using QuantityMember =
     std::variant<double Analysis::*, std::array<double, 2> Analysis::*, std::vector<double> Analysis::*,
                  double RunThreshold::*, double FrameRecord::*, Index FrameRecord::*,
@@ -28,13 +29,13 @@ using QuantityMember =
                  std::vector<Index> FrameThreshold::*, double EventRecord::*, Index EventRecord::*,
                  std::array<double, 2> EventRecord::*>;
 
-/// How a quantity is shown beside others; empty for one that no curve shows.
+/// Display of a quantity in curves; empty if no curve shows it.
 struct Display {
   std::string symbol;  ///< "p_o": short, for a legend
   std::string title;   ///< "p_o, share of overloaded grains"
   bool percent = false;
   std::optional<Observable> observable =
-      std::nullopt;  ///< where a run records it as well, more often than in frames
+      std::nullopt;  ///< the same quantity as a run records it, more often than in frames
 };
 
 struct Quantity {
@@ -42,64 +43,63 @@ struct Quantity {
   std::string name;        ///< "lc/mean": below /analysis in a file, and in JSON
   std::string shape;       ///< "T F": letters are sizes (docs/analysis.md); empty for a single number
   std::string unit;        ///< SI, or "1"
-  std::string definition;  ///< one sentence
-  std::string parameters;  ///< names of those that it depends on, with blanks between; may be empty
+  std::string definition;  ///< one sentence or phrase
+  std::string parameters;  ///< names of the parameters that it depends on, separated by blanks; may be empty
   Display display{};
 };
 
-/// In the order in which they are stored.
+/// Returns the table, in the order of storage.
 const std::vector<Quantity>& quantities();
 
-/// The row of a member. Throws Error(internal) where the table has none.
+/// Returns the row of a member. Throws Error(internal) if the table has none.
 const Quantity& quantity_of(const QuantityMember& member);
 
-/// All values of a quantity in the order of its shape: by frame, then by threshold, then within.
+/// Values of a quantity in the order of its shape: by frame, then by threshold, then within each.
 using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<Index>>;
 Values values_of(const Quantity& quantity, const Analysis& analysis);
 
-/// Sets them, each frame and threshold to an equal part; these must be there.
+/// Sets the values of a quantity, an equal number for each frame and threshold; these records must exist.
 void set_values(const Quantity& quantity, const Values& values, Analysis& analysis);
 
-/// A single number of a frame, at threshold f where it depends on one; NaN for a quantity that is no such
-/// number.
+/// Returns a scalar quantity of a frame, at threshold f if it depends on one; NaN for any other quantity.
 double number_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
 
-/// Sets it, rounded where it counts something; leaves a quantity that is no such number.
+/// Sets a scalar quantity of a frame, rounded if it is an integer; has no effect on any other quantity.
 void set_number(const Quantity& quantity, double value, FrameRecord& frame, std::size_t f = 0);
 
-/// Whether there is one number of it in a frame, or one for each threshold of a frame.
+/// Whether the quantity is a scalar of a frame, or of each threshold of a frame.
 bool is_number_of_frame(const Quantity& quantity);
 
-/// Whether there is one number of it in a run, or one for each threshold or strain: no frames, bins or edges.
+/// Whether the quantity is a scalar of a run, or one for each threshold or strain: no frames, bins or edges.
 bool is_number_of_run(const Quantity& quantity);
 
-/// Whether there is a short list of it in a frame, or one for each threshold of a frame: a distribution, a
-/// correlation, the components of a tensor; no grains. And whether it is such a list of a run: edges of bins.
+/// Whether the quantity is a short list in a frame, or in each threshold of a frame (a distribution, a
+/// correlation, the components of a tensor; no list of grains), or such a list in a run (edges of bins).
 bool is_list_of_frame(const Quantity& quantity);
 bool is_list_of_run(const Quantity& quantity);
 
-/// The numbers of such a list of a frame, at threshold f where it depends on one; none for other quantities.
+/// Returns the list of a frame, at threshold f if it depends on one; empty for any other quantity.
 std::vector<double> list_of(const Quantity& quantity, const FrameRecord& frame, std::size_t f = 0);
 
-/// Element k of a quantity in doubles, among all its values; NaN where there are fewer.
+/// Returns element k of all values of a quantity as a double; NaN if there are fewer.
 double number_of(const Quantity& quantity, const Analysis& analysis, std::size_t k);
 
-/// Whether it depends on the threshold: there is none of it in an analysis without thresholds.
+/// Whether the quantity depends on the threshold. It has no values in an analysis without thresholds.
 bool needs_threshold(const Quantity& quantity);
 
-/// Whether there is one of it for each event: there is none of it in an analysis without events.
+/// Whether the quantity has a value for each event. It has no values in an analysis without events.
 bool is_of_events(const Quantity& quantity);
 
-/// From a unit of the table of quantities to that of tables for users: lengths in mean diameters (m), angles
-/// in degrees, all else as it is.
+/// Converts from the unit of the table of quantities to that of tables for users: lengths from m to mean
+/// diameters, angles from rad to degrees; other values are unchanged.
 double scaled(std::string_view unit, double value, double mean_diameter);
-/// And back.
+/// Converts back.
 double unscaled(std::string_view unit, double value, double mean_diameter);
-/// "D", "deg", or the unit itself.
+/// Returns "D", "deg", or the unit itself.
 std::string scaled_unit(std::string_view unit);
 
-/// In the unit of curves, which is that of tables but for small shares, in percent; and its title with the
-/// unit: "Volume strain ΔV/V in %".
+/// Return the value in the unit of curves, which is that of tables except that small shares are in percent,
+/// and the title with this unit: "Volume strain ΔV/V in %".
 double shown(const Quantity& quantity, double value, double mean_diameter);
 std::string shown_title(const Quantity& quantity);
 

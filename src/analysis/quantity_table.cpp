@@ -6,7 +6,8 @@ namespace {
 
 using QuantityRows = std::vector<Quantity>;
 
-/// How a curve is called, in a legend and by itself, and where a run records it as well.
+/// Returns the display of a quantity: its symbol in a legend, its title, and the same quantity in the
+/// observables.
 Display curve(const std::string& symbol, const std::string& title, std::optional<Observable> recorded = {}) {
   return {symbol, title, false, recorded};
 }

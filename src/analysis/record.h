@@ -1,6 +1,6 @@
 #pragma once
-/// What the analysis of a run finds. Each number is defined in one place, the table of quantities.h; here it
-/// only has its name and its type. SI units; NaN where a quantity is not known, or does not exist.
+/// Results of the analysis of a run. Each number is defined in one place, the table of quantities.h; this
+/// header has only its name and type. SI units; NaN if a quantity is unknown or does not exist.
 
 #include <array>
 #include <string>
@@ -12,7 +12,8 @@ namespace talus::analysis {
 
 inline constexpr std::array<double, 2> two_not_known = {not_known, not_known};
 
-/// The overloaded grains of one frame, at one threshold. Arrays over grains are in the order of their ids.
+/// Results for the overloaded grains of one frame at one threshold. Arrays over grains are in the order of
+/// ids.
 struct FrameThreshold {
   double overloaded_fraction = not_known;
   double overloaded_fraction_of_all = not_known;
@@ -34,7 +35,7 @@ struct FrameThreshold {
   std::array<double, 2> directed_height = two_not_known;
 };
 
-/// One frame.
+/// Results of one frame.
 struct FrameRecord {
   double tilt = 0.0;  ///< rad
   double volume = not_known;
@@ -89,7 +90,7 @@ struct FrameRecord {
   double critical_correlation_length = not_known;
   std::vector<double> layer_critical_share{};
   std::vector<double> layer_critical_share_of_bound{};
-  double local_shear = not_known;  ///< of this and the next three: since the frame before
+  double local_shear = not_known;  ///< since the preceding frame, as the next three
   double local_shear_share = not_known;
   double nonaffine = not_known;
   double nonaffine_largest = not_known;
@@ -105,14 +106,14 @@ struct FrameRecord {
   std::vector<double> network_loops{};
   double component_persistence = not_known;
   double loop_persistence = not_known;
-  std::array<double, 2> network_change = two_not_known;  ///< of components, of loops
+  std::array<double, 2> network_change = two_not_known;  ///< components, loops
   std::vector<double> normal_force_correlation{};
   std::vector<double> gamma_correlation{};
   std::vector<double> mean_stress_correlation{};
-  std::vector<FrameThreshold> thresholds{};  ///< in the order of those of the run
+  std::vector<FrameThreshold> thresholds{};  ///< one for each threshold of the run
 };
 
-/// A threshold, and where the run changes by it.
+/// A threshold and the transitions of the run that depend on it.
 struct RunThreshold {
   double factor = not_known;
   double gamma = not_known;
@@ -124,14 +125,14 @@ struct RunThreshold {
   double percolation_error = not_known;
 };
 
-/// What an event is, as far as distributions go: only rearrangements count there.
+/// Kind of an event. Distributions include only rearrangements.
 enum class EventKind : Index {
   rearrangement = 0,
-  failure = 1,     ///< the flow that failed the slope, and what comes after it
-  unfinished = 2,  ///< it goes on where the tilt ends
+  failure = 1,     ///< the flow that made the slope fail, and later events
+  unfinished = 2,  ///< not over at the end of the tilt
 };
 
-/// A rearrangement: a burst of motion between two quiet times.
+/// A rearrangement: a burst of motion between two quiet periods.
 struct EventRecord {
   double begin = not_known;  ///< rad
   double end = not_known;    ///< rad
@@ -152,10 +153,10 @@ struct EventRecord {
   Index sharing = 0;
 };
 
-/// The analysis of a run. Without theta_c and without a threshold that is given there are no thresholds.
+/// The analysis of a run. There are no thresholds if neither theta_c nor a threshold is given.
 struct Analysis {
-  std::string key;   ///< the hash of all that it was made from
-  Facts parameters;  ///< name and value as text, in the order of their table
+  std::string key;   ///< hash of all inputs of the analysis
+  Facts parameters;  ///< name and value as text, in the order of the table of parameters
   double theta_c = not_known;
   double first_slide = not_known;
   double gamma_c = not_known;
@@ -169,11 +170,12 @@ struct Analysis {
   std::vector<double> force_edge{};
   std::vector<double> mobilisation_edge{};
   std::vector<double> layer_edge{};
-  std::array<double, 2> critical_exponent = two_not_known;  ///< of the mean size, of the weighted mean
+  std::array<double, 2> critical_exponent = two_not_known;  ///< for the mean size and for the weighted mean
   std::array<double, 2> critical_exponent_error = two_not_known;
   std::vector<double> network_threshold{};
   std::vector<double> correlation_distance{};
-  std::array<double, 2> dilation = two_not_known;  ///< by the volume, by the centre of mass
+  /// Onset in the volume strain, in the centre-of-mass strain.
+  std::array<double, 2> dilation = two_not_known;
   std::array<double, 2> dilation_low = two_not_known;
   std::array<double, 2> dilation_high = two_not_known;
   double event_threshold = not_known;
@@ -197,7 +199,7 @@ struct Analysis {
   double event_waiting_mean_error = not_known;
   std::vector<RunThreshold> thresholds{};
   std::vector<FrameRecord> frames{};
-  std::vector<EventRecord> events{};  ///< in their order
+  std::vector<EventRecord> events{};  ///< ascending in time
 };
 
 }  // namespace talus::analysis

@@ -9,11 +9,11 @@
 namespace talus::analysis {
 namespace {
 
-/// What tells a contact from all others of its frame, in every frame alike.
+/// Identification of a contact that is the same in every frame.
 struct ContactKey {
   Index a = 0, b = 0;
-  Index image = 0;  ///< how many periods farther than in the unfolded bed b touches a
-  Index place = 0;  ///< in its frame
+  Index image = 0;  ///< number of additional periods at which b touches a, compared with the unwrapped bed
+  Index place = 0;  ///< index in its frame
 
   auto bodies() const { return std::array<Index, 3>{a, b, image}; }
 };
@@ -24,14 +24,14 @@ std::vector<ContactKey> keys_of(const Frame& frame) {
   keys.reserve(contacts.a.size());
   for (Index c = 0; c < contacts.count(); ++c) {
     const Index a = contacts.a[c], b = contacts.b[c];
-    const bool grains = b < frame.grain_count();  // else a plane, which has one image
+    const bool grains = b < frame.grain_count();  // otherwise a plane, which has one image
     keys.push_back({a, b, grains ? contacts.shift[c] + frame.image[a] - frame.image[b] : 0, c});
   }
   std::ranges::sort(keys, {}, &ContactKey::bodies);
   return keys;
 }
 
-/// Places of those of one that the other has not.
+/// Returns the indices of the contacts in the first list that are not in the second.
 std::vector<Index> places_of_rest(const std::vector<ContactKey>& of, const std::vector<ContactKey>& without) {
   std::vector<ContactKey> rest;
   std::ranges::set_difference(of, without, std::back_inserter(rest), {}, &ContactKey::bodies,
@@ -46,7 +46,7 @@ std::vector<Index> places_of_rest(const std::vector<ContactKey>& of, const std::
 
 ContactChanges contact_changes(const Frame& before, const Frame& after) {
   if (before.grain_count() != after.grain_count())
-    throw Error(ExitCode::internal, "contacts are compared between frames of different grains");
+    throw Error(ExitCode::internal, "cannot compare the contacts of frames with different grains");
   const std::vector<ContactKey> earlier = keys_of(before), later = keys_of(after);
   return {places_of_rest(later, earlier), places_of_rest(earlier, later)};
 }

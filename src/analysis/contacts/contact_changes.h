@@ -1,5 +1,5 @@
 #pragma once
-/// Contacts that one frame of a bed has and another has not.
+/// Contacts gained and lost between two frames of a bed.
 
 #include <vector>
 
@@ -8,14 +8,14 @@
 namespace talus::analysis {
 
 struct ContactChanges {
-  std::vector<Index> gained;  ///< places in the contacts of the frame after, ascending
-  std::vector<Index> lost;    ///< places in those of the frame before, ascending
+  std::vector<Index> gained;  ///< indices into the contacts of the later frame, ascending
+  std::vector<Index> lost;    ///< indices into those of the earlier frame, ascending
 };
 
-/// Between two frames of the same grains, in any order of time. A contact is one that carries force, as
-/// frames store them, and the same one where it is between the same two bodies; in a periodic bed between the
-/// same two images of them, on whichever sides of the edge they are by now. Throws Error(internal) where the
-/// frames have different numbers of grains.
+/// Compares the contacts of two frames of the same grains, in either order of time. Frames store contacts
+/// that carry force. Contacts are the same if they connect the same two bodies and, in a periodic bed, the
+/// same images, whichever side of the edge these have moved to. Throws Error(internal) if the frames have
+/// different numbers of grains.
 ContactChanges contact_changes(const Frame& before, const Frame& after);
 
 }  // namespace talus::analysis

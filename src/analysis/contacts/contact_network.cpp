@@ -22,14 +22,14 @@ double mean_normal_force(const FrameContacts& contacts) {
   return contacts.count() > 0 ? sum / contacts.count() : not_known;
 }
 
-/// Which free grains are no rattlers, and the contacts that these have among themselves and with what is
-/// fixed.
+/// The free grains that are not rattlers, and their numbers of contacts with one another and with fixed
+/// bodies.
 struct Backbone {
   std::vector<bool> grain;
-  std::vector<Index> degree;  ///< no longer right for a rattler
+  std::vector<Index> degree;  ///< not valid for rattlers
 };
 
-/// `degree`: the contacts of each free grain.
+/// Removes rattlers repeatedly. `degree`: the number of contacts of each free grain.
 Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
   Backbone backbone{std::vector<bool>(degree.size(), true), degree};
   std::vector<std::vector<Index>> contacts_of(degree.size());
@@ -51,7 +51,7 @@ Backbone find_backbone(const BedFrame& bed, const std::vector<Index>& degree) {
   return backbone;
 }
 
-/// Scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
+/// Returns the scalar product of the deviators of the symmetric parts of two tensors, up to a factor.
 double deviator_product(const Tensor2& one, const Tensor2& other) {
   return (one.xx - one.yy) * (other.xx - other.yy) + (one.xy + one.yx) * (other.xy + other.yx);
 }

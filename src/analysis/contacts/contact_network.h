@@ -1,5 +1,5 @@
 #pragma once
-/// The contacts of a frame as a network: who holds whom, forces, mobilised friction.
+/// The contact network of a frame: coordination, forces and mobilised friction.
 
 #include <vector>
 
@@ -10,32 +10,32 @@
 
 namespace talus::analysis {
 
-// Each of these sets members of a record, which are defined in the table of quantities.
+// Each take_ function sets members of a record that are defined in the table of quantities.
 
-/// z and its like, which have 0 where no grain carries force, and the share of rattlers.
+/// Sets the coordination numbers, 0 if no grain carries force, and the share of rattlers.
 void take_coordination(const BedFrame& bed, FrameRecord& record);
 
-/// Normal forces over their mean, counted into `bins`.
+/// Counts the normal forces, divided by their mean, into `bins`.
 Histogram normal_forces(const Frame& frame, Histogram bins);
-/// |f_t| / (mu f_n) of contact c, mu that of the contact. Above 1 (rounding) it is 1, and without friction,
-/// too: such a contact can slide.
+/// Returns |f_t| / (mu f_n) of contact c with its own coefficient mu, limited to 1 against rounding. Without
+/// friction it is 1 because such a contact can slide.
 double mobilisation_of(const BedFrame& bed, Index c);
-/// The same of all contacts, in equal bins from 0 to 1.
+/// Returns the distribution of the mobilised friction over all contacts, in equal bins from 0 to 1.
 Histogram mobilised_friction(const BedFrame& bed, int bins);
 
-/// Of each free grain, the mean over its contacts, those with floor and walls among them. NaN where it has
-/// no contact.
+/// Returns the mean mobilised friction over the contacts of each free grain, including those with floor and
+/// walls. NaN for a grain without contacts.
 std::vector<double> mobilised_friction_of_grains(const BedFrame& bed);
 
-/// The mean normal force, and the contacts with more than it beside the weak others (Radjai et al. 1998). The
-/// moment of contacts is the part that they have in the internal moments of the free grains; of the deviator
-/// Q of all contacts the strong ones have what lies along the principal axes of the whole. The fabric of each
-/// network is the second Fourier component of its directions (fabric.h).
+/// Sets the mean normal force and the properties of the strong network, the contacts above this mean, and of
+/// the weak network (Radjai et al. 1998). The stress of a network is its contribution to the internal moments
+/// of the free grains. The strong share of the deviator Q is the part along the principal axes of the total.
+/// The fabric of each network is the second Fourier component of its directions (fabric.h).
 void take_networks(const BedFrame& bed, FrameRecord& record);
 
-/// Contacts where friction is fully mobilised (status sliding), joined where they share a free grain. Their
-/// share is NaN without contacts; the mean sizes of their clusters, in contacts, and their correlation length
-/// (clusters.h, of the grains that they join) are NaN where none slides.
+/// Sets the quantities of critical contacts, those with fully mobilised friction (status sliding), joined
+/// into clusters if they share a free grain. Their share is NaN without contacts. The mean cluster sizes, in
+/// contacts, and the correlation length (clusters.h, over the grains they join) are NaN if no contact slides.
 void take_critical_contacts(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

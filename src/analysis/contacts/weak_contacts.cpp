@@ -9,7 +9,7 @@
 namespace talus::analysis {
 namespace {
 
-/// A mean of unit vectors at twice the angles of normals.
+/// Mean of unit vectors at twice the angles of the normals.
 struct FabricSum {
   std::complex<double> sum = 0.0;
   Index count = 0;
@@ -18,7 +18,7 @@ struct FabricSum {
     sum += doubled;
     ++count;
   }
-  /// 2 <cos 2 (direction - d)>, `direction` the unit vector at twice d.
+  /// Returns 2 <cos 2 (direction - d)>, where `direction` is the unit vector at twice d.
   double along(std::complex<double> direction) const {
     return count > 0 ? 2.0 * (sum * std::conj(direction)).real() / count : not_known;
   }

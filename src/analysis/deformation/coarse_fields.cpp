@@ -10,22 +10,22 @@
 namespace talus::analysis {
 namespace {
 
-/// Gauss and Legendre's on [0, 1].
+/// Gauss-Legendre quadrature on [0, 1].
 constexpr std::array<double, 3> nodes = {0.5 - 0.38729833462074168852, 0.5, 0.5 + 0.38729833462074168852};
 constexpr std::array<double, 3> weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
-/// Longest piece of a branch that three nodes are enough for, of the cutoff.
+/// Longest piece of a branch vector for which three nodes are sufficient, in units of the cutoff.
 constexpr double longest_piece = 0.5;
 
 constexpr double lucy_norm = 5.0 / pi;
 
-/// Weighted sums over grains at (1, dx, dy), from which velocities as a linear function of the place follow.
+/// Weighted sums over grains of (1, dx, dy) for a linear fit of the velocity as a function of position.
 struct LinearFit {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero(), b = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> v = Eigen::Matrix<double, 3, 2>::Zero();
   double vv = 0.0;
   int count = 0;
 
-  /// `d`: place from the point, over the cutoff.
+  /// Adds a grain. `d`: its position relative to the point, in units of the cutoff.
   void add(double weight, const Vector2& d, const Vector2& velocity) {
     const Eigen::Vector3d row(1.0, d.x(), d.y());
     a += weight * row * row.transpose();
@@ -35,7 +35,7 @@ struct LinearFit {
     ++count;
   }
 
-  /// Half the mean square of what the fit leaves, over the share of it that the fit does not take away. (T37)
+  /// Returns half the mean square of the residuals, corrected for the degrees of freedom of the fit. (T37)
   double temperature() const {
     constexpr double flat = 1e-9;
     const double weight = a(0, 0);
@@ -76,15 +76,15 @@ CoarseFields::CoarseFields(const BedFrame& bed, double cutoff, bool with_contact
   boundary_.cells = sort_into_cells(boundary_.x, boundary_.y, cutoff_, period_);
 }
 
-/// The branch of a contact goes from centre to centre, or between a centre and the contact where one of the
-/// bodies is fixed; as in the internal moments, radii tell how far.
+/// Adds the contact stress. The branch of a contact extends from centre to centre, or between a centre and
+/// the contact if one of the bodies is fixed. As for the internal moments, its length comes from the radii.
 void CoarseFields::add_contacts(const BedFrame& bed) {
   const FrameContacts& contacts = bed.frame.contacts;
   const Index fixed = bed.statics.free_count;
   for (Index c = 0; c < contacts.count(); ++c) {
     const Index a = contacts.a[c], b = contacts.b[c];
     const Vector2 n(contacts.nx[c], contacts.ny[c]), t(-n.y(), n.x());
-    const Vector2 force = contacts.fn[c] * n + contacts.ft[c] * t;  // on b
+    const Vector2 force = contacts.fn[c] * n + contacts.ft[c] * t;  // force on b
     const Vector2 branch = branch_length(bed, c) * n;
     const Vector2 begin =
         a < fixed ? Vector2(bed.frame.x[a], bed.frame.y[a])
@@ -107,7 +107,8 @@ void CoarseFields::add_contacts(const BedFrame& bed) {
   }
 }
 
-/// Calls visit(what, d, distance) for the sources within the cutoff of a point, d being their place from it.
+/// Calls visit(what, d, distance) for the sources within the cutoff of a point; d is their position relative
+/// to it.
 template <typename What, typename Visit>
 void CoarseFields::near(const Sources<What>& sources, double x, double y, const Visit& visit) const {
   if (sources.what.empty()) return;
@@ -115,7 +116,7 @@ void CoarseFields::near(const Sources<What>& sources, double x, double y, const 
   const auto meet = [&](Index k) {
     Vector2 d(sources.x[k] - x, sources.y[k] - y);
     d.x() += nearest_image(d.x(), period_) * period_;
-    if (d.squaredNorm() > farthest) return;  // without the root, of most
+    if (d.squaredNorm() > farthest) return;  // avoids the square root in most cases
     const double distance = d.norm();
     if (distance < cutoff_) visit(sources.what[k], d, distance);
   };

@@ -12,7 +12,7 @@
 namespace talus::analysis {
 namespace {
 
-/// From one frame to another, m, of all grains; along x across the period.
+/// Returns the displacements of all grains between two frames, m, unwrapped along x.
 std::vector<Vector2> displacements(const Frame& before, const BedFrame& bed) {
   const double period = period_of(bed.statics);
   std::vector<Vector2> moved;
@@ -23,7 +23,7 @@ std::vector<Vector2> displacements(const Frame& before, const BedFrame& bed) {
   return moved;
 }
 
-/// Sums over neighbours, of their places d and displacements u from the grain.
+/// Sums over neighbours of positions d and displacements u relative to the grain.
 struct Fit {
   Matrix2 dd = Matrix2::Zero(), ud = Matrix2::Zero();
   double uu = 0.0;
@@ -38,7 +38,7 @@ struct Fit {
 };
 
 LocalDeformation fitted(const Fit& fit) {
-  constexpr double flat = 1e-6;  // det over the square of half the trace, of places in a line
+  constexpr double flat = 1e-6;  // smallest det over (trace / 2)^2 of points that do not lie in one line
   if (fit.count < 2 || fit.dd.determinant() <= flat * std::pow(0.5 * fit.dd.trace(), 2)) return {};
   const Matrix2 gradient = fit.ud * fit.dd.inverse();                    // (T27)
   const double left = fit.uu - (gradient * fit.ud.transpose()).trace();  // (T28)

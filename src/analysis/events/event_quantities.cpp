@@ -7,7 +7,7 @@ const std::string bursts = "event_velocity event_quiet";
 const std::string movements = bursts + " event_displacement";
 const std::string sizes = bursts + " event_size_min";
 
-/// What there is of each event.
+/// Returns the quantities of each event.
 std::vector<Quantity> rows_of_events() {
   return {
       {&EventRecord::begin, "events/begin", "E", "rad",
@@ -64,7 +64,7 @@ std::vector<Quantity> rows_of_events() {
   };
 }
 
-/// What there is of them all.
+/// Returns the quantities of all events together.
 std::vector<Quantity> rows_of_event_laws() {
   const std::string power_law =
       "power law of maximum likelihood (Clauset, Shalizi and Newman 2009); NaN with fewer than 10";

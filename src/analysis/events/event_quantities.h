@@ -1,5 +1,5 @@
 #pragma once
-/// The rows of the table of quantities that are about rearrangements.
+/// Rows of the table of quantities that describe rearrangements.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace talus::analysis {
 
-/// What there is of them all, then what there is of each.
+/// Returns the quantities of all events together, then those of each event.
 std::vector<Quantity> event_quantities();
 
 }  // namespace talus::analysis

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double share_above_depth = 0.95;
 
-/// A grain that moved.
+/// A displaced grain.
 struct MovedGrain {
   double y = 0.0, distance = 0.0;  ///< m
 };
 
-/// The height above which the share lies of all that the grains moved.
+/// Returns the height above which the given share of the total displacement lies.
 double height_above_which(std::vector<MovedGrain> moved, double share) {
   std::ranges::stable_sort(moved, std::ranges::greater(), &MovedGrain::y);
   double sum = 0.0, above = 0.0;

@@ -7,7 +7,7 @@
 namespace talus::analysis {
 namespace {
 
-/// Those from `minimum` on, ascending.
+/// Returns the finite values from `minimum` upwards, ascending.
 std::vector<double> ascending_from(std::span<const double> values, double minimum) {
   std::vector<double> tail;
   for (const double value : values)
@@ -16,7 +16,7 @@ std::vector<double> ascending_from(std::span<const double> values, double minimu
   return tail;
 }
 
-/// `tail` ascends from its minimum.
+/// Fits the law to `tail`, which ascends from the minimum.
 PowerLaw law_of_tail(std::span<const double> tail, double minimum) {
   PowerLaw law;
   law.minimum = minimum;

@@ -1,11 +1,11 @@
 #pragma once
-/// How far the shear stress of a packing stays below that of an infinite slope, just before it fails.
+/// Ratio of the shear stress of a packing to that of an infinite slope, just before failure.
 
 #include <span>
 
 namespace talus::analysis {
 
-/// deg before theta_c, the window of failure_ratio in analyses.
+/// Window before theta_c that analyses use for failure_ratio, deg.
 inline constexpr double failure_window = 0.5;
 
 /// (sigma_T / sigma_N) / tan(theta): 1 for a periodic bed, less between walls (paper, Eq. 15 and Fig. 7).
@@ -14,8 +14,8 @@ struct FailureRatio {
   double spread = 0.0;  ///< standard deviation in the window; NaN for fewer than two values
 };
 
-/// Over the last `window` (rad) before theta_c (rad). `tilts` (rad) and `ratios`, sigma_T / sigma_N, row by
-/// row. NaN where the slope has not failed.
+/// Averages over the last `window` (rad) before theta_c (rad). `tilts` (rad) and `ratios`, sigma_T / sigma_N,
+/// correspond row by row. NaN if the slope has not failed.
 FailureRatio failure_ratio(std::span<const double> tilts, std::span<const double> ratios, double theta_c,
                            double window);
 

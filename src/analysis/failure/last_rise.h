@@ -1,5 +1,5 @@
 #pragma once
-/// The part of a run that leads to failure, where its tilt goes up and down.
+/// The part of a run that leads to failure, if the tilt rises and falls.
 
 #include <cstddef>
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace talus::analysis {
 
-/// A part of a series: places first ... end - 1.
+/// A part of a series: elements first ... end - 1.
 struct SeriesPart {
   std::size_t first = 0;
   std::size_t end = 0;
 
   std::size_t size() const { return end - first; }
-  /// The part of a series of that length.
+  /// Returns this part of a series.
   template <typename Series>
   Series of(const Series& series) const {
     return {series.begin() + static_cast<std::ptrdiff_t>(first),
@@ -25,35 +25,36 @@ struct SeriesPart {
   }
 };
 
-/// The last part of a series of tilts in which their magnitude rises and does not fall, with the holds before
-/// and after the rise: the load under which a slope fails, and what theta_d and what else is looked for up to
-/// theta_c refer to. All of a series that never falls, and of one that never rises.
+/// Returns the last part of a series of tilts in which their magnitude rises without falling, including the
+/// holds before and after the rise. This is the load under which a slope fails; theta_d and all other
+/// quantities searched for up to theta_c refer to it. Returns the entire series if it never falls or never
+/// rises.
 SeriesPart last_rise(std::span<const double> tilts);
 
-/// The magnitudes of the tilts of a part, which do not fall.
+/// Returns the magnitudes of the tilts of a part; they do not decrease.
 std::vector<double> magnitudes(std::span<const double> tilts, const SeriesPart& part);
 
-/// Whether the bed slopes to the other side at the end of such a part: its tilt is below 0.
+/// Whether the bed slopes backwards at the end of such a part: its tilt is negative.
 bool is_to_other_side(std::span<const double> tilts, const SeriesPart& part);
 
-/// The last rise of frames, and the magnitudes of their tilts.
+/// The frames of the last rise and the magnitudes of their tilts.
 struct FramesOfRise {
-  std::size_t first = 0;  ///< the number of its first frame
+  std::size_t first = 0;  ///< number of the first frame of the rise in the run
   std::vector<const FrameRecord*> frames;
   std::vector<double> tilts;  ///< rad
   bool other_side = false;
 };
 FramesOfRise last_rise(std::span<const FrameRecord> frames);
 
-/// Whether a number of frames has the other sign where the bed slopes to the other side.
+/// Whether a frame quantity changes sign if the bed slopes backwards.
 bool has_side(const Quantity& quantity);
 
-/// A number of a frame of such a rise as if the bed were always tilted to one side: sigma_T/sigma_N has the
-/// other sign, and a direction to the bed is mirrored.
+/// Returns a number of a frame of such a rise as if the bed were always tilted to the same side: for a bed
+/// that slopes backwards, sigma_T/sigma_N changes sign and a direction relative to the bed is mirrored.
 double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f, bool other_side);
 
-/// The last rise of rows of observables, as if the bed were always tilted to one side: where the tilt is
-/// below 0, it, sigma_T/sigma_N and the displacement of the surface have the other sign.
+/// Returns the observables of the last rise as if the bed were always tilted to the same side: for negative
+/// tilts, the tilt, sigma_T/sigma_N and the displacement of the surface change sign.
 std::vector<ObservableRow> rows_of_last_rise(std::span<const ObservableRow> rows);
 
 }  // namespace talus::analysis

@@ -8,16 +8,16 @@
 namespace talus::analysis {
 namespace {
 
-constexpr std::size_t lasting = 3;  // frames for which a cluster has to span
+constexpr std::size_t lasting = 3;  // frames in which a cluster has to span the bed
 constexpr std::size_t fewest_to_fit = 5;
 
-/// How many of the first tilts are not above theta_c; all where it is NaN.
+/// Returns the number of tilts up to theta_c, or of all tilts if it is NaN.
 std::size_t count_up_to(std::span<const double> tilts, double theta_c) {
   if (std::isnan(theta_c)) return tilts.size();
   return static_cast<std::size_t>(std::ranges::upper_bound(tilts, theta_c) - tilts.begin());
 }
 
-/// Means over as many neighbours on either side as lie within `reach` and within the series.
+/// Returns means over an equal number of neighbours on either side, within `reach` and within the series.
 std::vector<double> symmetric_means(std::span<const double> tilts, std::span<const double> strains,
                                     double reach) {
   std::vector<double> means;
@@ -101,7 +101,7 @@ GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const do
 
 double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,
                    double window) {
-  std::size_t end = 0;  // the last row within the window of row k
+  std::size_t end = 0;  // last row within the window of row k
   for (std::size_t k = 0; k < tilts.size(); ++k) {
     while (end + 1 < tilts.size() && tilts[end + 1] - tilts[k] <= window) ++end;
     if (displacements[end] - displacements[k] >= distance) return tilts[k];

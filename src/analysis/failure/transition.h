@@ -1,7 +1,7 @@
 #pragma once
-/// theta_d, the angle at which the packing begins to change as a whole, by three estimators, and the first
-/// slide of the surface layer. Plain series; angles in rad, ascending (of a run whose tilt goes up and down
-/// those of its last_rise); NaN where there is no transition.
+/// Three estimators of theta_d, the angle at which the packing begins to change as a whole, and the first
+/// slide of the surface layer. Input is plain series with ascending angles in rad; if the tilt rises and
+/// falls, those of last_rise. Results are NaN if there is no transition.
 
 #include <span>
 
@@ -9,61 +9,66 @@
 
 namespace talus::analysis {
 
-/// Where the largest coarse-graining length jumps (paper, Fig. 12b).
+/// The jump of the largest coarse-graining length (paper, Fig. 12b).
 struct LengthJump {
-  double tilt = 0.0;   ///< of the frame after the largest increase between two frames
-  double error = 0.0;  ///< spacing of the two
-  double size = 0.0;   ///< of the increase, in the unit of `lengths`
+  double tilt = 0.0;   ///< tilt of the frame after the largest increase between two frames
+  double error = 0.0;  ///< difference in tilt between these frames
+  double size = 0.0;   ///< the increase, in the unit of `lengths`
 };
-/// Looks at frames up to theta_c, all where it is NaN, and up to the first whose length reaches `cut`: beyond
-/// it lengths are not known. No jump where the length never increases.
+/// Finds the jump among the frames up to theta_c, or all frames if it is NaN, and up to the first frame whose
+/// length reaches `cut`, beyond which lengths are unknown. There is no jump if the length never increases.
 LengthJump length_jump(std::span<const double> tilts, std::span<const double> lengths, double theta_c,
                        double cut);
 
-/// Where overloaded grains begin to percolate (paper, section V B).
+/// The onset of percolation of overloaded grains (paper, section V B).
 struct PercolationOnset {
-  double tilt = 0.0;   ///< of the first frame up to theta_c from which on a cluster spans, 3 frames at least
-  double error = 0.0;  ///< spacing from the frame before; NaN for the first frame: theta_d is not above it
+  /// Tilt of the first frame up to theta_c from which a cluster spans the bed for at least 3 frames.
+  double tilt = 0.0;
+  /// Difference in tilt from the preceding frame; NaN for the first frame: theta_d is at or below it.
+  double error = 0.0;
 };
-/// `spans`: frame by frame, 0 or not.
+/// Finds the onset. `spans` is nonzero for each frame in which a cluster spans the bed.
 PercolationOnset percolation_onset(std::span<const double> tilts, std::span<const Index> spans,
                                    double theta_c);
 
-/// Where contraction turns into dilation (paper, Fig. 14).
+/// The transition from contraction to dilation (paper, Fig. 14).
 struct DilationOnset {
-  double tilt = 0.0;  ///< of the smallest strain up to theta_c, in a mean over `window`
-  double low = 0.0;   ///< the range around it in which the mean is not above its minimum by more than the
-  double high = 0.0;  ///< noise, which is the rms deviation of the strain from the mean
+  double tilt = 0.0;  ///< tilt of the smallest running mean of the strain, over `window`, up to theta_c
+  /// Range of tilt around it in which the running mean exceeds its minimum by at most the noise, the rms
+  /// deviation of the strain from the mean.
+  double low = 0.0;
+  double high = 0.0;
 };
-/// deg, the window of dilation_onset in analyses.
+/// Window of dilation_onset in analyses, deg.
 inline constexpr double dilation_window = 1.0;
 
-/// The mean is over window/2 on either side, less near the ends, where it stays symmetric. No onset where the
-/// range reaches the end: the strain has not risen by more than the noise.
+/// Finds the onset. The running mean extends over window/2 on either side, and symmetrically over less near
+/// the ends. There is no onset if the range reaches the end, that is, if the strain has not risen by more
+/// than the noise.
 DilationOnset dilation_onset(std::span<const double> tilts, std::span<const double> strains, double theta_c,
                              double window);
 
-/// How a size diverges towards failure: size = b (theta_c - theta)^-exponent.
+/// Divergence of a size towards failure: size = b (theta_c - theta)^-exponent.
 struct GrowthExponent {
   double exponent = 0.0;
-  double error = 0.0;  ///< standard, from the scatter around the line, as if frames were independent
+  double error = 0.0;  ///< standard error from the scatter around the line, for independent frames
 };
-/// deg before theta_c, the window of growth_exponent in analyses.
+/// Window of growth_exponent before theta_c in analyses, deg.
 inline constexpr double growth_window = 10.0;
 
-/// Least squares of the logarithm of the sizes over that of theta_c - theta, which is above 0 and not above
-/// `window` (rad); sizes that are not known are left out. NaN with fewer than 5 of them.
+/// Fits the logarithm of the sizes against that of theta_c - theta by least squares, for 0 < theta_c - theta
+/// <= `window` (rad); NaN sizes are left out. NaN with fewer than 5 sizes.
 GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const double> sizes, double theta_c,
                                double window);
 
-/// What counts as a slide: mean diameters by which the surface layer moves downslope, and degrees of tilt
-/// within which it does.
+/// Definition of a slide: downslope displacement of the surface layer, in mean diameters, and the range of
+/// tilt in which it occurs, in deg.
 inline constexpr double slide_distance = 0.5;
 inline constexpr double slide_window = 0.5;
 
-/// Where the surface layer slides first: the first tilt after which it moves by `distance` within `window`
-/// (rad). A slide may stop; the flow that does not is a slide as well, so this is not above theta_c but for
-/// the window. `displacements` of the surface layer since the beginning, in the unit of `distance`.
+/// Returns the first tilt after which the surface layer moves by `distance` within `window` (rad). A slide
+/// may stop again. The sustained flow is a slide as well, so the result exceeds theta_c by at most the
+/// window. `displacements` are those of the surface layer since the beginning, in the unit of `distance`.
 double first_slide(std::span<const double> tilts, std::span<const double> displacements, double distance,
                    double window);
 

@@ -9,7 +9,7 @@
 namespace talus::analysis {
 namespace {
 
-/// Sorts clusters by size; those of equal size keep their order, which is that of their smallest ids.
+/// Sorts clusters by size. Clusters of equal size keep their order, that of their smallest ids.
 void sort_by_size(Clusters& clusters) {
   const std::vector<Index> size = clusters.size;
   std::vector<Index> order(size.size());
@@ -34,7 +34,7 @@ double second_moment_from(const Clusters& clusters, std::size_t first) {
   return sum > 0.0 ? squares / sum : not_known;
 }
 
-/// Squared radius of gyration of each cluster, m^2.
+/// Returns the squared radius of gyration of each cluster, m^2.
 std::vector<double> squared_radii(const Clusters& clusters, const std::vector<double>& y) {
   const std::size_t count = clusters.size.size();
   std::vector<double> mean_x(count, 0.0), mean_y(count, 0.0), spread(count, 0.0);
@@ -57,7 +57,7 @@ std::vector<double> squared_radii(const Clusters& clusters, const std::vector<do
 Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>& links,
                        const std::vector<double>& x, double period) {
   DisjointSets sets(in_set.size());
-  std::vector<Index> going_around;  // a grain of each cluster that closes on itself through the edge
+  std::vector<Index> going_around;  // one grain of each cluster that closes on itself around the period
   for (const Link& link : links)
     if (in_set[link.a] && in_set[link.b] && !sets.join(link.a, link.b, link.shift))
       going_around.push_back(link.a);
@@ -68,7 +68,7 @@ Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>&
   for (std::size_t i = 0; i < in_set.size(); ++i) {
     if (!in_set[i]) continue;
     const auto [root, periods] = sets.find(static_cast<Index>(i));
-    // Roots are the smallest of their sets: each is met before the others.
+    // The root is the smallest element of its set and is therefore visited first.
     if (root == static_cast<Index>(i)) {
       clusters.label[i] = clusters.count();
       clusters.size.push_back(0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Clusters of grains: which hang together, and how large they are.
+/// Clusters of grains and their sizes.
 
 #include <vector>
 
@@ -8,38 +8,41 @@
 
 namespace talus::analysis {
 
-/// Clusters in the order of their sizes, the largest first; of equal ones the one with the smallest id first.
+/// Clusters in descending order of size; clusters of equal size are in the order of their smallest ids.
 struct Clusters {
-  std::vector<Index> label;      ///< cluster of each grain; -1 for one that is not in the set
-  std::vector<Index> size;       ///< grains of each cluster
-  std::vector<double> unrolled;  ///< x of each grain, m, in one piece with its cluster; may leave the period
-  std::vector<bool> wraps;       ///< whether a cluster is linked to itself through the periodic edge
-  Index members = 0;             ///< grains of the set
+  std::vector<Index> label;  ///< cluster of each grain; -1 for a grain outside the set
+  std::vector<Index> size;   ///< number of grains in each cluster
+  /// x of each grain, m, unwrapped so that its cluster is in one piece; may lie outside the period.
+  std::vector<double> unrolled;
+  std::vector<bool> wraps;  ///< whether each cluster is linked to itself through the periodic edge
+  Index members = 0;        ///< number of grains in the set
 
   Index count() const { return static_cast<Index>(size.size()); }
 };
 
-/// Clusters of the grains with `in_set`, joined by the links between two of them. A grain without links is a
-/// cluster of its own. x in m, of at least as many grains as `in_set` has; `period` in m, 0 where the bed is
-/// not periodic.
+/// Finds the clusters of the grains with `in_set`, joined by the links between two of them. A grain without
+/// links is a cluster by itself. `x`, in m, has at least as many entries as `in_set`; `period` is in m, 0 if
+/// the bed is not periodic.
 Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>& links,
                        const std::vector<double>& x, double period);
 
-/// Grains of the largest cluster, 0 without any, and their share of the grains of the set, NaN without any.
+/// Return the number of grains in the largest cluster, 0 if there are no clusters, and its share of the
+/// grains of the set, then NaN.
 Index largest_size(const Clusters& clusters);
 double largest_share(const Clusters& clusters);
 
-/// Mean size, in grains; NaN where there are no clusters.
+/// Returns the mean size in grains; NaN if there are no clusters.
 double mean_size(const Clusters& clusters);
 
-/// Sum of s^2 / sum of s over the sizes s: the mean size of the cluster that a grain of the set is in; NaN
-/// where there are no clusters. "Of others": without the largest, as percolation theory has it.
+/// Returns the sum of s^2 over the sum of s for the cluster sizes s: the mean size of the cluster that
+/// contains a grain of the set; NaN if there are no clusters. The second function leaves out the largest
+/// cluster, as is usual in percolation theory.
 double second_moment(const Clusters& clusters);
 double second_moment_of_others(const Clusters& clusters);
 
-/// sqrt(2 sum of s^2 R^2 / sum of s^2), R the radius of gyration of a cluster of s grains (Stauffer and
-/// Aharony, Introduction to Percolation Theory, Eq. 47), m, over clusters of two grains and more that do not
-/// wrap around; NaN without any. y in m.
+/// Returns sqrt(2 sum of s^2 R^2 / sum of s^2), m, where R is the radius of gyration of a cluster of s grains
+/// (Stauffer and Aharony, Introduction to Percolation Theory, Eq. 47). The sums are over clusters of at least
+/// two grains that do not wrap around the period; NaN if there are none. `y` is in m.
 double correlation_length(const Clusters& clusters, const std::vector<double>& y);
 
 }  // namespace talus::analysis

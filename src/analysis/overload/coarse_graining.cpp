@@ -12,8 +12,8 @@
 namespace talus::analysis {
 namespace {
 
-/// Whether the ratio Q/P of stress_state is at most the threshold. Without its root and its arc tangent:
-/// nothing else is computed as often.
+/// Whether the ratio Q/P of stress_state is at most the threshold. The test avoids the square root and the
+/// arc tangent because it is the most frequent operation of the analysis.
 bool is_within(const Tensor2& sum, double threshold) {
   const double difference = sum.xx - sum.yy;
   const double shear = sum.xy + sum.yx;
@@ -30,13 +30,13 @@ void summarise(CoarseGraining& result) {
   for (const double length : result.length) result.largest = std::fmax(result.largest, length);
 }
 
-/// l_c of an overloaded grain, m; nothing where the search reaches the cut.
+/// Returns l_c of an overloaded grain, m; empty if the search reaches the cut.
 std::optional<double> search_length(Neighbourhoods& neighbourhoods, Index grain,
                                     const CoarseGrainingRule& rule) {
   std::optional<double> found;
   neighbourhoods.around(grain, 0.5 * rule.cut, [&](double distance, const Tensor2& sum) {
     const double l = 2.0 * distance;
-    // Up to the next distance gamma_l stays what it is: the last neighbourhood up to l_min is the one there.
+    // gamma_l is constant up to the next distance, so the last neighbourhood up to l_min is the one at l_min.
     if (found && l > rule.l_min) return false;
     found.reset();
     if (is_within(sum, rule.end_ratio)) found = std::max(l, rule.l_min);  // (T25)
@@ -98,7 +98,7 @@ std::vector<double> overloaded_over_scale(const BedFrame& bed, double threshold,
     if (std::isnan(bed.frame.gamma[i])) continue;
     ++loaded;
     Tensor2 within;
-    std::size_t next = 0;  // diameter that is not judged yet
+    std::size_t next = 0;  // first diameter not yet evaluated
     const auto judge_up_to = [&](double diameter) {
       for (; next < l.size() && l[next] < diameter; ++next)
         if (stress::is_overloaded(stress::stress_state(within).ratio, threshold)) ++overloaded[next];

@@ -13,7 +13,7 @@ DisjointSets::Place DisjointSets::find(Index element) {
   Index periods = 0;
   while (parent_[element] != element) {
     const Index up = parent_[element];
-    periods_[element] += periods_[up];  // 0 for a root
+    periods_[element] += periods_[up];  // 0 if `up` is a root
     parent_[element] = parent_[up];
     periods += periods_[element];
     element = parent_[element];
@@ -25,7 +25,7 @@ bool DisjointSets::join(Index a, Index b, Index shift) {
   const Place of_a = find(a);
   const Place of_b = find(b);
   if (of_a.root == of_b.root) return of_b.periods == of_a.periods + shift;
-  const Index between = of_a.periods + shift - of_b.periods;  // from the root of a to that of b
+  const Index between = of_a.periods + shift - of_b.periods;  // from the root of a to the root of b
   const Index high = std::max(of_a.root, of_b.root);
   parent_[high] = std::min(of_a.root, of_b.root);
   periods_[high] = high == of_b.root ? between : -between;

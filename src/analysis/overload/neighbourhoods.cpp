@@ -6,7 +6,8 @@
 namespace talus::analysis {
 
 std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::vector<Near>& scratch) {
-  // Evenly spread over an area are the squares of distances: so many buckets hold about one each.
+  // The squared distances of grains that are evenly spread over an area are uniformly distributed, so this
+  // number of buckets gives about one grain each.
   constexpr Index most_buckets = 256;
   const Index buckets = std::clamp<Index>(static_cast<Index>(near.size()), 1, most_buckets);
   const double scale = std::isfinite(high) && high > low ? buckets / (high - low) : 0.0;
@@ -22,7 +23,7 @@ std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::
   scratch.resize(near.size());
   for (const Near& one : near) scratch[start[bucket_of(one)]++] = one;
   near.swap(scratch);
-  // Within a bucket, and nowhere else, some may still be in the wrong order.
+  // Only the order within a bucket may still be wrong.
   for (std::size_t k = 1; k < count; ++k) {
     const Near one = near[k];
     std::size_t place = k;

@@ -1,5 +1,5 @@
 #pragma once
-/// The neighbourhood of a grain as it grows.
+/// The growing neighbourhood of a grain.
 
 #include <cmath>
 #include <limits>
@@ -11,21 +11,21 @@
 
 namespace talus::analysis {
 
-/// A grain and how far away it is.
+/// A grain and its distance.
 struct Near {
-  double square = 0.0;  ///< of the distance, m^2
+  double square = 0.0;  ///< squared distance, m^2
   Index grain = 0;
   bool operator<(const Near& other) const {
     return square < other.square || (square == other.square && grain < other.grain);
   }
 };
 
-/// Puts those with a square up to `high` in front, sorted, and returns how many they are; none has less than
-/// `low`. Quick where they are evenly spread over an area, as grains are. `scratch` is memory to work in.
+/// Moves the entries with a squared distance up to `high` to the front, sorted, and returns their number; no
+/// entry is below `low`. Fast if the grains are evenly spread over an area. `scratch` is working memory.
 std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::vector<Near>& scratch);
 
-/// The free grains of a frame, ready to be met in the order of their distance from one of them. Of periodic
-/// images the nearest counts.
+/// The free grains of a frame, visited in the order of their distance from one of them. Only the nearest
+/// periodic image counts.
 class Neighbourhoods {
  public:
   explicit Neighbourhoods(const BedFrame& bed)
@@ -34,8 +34,8 @@ class Neighbourhoods {
         y_(of_free_grains(bed.frame.y, bed.statics)),
         cells_(sort_into_cells(x_, y_, bed.statics.mean_diameter, period_of(bed.statics))) {}
 
-  /// Adds the internal moments of the grains within `radius` (m) of a grain, itself among them: the nearest
-  /// first, grains at one distance in the order of their ids. After each distance calls meet(distance, sum),
+  /// Adds up the internal moments of the grains within `radius` (m) of a grain, itself included, in the order
+  /// of their distance, and of their ids at equal distance. Calls meet(distance, sum) after each distance
   /// until it returns false.
   template <typename Meet>
   void around(Index centre, double radius, const Meet& meet) {
@@ -43,13 +43,14 @@ class Neighbourhoods {
     const Index row = row_of(cells_, y_[centre]);
     near_.clear();
     Tensor2 sum;
-    double met = 0.0;                                        // all up to this distance were added
-    const double farthest = radius * radius * (1.0 + 1e-9);  // a hair more: the distance itself decides
+    double met = 0.0;  // all grains up to this distance are in the sum
+    // Slightly larger; the test of the distance decides.
+    const double farthest = radius * radius * (1.0 + 1e-9);
     for (Index ring = 0; met <= radius; ++ring) {
       const bool more =
           visit_ring(cells_, column, row, ring, [&](Index grain) { add(centre, grain, farthest); });
-      // What is in no ring yet is farther than `known`, which is a hair less than the rings are wide:
-      // distances are rounded.
+      // Grains in none of the rings so far are farther than `known`, which is slightly less than the width of
+      // the rings because distances are rounded.
       const double known = more ? ring * cells_.size * (1.0 - 1e-9) : std::numeric_limits<double>::infinity();
       const std::size_t count = sort_nearest(near_, met * met, known * known, scratch_);
       for (std::size_t k = 0; k < count; ++k) {
@@ -65,7 +66,7 @@ class Neighbourhoods {
   }
 
  private:
-  /// Where the square of its distance is not above `farthest`.
+  /// Adds a grain if its squared distance is at most `farthest`.
   void add(Index centre, Index grain, double farthest) {
     double dx = x_[grain] - x_[centre];
     dx += nearest_image(dx, cells_.period) * cells_.period;

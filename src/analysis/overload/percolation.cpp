@@ -9,13 +9,13 @@
 namespace talus::analysis {
 namespace {
 
-/// The bed along x in equal columns, about a mean diameter wide.
+/// The bed divided along x into equal columns, about a mean diameter wide.
 struct BedColumns {
   Index count = 1;
   double width = 0.0;  ///< m
   bool periodic = false;
 
-  /// Where the bed has an end, places beyond it belong to the last column.
+  /// Returns the column at x. In a bed with ends, positions beyond them belong to the outermost column.
   Index at(double x) const {
     const auto column = static_cast<Index>(std::floor(x / width));
     return periodic ? ((column % count) + count) % count : std::clamp<Index>(column, 0, count - 1);
@@ -27,7 +27,7 @@ BedColumns make_columns(const RunStatics& statics) {
   return {count, statics.length / count, statics.periodic};
 }
 
-/// Height of the highest top of a grain in each column, m.
+/// Returns the height of the highest top of a grain in each column, m.
 std::vector<double> highest_tops(const BedFrame& bed, const BedColumns& columns) {
   std::vector<double> top(static_cast<std::size_t>(columns.count), 0.0);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
@@ -42,7 +42,7 @@ std::vector<double> highest_tops(const BedFrame& bed, const BedColumns& columns)
   return top;
 }
 
-/// Which clusters have a grain with `edge`.
+/// Returns whether each cluster contains a grain with `edge`.
 std::vector<bool> touching(const Clusters& clusters, const std::vector<bool>& edge) {
   std::vector<bool> touches(clusters.size.size(), false);
   for (std::size_t i = 0; i < clusters.label.size(); ++i)
@@ -105,8 +105,8 @@ DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_se
     if (std::fabs(advance) < least * std::sqrt(dx * dx + dy * dy)) continue;
     steps.push_back(advance > 0.0 ? Step{link.a, link.b} : Step{link.b, link.a});
   }
-  // Steps rise, so that in the order of the heights they start from, all paths to a grain are known before
-  // one leads on from it.
+  // Every step rises, so in the order of starting heights all paths to a grain are known before a step leaves
+  // it.
   std::sort(steps.begin(), steps.end(), [&](const Step& one, const Step& other) {
     return bed.frame.y[one.from] < bed.frame.y[other.from];
   });

@@ -14,7 +14,8 @@ namespace {
 
 using Polygon = std::vector<Vector2>;
 
-/// Leaves what lies up to `height` along the unit vector `normal`; `scratch` is memory to work in.
+/// Removes the part of the polygon beyond `height` along the unit vector `normal`; `scratch` is working
+/// memory.
 void clip(Polygon& polygon, const Vector2& normal, double height, Polygon& scratch) {
   const auto beyond = [&](const Vector2& point) { return normal.dot(point) - height; };
   if (std::ranges::none_of(polygon, [&](const Vector2& point) { return beyond(point) > 0.0; })) return;
@@ -28,7 +29,7 @@ void clip(Polygon& polygon, const Vector2& normal, double height, Polygon& scrat
   std::swap(polygon, scratch);
 }
 
-/// Cells are cut about the centre of their grain.
+/// Cuts the cells of grains, in coordinates about the centre of each grain.
 class CellCutter {
  public:
   explicit CellCutter(const BedFrame& bed)
@@ -56,8 +57,8 @@ class CellCutter {
 
  private:
   double radius(Index i) const { return bed_.statics.radius[i]; }
-  /// How far from the centre of each grain the largest power is; two grains whose circles of these radii do
-  /// not meet do not cut each other's cells within them.
+  /// Returns the radius of the circle of largest power around each grain. Two grains whose circles do not
+  /// meet do not cut each other's cells within these circles.
   static std::vector<double> reaches(const RunStatics& statics) {
     const double farthest = largest_power * statics.mean_diameter * statics.mean_diameter;
     std::vector<double> reaches;
@@ -70,7 +71,7 @@ class CellCutter {
     Vector2 d(bed_.frame.x[j] - bed_.frame.x[i], bed_.frame.y[j] - bed_.frame.y[i]);
     d.x() += nearest_image(d.x(), period_) * period_;
     const double together = reach_[i] + reach_[j], square = d.squaredNorm();
-    if (square > together * together * (1.0 + 1e-12)) return;  // without the root, of most
+    if (square > together * together * (1.0 + 1e-12)) return;  // avoids the square root in most cases
     const double distance = std::sqrt(square);
     if (!(distance > 0.0) || distance >= together) return;
     const double height =
@@ -89,7 +90,7 @@ class CellCutter {
 
   BedFrame bed_;
   double period_;
-  std::vector<double> reach_;  ///< m, of each grain
+  std::vector<double> reach_;  ///< radius of the circle of largest power of each grain, m
   Cells cells_;
   Polygon polygon_, scratch_;
 };
@@ -98,7 +99,8 @@ class CellCutter {
 
 double GrainCell::area() const {
   double twice = 0.0;
-  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {  // from the first corner, which loses no digits
+  // Relative to the first corner, to avoid cancellation.
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
     const Vec2 &o = corners[0], &a = corners[k], &b = corners[k + 1];
     twice += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
   }

@@ -16,7 +16,7 @@ Tensor2 over(const Tensor2& moment, double volume) {
   return tensor(matrix(moment) / volume);  // (T20)
 }
 
-/// Area of a disc below a height above its centre, m^2.
+/// Returns the area of a disk below a height measured from its centre, m^2.
 double area_below(double height, double radius) {
   const double u = std::clamp(height / radius, -1.0, 1.0);
   return radius * radius * (0.5 * pi + u * std::sqrt(1.0 - u * u) + std::asin(u));
@@ -60,7 +60,7 @@ PackingStress packing_stress(const BedFrame& bed, double volume) {
 std::vector<Tensor2> section_stresses(const BedFrame& bed, double volume, int count) {
   std::vector<Tensor2> sections(static_cast<std::size_t>(count));
   for (Index i = 0; i < bed.statics.free_count; ++i) {
-    // Rounding may put a centre at the very end.
+    // Rounding may place a centre exactly at the end of the bed.
     const auto section = static_cast<int>(std::floor(bed.frame.x[i] / bed.statics.length * count));
     add_to(sections[static_cast<std::size_t>(std::clamp(section, 0, count - 1))],
            bed.frame.internal_moment[i]);

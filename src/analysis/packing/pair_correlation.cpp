@@ -17,7 +17,7 @@ namespace {
 
 constexpr double layer_over_d = 2.0;
 
-/// The points that have a value, which becomes the deviation from the mean.
+/// Points with a value, which is replaced by its deviation from the mean.
 struct Points {
   std::vector<double> x, y, deviation;
   double variance = 0.0;
@@ -42,8 +42,8 @@ Points points_with_value(const std::vector<double>& x, const std::vector<double>
   return points;
 }
 
-/// Each value over the mean of those in its layer; layers are `thickness` m thick, the first from the lowest
-/// y. NaN where that mean is not positive.
+/// Divides each value by the mean of its layer. Layers are `thickness` m thick, the first begins at the
+/// lowest y. NaN if the mean is not positive.
 std::vector<double> over_layer_mean(const std::vector<double>& y, const std::vector<double>& value,
                                     double thickness) {
   if (y.empty()) return {};
@@ -63,24 +63,26 @@ std::vector<double> over_layer_mean(const std::vector<double>& y, const std::vec
   return result;
 }
 
-/// Points in rows of one height, in each by ascending x, so that those near a place are one block of a row.
-/// A periodic bed is continued to either side by copies of points, as far as pairs reach.
+/// Points sorted into rows of equal height and by x within a row, so that the neighbours of a point form one
+/// block in each row. A periodic bed is extended on either side by copies of points, as far as the reach of
+/// pairs.
 struct SortedRows {
   struct Row {
-    std::size_t first = 0, last = 0;          ///< its points and copies
-    std::size_t own_first = 0, own_last = 0;  ///< its points
+    std::size_t first = 0, last = 0;          ///< range of its points and their copies
+    std::size_t own_first = 0, own_last = 0;  ///< range of its points
   };
   double height = 1.0;  ///< m
   std::vector<Row> rows;
   std::vector<double> x, y, deviation;
 };
 
-/// A row is an eighth of the reach high: less would be more blocks, more would be pairs that are too far.
+/// Sorts points into rows with a height of an eighth of the reach. Lower rows would give more blocks, higher
+/// ones more pairs beyond the reach.
 SortedRows sort_into_rows(const Points& points, double reach, double period) {
   SortedRows sorted;
   if (points.x.empty()) return sorted;
   const auto [lowest, highest] = std::ranges::minmax(points.y);
-  // A point far away from all others must not cost memory without bound.
+  // Limits the memory if a point is far away from all others.
   const double most = static_cast<double>(points.x.size());
   sorted.height = std::max(reach / 8.0, (highest - lowest) / most);
   struct Entry {
@@ -113,8 +115,9 @@ SortedRows sort_into_rows(const Points& points, double reach, double period) {
   return sorted;
 }
 
-/// Sums over pairs in bins of their distance. Single precision tells the bin of nearly all pairs, for four at
-/// a time; double precision is asked only where that is nearer to the end of a bin than it may be wrong.
+/// Sums over pairs in bins of their distance. Single precision determines the bin of nearly all pairs, four
+/// at a time; double precision is used only if the distance is closer to the edge of a bin than the rounding
+/// error.
 class PairSums {
  public:
   struct Sum {
@@ -129,12 +132,12 @@ class PairSums {
     double farthest = 0.0;
     for (std::size_t i = 0; i < rows.x.size(); ++i)
       farthest = std::max(farthest, std::fabs(rows.x[i]) + std::fabs(rows.y[i]));
-    // Where the reach ends within a bin, all pairs are asked.
+    // If the reach ends within a bin, all pairs are evaluated in double precision.
     if (reach > bins * width * (1.0 - 1e-9))
       error_ = static_cast<float>(4.0 * std::numeric_limits<float>::epsilon() * (farthest / width + bins));
   }
 
-  /// Counts the pairs of a point with a block of points in.
+  /// Adds the pairs of a point with a block of points.
   void add_block(std::size_t i, std::size_t first, std::size_t last) {
     std::array<std::int32_t, piece>& bin = bin_;
     const float x = x_[i], y = y_[i], in_bins = static_cast<float>(1.0 / width_), error = error_;
@@ -174,19 +177,19 @@ class PairSums {
   const SortedRows& rows_;
   double reach_, width_;  ///< m
   int bins_;
-  float error_ = 1.0F;                     ///< that a distance in single precision has at most, in bins
-  std::vector<float> x_, y_;               ///< of the rows, and a few beyond their end
-  std::array<std::int32_t, piece> bin_{};  ///< of the pairs of a piece; memory to work in
-  std::vector<Sum> sums_;                  ///< of the bins, and of all pairs that are too far apart
+  float error_ = 1.0F;                     ///< largest error of a distance in single precision, in bins
+  std::vector<float> x_, y_;               ///< coordinates in the rows, with padding at the end
+  std::array<std::int32_t, piece> bin_{};  ///< bins of the pairs of a piece; working memory
+  std::vector<Sum> sums_;                  ///< sums of the bins, and of all pairs beyond the reach
 };
 
-/// Counts the pairs of the points of a row with those of another one at or above it, or within it.
+/// Adds the pairs of the points of a row with those of the same row or a row above it.
 void add_pairs(const SortedRows& rows, std::size_t row, std::size_t above, double reach, PairSums& sums) {
   const SortedRows::Row& from = rows.rows[row];
   const SortedRows::Row& to = rows.rows[above];
   const double apart = above > row + 1 ? static_cast<double>(above - row - 1) * rows.height : 0.0;
   if (apart >= reach) return;
-  const double across = std::sqrt(reach * reach - apart * apart) * (1.0 + 1e-12);  // for rounding
+  const double across = std::sqrt(reach * reach - apart * apart) * (1.0 + 1e-12);  // allows for rounding
   std::size_t first = to.first, last = to.first;
   for (std::size_t i = from.own_first; i < from.own_last; ++i) {
     while (first < to.last && rows.x[first] < rows.x[i] - across) ++first;

@@ -1,12 +1,12 @@
 #pragma once
-/// What a contact adds to the internal moments of the free grains.
+/// Contribution of a contact to the internal moments of the free grains.
 
 #include "analysis/free_grains.h"
 
 namespace talus::analysis {
 
-/// Adds the part of contact c in the sum of the internal moments of the free grains (T19), J: branch vector
-/// times force.
+/// Adds the contribution of contact c to the sum of the internal moments of the free grains, branch vector
+/// times force (T19), J per metre of thickness.
 inline void add_moment(const BedFrame& bed, Index c, Tensor2& sum) {
   const FrameContacts& contacts = bed.frame.contacts;
   const Vector2 n{contacts.nx[c], contacts.ny[c]}, t{-contacts.ny[c], contacts.nx[c]};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int half_turn = 180;  // deg
 
-/// An angle from -period to period, in [0, period).
+/// Maps an angle from (-period, period] to [0, period).
 double wrapped(double angle, double period) {
   const double turned = angle < 0.0 ? angle + period : angle;
   return turned < period ? turned : turned - period;
@@ -21,14 +21,14 @@ double direction_of_normal(const FrameContacts& contacts, Index c) {
   return wrapped(degrees(std::atan2(contacts.ny[c], contacts.nx[c])), half_turn);
 }
 
-/// n^m: turned by m times the angle of n.
+/// Returns n^m, the unit vector at m times the angle of n.
 std::complex<double> power(std::complex<double> n, int m) {
   std::complex<double> product = 1.0;
   for (int k = 0; k < m; ++k) product *= n;
   return product;
 }
 
-/// Contacts at each degree of direction, smoothed around the half turn.
+/// Returns the number of contacts at each degree of direction, smoothed with a period of 180 deg.
 std::vector<double> smoothed_directions(const FrameContacts& contacts) {
   constexpr double standard_deviation = 5.0;  // deg
   constexpr int reach = 20;                   // deg, four standard deviations

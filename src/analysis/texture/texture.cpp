@@ -8,7 +8,7 @@
 namespace talus::analysis {
 namespace {
 
-/// Direction of the major principal stress of the contact forces, rad; NaN without contacts.
+/// Returns the direction of the major principal stress of the contact forces, rad; NaN without contacts.
 double stress_axis(const BedFrame& bed) {
   Tensor2 sum;
   for (Index c = 0; c < bed.frame.contacts.count(); ++c) add_moment(bed, c, sum);
@@ -26,8 +26,8 @@ Texture texture_of(const BedFrame& bed) {
          length_cosines = 0.0;
   for (Index c = 0; c < contacts.count(); ++c) {
     const double nx = contacts.nx[c], ny = contacts.ny[c];
-    const double x = nx * nx - ny * ny, y = 2.0 * nx * ny;  // of twice the angle of the normal
-    const double cosine = x * axis_x + y * axis_y;          // to the axis
+    const double x = nx * nx - ny * ny, y = 2.0 * nx * ny;  // unit vector at twice the angle of the normal
+    const double cosine = x * axis_x + y * axis_y;          // cosine and sine of twice the angle to the axis
     const double sine = y * axis_x - x * axis_y;
     const double length = branch_length(bed, c);
     cosines += cosine;

@@ -11,11 +11,11 @@ namespace {
 
 constexpr Index nobody = -1;
 
-/// Each body has three pebbles, one for each of its motions. A pebble is free, or covers a constraint to
-/// another body. A constraint is independent if four pebbles can be brought together on its two bodies, since
-/// three always can be: the motions of both as one. Where a fourth cannot be brought, the bodies are rigid,
-/// with all that was met on the way, and go on as one body. So a search meets a rigid cluster once, however
-/// large it is.
+/// Pebble game in which each body has three pebbles, one for each degree of freedom. A pebble is free, or
+/// covers a constraint to another body. Three pebbles can always be brought to two bodies: their common
+/// motion. A constraint is independent if a fourth pebble can be brought to its two bodies. If not, these
+/// bodies and all bodies met in the search are rigid together and are merged into one body, so a search
+/// visits a rigid cluster once, however large it is.
 class PebbleGame {
  public:
   explicit PebbleGame(Index bodies)
@@ -24,7 +24,7 @@ class PebbleGame {
         seen_(size(), 0),
         from_(size(), nobody) {}
 
-  /// Whether it is independent of the constraints before it.
+  /// Returns whether the constraint is independent of the preceding ones.
   bool add_constraint(Index a, Index b) {
     const Index u = root(a), v = root(b);
     if (u == v || join_if_rigid(u, v)) return false;
@@ -34,7 +34,8 @@ class PebbleGame {
     return true;
   }
 
-  /// Joins two bodies, with all that their pebbles lead to, if they can only move as one. Returns whether so.
+  /// Joins two bodies, with all bodies that their pebbles lead to, if they can only move as one. Returns
+  /// whether they were joined.
   bool join_if_rigid(Index u, Index v) {
     while (free_of(u) + free_of(v) < 4)
       if (!bring_pebble(u, v) && !bring_pebble(v, u)) {
@@ -51,8 +52,8 @@ class PebbleGame {
 
   Index free_of(Index body) const { return static_cast<Index>(std::ranges::count(pebbles_[body], nobody)); }
 
-  /// Follows the constraints that pebbles cover from `to` to a free pebble, which may be neither on it nor on
-  /// `other`, and moves it to `to`: each constraint on the way is then covered from its other end.
+  /// Follows covered constraints from `to` to a free pebble on another body than `to` and `other`, and moves
+  /// it to `to`. Each constraint on the path is then covered from its other end.
   bool bring_pebble(Index to, Index other) {
     ++search_;
     seen_[to] = seen_[other] = search_;
@@ -86,7 +87,7 @@ class PebbleGame {
     }
   }
 
-  /// Joins u, v, on which the last three pebbles are, and all that can be reached from them.
+  /// Joins u and v, which hold the last three pebbles, and all bodies that can be reached from them.
   void make_rigid(Index u, Index v) {
     ++search_;
     cluster_.clear();
@@ -106,9 +107,10 @@ class PebbleGame {
 
   Index bodies_;
   DisjointSets sets_{size()};
-  std::vector<std::array<Index, 3>> pebbles_;  ///< of each root: the body that a pebble covers, or nobody
-  std::vector<std::int64_t> seen_;             ///< the last search that met a body
-  std::vector<Index> from_;                    ///< the body before it in the last search
+  /// For each root, the bodies to which its pebbles lead, or nobody.
+  std::vector<std::array<Index, 3>> pebbles_;
+  std::vector<std::int64_t> seen_;  ///< last search that visited each body
+  std::vector<Index> from_;         ///< preceding body in the last search
   std::vector<Index> path_, cluster_;
   std::int64_t search_ = 0;
 };
@@ -121,7 +123,7 @@ RigidClusters find_rigid_clusters(Index bodies, std::span<const Bond> bonds) {
   for (const Bond& bond : bonds)
     for (int k = 0; k < bond.constraints; ++k)
       ++(game.add_constraint(bond.a, bond.b) ? clusters.independent : clusters.redundant);
-  // A body that is held by a cluster, with no pebble from there to it, has not been joined to it yet.
+  // A body that is held by a cluster without a pebble leading to it has not been joined yet.
   for (const Bond& bond : bonds) {
     const Index a = game.root(bond.a), b = game.root(bond.b);
     if (a != b) game.join_if_rigid(a, b);
@@ -141,7 +143,7 @@ std::vector<Bond> bonds_of(const BedFrame& bed) {
 }
 
 void take_rigid_clusters(const BedFrame& bed, FrameRecord& record) {
-  if (bed.statics.friction == 0.0) {  // rotations that nothing hinders would count as motions
+  if (bed.statics.friction == 0.0) {  // rotations without resistance would count as motions
     record.rigid_clusters = -1;
     return;
   }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t slices = 16;
 
-/// Contacts between free grains, the largest normal force first.
+/// Returns the contacts between free grains in descending order of normal force.
 std::vector<Index> contacts_by_force(const BedFrame& bed) {
   const FrameContacts& contacts = bed.frame.contacts;
   std::vector<Index> order;
@@ -25,20 +25,20 @@ std::vector<Index> contacts_by_force(const BedFrame& bed) {
   return order;
 }
 
-/// The components of a graph that grows edge by edge, and when each was born.
+/// The components of a graph that grows edge by edge, and their births.
 class GrowingGraph {
  public:
   explicit GrowingGraph(Index vertices)
       : sets_(static_cast<std::size_t>(vertices)), birth_(static_cast<std::size_t>(vertices), not_known) {}
 
-  /// The root of the component of a vertex, which is born now if it is not there yet.
+  /// Returns the root of the component of a vertex. A vertex that is not in the graph yet is born at `now`.
   Index component(Index vertex, double now) {
     const Index root = sets_.find(vertex).root;
     if (std::isnan(birth_[root])) birth_[root] = now;
     return root;
   }
 
-  /// The younger of two components becomes part of the older one; returns when it was born.
+  /// Merges the younger of two components into the older one and returns the birth of the younger.
   double merge(Index one, Index other) {
     const double younger = std::min(birth_[one], birth_[other]);
     const double older = std::max(birth_[one], birth_[other]);
@@ -47,7 +47,7 @@ class GrowingGraph {
     return younger;
   }
 
-  /// When the components that are left were born.
+  /// Returns the births of the remaining components.
   std::vector<double> births() {
     std::vector<double> births;
     for (Index vertex = 0; vertex < static_cast<Index>(birth_.size()); ++vertex)
@@ -57,16 +57,16 @@ class GrowingGraph {
 
  private:
   DisjointSets sets_;
-  std::vector<double> birth_;  ///< of roots
+  std::vector<double> birth_;  ///< births of the roots
 };
 
-/// Where the points of a diagram lie on the lines of all directions, and where their projections onto the
-/// diagonal do; in ascending order.
+/// Sorted projections of the points of a diagram onto the lines of all directions, directly and after
+/// projection onto the diagonal.
 struct Projections {
   std::array<std::vector<double>, slices> points, on_diagonal;
 };
 
-/// In ascending order; loops come in descending order already.
+/// Sorts in ascending order. Loops are often in descending order already.
 void sort_ascending(std::vector<double>& places) {
   if (std::ranges::is_sorted(places, std::greater()))
     std::ranges::reverse(places);
@@ -93,7 +93,7 @@ Projections project(std::span<const Lifetime> lifetimes) {
   return projections;
 }
 
-/// That of sliced_distance.
+/// Returns the sliced distance of two diagrams from their projections.
 double distance(const Projections& one, const Projections& other) {
   double sum = 0.0;
   std::vector<double> mine, its;
@@ -126,7 +126,7 @@ PersistenceDiagram force_persistence(const BedFrame& bed, double force) {
 }
 
 GraphCount count_at(const PersistenceDiagram& diagram, double threshold) {
-  // At the threshold at which a component meets another it is gone; one that lasts down to 0 is there at 0.
+  // A component no longer exists at the threshold at which it meets another; one that lasts to 0 exists at 0.
   const auto is_there = [&](const Lifetime& lifetime) {
     return lifetime.birth >= threshold && (lifetime.death < threshold || lifetime.death == 0.0);
   };

@@ -1,6 +1,6 @@
 #pragma once
-/// The network of contacts as a graph that grows as a threshold of the force falls: its components and loops,
-/// and how long each lasts (its persistence diagrams, Kramar and others 2014).
+/// Persistence diagrams of the contact network (Kramar et al. 2014): components and loops of the graph that
+/// grows as a force threshold is lowered, and their lifetimes.
 
 #include <span>
 #include <vector>
@@ -10,47 +10,48 @@
 
 namespace talus::analysis {
 
-/// The thresholds between which something is there, the threshold falling: birth >= death >= 0.
+/// Thresholds between which a feature exists as the threshold is lowered: birth >= death >= 0.
 struct Lifetime {
   double birth = 0.0;
   double death = 0.0;
 };
 
-/// Of the contacts between free grains that have at least the force of a threshold. A component is born with
-/// the largest force in it, and dies where it meets an older one; one that meets none lasts down to 0. A loop
-/// is born with the smallest force in it, and lasts down to 0. What dies at birth is left out.
+/// Diagram of the contacts between free grains whose force is at least the threshold. A component is born at
+/// its largest force and dies when it meets an older one; if it meets none, it lasts to 0. A loop is born at
+/// its smallest force and lasts to 0. Features that die at birth are left out.
 struct PersistenceDiagram {
   std::vector<Lifetime> components, loops;
 };
 
-/// Thresholds in units of `force`, N/m. Exact, by union-find from the largest force down.
+/// Computes the diagram, with thresholds in units of `force`, N/m. Exact, by union-find in descending order
+/// of force.
 PersistenceDiagram force_persistence(const BedFrame& bed, double force);
 
-/// Betti numbers of a graph whose vertices are the grains that its edges touch.
+/// Betti numbers of a graph whose vertices are the grains touched by its edges.
 struct GraphCount {
   Index components = 0;
-  Index loops = 0;  ///< independent ones: edges - vertices + components
+  Index loops = 0;  ///< independent loops: edges - vertices + components
 };
 
-/// At a threshold, in the unit of the diagram.
+/// Returns the Betti numbers at a threshold, in the unit of the diagram.
 GraphCount count_at(const PersistenceDiagram& diagram, double threshold);
 
-/// The sum of birth - death.
+/// Returns the sum of birth - death.
 double total_persistence(std::span<const Lifetime> lifetimes);
 
-/// Sliced Wasserstein distance of two diagrams, in the unit of their thresholds (Carriere, Cuturi and Oudot
-/// 2017): to each the points of the other are added, projected onto the diagonal; both are projected onto
-/// lines in sixteen directions, and the distances of these projections, taken in their order, are summed; the
-/// mean over the directions.
+/// Returns the sliced Wasserstein distance of two diagrams, in the unit of their thresholds (Carriere, Cuturi
+/// and Oudot 2017). To each diagram, the points of the other are added, projected onto the diagonal. Both are
+/// projected onto lines in sixteen directions, and the distances between the sorted projections are summed.
+/// The result is the mean over the directions.
 double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> other);
 
-/// `diagram` and `thresholds` over the mean normal force of all contacts. Sets members of a record, which are
-/// defined in the table of quantities.
+/// Sets members of a record that are defined in the table of quantities. `diagram` and `thresholds` are in
+/// units of the mean normal force of all contacts.
 void take_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
                    FrameRecord& record);
 
-/// What changes from frame to frame: `diagrams` are those of the frames, in units of their mean normal
-/// forces. Sets a member of their records.
+/// Sets the change of the network from frame to frame. `diagrams` are those of the frames, in units of their
+/// mean normal forces.
 void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
                           std::vector<FrameRecord>& frames);
 
