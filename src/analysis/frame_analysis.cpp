@@ -64,7 +64,7 @@ void take_gamma(const BedFrame& bed, int bins, FrameRecord& record) {
   record.gamma_share_above_one = histogram.outside / histogram.total;
 }
 
-/// Converts from degrees, the unit of the angles of contact normals, to radians.
+/// Sets the directions of contact normals, converted from degrees to radians.
 void take_directions(const Frame& frame, int bins, FrameRecord& record) {
   const auto per_radian = [](std::vector<double> densities) {
     for (double& density : densities) density = degrees(density);

@@ -60,7 +60,7 @@ struct MapRule {
 };
 
 struct FrameQuantity {
-  /// With _x or _xx for each component in tables; empty for the centre (columns x and y).
+  /// Name; tables append _x or _xx for each component. Empty for the centre (columns x and y).
   std::string_view name;
   FieldShape shape = FieldShape::scalar;
   FieldNumber number = FieldNumber::real;

@@ -196,7 +196,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     {"mass", FieldShape::scalar, FieldNumber::real, "kg/m", "mass, per metre of thickness",
      [](const GrainSource& of, std::size_t) { return of.statics.mass; }},
     {"image", FieldShape::vector, FieldNumber::integer, "1",
-     "how often a grain left through the right periodic edge minus the left, and 0",
+     "number of exits through the right periodic edge minus those through the left, and 0",
      [](const GrainSource& of, std::size_t) {
        return each_grain(of, in(of.frame.image), [](Index) { return 0; });
      }},
@@ -209,7 +209,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
      "rotation velocity, counter-clockwise positive",
      [](const GrainSource& of, std::size_t) { return of.frame.omega; }},
     {"displacement", FieldShape::vector, FieldNumber::real, "m",
-     "how far a grain has moved since the first frame of the run",
+     "displacement since the first frame of the run",
      [](const GrainSource& of, std::size_t) { return displacements(of); }},
     {"internal_moment", FieldShape::tensor, FieldNumber::single, "J/m",
      "internal moment tensor M_ij per metre of thickness (paper, Eq. 4), compression positive; the stress is "
@@ -223,17 +223,17 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
            {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain",
             "P = σ_1 + σ_2 in ρgD", "P", ScaleRule::by_depth, 0.0, 3.0}),
     {"gamma", FieldShape::scalar, FieldNumber::single, "1",
-     "stress ratio q/p of the grain alone; no number where it carries nothing",
+     "stress ratio q/p of the single grain; no value if it carries nothing",
      [](const GrainSource& of, std::size_t) { return of.frame.gamma; }},
     {"gamma_neighbourhood", FieldShape::scalar, FieldNumber::real, "1",
-     "stress ratio of the neighbourhood of the grain, of diameter l_min; no number where the grain carries "
+     "stress ratio of the neighbourhood of the grain, of diameter l_min; no value if the grain carries "
      "nothing",
      [](const GrainSource& of, std::size_t) { return Numbers(of.gamma.begin(), of.gamma.end()); }},
     {"coordination", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that carry force",
      [](const GrainSource& of, std::size_t) { return coordination(of); }},
     {"sliding", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that slide",
      [](const GrainSource& of, std::size_t) { return sliding(of); }},
-    mapped({"speed", FieldShape::scalar, FieldNumber::single, "m/s", "size of the velocity",
+    mapped({"speed", FieldShape::scalar, FieldNumber::single, "m/s", "magnitude of the velocity",
             [](const GrainSource& of, std::size_t) {
               return each_grain(of, [&](Index i) { return std::hypot(of.frame.vx[i], of.frame.vy[i]); });
             }},
@@ -241,22 +241,22 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
             ScaleRule::sizes, 1e-5, 1.0}),
     mapped(
         {"mobilised_friction", FieldShape::scalar, FieldNumber::real, "1",
-         "mobilised friction, the mean over the contacts of a grain; no number without contacts",
+         "mobilised friction, the mean over the contacts of a grain; no value without contacts",
          [](const GrainSource& of, std::size_t) { return with_floor(mobilised_friction_of_grains(of), of); }},
         {"mobilised", "mobilised friction of each grain, the mean over its contacts",
          "Mobilised friction of grains", "|f_t| / μf_n, mean over the contacts of a grain", "|f_t| / μf_n",
          ScaleRule::fixed, 0.0, 1.0, true, "no contact"}),
     mapped({"solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
-            "share of its cell that a grain fills; no number at the free surface",
+            "share of its cell that a grain fills; no value at the free surface",
             [](const GrainSource& of, std::size_t) { return with_floor(local_solid_fractions(of), of); }},
            {"cells", "local solid fraction: the share of its cell that each grain fills",
             "Local solid fraction", "area of a grain over that of its cell", "solid fraction",
             ScaleRule::fixed, 0.65, 0.95, true, "at the surface"}),
     {"overloaded", FieldShape::scalar, FieldNumber::integer, "1",
-     "1 for an overloaded grain: a free one whose gamma_neighbourhood is not below the threshold; else 0",
+     "1 for an overloaded grain, a free grain whose gamma_neighbourhood is at least the threshold; else 0",
      overloaded, FrameNeed::threshold, true},
     {"lc", FieldShape::scalar, FieldNumber::single, "m",
-     "coarse-graining length l_c of an overloaded grain; no number for other grains",
+     "coarse-graining length l_c of an overloaded grain; no value for other grains",
      [](const GrainSource& of, std::size_t threshold) {
        return at_threshold(of, threshold, &FrameThreshold::lc, not_known);
      },
@@ -264,23 +264,24 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     {"cluster", FieldShape::scalar, FieldNumber::integer, "1",
      "cluster of an overloaded grain, 0 the largest of the frame; -1 for other grains", clusters,
      FrameNeed::threshold},
-    mapped({"distance", FieldShape::scalar, FieldNumber::real, "m", "how far a grain has moved", distances,
-            FrameNeed::earlier_frame},
-           {"displacement", "how far each grain has moved; over another map: arrows", "Displacement", "in D",
-            "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
+    mapped({"distance", FieldShape::scalar, FieldNumber::real, "m", "distance that a grain has moved",
+            distances, FrameNeed::earlier_frame},
+           {"displacement", "distance that each grain has moved; over another map: arrows", "Displacement",
+            "in D", "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
     mapped({"rotation", FieldShape::scalar, FieldNumber::real, "rad",
-            "how far a grain has turned, counter-clockwise positive", rotations, FrameNeed::earlier_frame},
-           {"rotation", "how far each grain has turned", "Rotation", "in °", "rotation",
-            ScaleRule::about_zero, -30.0, 30.0, false, "", -10.0, 10.0, turned}),
+            "rotation of a grain, counter-clockwise positive", rotations, FrameNeed::earlier_frame},
+           {"rotation", "rotation of each grain", "Rotation", "in °", "rotation", ScaleRule::about_zero,
+            -30.0, 30.0, false, "", -10.0, 10.0, turned}),
     mapped({"nonaffine_displacement", FieldShape::scalar, FieldNumber::real, "m",
-            "root mean square of what its neighbours moved beside their common strain",
+            "root mean square displacement of the neighbours relative to their common strain",
             [](const GrainSource& of, std::size_t) {
               return of_neighbourhoods(
                   of, [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
             },
             FrameNeed::earlier_frame},
            {"nonaffine",
-            "non-affine displacement: how far a grain's neighbours have moved beside their common strain",
+            "non-affine displacement: how far the neighbours of a grain have moved relative to their common "
+            "strain",
             "Non-affine displacement", "D_m_i_n in D", "D_m_i_n", ScaleRule::sizes, 1e-4, 1.0, false, "",
             1e-5, 1.0}),
     mapped(
@@ -289,14 +290,14 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
         {"shear", "shear strain of the neighbourhood of each grain", "Shear strain",
          "s_1 − s_2 of neighbourhoods", "shear strain", ScaleRule::sizes, 1e-4, 1.0, false, "", 1e-5, 1.0}),
     mapped({"area_strain", FieldShape::scalar, FieldNumber::real, "1",
-            "change of area of the neighbourhood over its area; dilation positive", strains<area_strain>,
+            "relative change of area of the neighbourhood; dilation positive", strains<area_strain>,
             FrameNeed::earlier_frame},
            {"dilation", "change of area of the neighbourhood of each grain", "Dilation",
             "ΔA/A of neighbourhoods", "ΔA/A", ScaleRule::about_zero, -0.2, 0.2, false, "", -0.1, 0.1}),
     mapped({"vorticity", FieldShape::scalar, FieldNumber::real, "1",
             "twice the angle by which the neighbourhood has turned, counter-clockwise positive",
             strains<vorticity>, FrameNeed::earlier_frame},
-           {"vorticity", "how far the neighbourhood of each grain has turned, twice", "Vorticity",
+           {"vorticity", "twice the rotation of the neighbourhood of each grain", "Vorticity",
             "2 × turn in rad", "vorticity", ScaleRule::about_zero, -0.5, 0.5, false, "", -0.2, 0.2, turned}),
     mapped({"coarse_solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
             "coarse-grained solid fraction", coarse_values<solid_fraction>, FrameNeed::length},
@@ -330,7 +331,7 @@ constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
     {"a", FieldShape::scalar, FieldNumber::integer, "1", "id of the first grain",
      [](const GrainSource& of, std::size_t) { return copied(of.frame.contacts.a); }},
     {"b", FieldShape::scalar, FieldNumber::integer, "1",
-     "id of the second body; from the number of grains on it is a plane: a side wall or a smooth floor",
+     "id of the second body; an id not below the number of grains is a plane: a side wall or a smooth floor",
      [](const GrainSource& of, std::size_t) { return copied(of.frame.contacts.b); }},
     {"shift", FieldShape::scalar, FieldNumber::integer, "1",
      "periodic image: b touches a from x_b + shift * L",
@@ -350,7 +351,7 @@ constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
      "f_t on b along t = (-n_y, n_x), per metre of thickness",
      [](const GrainSource& of, std::size_t) { return of.frame.contacts.ft; }},
     {"mobilisation", FieldShape::scalar, FieldNumber::real, "1",
-     "mobilised friction, the size of f_t over mu f_n",
+     "mobilised friction, the magnitude of f_t over mu f_n",
      [](const GrainSource& of, std::size_t) {
        return each(of.frame.contacts.count(), [&](Index c) { return mobilisation_of(of, c); });
      }},
@@ -361,7 +362,7 @@ constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
                    [&](Index c) { return static_cast<int>(of.frame.contacts.status[c]); });
      }},
     {"strong", FieldShape::scalar, FieldNumber::integer, "1",
-     "1 where f_n is above its mean over the contacts of the frame, else 0",
+     "1 if f_n is above its mean over the contacts of the frame, else 0",
      [](const GrainSource& of, std::size_t) { return strong(of); }},
 });
 

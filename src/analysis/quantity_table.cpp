@@ -26,21 +26,21 @@ const std::string clusters = overload + " joining";
 QuantityRows general_rows() {
   return {
       {&Analysis::theta_c, "theta_c", "", "rad",
-       "angle of repose, as in /results: the tilt at which the flow began that did not stop; NaN if the "
+       "angle of repose, as in /results: the tilt at which the final, sustained flow began; NaN if the "
        "slope "
        "has not failed",
        "", curve("θ_c", "Angle of repose θ_c")},
       {&Analysis::first_slide, "first_slide", "", "rad",
-       "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg: it may stop again, "
-       "and comes after theta_c if the tilt is so fast that the flow takes longer to gather speed; NaN if it "
-       "never does",
+       "first tilt after which the surface layer moves downslope by 0.5 D within 0.5 deg; the slide may stop "
+       "again, and comes after theta_c if the tilt is fast compared with the acceleration of the flow; NaN "
+       "if there is no slide",
        ""},
       {&Analysis::gamma_c, "gamma_c", "", "1",
-       "Gamma_c, the threshold of the packing: sin(theta_c), or as given; NaN where there is neither",
+       "Gamma_c, the threshold of the packing: sin(theta_c), or the given value; NaN without either",
        "gamma_c"},
       {&RunThreshold::factor, "threshold_factor", "F", "1", "thresholds over Gamma_c", "threshold_factors"},
       {&RunThreshold::gamma, "threshold", "F", "1",
-       "stress ratio from which on a grain counts as overloaded, factor * Gamma_c", thresholds},
+       "stress ratio from which a grain counts as overloaded, factor * Gamma_c", thresholds},
   };
 }
 
@@ -63,11 +63,11 @@ QuantityRows packing_rows() {
        "(V - V0)/V0, V0 at the start of the tilt; negative = contraction; from /observables", "",
        percent("ΔV/V", "Volume strain ΔV/V", Observable::volume_strain)},
       {&FrameRecord::centre_of_mass_strain, "packing/centre_of_mass_strain", "T", "1",
-       "(y - y0)/y0 of the centre of mass, a quieter estimate of the volume strain; from /observables", "",
+       "(y - y0)/y0 of the centre of mass, a less noisy estimate of the volume strain; from /observables", "",
        percent("Δy/y", "Strain of the centre of mass Δy/y", Observable::centre_of_mass_strain)},
       {&FrameRecord::bulk_solid_fraction, "packing/bulk_solid_fraction", "T", "1",
        "share of the area that the free grains cover from 5 D above the floor to 5 D below the mean free "
-       "surface; NaN where the bed is not deep enough",
+       "surface; NaN if the bed is not deep enough",
        ""},
       {&FrameRecord::solid_fraction, "packing/solid_fraction", "T", "1",
        "area of the free grains over V; from /observables", ""},
@@ -76,7 +76,7 @@ QuantityRows packing_rows() {
        "less between walls (paper, Eq. 15 and Fig. 7); from /observables; NaN if the slope has not failed",
        ""},
       {&Analysis::failure_ratio_spread, "packing/failure_ratio_spread", "", "1",
-       "its standard deviation in these 0.5 deg", ""},
+       "its standard deviation over the same 0.5 deg", ""},
       {&Analysis::section_edge, "sections/edge", "X+1", "m",
        "edges of equal sections along the bed; a grain belongs to the section of its centre", "sections"},
       {&FrameRecord::section_sigma_xx, "sections/sigma_xx", "T X", "Pa",
@@ -89,16 +89,17 @@ QuantityRows overload_rows() {
   return {
       {&Analysis::gamma_edge, "gamma/edge", "B+1", "1", "edges of the bins of gamma", "bins"},
       {&FrameRecord::gamma_density, "gamma/density", "T B", "1",
-       "probability density of gamma over the free grains that carry something (paper, Fig. 8); gamma of a "
-       "grain is the stress ratio of its neighbourhood of diameter l_min, here and in all that follows",
+       "probability density of gamma over the free grains that carry something (paper, Fig. 8); here and "
+       "below, gamma of a grain is the stress ratio of its neighbourhood of diameter l_min",
        ratios + " bins"},
       {&FrameRecord::gamma_error, "gamma/error", "T B", "1",
        "standard error of the density, from the number of grains in each bin", ratios + " bins"},
       {&FrameRecord::gamma_mean, "gamma/mean", "T", "1", "mean gamma of the free grains that carry something",
        ratios},
       {&FrameRecord::gamma_share_above_one, "gamma/share_above_one", "T", "1",
-       "share of these grains with gamma above 1: the weight of a grain, small beside its contact forces, "
-       "can make one principal value negative; they count in the density outside of its bins",
+       "share of these grains with gamma above 1: the weight of a grain, although small compared with its "
+       "contact forces, can make one principal value negative; these grains enter the normalisation of the "
+       "density but none of its bins",
        ratios},
       {&FrameThreshold::overloaded_fraction, "overloaded/fraction", "T F", "1",
        "p_o: overloaded grains over the free grains that carry something", overload,
@@ -111,14 +112,14 @@ QuantityRows overload_rows() {
       {&RunThreshold::end_ratio, "lc/end_ratio", "F", "1",
        "stress ratio of a neighbourhood at which l_c is found", thresholds + " lc_factor"},
       {&FrameThreshold::lc, "lc/length", "T F N", "m",
-       "l_c of an overloaded grain, a diameter: that of the smallest circle about its centre, from l_min on, "
-       "in which the summed internal moments have a stress ratio not above lc/end_ratio; the cut where there "
-       "is none; NaN for other grains",
+       "l_c of an overloaded grain: the diameter of the smallest circle about its centre, at least l_min "
+       "wide, in which the summed internal moments have a stress ratio of at most lc/end_ratio; the cut if "
+       "there is none; NaN for other grains",
        graining},
       {&FrameThreshold::lc_mean, "lc/mean", "T F", "m", "mean l_c of the overloaded grains", graining,
        curve("mean", "Mean ℓ_c of the overloaded grains")},
       {&FrameThreshold::lc_error, "lc/error", "T F", "m",
-       "standard error of that mean, as if grains were independent", graining},
+       "standard error of this mean, for independent grains", graining},
       {&FrameThreshold::lc_max, "lc/max", "T F", "m", "largest l_c", graining,
        curve("largest", "Largest ℓ_c")},
       {&FrameThreshold::lc_share_cut, "lc/share_cut", "T F", "1",
@@ -146,13 +147,13 @@ QuantityRows cluster_rows() {
       {&FrameThreshold::second_moment_of_others, "clusters/second_moment_of_others", "T F", "1",
        "the same without the largest cluster", clusters},
       {&FrameThreshold::spans_depth, "clusters/spans_depth", "T F", "1",
-       "1 where a cluster reaches from the floor to the surface, else 0", clusters},
+       "1 if a cluster reaches from the floor to the surface, else 0", clusters},
       {&FrameThreshold::spans_length, "clusters/spans_length", "T F", "1",
-       "1 where a cluster reaches from wall to wall, or around the period, else 0", clusters},
-      {&Analysis::direction, "clusters/direction", "2", "rad", "directions of directed paths, to the bed",
-       ""},
+       "1 if a cluster reaches from wall to wall, or around the period, else 0", clusters},
+      {&Analysis::direction, "clusters/direction", "2", "rad",
+       "directions of directed paths, relative to the bed", ""},
       {&FrameThreshold::directed_spans, "clusters/directed_spans", "T F 2", "1",
-       "1 where a path through overloaded grains leads from the floor to the surface, each of its steps "
+       "1 if a path through overloaded grains leads from the floor to the surface, each of its steps "
        "within 30 deg of a direction (the paper's directed percolation), else 0",
        clusters},
       {&FrameThreshold::directed_height, "clusters/directed_height", "T F 2", "1",
@@ -163,14 +164,13 @@ QuantityRows cluster_rows() {
 QuantityRows contact_rows() {
   return {
       {&FrameRecord::coordination_number, "contacts/coordination_number", "T", "1",
-       "z: force-carrying contacts per free grain that carries force, each counted for each free grain it "
-       "touches",
+       "z: force-carrying contacts per free grain that carries force, each counted once for every free grain "
+       "it touches",
        "", curve("z", "z, coordination number", Observable::coordination_number)},
       {&FrameRecord::coordination_number_of_all, "contacts/coordination_number_of_all", "T", "1",
        "the same per free grain", ""},
       {&FrameRecord::coordination_number_without_rattlers, "contacts/coordination_number_without_rattlers",
-       "T", "1", "z without rattlers: grains with fewer than two contacts are taken away, again and again",
-       ""},
+       "T", "1", "z without rattlers: grains with fewer than two contacts are removed repeatedly", ""},
       {&FrameRecord::rattler_fraction, "contacts/rattler_fraction", "T", "1",
        "share of the free grains that are rattlers", ""},
       {&Analysis::direction_edge, "contacts/direction_edge", "B+1", "rad",
@@ -180,7 +180,7 @@ QuantityRows contact_rows() {
       {&FrameRecord::direction_density_by_force, "contacts/direction_density_by_force", "T B", "1/rad",
        "the same, each contact weighted with f_n", "bins"},
       {&FrameRecord::direction_peak, "contacts/direction_peak", "T 3", "rad",
-       "where the directions concentrate most within 30 deg of 0, 60 and 120 deg (density smoothed over 5 "
+       "directions of highest density within 30 deg of 0, 60 and 120 deg (density smoothed over 5 "
        "deg)",
        ""},
       {&FrameRecord::fabric_amplitude, "contacts/fabric_amplitude", "T 2", "1",
@@ -195,7 +195,7 @@ QuantityRows contact_rows() {
       {&FrameRecord::force_density, "contacts/force_density", "T B", "1",
        "probability density of f_n over its mean", "bins"},
       {&Analysis::mobilisation_edge, "contacts/mobilisation_edge", "B+1", "1",
-       "edges of the bins of the mobilised friction, the size of f_t over mu f_n", "bins"},
+       "edges of the bins of the mobilised friction, the magnitude of f_t over mu f_n", "bins"},
       {&FrameRecord::mobilisation_density, "contacts/mobilisation_density", "T B", "1",
        "probability density of the mobilised friction", "bins"},
       {&FrameRecord::strong_share, "contacts/strong_share", "T", "1",
@@ -203,7 +203,7 @@ QuantityRows contact_rows() {
       {&FrameRecord::strong_share_of_mean_stress, "contacts/strong_share_of_mean_stress", "T", "1",
        "share of the mean stress that the strong network carries", ""},
       {&FrameRecord::strong_share_of_deviator, "contacts/strong_share_of_deviator", "T", "1",
-       "share of the deviator Q that it carries, along the principal axes of the whole", ""},
+       "share of the deviator Q that it carries, along the principal axes of the total stress", ""},
       {&FrameRecord::strong_stress_ratio, "contacts/strong_stress_ratio", "T", "1",
        "Q/P of the stress of the strong network", ""},
       {&FrameRecord::weak_stress_ratio, "contacts/weak_stress_ratio", "T", "1",
@@ -211,26 +211,26 @@ QuantityRows contact_rows() {
       {&FrameRecord::network_fabric_amplitude, "contacts/network_fabric_amplitude", "T 2", "1",
        "amplitude of the Fourier component 2 of the directions of the strong and of the weak contacts", ""},
       {&FrameRecord::network_fabric_angle, "contacts/network_fabric_angle", "T 2", "rad",
-       "direction in which each of these concentrate", ""},
+       "direction in which each of these two sets of contacts concentrates", ""},
       {&FrameRecord::critical_share, "contacts/critical_share", "T", "1",
        "nu: share of the force-carrying contacts whose friction is fully mobilised (critical contacts)", "",
        percent("ν", "ν, share of critical contacts")},
       {&FrameRecord::critical_bound, "contacts/critical_bound", "T", "1",
-       "largest nu at which N grains can be in equilibrium with M contacts, 2 - (2 N + N_mu) / M: of the 2"
-       " M components of forces each critical contact takes one away, and each grain needs two equations "
-       "of forces, and one of torques if it has a contact with friction; 2 - 3 N / M with friction, 2 - 2 "
+       "largest nu at which N grains can be in equilibrium with M contacts, 2 - (2 N + N_mu) / M: each "
+       "critical contact removes one of the 2 M force components, and each grain has two force equations, "
+       "and one torque equation if it has a contact with friction; 2 - 3 N / M with friction, 2 - 2 "
        "N / M without. N: free grains that carry force; N_mu: those with a contact with friction; M: "
        "force-carrying contacts, those with the floor and walls included (after McNamara and Herrmann "
        "2004)",
        ""},
       {&FrameRecord::critical_share_of_bound, "contacts/critical_share_of_bound", "T", "1",
-       "nu over that bound; NaN where the bound is not above 0: there are too few contacts for equilibrium",
-       "", curve("ν/ν_max", "ν over its bound")},
+       "nu over that bound; NaN if the bound is not above 0: there are too few contacts for equilibrium", "",
+       curve("ν/ν_max", "ν over its bound")},
       {&FrameRecord::critical_clusters, "contacts/critical_clusters", "T", "1",
-       "clusters of critical contacts, joined where they share a free grain", ""},
+       "clusters of critical contacts, joined if they share a free grain", ""},
       {&FrameRecord::critical_mean, "contacts/critical_mean", "T", "1",
-       "mean size of these clusters, in contacts: critical contacts over clusters; NaN where there are none",
-       "", curve("mean", "Mean cluster of critical contacts")},
+       "mean size of these clusters, in contacts: critical contacts over clusters; NaN without any", "",
+       curve("mean", "Mean cluster of critical contacts")},
       {&FrameRecord::critical_weighted_mean, "contacts/critical_weighted_mean", "T", "1",
        "sum of s^2 / sum of s over their sizes s in contacts: the mean size of the cluster that a critical "
        "contact is in",
@@ -242,22 +242,21 @@ QuantityRows contact_rows() {
        "of a cluster",
        ""},
       {&Analysis::critical_exponent, "contacts/critical_exponent", "2", "1",
-       "exponent a of the growth of these clusters towards failure, size = b (theta_c - theta)^-a, of the "
-       "mean size and of the weighted mean: least squares of the logarithms over the frames of the last 10 "
+       "exponent a of the growth of these clusters towards failure, size = b (theta_c - theta)^-a, for the "
+       "mean size and for the weighted mean: least squares of the logarithms over the frames of the last 10 "
        "deg before theta_c in which a contact is critical; NaN with fewer than 5 of these (Staron, Vilotte "
        "and Radjai 2002)",
        ""},
       {&Analysis::critical_exponent_error, "contacts/critical_exponent_error", "2", "1",
-       "standard error of each, from the scatter of the frames around the line, as if they were independent",
-       ""},
+       "standard error of each, from the scatter around the line, for independent frames", ""},
   };
 }
 
 QuantityRows texture_rows() {
   return {
       {&FrameRecord::texture_axis, "texture/axis", "T", "rad",
-       "direction of the major principal stress of the contact forces, to the bed: that to which the "
-       "anisotropies below refer",
+       "direction of the major principal stress of the contact forces, relative to the bed: the reference "
+       "axis of the anisotropies below",
        ""},
       {&FrameRecord::texture_contacts, "texture/contacts", "T", "1",
        "a_c, anisotropy of the contact normals: their density is 1 + a_c cos 2 (direction - axis), relative "
@@ -272,8 +271,8 @@ QuantityRows texture_rows() {
        "normal force",
        ""},
       {&FrameRecord::texture_branches, "texture/branches", "T", "1",
-       "a_l, anisotropy of the lengths between the centres of the grains in contact, as a_n of forces; of a "
-       "contact with the floor or a wall the part in the free grain",
+       "a_l, anisotropy of the lengths between the centres of the grains in contact, defined as a_n for "
+       "forces; a contact with the floor or a wall counts with the part in the free grain",
        ""},
       {&FrameRecord::texture_stress_ratio, "texture/stress_ratio", "T", "1",
        "(a_c + a_n + a_t + a_l) / 2, which is Gamma to first order in the anisotropies (Rothenburg and "
@@ -285,14 +284,13 @@ QuantityRows texture_rows() {
        "", percent("coherent", "Coherent weak contacts")},
       {&FrameRecord::coherent_fabric, "texture/coherent_fabric", "T", "1",
        "fabric of the coherent weak contacts along the strong ones, 2 <cos 2 (direction - d)>, d the "
-       "direction in which the strong contacts concentrate: below 0 where they stand across the force "
-       "chains",
+       "direction in which the strong contacts concentrate: below 0 if they lie across the force chains",
        "", curve("coherent", "Fabric of coherent weak contacts")},
       {&FrameRecord::incoherent_fabric, "texture/incoherent_fabric", "T", "1",
-       "the same of the other weak contacts", ""},
+       "the same for the other weak contacts", ""},
       {&FrameRecord::weak_fabric_by_friction, "texture/weak_fabric_by_friction", "T B", "1",
-       "the same of the weak contacts in each bin of the mobilised friction (contacts/mobilisation_edge); "
-       "NaN where there are none",
+       "the same for the weak contacts in each bin of the mobilised friction (contacts/mobilisation_edge); "
+       "NaN for an empty bin",
        "bins"},
   };
 }
@@ -302,25 +300,25 @@ QuantityRows topology_rows() {
       {&Analysis::network_threshold, "network/threshold", "B", "1",
        "thresholds of f_n over its mean, equally spaced from 0 up to 5", "bins"},
       {&FrameRecord::network_components, "network/components", "T B", "1",
-       "components of the network of the contacts between free grains with at least that force: sets of "
-       "grains that hang together by them, two or more",
+       "components of the network of the contacts between free grains with at least that force: sets of at "
+       "least two grains that these contacts connect",
        "bins"},
       {&FrameRecord::network_loops, "network/loops", "T B", "1",
-       "independent loops of this network, its first Betti number: contacts less grains plus components; one "
-       "that goes around the period counts",
+       "independent loops of this network, its first Betti number: contacts - grains + components; a loop "
+       "around the period counts",
        "bins"},
       {&FrameRecord::component_persistence, "network/component_persistence", "T", "1",
        "total persistence of the components of this network, per free grain: the sum of birth - death, a "
-       "component born at the threshold of the largest force in it, over the mean, and dying where it "
-       "meets an older one as the threshold falls, at 0 where it meets none (Kramar and others 2014)",
+       "component is born at the largest force in it, over the mean, and dies when it meets an older one as "
+       "the threshold falls, or at 0 if it meets none (Kramar and others 2014)",
        ""},
       {&FrameRecord::loop_persistence, "network/loop_persistence", "T", "1",
-       "total persistence of its loops, per free grain: a loop is born at the threshold of the smallest "
-       "force in it, over the mean, and lasts down to 0",
+       "total persistence of its loops, per free grain: a loop is born at the smallest force in it, over the "
+       "mean, and lasts down to 0",
        ""},
       {&FrameRecord::network_change, "network/change", "T 2", "1",
-       "how far the persistence diagrams of this network are from those of the frame before, that of "
-       "components and that of loops, per free grain: sliced Wasserstein distance in sixteen directions "
+       "distance of the persistence diagrams of this network, of components and of loops, from those of the "
+       "preceding frame, per free grain: sliced Wasserstein distance in sixteen directions "
        "(Carriere, Cuturi and Oudot 2017); NaN in the first frame",
        ""},
   };
@@ -330,26 +328,25 @@ QuantityRows layer_rows() {
   return {
       {&Analysis::layer_edge, "layers/edge", "Y+1", "1",
        "edges of ten layers of equal thickness, from the floor, 0, to the mean height V / L of the bed, 1; a "
-       "grain belongs to the layer of its centre, a higher one to the last",
+       "grain belongs to the layer of its centre, or to the last layer if it is higher",
        ""},
       {&FrameRecord::layer_critical_share, "layers/critical_share", "T Y", "1",
-       "nu of each layer, of the contacts of its grains: those between two free grains count half for each "
-       "of "
-       "them; NaN where there are none",
+       "nu of each layer, over the contacts of its grains: those between two free grains count half for each "
+       "of them; NaN without contacts",
        ""},
       {&FrameRecord::layer_critical_share_of_bound, "layers/critical_share_of_bound", "T Y", "1",
-       "nu of each layer over the same bound of the layer, its contacts M counted in the same way", ""},
+       "nu of each layer over the bound for the layer, with its contacts M counted in the same way", ""},
   };
 }
 
 QuantityRows rigidity_rows() {
   return {
       {&FrameRecord::rigid_clusters, "rigid/clusters", "T", "1",
-       "rigid clusters: sets of two bodies or more that can only move as one, where a sticking contact is a "
-       "pin (two constraints) and a sliding one a bar (one), counted by the double-bond pebble game (Henkes, "
-       "Quint, Fily and Schwarz 2016); floor and walls are one body. Not counted in beds whose grains have "
-       "no "
-       "friction, which turn freely: -1, and NaN for the next four",
+       "rigid clusters: sets of two bodies or more that can only move as one, with a sticking contact as a "
+       "pin (two constraints) and a sliding one as a bar (one), counted by the double-bond pebble game "
+       "(Henkes, "
+       "Quint, Fily and Schwarz 2016); floor and walls are one body. Not counted in beds without friction, "
+       "whose grains turn freely: -1, and NaN for the next four",
        ""},
       {&FrameRecord::rigid_largest_share, "rigid/largest_share", "T", "1",
        "share of the free grains that carry force in the largest rigid cluster", "",
@@ -361,8 +358,8 @@ QuantityRows rigidity_rows() {
        "the independent constraints",
        ""},
       {&FrameRecord::rigid_redundant, "rigid/redundant", "T", "1",
-       "constraints that others imply, per free grain that carries force: so many sets of contact forces "
-       "balance themselves",
+       "constraints implied by others, per free grain that carries force: the number of independent sets of "
+       "contact forces in equilibrium without a load",
        "", curve("redundant", "Redundant constraints per grain")},
   };
 }
@@ -370,21 +367,21 @@ QuantityRows rigidity_rows() {
 QuantityRows deformation_rows() {
   return {
       {&FrameRecord::local_shear, "deformation/shear", "T", "1",
-       "mean over the free grains of their local shear strain since the frame before, s1 - s2 of the stretch "
-       "that fits the motion of all grains within 2 D best; NaN in the first frame, as for all that follows",
+       "mean over the free grains of their local shear strain since the preceding frame, s1 - s2 of the "
+       "stretch that best fits the motion of all grains within 2 D; NaN in the first frame, as for the "
+       "quantities below",
        ""},
       {&FrameRecord::local_shear_share, "deformation/shear_share", "T", "1",
-       "how localised it is: the share of the sum of all local shear strains that the tenth of the grains "
-       "with "
-       "the largest have; 0.1 where all have the same; NaN where nothing moved",
+       "localisation of this strain: the share of the sum of all local shear strains in the tenth of the "
+       "grains with the largest; 0.1 if all are equal; NaN if nothing moved",
        "", percent("localised shear", "Share of shear in a tenth of the grains")},
       {&FrameRecord::nonaffine, "deformation/nonaffine", "T", "m",
-       "non-affine displacement since the frame before, the root of the mean over the free grains of D2min: "
-       "the mean square of what this fit leaves of the displacements (Falk and Langer 1998, with the mean "
-       "over neighbours where they have the sum)",
+       "non-affine displacement since the preceding frame, the root of the mean over the free grains of "
+       "D2min, the mean squared residual of this fit to the displacements (Falk and Langer 1998, who take "
+       "the sum over neighbours)",
        "", curve("non-affine", "Non-affine displacement")},
       {&FrameRecord::nonaffine_largest, "deformation/nonaffine_largest", "T", "m",
-       "the same of the grain in which it is largest", ""},
+       "the same for the grain in which it is largest", ""},
   };
 }
 
@@ -393,15 +390,14 @@ QuantityRows continuum_rows() {
       {&FrameRecord::local_solid_fraction, "cells/solid_fraction", "T", "1",
        "mean over the free grains of their local solid fraction, the area of the grain over that of its cell "
        "in the radical diagram of the disks; without grains at the free surface, whose cells are open: they "
-       "reach to where the square of the distance from the centre, less that of the radius, is above 0.75 "
-       "D^2",
+       "extend to points whose squared distance from the centre minus the squared radius is above 0.75 D^2",
        "", curve("mean", "Local solid fraction")},
       {&FrameRecord::local_solid_fraction_spread, "cells/solid_fraction_spread", "T", "1",
        "its standard deviation over these grains", ""},
       {&FrameRecord::granular_temperature, "granular_temperature", "T", "m^2/s^2",
-       "mean over the mass of the free grains of half the mean square of the velocities around each about a "
-       "velocity that is linear in space, weighted with mass and Lucy's function, 5 D wide; uniform flow and "
-       "uniform shear have none",
+       "mass-weighted mean over the free grains of half the mean square of the velocities around each grain "
+       "relative to a velocity that is linear in space, weighted with mass and Lucy's function, 5 D wide; 0 "
+       "for uniform flow and uniform shear",
        ""},
   };
 }
@@ -427,28 +423,28 @@ QuantityRows transition_rows() {
   return {
       {&RunThreshold::lc_jump, "theta_d/lc_jump", "F", "rad",
        "theta_d from l_c: tilt of the frame after the largest increase of lc/max between two frames, up to "
-       "theta_c and to the first frame that reaches the cut; NaN where it never increases",
+       "theta_c and to the first frame that reaches the cut; NaN if it never increases",
        graining},
-      {&RunThreshold::lc_jump_error, "theta_d/lc_jump_error", "F", "rad", "spacing of these two frames",
-       graining},
+      {&RunThreshold::lc_jump_error, "theta_d/lc_jump_error", "F", "rad",
+       "difference in tilt between these two frames", graining},
       {&RunThreshold::lc_jump_size, "theta_d/lc_jump_size", "F", "m", "that increase", graining},
       {&RunThreshold::percolation, "theta_d/percolation", "F", "rad",
-       "theta_d from percolation: tilt of the first frame from which on, for 3 frames at least, "
-       "clusters/spans_depth is 1; NaN where there is none",
+       "theta_d from percolation: tilt of the first frame from which clusters/spans_depth is 1 for at least "
+       "3 frames; NaN without such a frame",
        clusters},
       {&RunThreshold::percolation_error, "theta_d/percolation_error", "F", "rad",
-       "spacing from the frame before; NaN where it is the first frame: then theta_d is not above it",
+       "difference in tilt from the preceding frame; NaN for the first frame: theta_d is then not above it",
        clusters},
       {&Analysis::dilation, "theta_d/dilation", "2", "rad",
-       "theta_d from the onset of dilation: tilt where the volume strain, and where the centre-of-mass "
-       "strain, is smallest up to theta_c, each a mean over 1 deg; NaN where it does not rise after it by "
-       "more than its noise",
+       "theta_d from the onset of dilation: tilts of the smallest volume strain and of the smallest "
+       "centre-of-mass strain up to theta_c, each strain averaged over 1 deg; NaN if it does not rise "
+       "afterwards by more than its noise",
        ""},
       {&Analysis::dilation_low, "theta_d/dilation_low", "2", "rad",
-       "lowest tilt of the range around it in which the strain is not above the minimum by more than its "
+       "lowest tilt of the range around it in which the mean strain exceeds its minimum by at most the "
        "noise, the rms deviation from the mean over 1 deg",
        ""},
-      {&Analysis::dilation_high, "theta_d/dilation_high", "2", "rad", "highest tilt of that range", ""},
+      {&Analysis::dilation_high, "theta_d/dilation_high", "2", "rad", "highest tilt of this range", ""},
   };
 }
 

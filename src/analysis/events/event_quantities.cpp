@@ -17,23 +17,25 @@ std::vector<Quantity> rows_of_events() {
        "tilt after its last such step, after which the bed is quiet for events/quiet_time", bursts},
       {&EventRecord::time, "events/time", "E", "s", "simulated time at which it begins", bursts},
       {&EventRecord::duration, "events/duration", "E", "s",
-       "from its first to its last such step, both included", bursts},
+       "time from its first to its last such step, both included", bursts},
       {&EventRecord::waiting, "events/waiting", "E", "rad",
-       "angle by which the bed is turned after the end of the event before; NaN for the first", bursts},
+       "angle by which the bed is tilted between the end of the preceding event and this one; NaN for the "
+       "first",
+       bursts},
       {&EventRecord::kind, "events/kind", "E", "1",
-       "0 a rearrangement, 1 the flow that failed the slope and what comes after it, 2 one that is not over "
-       "where the tilt ends; distributions are of those with 0",
+       "0: a rearrangement; 1: the flow that made the slope fail, and later events; 2: an event not over at "
+       "the end of the tilt; distributions include kind 0 only",
        bursts},
       {&EventRecord::peak_velocity, "events/peak_velocity", "E", "m/s",
        "largest rms velocity of the free grains, from /steps", bursts},
       {&EventRecord::path, "events/path", "E", "m",
-       "integral of the rms velocity over the event: the way that the free grains go in it, as a root mean "
+       "integral of the rms velocity over the event: the path length of the free grains, as a root mean "
        "square in each step",
        bursts},
       {&EventRecord::energy, "events/energy", "E", "J/m",
-       "energy released: work of gravity on the displacements of the grains, M g (sin(theta) dx - cos(theta) "
-       "dy), which contacts dissipate; that of the displacement of the centre of mass between two frames, at "
-       "the mean of their tilts, of which an event has the share of the path that is gone in it",
+       "energy released, which contacts dissipate: work of gravity M g (sin(theta) dx - cos(theta) dy) on "
+       "the displacement of the centre of mass between two frames, at the mean of their tilts, times the "
+       "share of the path between them that belongs to the event",
        bursts},
       {&EventRecord::volume_strain, "events/volume_strain", "E", "1",
        "change of the volume strain from the row of observables before the event to that after it; negative "
@@ -41,25 +43,25 @@ std::vector<Quantity> rows_of_events() {
        "contraction",
        bursts},
       {&EventRecord::centre_of_mass_strain, "events/centre_of_mass_strain", "E", "1",
-       "change of the centre-of-mass strain between the same rows, quieter; above 0 the bed dilates", bursts},
+       "change of the centre-of-mass strain between the same rows, with less noise; positive = dilation",
+       bursts},
       {&EventRecord::coordination_number, "events/coordination_number", "E", "1",
        "change of z between the same rows", bursts},
       {&EventRecord::grains, "events/grains", "E", "1",
        "grains moved: free grains displaced by event_displacement or more from the frame before the event to "
-       "the one after it; 0 where there is none after it",
+       "the frame after it; 0 without a later frame",
        movements},
       {&EventRecord::depth, "events/depth", "E", "m",
-       "depth below the mean free surface, V / L, above which lie 95 % of their displacement", movements},
+       "depth below the mean free surface, V / L, above which 95 % of their displacement lies", movements},
       {&EventRecord::centre, "events/centre", "E 2", "m",
-       "centre (x, y) of the event: mean place of these grains in the frame before, weighted by their "
+       "centre (x, y) of the event: mean position of these grains in the frame before, weighted by their "
        "displacement",
        movements},
       {&EventRecord::frame_tilt, "events/frame_tilt", "E 2", "rad",
        "tilts of these two frames: the resolution of grains moved, depth, centre and energy", bursts},
       {&EventRecord::sharing, "events/sharing", "E", "1",
-       "events that have a part between these two frames, this one included: with more than one, grains "
-       "moved, "
-       "depth and centre are of all of them",
+       "events that overlap the interval between these two frames, this one included; if there are several, "
+       "grains moved, depth and centre refer to all of them",
        bursts},
   };
 }
@@ -67,47 +69,51 @@ std::vector<Quantity> rows_of_events() {
 /// Returns the quantities of all events together.
 std::vector<Quantity> rows_of_event_laws() {
   const std::string power_law =
-      "power law of maximum likelihood (Clauset, Shalizi and Newman 2009); NaN with fewer than 10";
+      "maximum-likelihood power law (Clauset, Shalizi and Newman 2009); NaN with fewer than 10";
   return {
       {&Analysis::event_threshold, "events/threshold", "", "m/s",
-       "rms velocity of the free grains from which on the bed rearranges", "event_velocity"},
+       "rms velocity of the free grains from which the bed counts as rearranging", "event_velocity"},
       {&Analysis::event_noise, "events/noise", "", "m/s",
        "median of the rms velocity over the steps of the tilt that belong to no event", bursts},
       {&Analysis::event_quiet_time, "events/quiet_time", "", "s",
        "time below the threshold after which an event is over", "event_quiet"},
       {&Analysis::event_count, "events/count", "", "1", "rearrangements: events of kind 0", bursts},
-      {&Analysis::event_energy, "events/total_energy", "", "J/m", "energy that they released together",
-       bursts},
+      {&Analysis::event_energy, "events/total_energy", "", "J/m",
+       "total energy released by the rearrangements", bursts},
       {&Analysis::event_dilating_share, "events/dilating_share", "", "1",
-       "share of them that dilate the bed: whose centre_of_mass_strain is above 0; NaN without any", bursts},
+       "share of the rearrangements that dilate the bed, those with centre_of_mass_strain above 0; NaN "
+       "without any",
+       bursts},
       {&Analysis::event_dilating_share_error, "events/dilating_share_error", "", "1",
        "its standard error, sqrt(p (1 - p) / n)", bursts},
       {&Analysis::event_size_exponent, "events/size_exponent", "", "1",
-       "exponent alpha of their sizes, density ~ energy^-alpha from size_minimum on: 1 + n / sum of "
+       "exponent alpha of their sizes, density ~ energy^-alpha from size_minimum upwards: 1 + n / sum of "
        "ln(energy / size_minimum); " +
            power_law,
        sizes},
       {&Analysis::event_size_exponent_error, "events/size_exponent_error", "", "1",
        "its standard error, (alpha - 1) / sqrt(n)", sizes},
       {&Analysis::event_size_minimum, "events/size_minimum", "", "J/m",
-       "energy from which on the law is fitted: that with the smallest size_distance, or event_size_min",
+       "lower end of the fitted range of energies: the value with the smallest size_distance, or "
+       "event_size_min",
        sizes},
       {&Analysis::event_size_distance, "events/size_distance", "", "1",
        "largest distance between their cumulative distribution and that of the law (Kolmogorov-Smirnov)",
        sizes},
-      {&Analysis::event_size_count, "events/size_count", "", "1", "n, rearrangements from there on", sizes},
+      {&Analysis::event_size_count, "events/size_count", "", "1",
+       "n, rearrangements at or above size_minimum", sizes},
       {&Analysis::event_waiting_exponent, "events/waiting_exponent", "", "1",
        "exponent of the waiting angles in the same way; " + power_law, bursts},
       {&Analysis::event_waiting_exponent_error, "events/waiting_exponent_error", "", "1",
        "its standard error", bursts},
       {&Analysis::event_waiting_minimum, "events/waiting_minimum", "", "rad",
-       "waiting angle from which on the law is fitted", bursts},
+       "lower end of the fitted range of waiting angles", bursts},
       {&Analysis::event_waiting_distance, "events/waiting_distance", "", "1",
-       "distance of both cumulative distributions", bursts},
-      {&Analysis::event_waiting_count, "events/waiting_count", "", "1", "n, waiting angles from there on",
-       bursts},
+       "distance between the two cumulative distributions", bursts},
+      {&Analysis::event_waiting_count, "events/waiting_count", "", "1",
+       "n, waiting angles at or above waiting_minimum", bursts},
       {&Analysis::event_waiting_mean, "events/waiting_mean", "", "rad",
-       "mean of all waiting angles less the smallest of them: the angle of an exponential law, by maximum "
+       "mean of all waiting angles minus the smallest: the scale of an exponential law, by maximum "
        "likelihood; NaN with fewer than 10",
        bursts},
       {&Analysis::event_waiting_mean_error, "events/waiting_mean_error", "", "rad",

@@ -41,7 +41,7 @@ struct ExponentialLaw {
 };
 
 /// Fits the values at or above `minimum`, ignoring NaN. The minimum is subtracted from them because shorter
-/// waiting times cannot be resolved. The mean is NaN with fewer than fewest_to_tell values.
+/// values cannot be resolved. The mean is NaN with fewer than fewest_to_tell values.
 ExponentialLaw exponential_law(std::span<const double> values, double minimum);
 
 }  // namespace talus::analysis

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int half_turn = 180;  // deg
 
-/// Maps an angle from (-period, period] to [0, period).
+/// Maps an angle from [-period, period] to [0, period).
 double wrapped(double angle, double period) {
   const double turned = angle < 0.0 ? angle + period : angle;
   return turned < period ? turned : turned - period;
