@@ -19,12 +19,12 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A chart of rows from top to bottom, and several symbols in each row.
+/// A chart with rows from top to bottom and several symbols in each row.
 struct Chart {
-  std::string name;                 ///< of its table
+  std::string name;                 ///< name of its table
   std::vector<std::string> rows;    ///< labels
-  std::vector<std::string> papers;  ///< the paper's value of each row
-  std::vector<std::string> series;  ///< what the symbols are
+  std::vector<std::string> papers;  ///< value of the paper in each row
+  std::vector<std::string> series;  ///< descriptions of the symbols
   Table table;
 };
 
@@ -34,26 +34,26 @@ Chart empty_chart(const std::string& name, std::vector<std::string> series) {
           {},
           std::move(series),
           {name,
-           {{"row", "1", "row of the chart, from the top, from 1 on", {}},
-            {"series", "1", "preparation or reading, in the order of the key, from 1 on", {}},
-            {"ours", "unit of the row", "mean over the runs; NaN: it occurs in none", {}},
+           {{"row", "1", "row of the chart, counted from 1 at the top", {}},
+            {"series", "1", "preparation or reading, counted from 1 in the order of the key", {}},
+            {"ours", "unit of the row", "mean over the runs; NaN if the value occurs in none", {}},
             {"deviation", "unit of the row", "standard deviation over the runs", {}},
             {"paper", "unit of the row", "value of the paper", {}},
             {"tolerance",
              "unit of the row",
-             "up to which difference they agree: accuracy of the paper and one standard deviation of ours",
+             "largest difference for agreement: accuracy of the paper and one standard deviation of ours",
              {}},
-            {"score", "1", "(ours - paper) / tolerance; NaN where it does not occur", {}},
-            {"agrees", "1", "1 where they agree, else 0", {}}}}};
+            {"score", "1", "(ours - paper) / tolerance; NaN if the value does not occur", {}},
+            {"agrees", "1", "1 if they agree, else 0", {}}}}};
 }
 
-/// Whether anything is said of the value: the paper has a number, and ours can be compared with it.
+/// Whether the value can be charted: the paper has a number, and ours can be compared with it.
 bool is_charted(const studies::PaperValue& paper, const studies::Judgement& judgement) {
   return paper.relation == studies::Relation::equals &&
          judgement.agreement != studies::Agreement::not_comparable;
 }
 
-/// A row of one value, for beds of a depth; the row is left out where nothing can be said in any series.
+/// Adds a row for one value, for beds of given depths; no row is added if no series can be compared.
 void add_row(Chart& chart, const studies::PaperValue& paper, const std::string& label,
              std::span<const std::pair<studies::Spread, double>> ours_and_depths) {
   bool charted = false;
@@ -94,7 +94,7 @@ double depth_of(const studies::ReproductionResult& result, std::size_t bed) {
   return result.plan.variants[bed].scenario.bed.depth;
 }
 
-/// Rows of beds between walls, which are all poured: as the first preparation is.
+/// Adds rows for beds between walls, which are all poured, as in the first preparation.
 void add_wall_rows(Chart& chart, const studies::ReproductionResult& result) {
   for (const studies::PaperValue& general : studies::wall_values())
     for (const std::size_t b : beds_of(result.plan, false)) {
@@ -146,7 +146,7 @@ Chart chain_chart(const studies::ReproductionResult& result) {
   return chart;
 }
 
-/// As gnuplot writes them: Greek letters and signs.
+/// Replaces names by Greek letters and signs for gnuplot.
 std::string typeset(std::string text) {
   static constexpr std::pair<std::string_view, std::string_view> words[] = {
       {"theta", "θ"},
@@ -191,11 +191,11 @@ std::optional<Figure> agreement_figure(const studies::ReproductionResult& result
   figure.name = "agreement";
   figure.title = "Our values and the paper's";
   figure.caption =
-      "Ours less the paper's value, in units of the tolerance of the comparison; what lies in the gray band "
-      "agrees (full symbols). (a) The packing, by preparation of the periodic bed, and beds between walls. "
+      "Our value minus the paper's, in units of the tolerance of the comparison; values in the gray band "
+      "agree (full symbols). (a) The packing, by preparation of the periodic bed, and beds between walls. "
       "(b) Overloaded grains, their lengths and theta_d, in the periodic bed of the paper's preparation, by "
-      "reading of \"overloaded\". Arrows: beyond the axis. A cross at the right: it does not occur. Numbers "
-      "at the right are the paper's.";
+      "reading of \"overloaded\". Arrows: values beyond the axis. A cross at the right: the value does not "
+      "occur. Numbers at the right are those of the paper.";
   for (const studies::ReproducedOutcome& outcome : result.outcomes)
     figure.runs.push_back(result.plan.members[outcome.member].path);
   figure.wide = true;

@@ -1,5 +1,5 @@
 #pragma once
-/// The chart of `talus reproduce`: how far each value of ours is from the paper's.
+/// Chart of `talus reproduce`: the deviation of each value from that of the paper.
 
 #include <optional>
 
@@ -8,12 +8,12 @@
 
 namespace talus::figures {
 
-/// The figure "agreement". Left: the values of the packing, one symbol for each preparation of the periodic
-/// bed, and those of beds between walls; right: the chain of the paper's own preparation, one symbol for each
-/// of the three readings of "overloaded". Abscissa: ours less the paper's, over the tolerance of the
-/// comparison (judge), so that values within -1 ... 1 agree. Values of which the paper gives no number, and
-/// those that cannot be compared, are left out; what does not occur in any run stands beside the axis. No
-/// figure where nothing is left.
+/// Makes the figure "agreement". Left: the values of the packing, with one symbol for each preparation of the
+/// periodic bed, and those of beds between walls. Right: the chain of overloaded grains for the paper's own
+/// preparation, with one symbol for each of the three readings of "overloaded". Abscissa: our value minus the
+/// paper's, over the tolerance of the comparison (judge), so that values within -1 ... 1 agree. Values for
+/// which the paper gives no number and values that cannot be compared are left out. A cross next to the axis
+/// marks a value that occurs in no run. Returns no figure if nothing can be compared.
 std::optional<Figure> agreement_figure(const studies::ReproductionResult& result);
 
 }  // namespace talus::figures

@@ -9,20 +9,20 @@
 namespace talus::figures {
 namespace {
 
-/// Whether it is at a threshold beyond the first.
+/// Whether the angle depends on a threshold other than the first.
 bool is_of_further_threshold(const RunAngle& angle) {
   return angle.name.ends_with(']') &&
          !angle.name.starts_with(analysis::quantity_of(&analysis::Analysis::dilation).name);
 }
 
-/// cm, of so many rows of panels with so many lines above each, in a figure 17.8 cm wide: its script has the
-/// same.
+/// Returns the height of the triangle of panels in a figure 17.8 cm wide, cm, for `rows` rows of panels with
+/// `lines` lines of text above each. The script contains the same formula.
 double triangle_height(std::size_t rows, std::size_t lines) {
   const double panel = 0.8 * (17.8 - 1.75) / static_cast<double>(rows);
   return static_cast<double>(rows) * (panel + 0.12 + 0.28 * static_cast<double>(lines)) + 1.2;
 }
 
-/// The coefficients of all pairs, in the order of the panels.
+/// Returns the coefficients of all pairs, in the order of the panels.
 Table coefficient_table(const std::vector<RunAngle>& angles, std::size_t groups) {
   Table table{"coefficients",
               {{"first", "1", "number of the angle on the horizontal axis", {}},
@@ -47,7 +47,7 @@ Table coefficient_table(const std::vector<RunAngle>& angles, std::size_t groups)
   return table;
 }
 
-/// The range of an axis for all values of an angle, with room at both ends.
+/// Sets the range of an axis to all values of an angle, with room at both ends.
 void set_range(Figure& figure, const RunAngle& angle, std::size_t k) {
   std::vector<double> numbers;
   for (const std::vector<double>& of_group : angle.values)
@@ -60,8 +60,8 @@ void set_range(Figure& figure, const RunAngle& angle, std::size_t k) {
   set_variable(figure, fmt::format("step_{}", k), round_step(0.4 * (high - low + 2.0 * room)));
 }
 
-/// "r = 0.42", or nothing, for each row of the coefficients of a group, and the line above a panel, from 1
-/// on, in which those of the group stand. Returns how many groups have any.
+/// Sets "r = 0.42", or nothing, for each row of the coefficients of a group, and the line above a panel,
+/// counted from 1, for the texts of the group. Returns the number of groups with a coefficient.
 std::size_t set_coefficient_texts(Figure& figure, const Table& table, std::size_t groups) {
   const std::vector<double>&first = table.columns[0].values, &second = table.columns[1].values;
   std::size_t lines = 0;
@@ -88,11 +88,9 @@ std::optional<Figure> angle_correlations(std::span<const RunGroup> groups) {
   figure.name = "angle-correlations";
   figure.title = "Correlation of theta_c, theta_d and theta_r over the runs";
   figure.caption =
-      "Each angle at which something happens in a run over each other one, a point for each run that has "
-      "both; r "
-      "is Pearson's coefficient of correlation, given from three runs on. theta_d is that at the first "
-      "threshold "
-      "where it depends on one.";
+      "Each characteristic angle of a run over each other one, with a point for each run that has both; r is "
+      "Pearson's correlation coefficient, given for at least three runs. theta_d is that at the first "
+      "threshold if it depends on one.";
   add_angle_tables(figure, all);
   figure.tables.push_back(coefficient_table(all.angles, all.groups.size()));
   const std::size_t lines = set_coefficient_texts(figure, figure.tables.back(), all.groups.size());

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_bins = 60;
 constexpr std::size_t panels_in_row = 3;
 
-/// "mean 19.16 ± 0.09, median 19.17, n = 50"
+/// Returns a summary: "mean 19.16 ± 0.09, median 19.17, n = 50".
 std::string summary_text(const std::vector<double>& values) {
   const Summary summary = summary_of(values, {});
   const Statistics& found = summary.statistics;
@@ -23,7 +23,7 @@ std::string summary_text(const std::vector<double>& values) {
   return fmt::format("mean {}, median {:.2f}, n = {}", mean, summary.median, found.count);
 }
 
-/// The share of its runs that a group has in each bin.
+/// Returns the share of the runs of each group in each bin.
 Table histogram_table(const RunAngle& angle) {
   std::vector<double> together;
   for (const std::vector<double>& of_group : angle.values)
@@ -52,7 +52,7 @@ Table histogram_table(const RunAngle& angle) {
   return table;
 }
 
-/// What the histograms of one angle are called and say.
+/// Adds the histograms of one angle, with their title and summaries.
 void add_histogram(Figure& figure, const RunAngle& angle, std::size_t panel) {
   const std::string k = std::to_string(panel);
   figure.tables.push_back(histogram_table(angle));
@@ -74,7 +74,8 @@ HistogramBins bins_for(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(numbers);
   double wanted = 2.0 * (summary.upper_quartile - summary.lower_quartile) /
                   std::cbrt(static_cast<double>(numbers.size()));
-  wanted = std::max(wanted, (high - low) / static_cast<double>(most_bins) * 2.5);  // rounding may halve it
+  // Rounding may halve the width.
+  wanted = std::max(wanted, (high - low) / static_cast<double>(most_bins) * 2.5);
   if (!(wanted > 0.0)) wanted = 0.5;
   const double width = round_step(wanted);
   const double first = std::floor(low / width) - 1.0;
@@ -88,13 +89,13 @@ std::optional<Figure> angle_distributions(std::span<const RunGroup> groups) {
   figure.name = "angle-distributions";
   figure.title = "Distribution of theta_c, theta_d and theta_r over the runs";
   figure.caption =
-      "Histograms of the angles at which something happens in a run: theta_c, the first slide of the surface "
-      "layer (after theta_c where a fast tilt goes on while the flow gathers speed), the angle at rest "
-      "theta_r where a flow was followed, and theta_d by each estimator: jump of "
+      "Histograms of the characteristic angles of a run: theta_c, the first slide of the surface layer "
+      "(after theta_c if the tilt is fast compared with the acceleration of the flow), the angle at rest "
+      "theta_r if a flow was followed, and theta_d by each estimator: jump of "
       "the "
       "largest l_c, first cluster that spans from floor to surface, for each threshold, and onset of "
       "dilation by "
-      "either strain. Shares are of the runs of a group that have the angle, n in number; vertical lines are "
+      "either strain. Shares refer to the n runs of a group that have the angle; vertical lines are "
       "the "
       "means, ± their standard errors.";
   add_angle_tables(figure, all);

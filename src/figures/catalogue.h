@@ -1,5 +1,5 @@
 #pragma once
-/// All figures that Talus makes of runs, in the order of the paper, then those beyond it.
+/// Catalogue of all figures of runs, in the order of the paper, followed by further figures.
 
 #include <optional>
 #include <span>
@@ -11,23 +11,25 @@
 
 namespace talus::figures {
 
-/// What a figure is made from.
+/// Data required by a figure.
 enum class Material {
-  values,         ///< numbers of runs and of their frames, which ensemble.h5 has of all members
-  distributions,  ///< of each frame, which an ensemble keeps beside the runs of its members
-  frames,         ///< maps and series, which are in the files of runs only
+  values,  ///< scalars of runs and of their frames, which ensemble.h5 contains for all members
+  /// Distributions of each frame, which an ensemble stores in addition to the files of its members.
+  distributions,
+  frames,  ///< maps and series, which only the files of runs contain
 };
 
-/// What a figure is about.
+/// Topic of a figure.
 enum class Subject { packing, overload, walls, further };
 
-/// Makes a figure; no value where there is no run of the kind it needs.
+/// Function that makes a figure; it returns no value if there is no run of the required kind.
 struct FigureMaker {
   using Plain = std::optional<Figure>(std::span<const RunGroup>);
   using OfFrames = std::optional<Figure>(std::span<const RunGroup>, const FrameWords&);
   constexpr FigureMaker(Plain& make) : plain(&make) {}
   constexpr FigureMaker(OfFrames& make) : of_frames(&make) {}
-  /// `at`: the frames of a figure that shows single ones, instead of its own.
+  /// Makes the figure. `at`: frames to show instead of the default frames, for a figure that shows single
+  /// frames.
   std::optional<Figure> operator()(std::span<const RunGroup> groups, const FrameWords& at = {}) const {
     return of_frames != nullptr ? of_frames(groups, at) : plain(groups);
   }
@@ -41,7 +43,7 @@ struct FigureRecipe {
   std::string_view title;  ///< Figure::title
   Material material;
   Subject subject;
-  std::string_view needs;  ///< "a periodic bed that has failed": what a message says where it cannot be made
+  std::string_view needs;  ///< required runs, for messages: "a periodic bed that has failed"
   FigureMaker make;
 
   bool shows_frames() const { return make.of_frames != nullptr; }

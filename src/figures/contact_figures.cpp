@@ -13,12 +13,12 @@
 namespace talus::figures {
 namespace {
 
-/// The states that are compared unless others are asked for.
+/// Default states of the comparison.
 const FrameWords both_ends = {"frame0", "repose"};
 
 using States = std::span<const ShownFrames>;
 
-/// Adds the means of a quantity, at each state, to a table.
+/// Adds the means of a quantity in each state to a table.
 void add_means(Table& table, States states, std::vector<double> analysis::FrameRecord::*member,
                const Column& column) {
   for (const ShownFrames& state : states)
@@ -28,7 +28,7 @@ void add_means(Table& table, States states, std::vector<double> analysis::FrameR
       table.columns.push_back(std::move(mean));
 }
 
-/// A figure of these runs, with the names of the states and their angles for its script.
+/// Returns a figure of these runs, with the names of the states and their angles for its script.
 Figure figure_of(const FailedGroup& failed, States states) {
   Figure figure;
   for (const runs::RunView* run : failed.runs) figure.runs.push_back(run->path);
@@ -51,9 +51,9 @@ std::string states_text(const FailedGroup& failed, States states) {
                      several ? "mean of " : "", runs_text(failed.runs.size()), failed.group->label);
 }
 
-constexpr const char* error_text = ", with the standard error over the runs as bars where there are several";
+constexpr const char* error_text = ", with standard errors over the runs as bars if there are several";
 
-/// Lower and upper edges of bins, in units of `unit`.
+/// Returns the lower and upper edges of bins, in units of `unit`.
 std::vector<Column> edge_columns(std::span<const double> edges, double unit, const Column& axis) {
   Column from{axis.name + "_from", axis.unit, "lower edge of a bin of " + axis.meaning, {}};
   Column to{axis.name + "_to", axis.unit, "its upper edge", {}};
@@ -89,14 +89,16 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const
   figure.name = "contact-directions";
   figure.title = "Directions of contact normals";
   figure.caption = fmt::format(
-      "Probability density of the direction of contact normals, to the bed,{}. Filled: each contact counted "
+      "Probability density of the direction of contact normals, relative to the bed,{}. Filled: each contact "
+      "counted "
       "once; outlined: weighted with its normal force; thin circle: uniform, 1/pi per rad. A normal and its "
       "opposite are one direction; 0, 60 and 120 deg are marked.",
       states_text(*failed, states));
   figure.wide = true;
   figure.height_over_width = 0.48 * std::ceil(0.5 * static_cast<double>(states.size()));
   const std::vector<double>& edges = failed->first().analysis.direction_edge;
-  Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
+  Table table{
+      "", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction relative to the bed", {}})};
   add_means(table, states, &analysis::FrameRecord::direction_density,
             {"density", "1/rad", "probability density of the direction", {}});
   add_means(table, states, &analysis::FrameRecord::direction_density_by_force,
@@ -135,7 +137,7 @@ std::optional<Figure> correlations(std::span<const RunGroup> groups, const Frame
   figure.title = "Correlation of forces and stresses over distance";
   figure.caption = fmt::format(
       "Correlation of the normal forces, of the stress ratio gamma of grains and of their mean stress, over "
-      "distance,{}{}. Forces and mean stresses are over the mean of their layer of 2 D.",
+      "distance,{}{}. Forces and mean stresses are divided by the mean of their layer of 2 D.",
       states_text(*failed, states), error_text);
   figure.wide = true;
   figure.height_over_width = 0.4;
@@ -161,9 +163,9 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, con
   figure.name = "weak-contacts";
   figure.title = "Directions of weak contacts over their mobilised friction";
   figure.caption = fmt::format(
-      "Fabric of the weak contacts (normal force not above its mean) along the strong ones, 2 <cos 2 "
+      "Fabric of the weak contacts (normal force up to its mean) along the strong ones, 2 <cos 2 "
       "(direction - d)>, d the direction in which the strong contacts concentrate, over their mobilised "
-      "friction,{}{}. Below 0 they stand across the force chains. Weak contacts right of the dashed line "
+      "friction,{}{}. Below 0 they lie across the force chains. Weak contacts right of the dashed line "
       "count "
       "as coherent.",
       states_text(*failed, states), error_text);

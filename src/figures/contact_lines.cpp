@@ -9,7 +9,7 @@ namespace {
 
 constexpr double samples_per_diameter = 4.0;
 
-/// Appends a line whose second end lies in the next period to the left or right, or on the edge of it.
+/// Appends a line with its second end in the next period to the left or right, or on the edge.
 void append_cut(std::vector<ContactLine>& lines, const ContactLine& line, bool to_left, double length) {
   const double edge = to_left ? 0.0 : length;
   const double period = to_left ? -length : length;

@@ -15,7 +15,7 @@
 namespace talus::figures {
 namespace {
 
-/// The frames of a run that are shown: all of the tilt, or those before it failed.
+/// Returns the number of frames shown: those of the entire tilt, or those before failure.
 std::size_t frames_shown(const runs::RunView& run) {
   return std::isnan(theta_c_of(run)) ? run.analysis.frames.size() : repose_frame(run) + 1;
 }
@@ -28,7 +28,7 @@ std::vector<TiltCycle> cycles_of_run(const runs::RunView& run) {
 
 bool has_overload(const runs::RunView& run) { return !run.analysis.thresholds.empty(); }
 
-/// What is drawn over the tilt, and at the ends of cycles.
+/// Returns the quantities drawn over the tilt and at the ends of cycles.
 std::vector<FrameColumn> columns_over_tilt(const runs::RunView& run) {
   std::vector<FrameColumn> columns = {
       column_of("volume_strain", analysis::quantity_of(&analysis::FrameRecord::volume_strain)),
@@ -46,7 +46,8 @@ std::vector<FrameColumn> columns_over_tilt(const runs::RunView& run) {
   return columns;
 }
 
-/// A row for each frame, with the number of its cycle; the last frame of a cycle is the first of the next.
+/// Returns a row for each frame with the number of its cycle; the last frame of a cycle is the first of the
+/// next.
 Table loops(const runs::RunView& run) {
   const std::vector<FrameColumn> shown_columns_of_run = columns_over_tilt(run);
   Table table{"",
@@ -69,8 +70,8 @@ Table loops(const runs::RunView& run) {
   return table;
 }
 
-/// A row for each cycle that all runs have closed, and one, of number 0, for the bed before the first: means
-/// over the runs at its end and at its top, with their standard errors.
+/// Returns a row for each cycle completed by all runs, and row 0 for the bed before the first cycle: means
+/// over the runs at the end and at the top of the cycle, with their standard errors.
 Table ends_of_cycles(const RunChoice& runs) {
   std::vector<std::vector<TiltCycle>> cycles;
   std::size_t count = 0;
@@ -81,7 +82,7 @@ Table ends_of_cycles(const RunChoice& runs) {
   }
   Table table{"ends",
               {{"cycle", "1", "number of the cycle; 0: the bed before the first", {}},
-               {"n", "1", "runs behind the row", {}}}};
+               {"n", "1", "number of runs in the row", {}}}};
   const auto add = [&](const FrameColumn& column, const std::string& where, const std::string& meaning,
                        const std::function<std::size_t(const TiltCycle&)>& frame_of) {
     Column mean{column.name + where, column.unit, meaning + ": " + column.meaning, {}};
@@ -121,8 +122,9 @@ RunChoice runs_with_program(const RunGroup& group) {
 std::string caption_of(const RunGroup& group, const RunChoice& runs) {
   const runs::RunView& first = *runs.front();
   std::string text = fmt::format(
-      "A bed whose tilt follows a programme: {}, seed {}. (a) Tilt over time. Over the tilt, each cycle in a "
-      "colour of its own: (b) volume strain since the start of the tilt, (c) coordination number z, (d) "
+      "A bed whose tilt follows a programme: {}, seed {}. (a) Tilt over time. Over the tilt, with a "
+      "different colour for each cycle: (b) volume strain since the start of the tilt, (c) coordination "
+      "number z, (d) "
       "share "
       "of the contacts with fully mobilised friction nu, (e) {}, (f) amplitude of the anisotropy of the "
       "contacts. ",
@@ -130,8 +132,8 @@ std::string caption_of(const RunGroup& group, const RunChoice& runs) {
       has_overload(first) ? "overloaded fraction p_o" : "stress ratio of the packing Gamma");
   if (!std::isnan(theta_c_of(first))) text += "The last cycle ends before failure. ";
   text += fmt::format(
-      "(g, h, i) What accumulates: volume strain, z and nu at the end of each cycle that has come down again "
-      "(filled; 0: before the first), and at its highest tilt (open), of {}",
+      "(g, h, i) Accumulation over cycles: volume strain, z and nu at the end of each completed cycle "
+      "(filled; 0: before the first) and at its highest tilt (open), for {}",
       runs_text(runs.size()));
   return text + (runs.size() > 1 ? ", mean and standard error." : ".");
 }

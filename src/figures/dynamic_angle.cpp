@@ -21,7 +21,7 @@ RunChoice runs_at_rest(const RunGroup& group) {
   return runs;
 }
 
-/// The three columns of an estimate of theta_d.
+/// Adds the three columns of an estimate of theta_d.
 void add_estimate(std::vector<Column>& columns, const std::string& name, const std::string& meaning) {
   columns.push_back({name, "deg", "theta_d by " + meaning, {}});
   columns.push_back({name + "_low", "deg", "lower end of its range", {}});
@@ -45,8 +45,8 @@ std::vector<Column> empty_columns(std::span<const analysis::RunThreshold> thresh
   return columns;
 }
 
-/// The values of a run, in the order of empty_columns. An angle that is told from the frame before it lies
-/// between the two; where there is no frame before it, it has no range.
+/// Returns the values of a run in the order of empty_columns. An angle that is determined from two frames
+/// lies between them; it has no range if there is no earlier frame.
 std::vector<double> row_of(const runs::RunView& run) {
   const analysis::Analysis& analysis = run.analysis;
   std::vector<double> row = {static_cast<double>(run.scenario.seed), degrees(run.theta_r),
@@ -83,12 +83,12 @@ std::string caption_of(std::size_t runs) {
       "Angle at rest theta_r, the dynamic angle of repose, of {}, (a) over the angle of repose theta_c and "
       "(b, c, d) over theta_d by each of its estimators; the line is theta_r = theta. (b) and (c): jump of "
       "l_c max and percolation of the overloaded grains, filled for the first threshold, open for the last; "
-      "bars reach to the frame before. (d): onset of dilation, filled by the volume, open by the centre of "
-      "mass; bars are the range in which the strain is at its minimum within noise.",
+      "bars extend to the preceding frame. (d): onset of dilation, filled from the volume, open from the "
+      "centre of mass; bars are the range in which the strain equals its minimum within the noise.",
       runs_text(runs));
 }
 
-/// The flow of one run, which only its file has.
+/// Adds the flow of one run, which only its file contains.
 void add_trace(Figure& figure, const runs::RunView& run, const std::string& label) {
   figure.height_over_width = 0.55;
   set_variable(figure, "flow", 1.0);
@@ -98,8 +98,8 @@ void add_trace(Figure& figure, const runs::RunView& run, const std::string& labe
   figure.tables.push_back(flow_trace(run));
 }
 
-/// Whole degrees, a degree and more beside all angles at rest; and the end of the other axis, beyond all
-/// theta_c.
+/// Sets the axis limits: whole degrees, with a margin of at least one degree around all angles at rest, and
+/// the upper end of the other axis beyond all theta_c.
 void set_range(Figure& figure) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, end = 24.0;
   for (const Table& table : figure.tables) {
@@ -121,7 +121,7 @@ Table flow_trace(const runs::RunView& run) {
   Table table{"trace",
               {{"time", "s", "time since failure", {}},
                {"theta", "deg", "tilt", {}},
-               {"velocity", "sqrt(g D)", "mean velocity of the surface layer since the row before", {}}}};
+               {"velocity", "sqrt(g D)", "mean velocity of the surface layer since the preceding row", {}}}};
   const std::vector<ObservableRow> rows = run.file->all_observables();
   const double failure = at(run.file->observables().back(), Observable::time);
   for (std::size_t k = 1; k < rows.size(); ++k) {

@@ -20,7 +20,7 @@ struct FigureEvent {
   double energy;  ///< m g D
 };
 
-/// Those of all runs, run by run.
+/// Returns the rearrangements of all runs, run by run.
 std::vector<FigureEvent> rearrangements_of(const RunChoice& runs) {
   std::vector<FigureEvent> events;
   for (const runs::RunView* run : runs) {
@@ -38,10 +38,10 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
       {"theta", "deg", "magnitude of the tilt at which the rearrangement begins", {}},
       {"seed", "1", "seed of its run", {}},
       {"energy", "m g D", "energy released", {}},
-      {"waiting", "deg", "tilt since the end of the event before", {}},
+      {"waiting", "deg", "tilt since the end of the preceding event", {}},
       {"duration", "sqrt(D/g)", "duration", {}},
       {"grains", "1", "grains moved", {}},
-      {"depth", "D", "depth above which lie 95 % of what they moved", {}},
+      {"depth", "D", "depth above which 95 % of their displacement lies", {}},
       {"volume_strain", "1e-6", "change of the volume strain", {}},
       {"centre_of_mass_strain", "1e-6", "change of the strain of the centre of mass", {}},
   };
@@ -63,21 +63,21 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
   return columns;
 }
 
-/// What share of some values is x or larger, by a law that holds from `minimum` on.
+/// A law for the share of values that are at least x, valid from `minimum` upwards.
 struct SampleLaw {
   std::string name, meaning;
   double minimum = not_known;
   std::function<double(double x)> share_from;
 };
 
-/// Shares of values that are as large as each or larger, and by laws that begin with the share that the
-/// values have there; NaN below it. A row of NaN where there are no values, which gnuplot would complain
-/// about.
+/// Returns the share of values that are at least as large as each value, and the same by laws scaled to the
+/// share of the values at their minimum; NaN below it. Without values there is one row of NaN, because
+/// gnuplot warns about empty data.
 Table share_table(std::string name, Column values, const std::vector<SampleLaw>& laws) {
   std::erase_if(values.values, [](double value) { return !(value > 0.0); });
   std::ranges::sort(values.values);
   const auto count = static_cast<double>(values.values.size());
-  Column share{"share", "1", "share of all that are as large or larger", {}};
+  Column share{"share", "1", "share of values that are at least as large", {}};
   for (std::size_t k = 0; k < values.values.size(); ++k)
     share.values.push_back(1.0 - static_cast<double>(k) / count);
   if (values.values.empty()) values.values = share.values = {not_known};
@@ -95,12 +95,12 @@ Table share_table(std::string name, Column values, const std::vector<SampleLaw>&
 }
 
 SampleLaw sample_law(const analysis::PowerLaw& law) {
-  return {"power_law", "the same by the power law of maximum likelihood; NaN below its beginning",
+  return {"power_law", "the same from the maximum-likelihood power law; NaN below its minimum",
           std::isnan(law.exponent) ? not_known : law.minimum, [law](double x) { return law.share_from(x); }};
 }
 
 SampleLaw sample_law(const analysis::ExponentialLaw& law, double shortest) {
-  return {"exponential_law", "the same by the exponential law of maximum likelihood",
+  return {"exponential_law", "the same from the maximum-likelihood exponential law",
           std::isnan(law.mean) ? not_known : shortest,
           [law, shortest](double x) { return std::exp((shortest - x) / law.mean); }};
 }
@@ -110,13 +110,13 @@ void add_table(Figure& figure, const std::string& variable, Table table) {
   set_variable(figure, variable, gnuplot_string(file_of(figure, figure.tables.back())));
 }
 
-/// "α = 1.57 ± 0.13 (19 of 43)"
+/// Returns the law of sizes: "α = 1.57 ± 0.13 (19 of 43)".
 std::string size_text(const analysis::PowerLaw& law, std::size_t all) {
   if (std::isnan(law.exponent)) return fmt::format("too few for a law: {}", all);
   return fmt::format("α = {} ({} of {})", ensemble::plus_minus(law.exponent, law.error), law.count, all);
 }
 
-/// "α = 1.93 ± 0.16, mean 0.24 ± 0.04°"
+/// Returns the laws of waiting angles: "α = 1.93 ± 0.16, mean 0.24 ± 0.04°".
 std::string wait_text(const analysis::PowerLaw& law, const analysis::ExponentialLaw& exponential) {
   if (std::isnan(law.exponent) || std::isnan(exponential.mean))
     return fmt::format("too few for a law: {}", exponential.count);
@@ -139,15 +139,15 @@ void add_laws(Figure& figure, const RunGroup& group, const std::vector<Column>& 
   set_variable(figure, "wait_law_" + g, gnuplot_string(wait_text(wait, exponential)));
 }
 
-/// Rows of the largest table.
+/// Returns the number of rows of the largest table.
 std::size_t most_events(const Figure& figure) {
   std::size_t most = 1;
   for (const Table& table : figure.tables) most = std::max(most, table.columns[0].values.size());
   return most;
 }
 
-/// Sets the ends of a logarithmic axis that has room for all values above 0 of some columns. gnuplot would
-/// complain about a single value; it has a power of ten beside it.
+/// Sets the ends of a logarithmic axis with room for all positive values of a column. A single value gets a
+/// wider range because gnuplot warns about an empty one.
 void set_range(Figure& figure, const std::string& column_name, const std::string& variable) {
   double least = not_known, largest = not_known;
   for (const Table& table : figure.tables)
@@ -164,7 +164,7 @@ void set_range(Figure& figure, const std::string& column_name, const std::string
   set_variable(figure, variable + "_to", largest * room);
 }
 
-/// The end of the axis of the changes of height, beyond all of them on either side.
+/// Returns the end of the symmetric axis of the changes of height, beyond all values.
 double largest_change(const Figure& figure) {
   double largest = 1.0;
   for (const Table& table : figure.tables)
@@ -181,11 +181,11 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups) {
   figure.name = "events";
   figure.title = "Rearrangements on the way to failure";
   figure.caption =
-      "Rearrangements of the bed before failure, bursts of motion between two quiet times, of all runs of"
-      " a group together: (a) share that released as much energy or more, in m g D; lines: power law of "
-      "maximum likelihood, density ~ E^-α, from the energy on with the smallest Kolmogorov-Smirnov "
-      "distance. (b) share with as long a waiting angle or longer, the tilt since the end of the event "
-      "before; solid lines: power law, dotted: exponential law beyond the shortest. (c) energy over the "
+      "Rearrangements of the bed before failure, bursts of motion between two quiet periods, for all runs of "
+      "a group together: (a) share that released at least a given energy, in m g D; lines: "
+      "maximum-likelihood power law, density ~ E^-α, from the energy with the smallest Kolmogorov-Smirnov "
+      "distance. (b) share with at least a given waiting angle, the tilt since the end of the preceding "
+      "event; solid lines: power law, dotted: exponential law beyond the shortest. (c) energy over the "
       "tilt at which each begins. (d) change of the height of the centre of mass over its height at the "
       "start, in 1e-6: above 0 the bed dilates, below it compacts; the axis is linear near 0 and "
       "logarithmic beyond.";

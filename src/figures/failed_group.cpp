@@ -11,7 +11,7 @@
 namespace talus::figures {
 namespace {
 
-/// The first group with failed runs that are among those which `choose` leaves.
+/// Returns the first group with failed runs that `choose` keeps.
 std::optional<FailedGroup> first_group(std::span<const RunGroup> groups, RunChoice (*choose)(RunChoice)) {
   for (const RunGroup& group : groups)
     if (RunChoice runs = choose(failed_runs(group)); !runs.empty())
@@ -40,7 +40,7 @@ std::size_t repose_frame(const runs::RunView& run) {
 
 std::string rounded_text(double value, int decimals) {
   const double ten_to = std::pow(10.0, decimals);
-  return scenario::short_text(std::round(value * ten_to) / ten_to + 0.0);  // no "-0"
+  return scenario::short_text(std::round(value * ten_to) / ten_to + 0.0);  // avoids "-0"
 }
 
 std::string angle_text(double tilt) { return rounded_text(degrees(tilt), 2); }

@@ -1,5 +1,5 @@
 #pragma once
-/// What figures of one bed, or of one ensemble, are made of.
+/// The failed runs for figures of one bed or one ensemble.
 
 #include <cstddef>
 #include <optional>
@@ -10,29 +10,29 @@
 
 namespace talus::figures {
 
-/// The failed runs of a group from which a figure is made, one at least.
+/// The failed runs of a group that a figure shows, at least one.
 struct FailedGroup {
   const RunGroup* group = nullptr;
   RunChoice runs;
 
-  /// The run of pictures that show one bed.
+  /// Returns the run shown in pictures of a single bed.
   const runs::RunView& first() const { return *runs.front(); }
 };
 
-/// The first group that has such runs with their files, or with their distributions; periodic beds come first
-/// (group_runs).
+/// Return the first group with failed runs whose files, or whose distributions, are available. Periodic beds
+/// come first (group_runs).
 std::optional<FailedGroup> first_failed_group(std::span<const RunGroup> groups);
 std::optional<FailedGroup> first_group_with_distributions(std::span<const RunGroup> groups);
 
-/// "PBC, L = 200 D, seed 1": the first run.
+/// Describes the first run: "PBC, L = 200 D, seed 1".
 std::string first_run_text(const FailedGroup& failed);
 
-/// The last frame before theta_c.
+/// Returns the number of the last frame before theta_c.
 std::size_t repose_frame(const runs::RunView& run);
 
-/// A value with at most so many decimals: "13.25", "0".
+/// Returns a value with at most the given number of decimals: "13.25", "0".
 std::string rounded_text(double value, int decimals);
-/// A tilt (rad) in degrees, with two decimals at most.
+/// Returns a tilt (rad) in degrees with at most two decimals.
 std::string angle_text(double tilt);
 
 }  // namespace talus::figures

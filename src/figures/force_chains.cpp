@@ -11,7 +11,7 @@
 namespace talus::figures {
 namespace {
 
-// cm, in a figure 17.8 cm wide: below the map.
+// Heights below the map in a figure 17.8 cm wide, cm.
 constexpr double page_width = 17.8;
 constexpr double room_for_legend = 1.3;
 constexpr double curves_height = 5.6;
@@ -34,8 +34,8 @@ Table surface_table(const BedFrame& bed) {
   return table;
 }
 
-/// Appends the contacts and the surface of the bed, and what a script needs to draw them over the width of
-/// the figure. Returns the height of that map over its width.
+/// Appends the contacts and the surface of the bed, and the variables that a script needs to draw them over
+/// the full width of the figure. Returns the ratio of height to width of this map.
 double add_contact_map(Figure& figure, const BedFrame& bed) {
   const RunStatics& statics = bed.statics;
   figure.tables.push_back(force_table(bed));
@@ -43,7 +43,7 @@ double add_contact_map(Figure& figure, const BedFrame& bed) {
   const double length = statics.length / statics.mean_diameter;
   const double top = std::ceil(*std::ranges::max_element(figure.tables.back().columns[1].values)) + 0.5;
   const double bottom =
-      statics.free_count == bed.frame.grain_count() ? 0.0 : -0.5;  // centres of floor grains
+      statics.free_count == bed.frame.grain_count() ? 0.0 : -0.5;  // down to the centres of floor grains
   const double margin = 0.01 * length;
   figure.wide = true;
   set_variable(figure, "bed_length", length);
@@ -84,7 +84,7 @@ Table force_table(const BedFrame& bed) {
        {"x2", "D", "the other end: a centre, the periodic edge, or the point of contact at a wall", {}},
        {"y2", "D", "the same, across the bed", {}},
        {"force", "1", "normal force over its mean", {}},
-       {"critical", "1", "1 where friction is fully mobilised, else 0", {}}}};
+       {"critical", "1", "1 if friction is fully mobilised, else 0", {}}}};
   const double diameter = bed.statics.mean_diameter;
   for (const ContactLine& line : lines) {
     const double row[] = {rounded(line.x1 / diameter),
@@ -143,7 +143,7 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
     set_variable(figure, "map_height", 0.0);
   }
   figure.caption += fmt::format(
-      " ({}) Their share of the contacts, ({}) contacts in their largest cluster, joined where they share a "
+      " ({}) Their share of the contacts, ({}) contacts in their largest cluster, joined if they share a "
       "free grain, ({}) correlation length of their clusters, over the tilt theta, up to theta_c. {}",
       letters[0], letters[1], letters[2], means_caption);
   return figure;

@@ -12,7 +12,7 @@ namespace {
 
 const FrameWords paper_angles = {"0", "10", "15"};
 
-/// gamma, and its density in each of the frames that at least half of the runs reach.
+/// Returns gamma and its density in each of the frames that at least half of the runs reach.
 std::vector<Column> density_columns(const RunChoice& runs, std::span<const ShownFrames> shown) {
   Column gamma{"gamma", "1", "middle of the bin", {}};
   const std::vector<double>& edges = runs.front()->analysis.gamma_edge;
@@ -41,7 +41,7 @@ double mean_gamma_c(const RunChoice& runs) {
   return statistics_of(all).mean;
 }
 
-/// Whether any bed has a density in the frames of that name.
+/// Whether any bed has a density in the frames of this name.
 bool is_shown(const Figure& figure, const std::string& name) {
   return std::ranges::any_of(figure.tables, [&](const Table& table) {
     return std::ranges::any_of(table.columns, [&](const Column& column) {
@@ -60,10 +60,9 @@ std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups, con
   figure.title = "Distribution of the stress ratio of grains (paper, Fig. 8)";
   figure.caption =
       "Probability density of the stress ratio gamma = q/p of the grains that carry something, periodic "
-      "beds; vertical lines: Gamma_c = sin(theta_c), the threshold that the paper "
-      "prints, and 2 Gamma_c, each the mean over the runs. Means over the runs of a bed, of which at least "
-      "half "
-      "stand at an angle that is shown; bands: the standard error of the mean, where there are several runs.";
+      "beds; vertical lines: Gamma_c = sin(theta_c), the threshold printed in the paper, and 2 Gamma_c, each "
+      "the mean over the runs. Means over the runs of a bed, at angles that at least half of them reach; "
+      "bands: standard error of the mean, if there are several runs.";
   for (const RunGroup& group : groups) {
     const RunChoice runs = with_distributions(runs_with_threshold(group));
     if (!group.periodic() || runs.empty()) continue;

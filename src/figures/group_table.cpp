@@ -22,8 +22,8 @@ RunChoice choose(const RunGroup& group, const Condition& condition) {
   return choice;
 }
 
-/// Of the tables whose first column is one, or the angle that is left, deg; 1 where all are 0, as an axis
-/// needs a length.
+/// Returns the largest tilt, or angle left to failure, in tables whose first column is such an angle, deg; 1
+/// if all are 0 because an axis needs a length.
 double largest_tilt(const Figure& figure) {
   double largest = 0.0;
   for (const Table& table : figure.tables)
@@ -106,7 +106,7 @@ std::string gnuplot_string(std::string_view text) { return fmt::format("\"{}\"",
 
 std::string runs_text(std::size_t count) { return fmt::format("{} run{}", count, count == 1 ? "" : "s"); }
 
-// "pbc-l-200-d-deposition.friction-0.15" of "PBC, L = 200 D, deposition.friction = 0.15".
+// For example "pbc-l-200-d-deposition.friction-0.15" for "PBC, L = 200 D, deposition.friction = 0.15".
 std::string table_name(const RunGroup& group) {
   std::string part;
   for (const char c : group.label) {

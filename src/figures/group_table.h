@@ -1,5 +1,5 @@
 #pragma once
-/// A figure with one table for each group of runs, and what its script has to know of them.
+/// Figures with one table for each group of runs, and the variables for their scripts.
 
 #include <cstddef>
 #include <span>
@@ -13,60 +13,61 @@
 
 namespace talus::figures {
 
-/// Runs of a group that a figure is made from.
+/// The runs of a group that enter a figure.
 using RunChoice = std::vector<const runs::RunView*>;
 
-/// All runs of a group; those that have overloaded grains, which need a threshold; those that have failed.
+/// Return all runs of a group, those with a threshold and hence overloaded grains, and those that have
+/// failed.
 RunChoice all_runs(const RunGroup& group);
 RunChoice runs_with_threshold(const RunGroup& group);
 RunChoice failed_runs(const RunGroup& group);
 
-/// Those of some runs whose files are there: for what values of an ensemble do not tell.
+/// Returns the runs whose files are available, for data that an ensemble file lacks.
 RunChoice with_files(RunChoice runs);
-/// Those of which frames are there as well: an ensemble may keep a run without them.
+/// Returns the runs whose frames are available as well; an ensemble may store a run without its frames.
 RunChoice with_frames(RunChoice runs);
 
-/// Those of some runs whose distributions are known: ensemble.h5 has no more than means of them.
+/// Returns the runs with known distributions; ensemble.h5 stores only their means.
 RunChoice with_distributions(RunChoice runs);
 
-/// Those of some runs that stand at a tilt (rad), and the frame of each that is nearest to it.
+/// The runs that reach a tilt (rad) before failure, and the nearest frame of each.
 struct FramesAtAngle {
   RunChoice runs;
   std::vector<std::size_t> frames;
 };
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
 
-/// How the analysis of a run reads gamma, as a sentence for captions: of which neighbourhood of a grain.
+/// Returns a sentence for captions with the neighbourhood of a grain to which gamma refers.
 std::string reading_caption(const runs::RunView& run);
 
-/// The name of the table of a group: its label as a part of a file name.
+/// Returns the name of the table of a group: its label as a part of a file name.
 std::string table_name(const RunGroup& group);
 
-/// Adds the table of a group, called after its label, before any other table. The script knows its file as
-/// data_g, with label_g for the key and every_g, rows from one symbol to the next; `groups` is their number,
-/// and theta_max the largest angle (deg) of their columns "theta" or "angle_left". The key has room for the
-/// labels and one entry more.
+/// Adds the table of a group, named after its label, before any other table. In the script its file is
+/// data_g, with label_g for the key and every_g for the number of rows between symbols. `groups` is the
+/// number of groups, and theta_max the largest angle (deg) in the columns "theta" or "angle_left". The key
+/// has room for the labels and one further entry.
 void add_group_table(Figure& figure, const RunGroup& group, const RunChoice& runs,
                      std::vector<Column> columns);
 
-/// Adds the means of these columns over the runs of a group, over an angle, as add_group_table does; and,
-/// where there are several runs, the runs themselves, drawn_g in number, in a table that the script knows as
-/// runs_g. `spread` is
-/// 1 where any group has them: then the key has to say what bands and thin lines are.
+/// Adds the means of these columns over the runs of a group as a function of an angle, as add_group_table
+/// does. If there are several runs, a further table contains the single runs; in the script its file is
+/// runs_g, and drawn_g their number. `spread` is 1 if any group has such a table: then the key explains bands
+/// and thin lines.
 void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& runs,
                       std::span<const FrameColumn> columns, Abscissa abscissa = Abscissa::tilt);
 
-/// Sets a variable of the script, or replaces it.
+/// Sets or replaces a variable of the script.
 void set_variable(Figure& figure, const std::string& name, const std::string& value);
 void set_variable(Figure& figure, const std::string& name, double value);
 
-/// A text for gnuplot, in quotes; what its enhanced text would take for a command stands for itself.
+/// Returns a text in quotes for gnuplot, with the control characters of enhanced text escaped.
 std::string gnuplot_quoted(std::string_view text);
 
-/// A text that means itself or is enhanced text already, in quotes.
+/// Returns a text in quotes that is plain or already enhanced text.
 std::string gnuplot_string(std::string_view text);
 
-/// "4 runs", "1 run".
+/// Returns the number of runs as text: "4 runs", "1 run".
 std::string runs_text(std::size_t count);
 
 }  // namespace talus::figures

@@ -18,14 +18,15 @@ namespace {
 
 constexpr double paper_tilts[] = {0.0, 5.0, 10.0, 15.0};  // deg
 
-/// The frames of the panels, and their pictures.
+/// The frames of the panels and their pictures.
 struct Panels {
   pictures::FrameChoice choice;
   std::vector<Frame> frames;
   pictures::PictureSeries pictures;
 };
 
-/// A map whose Gamma_c is that of the analysis, which need not be sin(theta_c), times `factor`.
+/// Returns the settings of a map whose Gamma_c is that of the analysis, which may differ from sin(theta_c),
+/// times `factor`.
 pictures::MapSettings map_of(const runs::RunView& run, pictures::MapKind kind, double factor) {
   pictures::MapSettings settings;
   settings.layers = {kind};
@@ -55,17 +56,17 @@ Panels read_panels(const runs::RunView& run, std::vector<pictures::MapSettings> 
   return panels;
 }
 
-/// Share with gamma from this value on of the grains that carry something.
+/// Returns the share of the grains that carry something with gamma at or above this value.
 double share_from(const BedFrame& bed, double gamma) {
   return stress::count_overloaded(bed, gamma).fraction();
 }
 
-/// The angles of the panels, deg.
+/// Returns the angles of the panels, deg.
 std::string listed(const Panels& panels, const char* separator) {
   return joined(panels.frames, separator, [](const Frame& frame) { return angle_text(frame.tilt); });
 }
 
-/// What both captions end with.
+/// Returns the common end of both captions.
 std::string bed_text(const FailedGroup& failed, const Panels& panels, bool of_paper) {
   const double theta_c = theta_c_of(failed.first());
   std::string text =
@@ -83,7 +84,7 @@ std::string bed_text(const FailedGroup& failed, const Panels& panels, bool of_pa
       text, reading_caption(failed.first()));
 }
 
-/// A row of maps for each panel.
+/// Returns a figure with a row of maps for each panel.
 Figure panel_figure(const FailedGroup& failed, const Panels& panels) {
   Figure figure;
   figure.runs = {failed.first().path};
@@ -102,7 +103,7 @@ Column tilt_column(const Panels& panels) {
   return column;
 }
 
-/// Of each panel, what there is to say of one threshold.
+/// Returns the values at one threshold for each panel.
 std::vector<Column> threshold_columns(const analysis::Analysis& analysis, const Panels& panels,
                                       std::size_t f) {
   const std::string factor = rounded_text(analysis.thresholds[f].factor, 3);
@@ -131,7 +132,7 @@ pictures::FrameChoice panel_frames(const std::vector<double>& tilts, double thet
   pictures::FrameChoice choice;
   for (const double tilt : paper_tilts)
     if (const auto frame = pictures::frame_near(tilts, radians(tilt)); frame && radians(tilt) < theta_c)
-      choice.push_back(std::min(*frame, last));  // the nearest may lie beyond
+      choice.push_back(std::min(*frame, last));  // the nearest may lie beyond the last
   choice.push_back(last);
   choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
   return choice;
@@ -147,7 +148,8 @@ std::optional<Figure> gamma_maps(std::span<const RunGroup> groups, const FrameWo
   figure.name = "fig10-stress-ratio-maps";
   figure.title = "Maps of the stress ratio of each grain (paper, Fig. 10)";
   figure.caption = fmt::format(
-      "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} on, linear gray between{}",
+      "Stress ratio gamma of each grain: white below {}, black from 2 Gamma_c = {} upwards, linear gray "
+      "between{}",
       rounded_text(pictures::white_below, 2), rounded_text(2.0 * gamma_c, 3),
       bed_text(*failed, panels, at.empty()));
   Column mean{"gamma_mean", "1", analysis::quantity_of(&analysis::FrameRecord::gamma_mean).definition, {}};
@@ -175,7 +177,7 @@ std::optional<Figure> overload_maps(std::span<const RunGroup> groups, const Fram
   Figure figure = panel_figure(*failed, panels);
   figure.name = "fig13-overloaded-maps";
   figure.title = "Maps of the overloaded grains (paper, Fig. 13)";
-  figure.caption = "Overloaded grains in black, each column for another threshold of gamma" +
+  figure.caption = "Overloaded grains in black, with a column for each threshold of gamma" +
                    bed_text(*failed, panels, at.empty());
   figure.tables = {{"", {tilt_column(panels)}}};
   for (std::size_t f = 0; f < thresholds.size(); ++f)

@@ -21,15 +21,15 @@ namespace {
 
 constexpr double paper_tilt = 10.0;  // deg
 
-/// What is drawn: a grain of a frame.
+/// The grain and frame that are drawn.
 struct Shown {
   std::size_t k = 0;
   Frame frame;
   Index grain = 0;
 };
 
-/// The typical grain of the frame nearest to this tilt (rad) that has one, up to the last before theta_c: of
-/// a small bed some frames have none.
+/// Returns the typical grain of the frame nearest to this tilt (rad) that has one, up to the last frame
+/// before theta_c. In a small bed some frames have none.
 std::optional<Shown> shown_grain(const runs::RunView& run, double tilt) {
   const RunStatics& statics = run.file->header().statics;
   std::vector<std::size_t> nearest(repose_frame(run) + 1);
@@ -46,7 +46,7 @@ std::optional<Shown> shown_grain(const runs::RunView& run, double tilt) {
 
 bool in_middle_half(double value, double end) { return value >= 0.25 * end && value <= 0.75 * end; }
 
-/// The largest neighbourhood that is shown, in D: well beyond l_c, an even number.
+/// Returns the diameter of the largest neighbourhood shown, in D: an even number well above l_c.
 double largest_shown(double largest_l_c, double cut) {
   return std::min(std::max(8.0, 2.0 * std::ceil(largest_l_c)), cut);
 }
@@ -72,20 +72,20 @@ Table length_table(const analysis::Analysis& analysis, std::span<const double> l
            {"l_c", "D", "smallest l with gamma_l <= threshold", {lengths.begin(), lengths.end()}}}};
 }
 
-/// Numbers with blanks between them, as a text of gnuplot.
+/// Returns numbers separated by blanks as a gnuplot text.
 std::string word_list(std::span<const double> numbers) {
   return gnuplot_quoted(joined(numbers, " ", [](double number) { return rounded_text(number, 6); }));
 }
 
 std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grain) {
   return fmt::format(
-      "(a) Grain {} of {} at theta = {} deg, outlined, and the grains about it in the gray of their gamma, "
-      "white "
-      "below {} and black from 2 Gamma_c on. A neighbourhood of diameter l has all grains whose centres lie "
-      "within the circle: thin circles every 2 "
+      "(a) Grain {} of {} at theta = {} deg, outlined, and the surrounding grains in the gray of their "
+      "gamma, white below {} and black from 2 Gamma_c upwards. A neighbourhood of diameter l contains all "
+      "grains whose centres lie within the circle: thin circles every 2 "
       "D, thick ones at l_c. (b) Stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
-      "from that of gamma on, at which it is not above the threshold. Of the grains in the middle half of "
-      "the bed that are overloaded at each threshold, it is the one whose l_c are nearest to their means. {}",
+      "starting from that of gamma, at which gamma_l is at most the threshold. Of the grains in the middle "
+      "half of the bed that are overloaded at each threshold, this one has the l_c nearest to their means. "
+      "{}",
       grain, first_run_text(failed), angle_text(frame.tilt), rounded_text(pictures::white_below, 2),
       reading_caption(failed.first()));
 }
@@ -117,7 +117,7 @@ Table grains_around(const BedFrame& bed, Index centre, double distance) {
               {{"x", "D", "centre, from the overloaded grain, along the bed", {}},
                {"y", "D", "the same, across the bed", {}},
                {"radius", "D", "radius", {}},
-               {"gamma", "1", "stress ratio; NaN where a grain carries nothing", {}}}};
+               {"gamma", "1", "stress ratio; NaN if a grain carries nothing", {}}}};
   const double diameter = bed.statics.mean_diameter;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     double dx = bed.frame.x[i] - bed.frame.x[centre];

@@ -13,7 +13,7 @@ namespace {
 
 using enum studies::PaperQuantity;
 
-/// Factors of the thresholds over Gamma_c, as text: those of all runs are the same.
+/// Returns the factors of the thresholds over Gamma_c as text; they are the same in all runs.
 std::vector<std::string> factors_of(const runs::RunView& run) {
   std::vector<std::string> factors;
   for (const analysis::RunThreshold& threshold : run.analysis.thresholds)
@@ -21,12 +21,12 @@ std::vector<std::string> factors_of(const runs::RunView& run) {
   return factors;
 }
 
-/// "Gamma_c" and "2 Gamma_c" in enhanced text.
+/// Returns the label of a threshold, such as "Gamma_c" or "2 Gamma_c", in enhanced text.
 std::string threshold_label(const std::string& factor) {
   return fmt::format("'{{/:Italic γ}} ≥ {}Γ_c'", factor == "1" ? "" : factor + " ");
 }
 
-/// A quantity at threshold f, which is `factor` Gamma_c.
+/// Returns the column of a quantity at threshold f, which is `factor` Gamma_c.
 FrameColumn threshold_column(const std::string& name, const analysis::QuantityMember& member,
                              const std::string& factor, std::size_t f) {
   FrameColumn column = column_of(fmt::format("{}_{}", name, factor), analysis::quantity_of(member), f);
@@ -34,7 +34,7 @@ FrameColumn threshold_column(const std::string& name, const analysis::QuantityMe
   return column;
 }
 
-/// Columns by their names.
+/// Quantities by the names of their columns.
 using NamedMembers = std::vector<std::pair<std::string, analysis::QuantityMember>>;
 
 /// Adds the tables of periodic beds, with these columns for each threshold.
@@ -55,7 +55,7 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
   }
 }
 
-/// The paper's values of a quantity, at 0, theta_d and theta_c.
+/// Returns the paper's values of a quantity at 0, theta_d and theta_c.
 Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
                     const std::array<studies::PaperQuantity, 3>& quantities) {
   Column column{name, unit, meaning, {}};
@@ -103,9 +103,9 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   figure.wide = true;
   figure.height_over_width = 0.7;
   figure.caption =
-      "Coarse-graining length l_c, a diameter, of the overloaded grains over the tilt theta, a panel for "
-      "each "
-      "threshold: first the mean, then the largest. Dashed lines: the cut of each bed at which the search "
+      "Coarse-graining length l_c, a diameter, of the overloaded grains over the tilt theta, with a panel "
+      "for each threshold: first the mean, then the largest. Dashed lines: the cut of each bed at which the "
+      "search "
       "for "
       "l_c ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
@@ -114,7 +114,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
       {{"mean", &analysis::FrameThreshold::lc_mean}, {"max", &analysis::FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
   const std::array<studies::PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
-  double top = 0.0;  // of all that is shown of the largest lengths
+  double top = 0.0;  // upper end of the axis of the largest lengths
   for (const studies::PaperQuantity quantity : largest)
     top = std::max(top, studies::paper_value(quantity).value);
   int shown = 0;

@@ -15,7 +15,7 @@ namespace {
 
 const FrameWords frames_compared = {"0", "15", "repose"};
 
-/// Diameters, D: the grain alone, then from the first neighbours on; not above `largest`.
+/// Returns diameters up to `largest`, in D: 0 for the single grain, then from the first neighbours upwards.
 std::vector<double> scales_up_to(double largest) {
   std::vector<double> scales;
   for (const double l :
@@ -24,7 +24,7 @@ std::vector<double> scales_up_to(double largest) {
   return scales;
 }
 
-/// p_o of a frame at each diameter (D), with the printed threshold.
+/// Returns p_o of a frame at each diameter (D), with the printed threshold.
 std::vector<double> shares_of(const runs::RunView& run, std::size_t k, std::vector<double> scales) {
   const RunStatics& statics = run.file->header().statics;
   analysis::AnalysisParameters parameters = runs::from_facts(run.analysis.parameters);
@@ -34,8 +34,8 @@ std::vector<double> shares_of(const runs::RunView& run, std::size_t k, std::vect
                                          run.analysis.gamma_c, scales);
 }
 
-/// The mean over some runs, at one frame of each, and its error; none where fewer than half of `all` are
-/// left.
+/// Returns the mean over the runs, at one frame of each, and its error; NaN if fewer than half of `all`
+/// remain.
 std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const std::vector<double>& scales,
                                 Column mean) {
   Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
@@ -56,7 +56,7 @@ std::vector<Column> mean_shares(const FramesAtAngle& at, std::size_t all, const 
 std::vector<Column> scale_columns(const RunChoice& runs, std::span<const ShownFrames> shown) {
   const RunStatics& statics = runs.front()->file->header().statics;
   const std::vector<double> scales = scales_up_to(analysis::length_cut(statics, 0.0) / statics.mean_diameter);
-  std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the grain alone", scales}};
+  std::vector<Column> columns = {{"l", "D", "diameter of the neighbourhood; 0: the single grain", scales}};
   for (const ShownFrames& frames : shown)
     for (Column& column :
          mean_shares(frames.at, runs.size(), scales,
@@ -78,10 +78,11 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups, co
   figure.title = "Overloaded fraction over the size of neighbourhoods";
   figure.caption =
       "Fraction p_o of the grains whose neighbourhood of diameter l has a stress ratio gamma_l of at least "
-      "Gamma_c = sin(theta_c), over l, among the grains that carry something: the grain alone at l = 0, with "
-      "its first neighbours from about 2 D on; periodic beds. Dashed line: the paper's p_o at theta_c, 0.60. "
-      "Means over the runs of a bed that have "
-      "failed, of which at least half stand at an angle that is shown; error bars are standard errors over "
+      "Gamma_c = sin(theta_c), over l, among the grains that carry something: the single grain at l = 0, "
+      "with its first neighbours from about 2 D; periodic beds. Dashed line: the paper's p_o at theta_c, "
+      "0.60. "
+      "Means over the failed runs of a bed, at angles that at least half of them reach; error bars are "
+      "standard errors over "
       "the runs, none for a single run.";
   for (const RunGroup& group : groups) {
     const RunChoice runs = with_frames(failed_runs(group));

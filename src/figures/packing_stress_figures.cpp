@@ -5,7 +5,7 @@
 namespace talus::figures {
 namespace {
 
-/// A quantity of frames, of all groups.
+/// Adds a quantity of frames for all groups to a figure.
 std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups,
                                 const analysis::Quantity& quantity) {
   if (groups.empty()) return std::nullopt;

@@ -10,13 +10,13 @@
 namespace talus::figures {
 namespace {
 
-/// The components of a frame; loops all die at 0.
+/// Returns the diagram of the components of a frame. Loops are left out because they all die at 0.
 Table diagram_table(const runs::RunView& run, const std::string& state, std::size_t frame) {
   const analysis::PersistenceDiagram diagram = analysis::force_persistence(
       {run.file->frame(frame), run.file->header().statics}, run.analysis.frames.at(frame).mean_normal_force);
   Table table{state,
               {{"birth", "1", "largest normal force in a component, over the mean", {}},
-               {"death", "1", "that at which it meets an older one, or 0", {}}}};
+               {"death", "1", "force at which it meets an older one, or 0", {}}}};
   for (const analysis::Lifetime& lifetime : diagram.components) {
     table.columns[0].values.push_back(lifetime.birth);
     table.columns[1].values.push_back(lifetime.death);
@@ -25,12 +25,16 @@ Table diagram_table(const runs::RunView& run, const std::string& state, std::siz
 }
 
 Table curve_table(const runs::RunView& run) {
-  Table table{"",
-              {{"theta", "deg", "magnitude of the tilt", {}},
-               {"components", "1", "total persistence of components, per grain", {}},
-               {"loops", "1", "total persistence of loops, per grain", {}},
-               {"components_change", "1", "distance of the diagrams of components from the frame before", {}},
-               {"loops_change", "1", "distance of the diagrams of loops from the frame before", {}}}};
+  Table table{
+      "",
+      {{"theta", "deg", "magnitude of the tilt", {}},
+       {"components", "1", "total persistence of components, per grain", {}},
+       {"loops", "1", "total persistence of loops, per grain", {}},
+       {"components_change",
+        "1",
+        "distance of the diagrams of components from those of the preceding frame",
+        {}},
+       {"loops_change", "1", "distance of the diagrams of loops from those of the preceding frame", {}}}};
   const analysis::FramesOfRise rise = runs::last_rise_of(run);
   for (std::size_t k = 0; k < rise.frames.size(); ++k) {
     const analysis::FrameRecord& frame = *rise.frames[k];
@@ -52,13 +56,12 @@ std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   figure.name = "persistence";
   figure.title = "Persistence of the force network";
   figure.caption = fmt::format(
-      "The network of the contacts of {} with at least a threshold of their normal force, as the threshold "
-      "falls, in units of the mean force. (a) Its components, dots, of the first frame and of the last "
+      "The network of the contacts of {} whose normal force is at least a threshold, as the threshold falls, "
+      "in units of the mean force. (a) Its components, dots, of the first frame and of the last "
       "before "
-      "theta_c: each is born at the largest force in it, and dies where it meets an older one. (b) Sum of "
+      "theta_c: each is born at the largest force in it, and dies when it meets an older one. (b) Sum of "
       "birth - death of the components and of the loops, per grain; loops last down to 0. (c) Distance of "
-      "the "
-      "diagrams of each frame from those of the frame before, per grain; the dashed line is theta_c.",
+      "the diagrams of each frame from those of the preceding frame, per grain; the dashed line is theta_c.",
       first_run_text(*failed));
   figure.runs = {run.path};
   figure.wide = true;

@@ -20,7 +20,7 @@ constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 double failure_angle(const runs::RunView& run) { return degrees(run.analysis.theta_c); }
 
-/// The trial of a strength; no value where there is none.
+/// Returns the trial at a strength; null if there is none.
 const session::Trial* trial_of(const session::PerturbedState& state, double strength) {
   const auto found = std::ranges::find(state.trials, strength, &session::Trial::strength);
   return found == state.trials.end() ? nullptr : &*found;
@@ -49,7 +49,7 @@ void append_state(Table& table, const runs::RunView& run, const session::Perturb
   for (std::size_t k = 0; k < table.columns.size(); ++k) table.columns[k].values.push_back(row[k]);
 }
 
-/// theta_c - theta_d, deg, as the mean over the runs that have it; NaN where none has.
+/// Returns theta_c - theta_d, deg, as the mean over the runs that have it; NaN if none has.
 double mean_distance(const RunGroup& group, const analysis::QuantityMember& estimator) {
   std::vector<double> distances;
   for (const runs::RunView& run : group.runs)
@@ -67,8 +67,8 @@ std::string caption_of(const RunGroup& group, const session::SurfacePatch& patch
       "in copies of the bed at rest. Bars go from the largest push of a bisection that started no avalanche "
       "to the smallest that did. Open triangles up: no avalanche up to the largest push; triangles down: "
       "beds that the weakest push set off. Lines: theta_d as the mean distance over the runs, by the jump of "
-      "l_c max and by the end of the range in which the volume strain is not above its minimum by more than "
-      "its noise.",
+      "l_c max and by the end of the range in which the volume strain exceeds its minimum by at most its "
+      "noise.",
       group.label, runs_text(group.runs.size()), session::patch_text(patch));
 }
 
@@ -83,16 +83,15 @@ Table perturbation_states(const RunGroup& group, std::span<const session::Pertur
   column("theta", "deg", "tilt of the state");
   column("theta_c", "deg", "angle of repose of the run");
   column("distance", "deg", "theta_c - theta");
-  column("holds", "1", "1 where the bed comes to rest at this tilt by itself, else 0");
+  column("holds", "1", "1 if the bed comes to rest at this tilt by itself, else 0");
   column("v_without", "sqrt(g D)", "largest push of the bisection that started no avalanche; 0: none");
-  column("v_with", "sqrt(g D)", "smallest that did; NaN: none did; 0: no push was needed");
-  column("energy_without", "m g D",
-         "kinetic energy given by the first; m is the mass of a disk of diameter D");
+  column("v_with", "sqrt(g D)", "smallest push that did; NaN: none did; 0: no push was needed");
+  column("energy_without", "m g D", "kinetic energy of the first; m is the mass of a disk of diameter D");
   column("energy_with", "m g D", "the same of the second");
   column("moved_without", "1", "free grains that the first moved by more than D");
   column("moved_with", "1", "the same of the second, when the avalanche counted as one");
-  column("monotone", "1", "0 where a weaker push started an avalanche, or a stronger one did not");
-  column("trials", "1", "number of trials, the one without a push included");
+  column("monotone", "1", "0 if a weaker push started an avalanche, or a stronger one did not");
+  column("trials", "1", "number of trials, including the one without a push");
   for (std::size_t r = 0; r < group.runs.size(); ++r)
     for (const session::PerturbedState& state : tables[r].states) append_state(table, group.runs[r], state);
   return table;

@@ -1,6 +1,6 @@
 #pragma once
-/// The figure of perturbed runs and their tables: the weakest push that starts an avalanche over the distance
-/// to theta_c.
+/// Figure and tables of perturbed runs: the weakest push that starts an avalanche as a function of the
+/// distance to theta_c.
 
 #include <span>
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace talus::figures {
 
-/// One row for each state of each run, in the order of the runs; `tables` has one table for each of them.
-/// theta_c - theta is NaN where the slope has not failed.
+/// Returns a table with one row for each state of each run, in the order of the runs; `tables` has one entry
+/// for each run. theta_c - theta is NaN if the slope has not failed.
 Table perturbation_states(const RunGroup& group, std::span<const session::PerturbationTable> tables);
 
-/// The figure "perturb", with this table as perturb.csv. Marks theta_d where runs have one, as the mean
-/// distance to theta_c: by the jump of l_c max, and by the tilt from which on the volume strain is above its
-/// minimum by more than its noise (a flat minimum itself is hardly known).
+/// Makes the figure "perturb", with this table as perturb.csv. It marks theta_d, if runs have one, as the
+/// mean distance to theta_c: from the jump of l_c max, and from the tilt at which the volume strain exceeds
+/// its minimum by more than the noise (the position of a flat minimum is poorly defined).
 Figure perturbation_figure(const RunGroup& group, std::span<const session::PerturbationTable> tables);
 
-/// Tables in Markdown: the thresholds by their distance to theta_c, and each state.
+/// Returns tables in Markdown: the thresholds by their distance to theta_c, and each state.
 std::string perturbation_markdown(const RunGroup& group, std::span<const session::PerturbationTable> tables);
 
 }  // namespace talus::figures

@@ -1,4 +1,4 @@
-/// What perturbed runs say, as tables in Markdown.
+/// Results of perturbed runs as Markdown tables.
 
 #include <algorithm>
 #include <array>
@@ -15,15 +15,15 @@
 namespace talus::figures {
 namespace {
 
-/// Upper edges of the ranges of theta_c - theta of the first table, deg.
+/// Upper edges of the ranges of theta_c - theta in the first table, deg.
 constexpr std::array<double, 7> range_edges = {0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 60.0};
 
 struct MeasuredState {
   std::uint64_t seed = 0;
   double tilt = 0.0;     ///< deg
-  double theta_c = 0.0;  ///< deg, NaN where the slope has not failed
+  double theta_c = 0.0;  ///< deg, NaN if the slope has not failed
   session::Threshold threshold;
-  Index moved = 0;  ///< by the push at the upper end of the bracket; 0 where there is none
+  Index moved = 0;  ///< grains moved by the push at the upper end of the bracket; 0 if there is none
 };
 
 std::vector<MeasuredState> states_of(const RunGroup& group,
@@ -42,8 +42,8 @@ std::vector<MeasuredState> states_of(const RunGroup& group,
   return found;
 }
 
-/// The middle of a bracket on a logarithmic scale; beds that need no push, or less than the weakest, count
-/// with the weakest, beds that no push set off as infinite.
+/// Returns the logarithmic midpoint of a bracket. Beds that need no push, or less than the weakest, count
+/// with the weakest; beds that no push sets off count as infinite.
 double middle(const session::Threshold& threshold) {
   return std::sqrt(std::max(threshold.without, session::weakest_push) *
                    std::max(threshold.with, session::weakest_push));
@@ -55,7 +55,7 @@ std::string push_text(double strength) {
                                            : fmt::format("{:.2f}", strength);
 }
 
-/// Adds the row of the states whose distance to theta_c lies in (low, high], if there are any.
+/// Adds the row of the states at a distance to theta_c in (low, high], if there are any.
 void add_range(TextTable& table, const std::vector<MeasuredState>& states, double low, double high) {
   std::vector<double> middles;
   std::size_t alone = 0, none = 0, erratic = 0;
@@ -110,7 +110,7 @@ std::string perturbation_markdown(const RunGroup& group, std::span<const session
   for (const MeasuredState& state : states) each.rows.push_back(state_row(state));
   return fmt::format(
       "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
-      "angles in deg. Least, median and most are those of the middles of the brackets.\n\n{}\n{}",
+      "angles in deg. Least, median and most refer to the midpoints of the brackets.\n\n{}\n{}",
       group.label, session::patch_text(tables.front().plan.patch), states.size(),
       runs_text(group.runs.size()), markdown_text(ranges), markdown_text(each));
 }

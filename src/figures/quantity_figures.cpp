@@ -14,7 +14,7 @@ constexpr double same_angle = 1e-4;  // deg, far below the spacing of frames
 constexpr double row_height = 4.2 / 17.8;
 constexpr std::size_t panels_in_row = 3;
 
-/// The quantities that are shown, as columns in the unit of curves.
+/// Returns the quantities shown, as columns in the unit of curves.
 std::vector<FrameColumn> shown_columns() {
   std::vector<FrameColumn> columns;
   for (const analysis::Quantity& quantity : analysis::quantities()) {
@@ -35,7 +35,7 @@ std::string title_of(const std::string& name) {
   return analysis::shown_title(*std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name));
 }
 
-/// Whether a quantity is a share: no axis goes beyond 1, or 100 %, though a band may.
+/// Whether a quantity is a share. Its axis ends at 1, or 100 %, although a band may extend beyond.
 bool is_share(const std::string& name) {
   const analysis::Quantity& quantity =
       *std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name);
@@ -47,7 +47,7 @@ const std::vector<double>* find_values(const std::vector<Column>& columns, const
   return found == columns.end() ? nullptr : &found->values;
 }
 
-/// A panel for each quantity that has a value in some table.
+/// Sets a panel for each quantity that has a value in a table.
 void set_panels(Figure& figure) {
   std::size_t panels = 0;
   for (const FrameColumn& column : shown_columns()) {
@@ -69,16 +69,16 @@ void set_panels(Figure& figure) {
   figure.height_over_width = row_height * static_cast<double>(rows);
 }
 
-/// Runs of a group that can be drawn over an abscissa.
+/// Returns the runs of a group that can be drawn over an abscissa.
 RunChoice runs_over(const RunGroup& group, Abscissa abscissa) {
   return abscissa == Abscissa::tilt ? all_runs(group) : failed_runs(group);
 }
 
 const char* angle_text(Abscissa abscissa) {
-  return abscissa == Abscissa::tilt ? "the tilt theta" : "theta_c - theta, the angle that is left to failure";
+  return abscissa == Abscissa::tilt ? "the tilt theta" : "theta_c - theta, the angle left to failure";
 }
 
-/// A panel for each of `columns`, of all groups that have runs over this abscissa.
+/// Adds a panel for each of `columns`, with all groups that have runs over this abscissa.
 bool add_panels(Figure& figure, std::span<const RunGroup> groups, const std::vector<FrameColumn>& columns,
                 Abscissa abscissa) {
   for (const RunGroup& group : groups)
@@ -92,13 +92,13 @@ bool add_panels(Figure& figure, std::span<const RunGroup> groups, const std::vec
 std::optional<Figure> quantities_over(Figure figure, std::span<const RunGroup> groups, Abscissa abscissa) {
   if (!add_panels(figure, groups, shown_columns(), abscissa)) return std::nullopt;
   figure.caption = fmt::format(
-      "Quantities of the packing, of its overloaded grains and of their clusters over {}; at the "
-      "first threshold where they depend on one. {}",
+      "Quantities of the packing, of its overloaded grains and of their clusters over {}; at the first "
+      "threshold if they depend on one. {}",
       angle_text(abscissa), means_caption);
   return figure;
 }
 
-/// Rows of two tables at the same angle.
+/// Returns pairs of rows of two tables at the same angle.
 std::vector<std::pair<std::size_t, std::size_t>> common_rows(const std::vector<double>& first,
                                                              const std::vector<double>& second) {
   std::vector<std::pair<std::size_t, std::size_t>> rows;
@@ -112,13 +112,13 @@ std::vector<std::pair<std::size_t, std::size_t>> common_rows(const std::vector<d
   return rows;
 }
 
-/// The angle, then for each quantity its difference and the error of that.
+/// Returns the angle, then the difference of each quantity and its error.
 std::vector<Column> difference_columns(const std::vector<Column>& first, const std::vector<Column>& second) {
   const auto rows = common_rows(first[0].values, second[0].values);
   std::vector<Column> columns = {{first[0].name, first[0].unit, first[0].meaning, {}}};
   for (const auto& [a, b] : rows) columns[0].values.push_back(first[0].values[a]);
   for (const FrameColumn& column : shown_columns()) {
-    Column difference{column.name, column.unit, "mean of the second group less that of the first", {}};
+    Column difference{column.name, column.unit, "mean of the second group minus that of the first", {}};
     Column error{
         column.name + "_error", column.unit, "root of the sum of the squares of both standard errors", {}};
     for (const auto& [a, b] : rows) {
@@ -151,17 +151,17 @@ std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> 
   set_variable(figure, "theta_max", figure.tables[0].columns[0].values.back());
   set_panels(figure);
   figure.caption = fmt::format(
-      "Difference of the means of two groups of runs over {}, {} less {}, at the angles that both have, "
-      "while at "
-      "least half of the runs of each stand; at the first threshold where they depend on one. The dark band "
+      "Difference of the means of two groups of runs over {}, {} minus {}, at the angles that both have, as "
+      "long as at least half of the runs of each have not failed; at the first threshold if they depend on "
+      "one. The dark band "
       "is "
       "the standard error of the difference, the root of the sum of the squares of both standard errors, the "
-      "light one twice that; where a group has a single run there are none.",
+      "light one twice that; there are no bands if a group has a single run.",
       angle_text(abscissa), groups[1].label, groups[0].label);
   return figure;
 }
 
-/// A figure with a name and a title.
+/// Returns an empty figure with a name and a title.
 Figure titled(const char* name, const char* title) {
   Figure figure;
   figure.name = name;
@@ -195,9 +195,8 @@ std::optional<Figure> precursors_figure(std::span<const RunGroup> groups) {
   Figure figure = titled("precursors", "What precedes failure in the contacts");
   if (!add_panels(figure, groups, columns, Abscissa::angle_left)) return std::nullopt;
   figure.caption = fmt::format(
-      "Share of the contacts whose friction is fully mobilised (critical contacts), the same over the "
-      "largest "
-      "that equilibrium allows, and the mean number of contacts in their clusters; anisotropy of the "
+      "Share of the contacts whose friction is fully mobilised (critical contacts), this share over the "
+      "largest that equilibrium allows, and the mean number of contacts in their clusters; anisotropy of the "
       "contacts; "
       "redundant constraints and largest cluster of the network as a frictional rigid structure: over {}. {}",
       angle_text(Abscissa::angle_left), means_caption);

@@ -1,5 +1,5 @@
 #pragma once
-/// The angles at which something happens in each run of some groups.
+/// Characteristic angles of each run of several groups.
 
 #include <span>
 #include <string>
@@ -11,19 +11,18 @@
 
 namespace talus::figures {
 
-/// An angle that there is one of in a run: theta_c, the first slide, theta_r, or theta_d by an estimator.
+/// A scalar angle of a run: theta_c, the first slide, theta_r, or theta_d by one estimator.
 struct RunAngle {
-  std::string name;     ///< "theta_d/lc_jump[1]", as in members.csv
-  std::string label;    ///< for an axis, in enhanced text
-  std::string meaning;  ///< for a table
-  std::vector<std::vector<double>>
-      values;  ///< of each group, of each of its runs, deg; NaN where it has none
+  std::string name;                         ///< "theta_d/lc_jump[1]", as in members.csv
+  std::string label;                        ///< axis label in enhanced text
+  std::string meaning;                      ///< description in a table
+  std::vector<std::vector<double>> values;  ///< deg, by group and run; NaN for a run without the angle
 };
 
-/// All angles that at least two runs of a group have. `choices`: the runs of each group.
+/// Returns all angles that at least two runs of a group have. `choices`: the runs of each group.
 std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices);
 
-/// The groups that have several runs, and their angles.
+/// The groups with several runs, and their angles.
 struct AngleGroups {
   std::vector<const RunGroup*> groups;
   std::vector<RunChoice> choices;
@@ -31,10 +30,10 @@ struct AngleGroups {
 };
 AngleGroups angle_groups(std::span<const RunGroup> groups);
 
-/// Adds a table for each group: the seed, and all angles, of each run.
+/// Adds a table for each group with the seed and all angles of each run.
 void add_angle_tables(Figure& figure, const AngleGroups& all);
 
-/// The largest of 1, 2, 2.5 and 5 times a power of ten that is not above `most`, which is positive.
+/// Returns the largest of 1, 2, 2.5 and 5 times a power of ten that does not exceed `most` > 0.
 double round_step(double most);
 
 }  // namespace talus::figures

@@ -12,8 +12,8 @@
 namespace talus::figures {
 namespace {
 
-/// The scenario with all that does not shape a result at its default: runs of one group have the same.
-/// How far a run went, and what was kept of it, does not; a tolerance of the solver may.
+/// Returns the scenario with all settings that do not affect the result at their defaults; runs of one group
+/// agree in it. The end of a run and its output do not affect the result; a tolerance of the solver may.
 scenario::Scenario essence(scenario::Scenario scenario) {
   const scenario::Scenario plain;
   scenario.seed = plain.seed;
@@ -34,7 +34,8 @@ std::string bed_label(const scenario::Scenario& scenario) {
 
 scenario::Scenario essence_of(const RunGroup& group) { return essence(group.runs.front().scenario); }
 
-/// Not to a group that has another run with its seed: bits change from one version of Talus to another.
+/// Whether the run belongs to the group. It does not if the group has another run with its seed: results may
+/// differ in bits between versions of Talus.
 bool belongs_to(const RunGroup& group, const runs::RunView& run) {
   return essence_of(group) == essence(run.scenario) &&
          std::ranges::none_of(group.runs, [&](const runs::RunView& other) {
@@ -42,7 +43,7 @@ bool belongs_to(const RunGroup& group, const runs::RunView& run) {
          });
 }
 
-/// The name of the folder of the first run.
+/// Returns the name of the folder of the first run.
 std::string folder_name(const RunGroup& group) {
   const std::string& path = group.runs.front().path;
   return std::filesystem::path(absolute_path(path.substr(0, path.find('#'))))
@@ -51,7 +52,7 @@ std::string folder_name(const RunGroup& group) {
       .string();
 }
 
-/// Adds to the labels of groups that share one their folders.
+/// Adds the folders to labels that several groups share.
 void tell_folders_apart(std::vector<RunGroup>& groups) {
   std::vector<std::string> labels;
   for (const RunGroup& group : groups) labels.push_back(group.label);
@@ -59,7 +60,7 @@ void tell_folders_apart(std::vector<RunGroup>& groups) {
     if (std::ranges::count(labels, group.label) > 1) group.label += ", " + folder_name(group);
 }
 
-/// Adds to the labels of groups that share one the keys in which they differ.
+/// Adds the keys in which they differ to the labels that several groups share.
 void tell_apart(std::vector<RunGroup>& groups) {
   std::vector<std::string> additions(groups.size()), names;
   for (const RunGroup& group : groups)
@@ -82,7 +83,7 @@ void sort_by_seed(RunGroup& group) {
   const auto twice = std::ranges::adjacent_find(group.runs, {}, seed);
   if (twice != group.runs.end())
     throw Error(ExitCode::bad_data,
-                fmt::format("{} and {} are the same run: scenario and seed are the same; give one of them",
+                fmt::format("{} and {} are the same run (same scenario and seed); give only one of them",
                             twice->path, std::next(twice)->path));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The runs that figures are made from, those of one scenario together.
+/// Runs for figures, grouped by scenario.
 
 #include <string>
 #include <vector>
@@ -8,18 +8,19 @@
 
 namespace talus::figures {
 
-/// Runs that differ in their seed and in nothing else that shapes the result: an ensemble.
+/// An ensemble: runs that differ only in their seed and in settings without effect on the result.
 struct RunGroup {
-  /// "PBC, L = 200 D", with the keys that tell it from another group of that bed, or else its folder.
+  /// "PBC, L = 200 D", followed by the keys that distinguish it from another group of that bed, or by its
+  /// folder.
   std::string label;
-  std::vector<runs::RunView> runs;  ///< by ascending seed
+  std::vector<runs::RunView> runs;  ///< ascending in seed
 
   bool periodic() const { return runs.front().scenario.bed.boundary == scenario::BedBoundary::periodic; }
 };
 
-/// Groups in the order of their first run: of periodic beds first, then of beds between walls by their
-/// length. Runs of one scenario and seed that ended in other states are of two groups. Throws Error(bad_data)
-/// where a run is there twice.
+/// Groups runs in the order of their first run: periodic beds first, then beds between walls by length. Runs
+/// of the same scenario and seed with different final states belong to two groups. Throws Error(bad_data) if
+/// a run occurs twice.
 std::vector<RunGroup> group_runs(std::vector<runs::RunView> runs);
 
 }  // namespace talus::figures

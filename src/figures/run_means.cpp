@@ -12,7 +12,7 @@ namespace {
 
 constexpr double same_tilt = 1e-6;  // rad; frames of a run are at least 1e-8 deg apart, in practice 0.01 deg
 
-/// The last rise of a run that failed ends at its theta_c.
+/// Returns the last rise of a run, which ends at theta_c if the run failed.
 analysis::FramesOfRise rise_to_failure(const runs::RunView& run) {
   analysis::FramesOfRise rise = runs::last_rise_of(run);
   const double theta_c = theta_c_of(run);
@@ -20,10 +20,10 @@ analysis::FramesOfRise rise_to_failure(const runs::RunView& run) {
   return rise;
 }
 
-/// What the columns of frames are in one run, up to theta_c.
+/// Values of the columns in the frames of one run, up to theta_c.
 struct RunCurve {
   std::vector<double> angles;               ///< rad, ascending
-  std::vector<std::vector<double>> values;  ///< of each column, at each angle
+  std::vector<std::vector<double>> values;  ///< values of each column, at each angle
 };
 
 RunCurve curve_over_tilt(const runs::RunView& run, std::span<const FrameColumn> columns) {
@@ -38,7 +38,7 @@ RunCurve curve_over_tilt(const runs::RunView& run, std::span<const FrameColumn> 
   return curve;
 }
 
-/// At multiples of the spacing of frames below theta_c, between two frames.
+/// Returns a curve at multiples of the spacing of frames below theta_c, interpolated between frames.
 RunCurve curve_before_failure(const runs::RunView& run, std::span<const FrameColumn> columns) {
   const RunCurve over_tilt = curve_over_tilt(run, columns);
   const double theta_c = run.analysis.theta_c, spacing = radians(run.scenario.output.frame_every);
@@ -62,7 +62,7 @@ RunCurve curve_of(const runs::RunView& run, std::span<const FrameColumn> columns
 void name_angle(Column& angle, Abscissa abscissa) {
   if (abscissa == Abscissa::tilt) return;
   angle.name = "angle_left";
-  angle.meaning = "theta_c - theta, theta_c that of each run";
+  angle.meaning = "theta_c - theta, with the theta_c of each run";
 }
 
 }  // namespace
@@ -90,7 +90,7 @@ CommonTilts common_tilts(std::span<const std::vector<double>> tilts) {
 }
 
 std::vector<Column> tilt_columns(const CommonTilts& common) {
-  std::vector<Column> columns = {{"theta", "deg", "tilt", {}}, {"n", "1", "runs behind the row", {}}};
+  std::vector<Column> columns = {{"theta", "deg", "tilt", {}}, {"n", "1", "number of runs in the row", {}}};
   for (std::size_t k = 0; k < common.tilts.size(); ++k) {
     columns[0].values.push_back(degrees(common.tilts[k]));
     columns[1].values.push_back(static_cast<double>(common.samples[k].size()));
@@ -101,7 +101,7 @@ std::vector<Column> tilt_columns(const CommonTilts& common) {
 std::vector<Column> mean_columns(const CommonTilts& common, std::span<const std::vector<double>> values,
                                  Column mean) {
   Column error{mean.name + "_error", mean.unit, "its standard error over the runs", {}};
-  Column deviation{mean.name + "_deviation", mean.unit, "the standard deviation of the runs", {}};
+  Column deviation{mean.name + "_deviation", mean.unit, "its standard deviation over the runs", {}};
   for (const std::vector<Sample>& samples : common.samples) {
     std::vector<double> row;
     for (const auto& [run, frame] : samples) row.push_back(values[run][frame]);

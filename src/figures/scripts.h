@@ -1,15 +1,15 @@
 #pragma once
-/// The gnuplot scripts of assets/figures, which are part of the binary.
+/// The gnuplot scripts of assets/figures, embedded in the program.
 
 #include <string_view>
 #include <vector>
 
 namespace talus::figures {
 
-/// assets/figures/NAME.gp. Throws Error(internal) where there is none.
+/// Returns assets/figures/NAME.gp. Throws Error(internal) if it does not exist.
 std::string_view figure_script(std::string_view name);
 
-/// The names of all of them, sorted.
+/// Returns the names of all scripts, sorted.
 std::vector<std::string_view> figure_scripts();
 
 }  // namespace talus::figures

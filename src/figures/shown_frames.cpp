@@ -20,7 +20,7 @@ ShownFrames named(const std::string& word) {
   return {word, fmt::format("{{/:Italic θ}} = {}°", word), fmt::format("at {} deg", word), {}};
 }
 
-/// The frames of `word` in the runs that have it.
+/// Returns the frames of `word` in the runs that have it.
 FramesAtAngle frames_at_word(const RunChoice& runs, const std::string& word) {
   FramesAtAngle found;
   for (const runs::RunView* run : runs) try {

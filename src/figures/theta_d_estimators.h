@@ -1,5 +1,5 @@
 #pragma once
-/// All estimators of theta_d that a run has.
+/// All estimators of theta_d of a run.
 
 #include <cstddef>
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace talus::figures {
 
-/// An estimator of theta_d, by which strain or threshold, and how it is called.
+/// An estimator of theta_d, for one strain or threshold, and its labels.
 struct Estimator {
   analysis::QuantityMember member;
   std::size_t element;
-  std::string label;    ///< for an axis, in enhanced text
-  std::string meaning;  ///< for a table
+  std::string label;    ///< axis label in enhanced text
+  std::string meaning;  ///< description in a table
 };
 
-/// Onset of dilation, percolation and jump of the largest l_c, by either strain and at each threshold, the
-/// first ones last.
+/// Returns the onset of dilation, percolation and the jump of the largest l_c, for either strain and for each
+/// threshold, in reverse order.
 std::vector<Estimator> estimators_of(const runs::RunView& run);
 
-/// deg; NaN where the run has none.
+/// Returns theta_d in deg; NaN if the run has none.
 double theta_d_of(const runs::RunView& run, const Estimator& estimator);
 
-/// The first run with thresholds, which has all estimators; else the first of all.
+/// Returns the first run with thresholds, which has all estimators, or else the first run.
 const runs::RunView& most_analysed(const std::vector<const runs::RunView*>& runs);
 
 }  // namespace talus::figures

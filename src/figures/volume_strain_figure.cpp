@@ -14,7 +14,7 @@
 namespace talus::figures {
 namespace {
 
-/// A row for each estimator: theta_d as a mean over the runs that have one.
+/// Returns a row for each estimator: theta_d as a mean over the runs that have one.
 Table theta_d_table(const std::string& name, const RunChoice& runs,
                     const std::vector<Estimator>& estimators) {
   std::string meanings;
@@ -38,7 +38,7 @@ Table theta_d_table(const std::string& name, const RunChoice& runs,
 
 /// The runs of a periodic group.
 struct PeriodicRuns {
-  std::string name;  ///< of its table
+  std::string name;  ///< name of its table
   RunChoice runs;
 };
 
@@ -57,7 +57,7 @@ std::vector<PeriodicRuns> add_strains(Figure& figure, std::span<const RunGroup> 
   return chosen;
 }
 
-/// From one number of the axis of a strain to the next, in 1e-3: a panel has room for some six of them.
+/// Returns the tick spacing of the axis of a strain, in 1e-3; a panel has room for about six ticks.
 double tick_step(const Figure& figure, const std::string& strain) {
   double low = 0.0, high = 0.0;
   for (const Table& table : figure.tables)

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double paper_k = 2.5;  // k_L - k_0 (paper, Fig. 7)
 
-/// M g / (2 L), Pa: the mean of sigma_yy in the horizontal bed at rest.
+/// Returns M g / (2 L), Pa, the mean of sigma_yy in the horizontal bed at rest.
 double mean_weight(const RunStatics& statics) {
   const double mass = std::accumulate(statics.mass.begin(), statics.mass.begin() + statics.free_count, 0.0);
   return mass * statics.gravity / (2.0 * statics.length);
 }
 
-/// The middle of each section, in D.
+/// Returns the centre of each section, in D.
 Column section_column(const runs::RunView& run) {
   Column x{"x", "D", "middle of the section, from the upper wall downslope", {}};
   const std::vector<double>& edges = run.analysis.section_edge;
@@ -30,7 +30,7 @@ Column section_column(const runs::RunView& run) {
   return x;
 }
 
-/// Mean and standard error over the runs of sigma_xx of each section, at frames[r] of run r.
+/// Returns the mean and standard error over the runs of sigma_xx of each section, in frames[r] of run r.
 std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<std::size_t>& frames,
                                      const std::string& name) {
   Column mean{name, "M g / (2 L)", "mean sigma_xx of the section", {}};
@@ -47,9 +47,9 @@ std::vector<Column> section_stresses(const RunChoice& runs, const std::vector<st
   return {std::move(mean), std::move(error)};
 }
 
-/// What Fig. 7 shows of one group.
+/// The data of Fig. 7 for one group.
 struct WallGroup {
-  Statistics ratio;     ///< over the runs
+  Statistics ratio;     ///< mean over the runs
   double spread = 0.0;  ///< rms over the runs of the standard deviation in the window
   double depth = 0.0;   ///< mean height V / L before failure, D
 };
@@ -76,7 +76,7 @@ WallGroup wall_group(const RunChoice& runs, std::vector<studies::WallPoint>& poi
 Table empty_wall_table() {
   return {"",
           {{"L", "D", "length of the bed", {}},
-           {"n", "1", "runs behind the row", {}},
+           {"n", "1", "number of runs in the row", {}},
            {"ratio",
             "1",
             "(sigma_T / sigma_N) / tan(theta), mean over the last 0.5 deg before theta_c and over runs",
@@ -99,7 +99,8 @@ std::string plus_minus(const studies::WallFit& fit) {
 
 std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups, const FrameWords& at) {
   const auto shortest = std::ranges::find_if(groups, [](const RunGroup& group) {
-    return !group.periodic() && !with_files(failed_runs(group)).empty();  // groups come by ascending length
+    // Groups are in ascending order of length.
+    return !group.periodic() && !with_files(failed_runs(group)).empty();
   });
   if (shortest == groups.end()) return std::nullopt;
   const RunChoice runs = with_files(failed_runs(*shortest));
@@ -109,8 +110,7 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups, const
   figure.caption = fmt::format(
       "Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, {}, in "
       "units of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains). Means over "
-      "{}, error bars: standard errors over them, none for a single "
-      "run.",
+      "{}, error bars: standard errors over these runs, none for a single run.",
       shortest->label, runs_text(runs.size()));
   Table table{"", {section_column(*runs.front())}};
   std::vector<ShownFrames> shown = shown_frames(runs, at, {"0", "10", "repose"});
@@ -136,7 +136,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
     RunChoice runs = failed_runs(group);
-    // Where rows are sparse, there may be none in the last 0.5 deg.
+    // Sparse rows may leave none in the last 0.5 deg.
     std::erase_if(runs, [](const runs::RunView* run) { return std::isnan(run->analysis.failure_ratio); });
     if (group.periodic() || runs.empty()) continue;
     const WallGroup wall = wall_group(runs, points);
@@ -151,11 +151,12 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   const double depth = statistics_of(depths).mean;
   figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "
-      "deg before theta_c and over the runs of each length ({} in all). Error bars: standard error over the "
+      "deg before theta_c and over the runs of each length ({} in total). Error bars: standard error over "
+      "the "
       "runs; for a single run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L "
       "(paper, Eq. 15), fitted to all runs by least squares, k_L - k_0 = {} (standard error), and with the "
       "paper's 2.5. H is the mean height V/L of each bed before failure, as in the paper's integral over the "
-      "depth; the lines have their mean, H = {} D.",
+      "depth; the lines use its mean, H = {} D.",
       runs_text(points.size()), plus_minus(fit), rounded_text(depth, 1));
   set_variable(figure, "k", fit.k);
   set_variable(figure, "k_text", gnuplot_quoted(plus_minus(fit)));
