@@ -97,8 +97,7 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const
   figure.wide = true;
   figure.height_over_width = 0.48 * std::ceil(0.5 * static_cast<double>(states.size()));
   const std::vector<double>& edges = failed->first().analysis.direction_edge;
-  Table table{
-      "", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction relative to the bed", {}})};
+  Table table{"", edge_columns(edges, radians(1.0), {"direction", "deg", "the direction to the bed", {}})};
   add_means(table, states, &analysis::FrameRecord::direction_density,
             {"density", "1/rad", "probability density of the direction", {}});
   add_means(table, states, &analysis::FrameRecord::direction_density_by_force,

@@ -25,16 +25,12 @@ Table diagram_table(const runs::RunView& run, const std::string& state, std::siz
 }
 
 Table curve_table(const runs::RunView& run) {
-  Table table{
-      "",
-      {{"theta", "deg", "magnitude of the tilt", {}},
-       {"components", "1", "total persistence of components, per grain", {}},
-       {"loops", "1", "total persistence of loops, per grain", {}},
-       {"components_change",
-        "1",
-        "distance of the diagrams of components from those of the preceding frame",
-        {}},
-       {"loops_change", "1", "distance of the diagrams of loops from those of the preceding frame", {}}}};
+  Table table{"",
+              {{"theta", "deg", "magnitude of the tilt", {}},
+               {"components", "1", "total persistence of components, per grain", {}},
+               {"loops", "1", "total persistence of loops, per grain", {}},
+               {"components_change", "1", "distance of component diagrams from the preceding frame", {}},
+               {"loops_change", "1", "distance of loop diagrams from the preceding frame", {}}}};
   const analysis::FramesOfRise rise = runs::last_rise_of(run);
   for (std::size_t k = 0; k < rise.frames.size(); ++k) {
     const analysis::FrameRecord& frame = *rise.frames[k];

@@ -29,13 +29,13 @@ std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups);
 
 // overload_figures.cpp
 // Overloaded grains of periodic beds as a function of tilt (paper, section V).
-/// Plots probability density of gamma at 0, 10 and 15 deg (paper, Fig. 8).
+/// Plots the probability density of gamma at 0, 10 and 15 deg (paper, Fig. 8).
 std::optional<Figure> gamma_density_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 /// Plots p_o over tilt, for each threshold (paper, Fig. 9).
 std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> groups);
 
-/// Plots mean and largest l_c over tilt, for each threshold (paper, Fig. 12).
+/// Plots the mean and largest l_c over tilt, for each threshold (paper, Fig. 12).
 std::optional<Figure> length_figure(std::span<const RunGroup> groups);
 
 /// Plots p_o over the size of neighbourhoods, at 0 and 15 deg and just before failure.
@@ -66,13 +66,13 @@ std::optional<Index> typical_grain(const BedFrame& bed, std::span<const analysis
 /// their nearest images: x and y relative to that grain and the radius, in D, and gamma.
 Table grains_around(const BedFrame& bed, Index centre, double distance);
 
-/// Plots A grain that is overloaded at 10 deg, or at the nearest tilt before failure at which such a grain
+/// Shows a grain that is overloaded at 10 deg, or at the nearest tilt before failure at which such a grain
 /// exists, with circles about it, and gamma_l over l (paper, Fig. 11).
 std::optional<Figure> neighbourhoods_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // volume_strain_figure.cpp
 // Volume of periodic beds as a function of tilt, and theta_d by each estimator (paper, section VI).
-/// Plots volume strain over tilt, from the free surface and from the centre of mass (paper, Fig. 14).
+/// Plots the volume strain over tilt, from the free surface and from the centre of mass (paper, Fig. 14).
 std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups);
 
 // wall_figures.cpp
@@ -97,7 +97,7 @@ struct HistogramBins {
 /// 2 IQR n^(-1/3), rounded to a round number; there is one empty bin on either side.
 HistogramBins bins_for(const std::vector<double>& values);
 
-/// Plots histogram of each angle, with mean, standard error, median and number.
+/// Plots a histogram of each angle, with mean, standard error, median and number.
 std::optional<Figure> angle_distributions(std::span<const RunGroup> groups);
 
 /// Plots each angle over every other angle, with Pearson's coefficient; theta_d is shown at the first
@@ -112,14 +112,14 @@ std::optional<Figure> angle_correlations(std::span<const RunGroup> groups);
 std::vector<Column> row_means(const RunChoice& runs, std::span<const std::size_t> frames,
                               std::vector<double> analysis::FrameRecord::*member, Column mean);
 
-/// Plots polar histogram of the directions of contact normals, with each contact counted once and weighted by
-/// f_n.
+/// Plots a polar histogram of the directions of contact normals, with each contact counted once and weighted
+/// by f_n.
 std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const FrameWords& at = {});
-/// Plots probability density of the normal forces over their mean.
+/// Plots the probability density of the normal forces over their mean.
 std::optional<Figure> force_distribution(std::span<const RunGroup> groups, const FrameWords& at = {});
-/// Plots correlation of normal forces, of gamma and of the mean stress of grains, over distance.
+/// Plots the correlation of normal forces, of gamma and of the mean stress of grains, over distance.
 std::optional<Figure> correlations(std::span<const RunGroup> groups, const FrameWords& at = {});
-/// Plots fabric of the weak contacts along the strong ones, over their mobilised friction.
+/// Plots the fabric of the weak contacts along the strong ones, over their mobilised friction.
 std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, const FrameWords& at = {});
 
 // force_chains.cpp
@@ -129,11 +129,11 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, con
 /// whether friction is fully mobilised. Coordinates are rounded to 1e-4 D.
 Table force_table(const BedFrame& bed);
 
-/// Shows force chains of the first run that has failed, at its last frame before theta_c.
+/// Shows the force chains of the first run that has failed, at its last frame before theta_c.
 std::optional<Figure> force_chains(std::span<const RunGroup> groups, const FrameWords& at = {});
 
-/// Plots share, largest cluster and correlation length of the critical contacts over theta, as means over the
-/// runs of each group, and their positions in the same frame of the same run.
+/// Plots the share, largest cluster and correlation length of the critical contacts over theta, as means over
+/// the runs of each group, and their positions in the same frame of the same run.
 std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups);
 
 // quantity_figures.cpp
@@ -144,11 +144,11 @@ std::optional<Figure> critical_contacts_figure(std::span<const RunGroup> groups)
 std::optional<Figure> quantities_over_tilt(std::span<const RunGroup> groups);
 std::optional<Figure> quantities_before_failure(std::span<const RunGroup> groups);
 
-/// Plots those quantities of the contacts that indicate the distance to failure, over theta_c - theta.
+/// Plots the quantities of the contacts that indicate the distance to failure, over theta_c - theta.
 std::optional<Figure> precursors_figure(std::span<const RunGroup> groups);
 
-/// Plots means of the second group minus those of the first, with the errors of both, at the angles that both
-/// have; no value unless there are exactly two groups.
+/// Plots the means of the second group minus those of the first, with the errors of both, at the angles that
+/// both have; no value unless there are exactly two groups.
 std::optional<Figure> differences_over_tilt(std::span<const RunGroup> groups);
 std::optional<Figure> differences_before_failure(std::span<const RunGroup> groups);
 
@@ -166,13 +166,14 @@ struct TiltCycle {
 /// none without tilts.
 std::vector<TiltCycle> cycles_of(std::span<const double> tilts);
 
-/// Plots cycles of the first group whose runs have a tilt programme and files; no value without such a group.
+/// Plots the cycles of the first group whose runs have a tilt programme and files; no value without such a
+/// group.
 std::optional<Figure> cycles_figure(std::span<const RunGroup> groups);
 
 // dynamic_angle.cpp
 // Comparison of the dynamic angle of repose with the angles that the paper expects it to equal.
-/// Plots angle at rest of each run over its theta_c and over its theta_d by each estimator, and the first of
-/// these runs over time. No value if no flow was followed until it stopped (tilt.after_failure).
+/// Plots the angle at rest of each run over its theta_c and over its theta_d by each estimator, and the first
+/// of these runs over time. No value if no flow was followed until it stopped (tilt.after_failure).
 std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups);
 
 /// Returns the history of one run from shortly before failure: tilt, and mean velocity of the surface layer
@@ -181,14 +182,14 @@ Table flow_trace(const runs::RunView& run);
 
 // event_figure.cpp
 // Rearrangements before failure.
-/// Plots rearrangements of all runs of each group together: distributions of sizes and waiting angles with
-/// their maximum-likelihood laws, and the size and volume change of each over the tilt. No value without a
-/// rearrangement.
+/// Plots the rearrangements of all runs of each group together: distributions of sizes and waiting angles
+/// with their maximum-likelihood laws, and the size and volume change of each over the tilt. No value without
+/// a rearrangement.
 std::optional<Figure> event_figure(std::span<const RunGroup> groups);
 
 // persistence_figure.cpp
 // Connectivity of the network of contact forces, and its change with tilt.
-/// Plots for one bed: the persistence diagrams of the force network at the start and just before failure,
+/// Plots for one bed the persistence diagrams of the force network at the start and just before failure,
 /// and, over the tilt, the total persistence and the distance between the diagrams of consecutive frames.
 std::optional<Figure> persistence_figure(std::span<const RunGroup> groups);
 
