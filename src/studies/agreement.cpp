@@ -9,7 +9,7 @@
 namespace talus::studies {
 namespace {
 
-constexpr double rounding = 1e-9;  // of a difference that is as large as the tolerance
+constexpr double rounding = 1e-9;  // allowance for a difference equal to the tolerance
 
 }  // namespace
 

@@ -10,7 +10,7 @@
 
 namespace talus::studies {
 
-/// Values of several seeds.
+/// Statistics of a value over several seeds.
 struct Spread {
   int runs = 0;  ///< number of runs, with or without a value
   Statistics values;

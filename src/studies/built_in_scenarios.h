@@ -1,11 +1,11 @@
 #pragma once
-/// The scenarios of assets/scenarios, which are part of the binary.
+/// The scenarios of assets/scenarios, embedded in the program.
 
 #include <string_view>
 
 namespace talus::studies {
 
-/// The text of assets/scenarios/NAME.toml. Throws Error(internal) where there is none.
+/// Returns the text of assets/scenarios/NAME.toml. Throws Error(internal) if it does not exist.
 std::string_view built_in_scenario(std::string_view name);
 
 }  // namespace talus::studies

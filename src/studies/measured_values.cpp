@@ -18,7 +18,7 @@ using enum PaperQuantity;
 struct FailedRun {
   const runs::RunView& run;
   analysis::FramesOfRise rise;
-  std::size_t at_theta_c;  ///< the last frame up to it
+  std::size_t at_theta_c;  ///< last frame at or before theta_c
 
   const analysis::FrameRecord& frame(std::size_t k) const { return *rise.frames.at(k); }
   double tilt(std::size_t k) const { return rise.tilts.at(k); }
@@ -33,7 +33,7 @@ FailedRun failed_run(const runs::RunView& run) {
   return of;
 }
 
-/// Mean of `value(frame)` over the frames of the last half degree up to theta_c.
+/// Returns the mean of `value(frame)` over the frames within half a degree before theta_c.
 template <typename Value>
 double mean_before_failure(const FailedRun& of, const Value& value) {
   double sum = 0.0;
@@ -78,7 +78,8 @@ double dilated(const FailedRun& of) {
   return of.frame(of.at_theta_c).volume_strain - of.frame(of.frame_at(onset)).volume_strain;
 }
 
-/// The onset of dilation; where its range begins at the first tilt, the end of this range as an upper bound.
+/// Returns the onset of dilation or, if its range begins at the first tilt, the end of this range as an upper
+/// bound.
 Measured dilation_tilt(const FailedRun& of) {
   if (of.run.analysis.dilation_low[0] <= of.tilt(0) + analysis::same_tilt)
     return {degrees(of.run.analysis.dilation_high[0]), true};
@@ -87,7 +88,7 @@ Measured dilation_tilt(const FailedRun& of) {
 
 double peak(const FailedRun& of, std::size_t which) { return degrees(of.frame(0).direction_peak[which]); }
 
-/// A direction near 180 deg is one near 0.
+/// Maps a direction near 180 deg to one near 0.
 double wrapped(double angle) { return angle > 90.0 ? angle - 180.0 : angle; }
 
 /// Measures a quantity that combines several numbers of the run; empty for all others.
@@ -132,7 +133,7 @@ Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t f
   const double value =
       analysis::scaled(row.unit, analysis::number_at(run.analysis, number, f), run.statics.mean_diameter);
   if (std::isnan(value)) return {not_known};
-  // What lies beyond the cut of the paper's data processing is not known to the paper.
+  // Values beyond the cut of the paper's data processing are unknown in the paper.
   if (quantity == lc_max_after_jump) return {std::min(value, paper_lc_cut)};
   const bool at_percolation = quantity == theta_d_by_percolation || quantity == overloaded_at_percolation;
   return {value, at_percolation && std::isnan(run.analysis.thresholds[f].percolation_error)};

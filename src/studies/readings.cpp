@@ -11,7 +11,7 @@
 namespace talus::studies {
 namespace {
 
-// Indices into the list of analyses: of grains with their first neighbours, and of single grains.
+// Indices into the list of analyses, of grains with their first neighbours and of single grains.
 enum : std::size_t {
   stored,
   single,
@@ -71,7 +71,7 @@ std::vector<double> mean_scores(std::span<const ReadingResult> results, std::siz
   return means;
 }
 
-/// The middle of the values; between two, their mean.
+/// Returns the median; for an even number of values, the mean of the two middle ones.
 double median(std::vector<double> values) {
   if (values.empty()) return not_known;
   std::ranges::sort(values);
@@ -91,7 +91,7 @@ double deviation_of(const ReadingResult& result) {
   return median(std::move(deviations));
 }
 
-/// Whether the first is nearer to the paper.
+/// Whether the first result is closer to the paper.
 bool is_nearer(const ReadingResult& first, const ReadingResult& second) {
   if (first.agreeing != second.agreeing) return first.agreeing > second.agreeing;
   return first.deviation < second.deviation;

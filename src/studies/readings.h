@@ -35,7 +35,7 @@ std::span<const Reading> readings();
 /// and grains with their first neighbours.
 std::span<const Reading> base_readings();
 
-/// The chain of one preparation under one reading, each value over the seeds.
+/// The chain of one preparation under one reading, with each value over the seeds.
 struct ReadingResult {
   std::size_t preparation = 0;
   std::size_t reading = 0;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::string_view preparations[] = {"pour", "geometric", "collapse"};  // deposition.method
 constexpr int wall_lengths[] = {100, 150, 200, 250, 300};
-constexpr double quick_scale = 0.5;  // of lengths and depths
+constexpr double quick_scale = 0.5;  // factor of lengths and depths
 
 std::string setting(const char* key, double value) {
   return fmt::format("{}={}", key, scenario::short_text(value));
 }
 
-/// A bed of the paper.
+/// Returns a bed of the paper.
 ensemble::Variant make_bed(bool quick, std::string name, const std::string& scenario_name,
                            std::vector<std::string> settings) {
   const std::string text(built_in_scenario(scenario_name)), file = scenario_name + ".toml";
@@ -46,7 +46,7 @@ std::vector<ensemble::Variant> make_beds(bool quick) {
   return beds;
 }
 
-/// A column of text: commas part columns, so they become semicolons.
+/// Returns a text column with commas, which separate columns, replaced by semicolons.
 std::string column(std::string_view text) {
   std::string result;
   for (const char c : text) result += c == ',' ? ';' : c;

@@ -17,10 +17,10 @@
 namespace talus::studies {
 namespace {
 
-/// The values of a member by one analysis, one for each threshold.
+/// The values of a member by one analysis, one entry for each threshold.
 using Thresholds = std::vector<MeasuredValues>;
 
-/// The run of a member with its stored analysis; nothing where that is not the one with default parameters.
+/// Returns the run of a member with its stored analysis; empty unless that has the default parameters.
 std::optional<runs::RunView> stored_run(const std::string& path) {
   io::RunFile file = io::RunFile::open(path);
   std::optional<analysis::Analysis> stored = io::read_analysis(path);
@@ -61,12 +61,12 @@ Thresholds thresholds_of(const io::StoredReading& stored) {
   return thresholds;
 }
 
-/// Whether the bed is analysed for the readings: not between walls.
+/// Whether the bed is analysed for the readings; beds between walls are not.
 bool has_readings(const ensemble::Member& member) {
   return member.scenario.bed.boundary == scenario::BedBoundary::periodic;
 }
 
-/// The valid one of an analysis, if it is there.
+/// Returns the stored reading of an analysis if it exists and is valid.
 const io::StoredReading* kept_reading(const io::RunFile& run, const std::vector<io::StoredReading>& stored,
                                       const ChainAnalysis& analysis) {
   const auto found = std::ranges::find(stored, analysis.name, &io::StoredReading::name);
@@ -75,8 +75,8 @@ const io::StoredReading* kept_reading(const io::RunFile& run, const std::vector<
   return is_valid ? &*found : nullptr;
 }
 
-/// The values of a member by each analysis, as chain_analyses() has them (of beds between walls those of the
-/// run file alone, the others are empty); nothing where one is missing.
+/// Returns the values of a member by each analysis, in the order of chain_analyses() (for beds between walls
+/// only that of the run file, the others are empty); empty if one is missing.
 std::optional<std::vector<Thresholds>> values_of(const ensemble::Member& member, const runs::RunView& run) {
   std::vector<Thresholds> values;
   const std::vector<io::StoredReading> stored = io::read_readings(*run.file);

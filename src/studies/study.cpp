@@ -42,7 +42,7 @@ double common_angle(const std::vector<RunReach>& reaches) {
     double& lowest = std::isnan(reached.theta_c) ? lowest_end : lowest_failure;
     lowest = std::min(lowest, std::isnan(reached.theta_c) ? reached.end : reached.theta_c);
   }
-  // A tilt is a sum in radians: 3.0000000000000004 deg is meant to be 3.
+  // A tilt is a sum in radians, so that 3 deg may read 3.0000000000000004.
   return std::min(std::floor(lowest_failure), std::round(1e6 * lowest_end) / 1e6);
 }
 

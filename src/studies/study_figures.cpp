@@ -11,14 +11,14 @@
 namespace talus::studies {
 namespace {
 
-/// Tilts are sums in radians: two that are meant to be equal differ by less than this, deg.
+/// Tolerance for equal tilts, deg; tilts are sums in radians.
 constexpr double same_angle = 1e-6;
 
 double figure(const Figures& figures, std::string_view name) {
   return find_value(figures, name).value_or(not_known);
 }
 
-/// Mean displacement of the free grains along the bed between two frames, m.
+/// Returns the mean displacement of the free grains along the bed between two frames, m.
 double mean_displacement(const Frame& from, const Frame& to, const RunStatics& statics) {
   double sum = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i)
@@ -29,11 +29,11 @@ double mean_displacement(const Frame& from, const Frame& to, const RunStatics& s
 /// A quantity of the bed at an angle.
 struct BedField {
   std::string name;
-  std::optional<analysis::QuantityMember> member;  ///< its row in the table of quantities; creep has none
-  std::string note;                                ///< that a study adds to the definition
+  std::optional<analysis::QuantityMember> member;  ///< row in the table of quantities; creep has none
+  std::string note;                                ///< addition of a study to the definition
 };
 
-/// In the order of StudyQuantity.
+/// Returns the quantities in the order of StudyQuantity.
 const std::vector<BedField>& bed_fields() {
   static const std::vector<BedField> fields = {
       {"volume_strain", &analysis::FrameRecord::volume_strain, ""},
@@ -41,8 +41,8 @@ const std::vector<BedField>& bed_fields() {
       {"creep", std::nullopt,
        "mean displacement downslope of the free grains since the tilt began, over the depth of the bed"},
       {"overloaded_fraction", &analysis::FrameThreshold::overloaded_fraction,
-       "; overloaded are those that have, with their first neighbours, gamma >= sin(theta_c), theta_c that "
-       "of the same run"},
+       "; overloaded grains are those that have, with their first neighbours, gamma >= sin(theta_c), with "
+       "theta_c of the same run"},
       {"stress_ratio", &analysis::FrameRecord::stress_ratio, ""},
       {"coordination_number", &analysis::FrameRecord::coordination_number, ""},
   };
@@ -64,7 +64,8 @@ double value_at(const ensemble::MemberSeries& series, const std::string& name, d
   return found != series.series.end() && k ? found->values[*k] : not_known;
 }
 
-/// Over the depth of the bed, from the first frame of the tilt to the last one not after an angle, deg.
+/// Returns the creep over the depth of the bed, from the first frame of the tilt to the last one not after an
+/// angle, deg.
 double creep_at(const io::RunFile& run, double angle) {
   const analysis::SeriesPart rise = analysis::last_rise(run.frame_tilts());
   std::vector<double> theta;
@@ -102,10 +103,10 @@ const std::vector<StudyField>& study_fields() {
       for (const BedField& bed : bed_fields()) all.push_back(field_of(bed, group));
     const StudyField of_solver[] = {
         {"residual_max_rest", "worst residual at rest", solver, 1.0,
-         "worst natural-map residual eta of a step of the tilt at rest"},
-        {"residual_max_moving", "while moving", solver, 1.0, "the same of the other steps"},
+         "largest natural-map residual eta of a step of the tilt at rest"},
+        {"residual_max_moving", "while moving", solver, 1.0, "the same for the other steps"},
         {"unconverged_share", "not converged, in % of steps", solver, 100.0,
-         "share of the steps of the tilt that missed the tolerance asked of them"},
+         "share of the steps of the tilt that missed their tolerance"},
         {"iterations_per_step", "iterations a step", solver, 1.0,
          "mean iterations of the solver in a step of the tilt"},
         {"wall_s", "wall time in s", solver, 1.0,

@@ -1,5 +1,5 @@
 #pragma once
-/// The figures of a run that a study compares, read from its run file.
+/// Results of a run that a study compares, read from its run file.
 
 #include <array>
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace talus::studies {
 
-/// What the figures of one run are: of the slope, of the bed at the reference angle and at theta_c, and of
-/// how the steps of the tilt were solved.
+/// Results of one run: the failure of the slope, the state of the bed at the reference angle and at theta_c,
+/// and the solution of the steps of the tilt.
 enum class StudyQuantity : std::size_t {
   theta_c,
   volume_strain_at_reference,
@@ -39,31 +39,33 @@ inline constexpr std::size_t study_quantity_count = static_cast<std::size_t>(Stu
 enum class StudyGroup { slope, at_reference, at_theta_c, solver };
 
 struct StudyField {
-  std::string name;   ///< in CSV and JSON; "_deg" and "_s" at its end are units, all else are numbers
-  std::string title;  ///< in tables, with the unit
+  /// Name in CSV and JSON; the endings "_deg" and "_s" are units, other values are dimensionless.
+  std::string name;
+  std::string title;  ///< title in tables, with the unit
   StudyGroup group;
-  double factor;  ///< from the value to what tables show
+  double factor;  ///< factor from the value to the unit of tables
   std::string help;
 };
-/// In the order of StudyQuantity. What the table of quantities has is called and explained as there.
+/// Returns the fields in the order of StudyQuantity. Those in the table of quantities have the names and
+/// definitions of that table.
 const std::vector<StudyField>& study_fields();
 
-/// One value for each quantity; NaN where a run has none.
+/// One value for each quantity; NaN if a run has none.
 using StudyFigures = std::array<double, study_quantity_count>;
 inline double& at(StudyFigures& row, StudyQuantity q) { return row[static_cast<std::size_t>(q)]; }
 inline double at(const StudyFigures& row, StudyQuantity q) { return row[static_cast<std::size_t>(q)]; }
 
-/// How far a run went.
+/// Extent of a run.
 struct RunReach {
-  double theta_c = 0.0;  ///< deg; NaN while the slope has not failed
-  double end = 0.0;      ///< deg, the last tilt
+  double theta_c = 0.0;  ///< deg; NaN if the slope has not failed
+  double end = 0.0;      ///< last tilt, deg
 };
 RunReach reach(const io::RunFile& run);
 
-/// The figures with the bed at `reference` deg, and at theta_c: each is that of the last frame with a tilt
-/// not above the angle, `member` what the analysis of the run says of it. Creep is the mean displacement
-/// downslope of the free grains since the tilt began, over the nominal depth of the bed; there is none of a
-/// run without frames. A run that failed before `reference`, or did not reach it, has no values there.
+/// Returns the results with the bed at `reference` deg and at theta_c, each from the last frame with a tilt
+/// not above the angle; `member` contains the analysis of the run. Creep is the mean downslope displacement
+/// of the free grains since the tilt began, over the nominal depth of the bed; it requires frames. A run that
+/// failed before `reference`, or did not reach it, has no values there.
 StudyFigures study_figures(const io::RunFile& run, const ensemble::MemberResult& member, double reference);
 
 }  // namespace talus::studies

@@ -1,5 +1,5 @@
 #pragma once
-/// The one-parameter law of the shear stress of a bed between walls (T26).
+/// One-parameter law for the shear stress of a bed between walls (T26).
 
 #include <span>
 
@@ -13,16 +13,16 @@ struct WallPoint {
   double ratio = 0.0;              ///< (sigma_T / sigma_N) / tan(theta); 1 without walls
 };
 
-/// k_L - k_0 of (sigma_T / sigma_N) / tan(theta) = 1 - (k_L - k_0) / 3 * H / L.
+/// Fitted coefficient of the law (sigma_T / sigma_N) / tan(theta) = 1 - (k_L - k_0) / 3 * H / L.
 struct WallFit {
   double k = 0.0;      ///< k_L - k_0; NaN without points
-  double error = 0.0;  ///< its standard error, from the residuals; NaN for fewer than two points
+  double error = 0.0;  ///< standard error from the residuals; NaN for fewer than two points
 };
 
-/// Least squares, all points with the same weight.
+/// Fits the law by least squares with equal weights.
 WallFit fit_wall_law(std::span<const WallPoint> points);
 
-/// The law itself.
+/// Returns (sigma_T / sigma_N) / tan(theta) of the law.
 double wall_law(double k, double depth_over_length);
 
 }  // namespace talus::studies
