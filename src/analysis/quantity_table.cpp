@@ -26,8 +26,7 @@ const std::string clusters = overload + " joining";
 QuantityRows general_rows() {
   return {
       {&Analysis::theta_c, "theta_c", "", "rad",
-       "angle of repose, as in /results: the tilt at which the final, sustained flow began; NaN if the "
-       "slope "
+       "angle of repose, as in /results: the tilt at which the final, sustained flow began; NaN if the slope "
        "has not failed",
        "", curve("θ_c", "Angle of repose θ_c")},
       {&Analysis::first_slide, "first_slide", "", "rad",
@@ -153,8 +152,8 @@ QuantityRows cluster_rows() {
       {&Analysis::direction, "clusters/direction", "2", "rad",
        "directions of directed paths, relative to the bed", ""},
       {&FrameThreshold::directed_spans, "clusters/directed_spans", "T F 2", "1",
-       "1 if a path through overloaded grains leads from the floor to the surface, each of its steps "
-       "within 30 deg of a direction (the paper's directed percolation), else 0",
+       "1 if a path through overloaded grains leads from the floor to the surface, each of its steps within "
+       "30 deg of a direction (the paper's directed percolation), else 0",
        clusters},
       {&FrameThreshold::directed_height, "clusters/directed_height", "T F 2", "1",
        "largest rise of such a path, from centre to centre, over the mean height V / L of the bed", clusters},
@@ -180,9 +179,7 @@ QuantityRows contact_rows() {
       {&FrameRecord::direction_density_by_force, "contacts/direction_density_by_force", "T B", "1/rad",
        "the same, each contact weighted with f_n", "bins"},
       {&FrameRecord::direction_peak, "contacts/direction_peak", "T 3", "rad",
-       "directions of highest density within 30 deg of 0, 60 and 120 deg (density smoothed over 5 "
-       "deg)",
-       ""},
+       "directions of highest density within 30 deg of 0, 60 and 120 deg (density smoothed over 5 deg)", ""},
       {&FrameRecord::fabric_amplitude, "contacts/fabric_amplitude", "T 2", "1",
        "amplitude of the Fourier components 2 and 6 of the density of directions, relative to a uniform one",
        ""},
@@ -218,10 +215,9 @@ QuantityRows contact_rows() {
       {&FrameRecord::critical_bound, "contacts/critical_bound", "T", "1",
        "largest nu at which N grains can be in equilibrium with M contacts, 2 - (2 N + N_mu) / M: each "
        "critical contact removes one of the 2 M force components, and each grain has two force equations, "
-       "and one torque equation if it has a contact with friction; 2 - 3 N / M with friction, 2 - 2 "
-       "N / M without. N: free grains that carry force; N_mu: those with a contact with friction; M: "
-       "force-carrying contacts, those with the floor and walls included (after McNamara and Herrmann "
-       "2004)",
+       "and one torque equation if it has a contact with friction; 2 - 3 N / M with friction, 2 - 2 N / M "
+       "without. N: free grains that carry force; N_mu: those with a contact with friction; M: "
+       "force-carrying contacts, those with the floor and walls included (after McNamara and Herrmann 2004)",
        ""},
       {&FrameRecord::critical_share_of_bound, "contacts/critical_share_of_bound", "T", "1",
        "nu over that bound; NaN if the bound is not above 0: there are too few contacts for equilibrium", "",
@@ -318,8 +314,8 @@ QuantityRows topology_rows() {
        ""},
       {&FrameRecord::network_change, "network/change", "T 2", "1",
        "distance of the persistence diagrams of this network, of components and of loops, from those of the "
-       "preceding frame, per free grain: sliced Wasserstein distance in sixteen directions "
-       "(Carriere, Cuturi and Oudot 2017); NaN in the first frame",
+       "preceding frame, per free grain: sliced Wasserstein distance in sixteen directions (Carriere, Cuturi "
+       "and Oudot 2017); NaN in the first frame",
        ""},
   };
 }
@@ -344,9 +340,8 @@ QuantityRows rigidity_rows() {
       {&FrameRecord::rigid_clusters, "rigid/clusters", "T", "1",
        "rigid clusters: sets of two bodies or more that can only move as one, with a sticking contact as a "
        "pin (two constraints) and a sliding one as a bar (one), counted by the double-bond pebble game "
-       "(Henkes, "
-       "Quint, Fily and Schwarz 2016); floor and walls are one body. Not counted in beds without friction, "
-       "whose grains turn freely: -1, and NaN for the next four",
+       "(Henkes, Quint, Fily and Schwarz 2016); floor and walls are one body. Not counted in beds without "
+       "friction, whose grains turn freely: -1, and NaN for the next four",
        ""},
       {&FrameRecord::rigid_largest_share, "rigid/largest_share", "T", "1",
        "share of the free grains that carry force in the largest rigid cluster", "",

@@ -24,7 +24,7 @@ const std::array<SeriesField, observable_count> observable_fields = {{
     {"volume_strain", "1",
      "(V - V0)/V0 with V below the free surface and V0 at the start of the tilt; negative = contraction"},
     {"centre_of_mass_strain", "1",
-     "(y - y0)/y0 of the centre of mass above the floor plane, a less noisy estimate of the volume strain"},
+     "(y - y0)/y0 of the centre of mass above the floor plane, a quieter estimate of the volume strain"},
     {"surface_displacement", "m",
      "mean displacement along x of the surface layer since the start of the tilt"},
     {"kinetic_energy", "J/m",

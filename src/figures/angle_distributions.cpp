@@ -91,13 +91,10 @@ std::optional<Figure> angle_distributions(std::span<const RunGroup> groups) {
   figure.caption =
       "Histograms of the characteristic angles of a run: theta_c, the first slide of the surface layer "
       "(after theta_c if the tilt is fast compared with the acceleration of the flow), the angle at rest "
-      "theta_r if a flow was followed, and theta_d by each estimator: jump of "
-      "the "
-      "largest l_c, first cluster that spans from floor to surface, for each threshold, and onset of "
-      "dilation by "
-      "either strain. Shares refer to the n runs of a group that have the angle; vertical lines are "
-      "the "
-      "means, ± their standard errors.";
+      "theta_r if a flow was followed, and theta_d by each estimator: jump of the largest l_c, first cluster "
+      "that spans from floor to surface, for each threshold, and onset of dilation by either strain. Shares "
+      "refer to the n runs of a group that have the angle; vertical lines are the means, ± their standard "
+      "errors.";
   add_angle_tables(figure, all);
   for (std::size_t k = 0; k < all.angles.size(); ++k) add_histogram(figure, all.angles[k], k + 1);
   const std::size_t rows = (all.angles.size() + panels_in_row - 1) / panels_in_row;

@@ -90,9 +90,8 @@ std::optional<Figure> contact_directions(std::span<const RunGroup> groups, const
   figure.title = "Directions of contact normals";
   figure.caption = fmt::format(
       "Probability density of the direction of contact normals, relative to the bed,{}. Filled: each contact "
-      "counted "
-      "once; outlined: weighted with its normal force; thin circle: uniform, 1/pi per rad. A normal and its "
-      "opposite are one direction; 0, 60 and 120 deg are marked.",
+      "counted once; outlined: weighted with its normal force; thin circle: uniform, 1/pi per rad. A normal "
+      "and its opposite are one direction; 0, 60 and 120 deg are marked.",
       states_text(*failed, states));
   figure.wide = true;
   figure.height_over_width = 0.48 * std::ceil(0.5 * static_cast<double>(states.size()));
@@ -162,11 +161,9 @@ std::optional<Figure> weak_contacts_figure(std::span<const RunGroup> groups, con
   figure.name = "weak-contacts";
   figure.title = "Directions of weak contacts over their mobilised friction";
   figure.caption = fmt::format(
-      "Fabric of the weak contacts (normal force up to its mean) along the strong ones, 2 <cos 2 "
-      "(direction - d)>, d the direction in which the strong contacts concentrate, over their mobilised "
-      "friction,{}{}. Below 0 they lie across the force chains. Weak contacts right of the dashed line "
-      "count "
-      "as coherent.",
+      "Fabric of the weak contacts (normal force up to its mean) along the strong ones, 2 <cos 2 (direction "
+      "- d)>, d the direction in which the strong contacts concentrate, over their mobilised friction,{}{}. "
+      "Below 0 they lie across the force chains. Weak contacts right of the dashed line count as coherent.",
       states_text(*failed, states), error_text);
   figure.height_over_width = 0.7;
   const std::vector<double>& edges = failed->first().analysis.mobilisation_edge;

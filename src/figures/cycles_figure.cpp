@@ -124,10 +124,8 @@ std::string caption_of(const RunGroup& group, const RunChoice& runs) {
   std::string text = fmt::format(
       "A bed whose tilt follows a programme: {}, seed {}. (a) Tilt over time. Over the tilt, with a "
       "different colour for each cycle: (b) volume strain since the start of the tilt, (c) coordination "
-      "number z, (d) "
-      "share "
-      "of the contacts with fully mobilised friction nu, (e) {}, (f) amplitude of the anisotropy of the "
-      "contacts. ",
+      "number z, (d) share of the contacts with fully mobilised friction nu, (e) {}, (f) amplitude of the "
+      "anisotropy of the contacts. ",
       group.label, first.scenario.seed,
       has_overload(first) ? "overloaded fraction p_o" : "stress ratio of the packing Gamma");
   if (!std::isnan(theta_c_of(first))) text += "The last cycle ends before failure. ";

@@ -185,10 +185,9 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups) {
       "a group together: (a) share that released at least a given energy, in m g D; lines: "
       "maximum-likelihood power law, density ~ E^-α, from the energy with the smallest Kolmogorov-Smirnov "
       "distance. (b) share with at least a given waiting angle, the tilt since the end of the preceding "
-      "event; solid lines: power law, dotted: exponential law beyond the shortest. (c) energy over the "
-      "tilt at which each begins. (d) change of the height of the centre of mass over its height at the "
-      "start, in 1e-6: above 0 the bed dilates, below it compacts; the axis is linear near 0 and "
-      "logarithmic beyond.";
+      "event; solid lines: power law, dotted: exponential law beyond the shortest. (c) energy over the tilt "
+      "at which each begins. (d) change of the height of the centre of mass over its height at the start, in "
+      "1e-6: above 0 the bed dilates, below it compacts; the axis is linear near 0 and logarithmic beyond.";
   figure.wide = true;
   figure.height_over_width = 0.62;
   for (const RunGroup& group : groups) {

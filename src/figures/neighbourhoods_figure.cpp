@@ -81,11 +81,10 @@ std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grai
   return fmt::format(
       "(a) Grain {} of {} at theta = {} deg, outlined, and the surrounding grains in the gray of their "
       "gamma, white below {} and black from 2 Gamma_c upwards. A neighbourhood of diameter l contains all "
-      "grains whose centres lie within the circle: thin circles every 2 "
-      "D, thick ones at l_c. (b) Stress ratio gamma_l of the neighbourhood over l; l_c is the smallest l, "
-      "starting from that of gamma, at which gamma_l is at most the threshold. Of the grains in the middle "
-      "half of the bed that are overloaded at each threshold, this one has the l_c nearest to their means. "
-      "{}",
+      "grains whose centres lie within the circle: thin circles every 2 D, thick ones at l_c. (b) Stress "
+      "ratio gamma_l of the neighbourhood over l; l_c is the smallest l, starting from that of gamma, at "
+      "which gamma_l is at most the threshold. Of the grains in the middle half of the bed that are "
+      "overloaded at each threshold, this one has the l_c nearest to their means. {}",
       grain, first_run_text(failed), angle_text(frame.tilt), rounded_text(pictures::white_below, 2),
       reading_caption(failed.first()));
 }

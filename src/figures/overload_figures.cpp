@@ -105,9 +105,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
   figure.caption =
       "Coarse-graining length l_c, a diameter, of the overloaded grains over the tilt theta, with a panel "
       "for each threshold: first the mean, then the largest. Dashed lines: the cut of each bed at which the "
-      "search "
-      "for "
-      "l_c ends.";
+      "search for l_c ends.";
   figure.caption.append(paper_text).append(" ").append(means_caption);
   add_periodic_groups(
       figure, groups,

@@ -80,10 +80,8 @@ std::optional<Figure> overload_scale_figure(std::span<const RunGroup> groups, co
       "Fraction p_o of the grains whose neighbourhood of diameter l has a stress ratio gamma_l of at least "
       "Gamma_c = sin(theta_c), over l, among the grains that carry something: the single grain at l = 0, "
       "with its first neighbours from about 2 D; periodic beds. Dashed line: the paper's p_o at theta_c, "
-      "0.60. "
-      "Means over the failed runs of a bed, at angles that at least half of them reach; error bars are "
-      "standard errors over "
-      "the runs, none for a single run.";
+      "0.60. Means over the failed runs of a bed, at angles that at least half of them reach; error bars are "
+      "standard errors over the runs, none for a single run.";
   for (const RunGroup& group : groups) {
     const RunChoice runs = with_frames(failed_runs(group));
     if (!group.periodic() || runs.empty()) continue;

@@ -53,8 +53,7 @@ std::optional<Figure> persistence_figure(std::span<const RunGroup> groups) {
   figure.title = "Persistence of the force network";
   figure.caption = fmt::format(
       "The network of the contacts of {} whose normal force is at least a threshold, as the threshold falls, "
-      "in units of the mean force. (a) Its components, dots, of the first frame and of the last "
-      "before "
+      "in units of the mean force. (a) Its components, dots, of the first frame and of the last before "
       "theta_c: each is born at the largest force in it, and dies when it meets an older one. (b) Sum of "
       "birth - death of the components and of the loops, per grain; loops last down to 0. (c) Distance of "
       "the diagrams of each frame from those of the preceding frame, per grain; the dashed line is theta_c.",

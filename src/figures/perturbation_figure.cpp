@@ -63,12 +63,11 @@ std::string number_text(double value) { return std::isnan(value) ? "NaN" : scena
 std::string caption_of(const RunGroup& group, const session::SurfacePatch& patch) {
   return fmt::format(
       "Velocity, and kinetic energy, of the weakest push that starts an avalanche, over the distance to the "
-      "angle of repose; {}, {}. The grains of a patch of {} D at the free surface are pushed downslope, "
-      "in copies of the bed at rest. Bars go from the largest push of a bisection that started no avalanche "
-      "to the smallest that did. Open triangles up: no avalanche up to the largest push; triangles down: "
-      "beds that the weakest push set off. Lines: theta_d as the mean distance over the runs, by the jump of "
-      "l_c max and by the end of the range in which the volume strain exceeds its minimum by at most its "
-      "noise.",
+      "angle of repose; {}, {}. The grains of a patch of {} D at the free surface are pushed downslope, in "
+      "copies of the bed at rest. Bars go from the largest push of a bisection that started no avalanche to "
+      "the smallest that did. Open triangles up: no avalanche up to the largest push; triangles down: beds "
+      "that the weakest push set off. Lines: theta_d as the mean distance over the runs, by the jump of l_c "
+      "max and by the end of the range in which the volume strain exceeds its minimum by at most its noise.",
       group.label, runs_text(group.runs.size()), session::patch_text(patch));
 }
 

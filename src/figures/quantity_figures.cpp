@@ -153,10 +153,8 @@ std::optional<Figure> differences_over(Figure figure, std::span<const RunGroup> 
   figure.caption = fmt::format(
       "Difference of the means of two groups of runs over {}, {} minus {}, at the angles that both have, as "
       "long as at least half of the runs of each have not failed; at the first threshold if they depend on "
-      "one. The dark band "
-      "is "
-      "the standard error of the difference, the root of the sum of the squares of both standard errors, the "
-      "light one twice that; there are no bands if a group has a single run.",
+      "one. The dark band is the standard error of the difference, the root of the sum of the squares of "
+      "both standard errors, the light one twice that; there are no bands if a group has a single run.",
       angle_text(abscissa), groups[1].label, groups[0].label);
   return figure;
 }
@@ -197,8 +195,8 @@ std::optional<Figure> precursors_figure(std::span<const RunGroup> groups) {
   figure.caption = fmt::format(
       "Share of the contacts whose friction is fully mobilised (critical contacts), this share over the "
       "largest that equilibrium allows, and the mean number of contacts in their clusters; anisotropy of the "
-      "contacts; "
-      "redundant constraints and largest cluster of the network as a frictional rigid structure: over {}. {}",
+      "contacts; redundant constraints and largest cluster of the network as a frictional rigid structure: "
+      "over {}. {}",
       angle_text(Abscissa::angle_left), means_caption);
   return figure;
 }

@@ -76,10 +76,10 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
   figure.title = "Volume strain over tilt, and theta_d by each estimator (paper, Fig. 14)";
   figure.caption =
       "Strain of periodic beds since the start of the tilt: (a) of the volume below the free surface, (b) of "
-      "the "
-      "height of the centre of mass; negative: contraction. (c) theta_d by each estimator, mean and standard "
-      "error over the runs that have one: jump of the largest l_c and first cluster that spans from floor to "
-      "surface, for each threshold, and onset of dilation by either strain; dashed: the paper's 15 deg.";
+      "the height of the centre of mass; negative: contraction. (c) theta_d by each estimator, mean and "
+      "standard error over the runs that have one: jump of the largest l_c and first cluster that spans from "
+      "floor to surface, for each threshold, and onset of dilation by either strain; dashed: the paper's 15 "
+      "deg.";
   figure.caption.append(" ").append(means_caption);
   figure.height_over_width = 1.35;
   const std::vector<PeriodicRuns> chosen = add_strains(figure, groups);

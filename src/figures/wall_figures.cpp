@@ -152,8 +152,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "
       "deg before theta_c and over the runs of each length ({} in total). Error bars: standard error over "
-      "the "
-      "runs; for a single run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L "
+      "the runs; for a single run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L "
       "(paper, Eq. 15), fitted to all runs by least squares, k_L - k_0 = {} (standard error), and with the "
       "paper's 2.5. H is the mean height V/L of each bed before failure, as in the paper's integral over the "
       "depth; the lines use its mean, H = {} D.",

@@ -58,8 +58,7 @@ std::vector<DataSetField> frame_fields() {
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
        "a periodic bed; y away from the floor"},
       {"/particles/grains/image/value", int32, "T N 2", "1",
-       "number of exits through the right periodic edge minus those through the left, and 0: the unwrapped "
-       "centre "
+       "how often a grain left through the right periodic edge minus the left, and 0: the unwrapped centre "
        "is position + image * edges"},
       {"/particles/grains/angle/value", float32, "T N", "rad",
        "angle turned since the beginning, counter-clockwise positive"},

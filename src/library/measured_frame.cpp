@@ -22,14 +22,15 @@
 namespace talus {
 namespace {
 
-constexpr double default_length = 10.0;  // D, over which fields are coarse-grained, as maps have it
+// Diameter over which fields are coarse-grained, D; the default of maps.
+constexpr double default_length = 10.0;
 
 [[noreturn]] void refuse(std::string_view name, const char* what, const std::vector<std::string>& known) {
   throw Error(ExitCode::usage,
               fmt::format("no {} is called '{}'{}", what, visible_word(name), did_you_mean(name, known)));
 }
 
-/// "lc/mean[1]": its name and 1; 0 where no number follows.
+/// Splits "lc/mean[1]" into its name and 1; the number is 0 if none is given.
 std::pair<std::string_view, std::size_t> split(std::string_view name) {
   const auto bracket = name.find('[');
   if (bracket == std::string_view::npos || !name.ends_with(']')) return {name, 0};
@@ -95,7 +96,8 @@ double MeasuredFrame::quantity(std::string_view name) {
     if (quantity.name == plain && analysis::is_number_of_frame(quantity)) {
       const std::size_t count = analysis::needs_threshold(quantity) ? record().thresholds.size() : 1;
       if (threshold < count) return analysis::number_of(quantity, record(), threshold);
-      throw Error(ExitCode::usage, fmt::format("'{}': there are {} of it", visible_word(name), count));
+      throw Error(ExitCode::usage,
+                  fmt::format("'{}': the frame has {} of it, counted from 0", visible_word(name), count));
     }
   const auto* const field = std::ranges::find(observable_fields, name, &SeriesField::name);
   if (field == observable_fields.end()) refuse(name, "number of a frame", names_of_numbers());
@@ -138,7 +140,8 @@ MeasuredFrame measured_frame(const std::string& path, std::size_t k,
   const io::RunFile run = io::RunFile::open(path);
   const std::size_t count = run.all_frame_tilts().size();
   if (k >= count)
-    throw Error(ExitCode::usage, fmt::format("{}: there is no frame {}; it has {}", path, k, count));
+    throw Error(ExitCode::usage,
+                fmt::format("{}: frame {} does not exist; the run has {} frames", path, k, count));
   FrameInput input;
   input.frame = run.frame(k);
   input.statics = run.header().statics;

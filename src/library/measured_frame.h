@@ -1,5 +1,5 @@
 #pragma once
-/// A frame that is measured and drawn by names: of a live run, or of a file.
+/// A frame of a live run or of a file whose quantities are measured and drawn by name.
 
 #include <optional>
 #include <string>
@@ -17,18 +17,18 @@
 
 namespace talus {
 
-/// What is measured, and by what it is judged.
+/// Input of the measurements.
 struct FrameInput {
   Frame frame;
-  RunStatics statics;  ///< of the grains of the frame
+  RunStatics statics;  ///< data of the grains of the frame
   analysis::AnalysisParameters parameters{};
-  std::optional<double> theta_c{};     ///< rad; nothing while the slope has not failed
-  std::optional<Frame> begin{};        ///< as the tilt began, from which motions are measured
-  std::optional<ObservableRow> row{};  ///< of the same moment, or the last one before it
+  std::optional<double> theta_c{};     ///< rad; empty if the slope has not failed
+  std::optional<Frame> begin{};        ///< frame at the start of the tilt, the reference of displacements
+  std::optional<ObservableRow> row{};  ///< observables at the same time, or the last ones before it
 };
 
-/// Values are made when they are first asked for. Names are those of the tables of quantities: Error(usage),
-/// with what may have been meant, for any other.
+/// Measures a frame on demand. Names are those of the tables of quantities; any other name throws
+/// Error(usage) with a suggestion.
 class MeasuredFrame {
  public:
   explicit MeasuredFrame(FrameInput input) : input_(std::move(input)) {}
@@ -36,20 +36,20 @@ class MeasuredFrame {
   const FrameInput& input() const { return input_; }
   BedFrame bed() const { return {input_.frame, input_.statics}; }
 
-  /// A number of a frame or an observable, in SI units: "overloaded/fraction", "lc/mean[1]" at the second
-  /// threshold, "kinetic_energy". While the slope has not failed and no gamma_c is given, Gamma_c is that of
-  /// assumed_theta_c.
+  /// Returns a quantity of the frame or an observable, in SI units: "overloaded/fraction", "lc/mean[1]" at
+  /// the second threshold, "kinetic_energy". If the slope has not failed and no gamma_c is given, Gamma_c is
+  /// that of assumed_theta_c.
   double quantity(std::string_view name);
-  /// A quantity of grains or of contacts, row by row, in SI units, at the first threshold.
+  /// Return a quantity of grains or of contacts, row by row, in SI units, at the first threshold.
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name) const;
 
-  /// A map by its name, as `talus render --map` draws it; theta_c is that of the run or the assumed one
-  /// unless it is given. Throws Error(usage), Error(unavailable).
+  /// Draws a map by name as `talus render --map` does. Unless it is given, theta_c is that of the run or the
+  /// assumed one. Throws Error(usage) and Error(unavailable).
   render::Image draw(const std::string& map, pictures::MapOptions options) const;
 
  private:
-  const Frame& judged();  ///< with the gamma of neighbourhoods
+  const Frame& judged();  ///< the frame with the gamma of neighbourhoods
   const analysis::FrameRecord& record();
   double theta_c() const;
 
@@ -59,8 +59,8 @@ class MeasuredFrame {
   std::vector<double> factors_{};
 };
 
-/// Frame k of a run file, measured with these parameters ("l_min=0"). Throws as RunFile::open, and
-/// Error(usage) where there is no such frame.
+/// Returns frame k of a run file, measured with these parameters of the analysis ("l_min=0"). Throws as
+/// RunFile::open does, and Error(usage) if the frame does not exist.
 MeasuredFrame measured_frame(const std::string& path, std::size_t k,
                              const std::vector<std::string>& settings = {});
 

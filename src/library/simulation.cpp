@@ -22,7 +22,7 @@
 namespace talus {
 namespace {
 
-constexpr double reached_within = 1e-9;  // rad: a tilt is a sum of steps, up to rounding
+constexpr double reached_within = 1e-9;  // tolerance, rad; a tilt is a sum of steps, up to rounding
 constexpr std::chrono::milliseconds interrupt_interval(50);
 
 void require_finite(double value, const char* what) {
@@ -30,7 +30,7 @@ void require_finite(double value, const char* what) {
     throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
 }
 
-/// Whether a command holds the tilt, and none of the scenario will change its rate after some time.
+/// Whether a command holds the tilt, and no command of the scenario will change its rate at a later time.
 bool is_held(const session::Session& session) {
   if (session.phase() != session::Phase::tilt || !session.schedule().course || session.tilt_rate() > 0.0)
     return false;
@@ -52,10 +52,9 @@ bool Simulation::State::is_own() const { return process == ::getpid(); }
 
 void Simulation::State::require_own() const {
   if (!is_own())
-    throw Error(
-        ExitCode::usage,
-        "the simulation belongs to the process that this one was forked from, with its threads and its "
-        "recording: copy() makes one of this process");
+    throw Error(ExitCode::usage,
+                "the simulation, its threads and its recording belong to the parent of this forked process: "
+                "use copy() to create one in this process");
 }
 
 void Simulation::State::advance() {
@@ -134,12 +133,12 @@ Simulation& Simulation::operator=(Simulation other) noexcept {
 }
 
 Simulation::~Simulation() {
-  // Of a child of fork: the threads are not there to be waited for, and the recording is not its own.
+  // In a forked child, the threads do not exist and the recording belongs to the parent.
   if (state_ && !state_->is_own()) static_cast<void>(state_.release());
   if (!state_ || !state_->recorder) return;
   try {
     state_->commit();
-  } catch (const std::exception&) {  // what was committed before is whole; commit() says what is wrong
+  } catch (const std::exception&) {  // earlier commits are complete; commit() reports the error
   }
 }
 
@@ -156,7 +155,7 @@ bool Simulation::advance_until(const std::function<bool(const session::Session&)
     if (!state.interrupts || now - asked < interrupt_interval) continue;
     asked = now;
     if (state.interrupts()) return false;
-    state.require_own();  // it may have forked
+    state.require_own();  // the callback may have forked
   }
   return true;
 }
@@ -179,7 +178,7 @@ bool Simulation::tilt_to(double degrees) {
   return advance_until([goal](const session::Session& session) {
     if (session.world().tilt >= goal) return true;
     if (is_held(session))
-      throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate), and never gets there");
+      throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate) and never reaches this angle");
     return false;
   });
 }
@@ -202,7 +201,7 @@ bool Simulation::run_until(const std::function<bool()>& holds) {
 bool Simulation::finish() {
   return advance_until([](const session::Session& session) {
     if (is_held(session))
-      throw Error(ExitCode::usage, "the tilt is held (tilt_rate), so the run has no end: say for how long");
+      throw Error(ExitCode::usage, "the tilt is held (tilt_rate), so the run has no end: give a duration");
     return false;
   });
 }
@@ -284,10 +283,9 @@ void Simulation::record(const std::string& path, bool overwrite) {
   if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
   if (done()) throw Error(ExitCode::usage, "the run is over: there is nothing more to record");
   if (!state.is_new && phase() == session::Phase::deposition)
-    throw Error(
-        ExitCode::usage,
-        "a bed that is being deposited cannot be recorded from here on: record it before its first step, or "
-        "once it rests (deposit)");
+    throw Error(ExitCode::usage,
+                "a recording cannot begin during the deposition: begin it before the first step, or when the "
+                "bed is at rest (deposit)");
   session::RunOrigin origin = state.origin;
   const World& now = world();
   if (!state.is_new)
@@ -300,7 +298,7 @@ void Simulation::record(const std::string& path, bool overwrite) {
   if (!state.is_new) state.session.record_start();
   try {
     state.recorder->commit();
-  } catch (...) {  // there is no such run
+  } catch (...) {  // no run has been created
     state.recorder.reset();
     state.store.reset();
     throw;

@@ -1,7 +1,7 @@
 #pragma once
-/// A run that a program drives: it is stepped, steered, measured, drawn, recorded and copied. `talus run`
-/// steps the same Session, so the same scenario and commands give the same bits, in whatever chunks it is
-/// stepped.
+/// A run controlled by a program, which steps, steers, measures, draws, records and copies it. `talus run`
+/// steps the same Session, so the same scenario and commands give bit-identical results, independent of the
+/// numbers of steps per call.
 
 #include <cstdint>
 #include <functional>
@@ -25,91 +25,97 @@ class Session;
 
 namespace talus {
 
-/// Not for several threads at once; several simulations may run in several threads. A child of fork can look
-/// at a simulation of its parent and copy it; Error(usage) where it steps, changes or records it.
+/// A simulation must be used by one thread at a time; different simulations may run in different threads. A
+/// forked child may inspect and copy a simulation of its parent; stepping, changing or recording it throws
+/// Error(usage).
 class Simulation {
  public:
-  /// The bed of the scenario before its first step. `text` is the scenario as it was written, for the header
-  /// of a recording; empty: as it is resolved. Throws Error(usage) if it needs more memory than there is.
+  /// Creates the bed of the scenario before its first step. `text` is the original text of the scenario, for
+  /// the header of a recording; if it is empty, the resolved scenario is used. Throws Error(usage) if the
+  /// available memory is insufficient.
   explicit Simulation(const scenario::Scenario& scenario, std::string text = {});
 
-  /// A recorded run, where its last commit left it, which goes on in the same file. Throws
-  /// Error(missing_input), Error(bad_data), and Error(cannot_create) where another process is at it.
+  /// Resumes a recorded run at its last commit, in the same file. Throws Error(missing_input),
+  /// Error(bad_data), and Error(cannot_create) if another process is writing to it.
   static Simulation resume(const std::string& path);
 
-  /// A copy of the state, which goes on by itself and is not recorded.
+  /// Copies the state. The copy is independent and is not recorded.
   Simulation(const Simulation& other);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation) noexcept;
   ~Simulation();
 
-  // Each of these steps until its goal is reached or the run is over (done), and returns false if it was
-  // interrupted before. Throws Error(usage) if the run was over already, or where the tilt is held and never
-  // gets there; Error(bad_data) if the bed does not come to rest or a guard is broken (Session::advance),
-  // with what was computed before kept. What depends on the tilt takes all steps of the deposition as well.
+  // The following functions step until the goal is reached or the run is over (done), and return false if
+  // they were interrupted before. They throw Error(usage) if the run was over already or if the tilt is held
+  // and never reaches the goal, and Error(bad_data) if the bed does not come to rest or a guard is broken
+  // (Session::advance); steps computed before the error are kept. Functions that depend on the tilt first
+  // complete the deposition.
 
   bool step(std::int64_t count = 1);
-  bool deposit();                                      ///< until the bed rests and the tilt begins
-  bool tilt_to(double degrees);                        ///< until the tilt is at least that
-  bool tilt_by(double degrees);                        ///< until it has grown by that
-  bool run(double seconds);                            ///< of simulated time
-  bool run_until(const std::function<bool()>& holds);  ///< asked after each step
-  bool finish();                                       ///< to the end of the run, which a held tilt has not
+  bool deposit();                                      ///< until the bed is at rest and the tilt begins
+  bool tilt_to(double degrees);                        ///< until the tilt is at least this
+  bool tilt_by(double degrees);                        ///< until the tilt has increased by this
+  bool run(double seconds);                            ///< for a duration of simulated time
+  bool run_until(const std::function<bool()>& holds);  ///< evaluated after each step
+  bool finish();                                       ///< until the end of the run; a held tilt has none
 
-  /// Asked between steps, some twenty times a second: true interrupts what is stepping. An exception that it
-  /// throws goes through, between two steps.
+  /// Sets a callback that is called between steps, about twenty times a second; it returns true to interrupt
+  /// the function that is stepping. Its exceptions propagate between two steps.
   void interrupt_if(std::function<bool()> interrupts);
-  /// Threads of the solver [1]; the result does not depend on them.
+  /// Sets the number of threads of the solver (default 1); the result does not depend on it.
   void use_threads(int threads);
 
-  // Commands: recorded, and repeated by talus replay. Throw Error(usage), with nothing changed, as
-  // Session::apply does.
+  // Commands. They are recorded, and repeated by talus replay. They throw Error(usage), without changing
+  // anything, as Session::apply does.
 
-  void push(Index grain, Vec2 velocity);  ///< adds to its velocity, m/s
-  void push(const std::vector<Index>& grains, const std::vector<Vec2>& velocities);  ///< all of them, or none
-  void drop(Index grains, double x, double height);  ///< from the free surface onto x (m), from a height (m)
-  void drag(Index grain, Vec2 to);                   ///< by a spring, m
+  void push(Index grain, Vec2 velocity);  ///< adds to the velocity, m/s
+  /// Pushes all of these grains, or none.
+  void push(const std::vector<Index>& grains, const std::vector<Vec2>& velocities);
+  /// Drops grains of the free surface onto x (m) from a height (m).
+  void drop(Index grains, double x, double height);
+  void drag(Index grain, Vec2 to);  ///< drags a grain by a spring held at this point, m
   void release();
   void set_friction(double friction);
-  void set_tilt_rate(double degrees_per_second);  ///< 0: the tilt is held
+  void set_tilt_rate(double degrees_per_second);  ///< 0 holds the tilt
 
-  // Where it stands.
+  // State.
 
   const scenario::Scenario& scenario() const;
-  const World& world() const;  ///< grains and contacts after the last step; stays where it is
+  const World& world() const;  ///< grains and contacts after the last step; the reference remains valid
   session::Phase phase() const;
   bool done() const;
   double tilt() const;       ///< deg
   double tilt_rate() const;  ///< deg/s
-  double friction() const;   ///< between grains
+  double friction() const;   ///< coefficient between grains
   double residual() const;   ///< eta of the last step (docs/solver.md)
   bool converged() const;    ///< whether the last step reached its tolerance
   std::string state_hash() const;
-  std::optional<double> theta_c() const;  ///< deg; nothing while the slope has not failed
+  std::optional<double> theta_c() const;  ///< deg; empty if the slope has not failed
 
-  // Measures of the state as it is, as MeasuredFrame has them.
+  // Measurements of the present state, as in MeasuredFrame.
 
-  /// Parameters of the analysis, as `talus analyze --set` takes them: "l_min=0", "gamma_c=0.3".
+  /// Sets parameters of the analysis, as `talus analyze --set` does: "l_min=0", "gamma_c=0.3".
   void set_analysis(const std::vector<std::string>& settings);
   double quantity(std::string_view name);
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name);
   render::Image draw(const std::string& map, pictures::MapOptions options = {});
-  /// The state as a run records it.
+  /// Returns the state in the form in which a run stores it.
   const Frame& frame();
   const RunStatics& statics() const;
 
   // Recording.
 
-  /// From now on what happens is recorded as a run: an ordinary one before the first step, and after the
-  /// deposition one that branches off from the state as it is. Throws Error(cannot_create), and Error(usage)
-  /// if it is recorded already.
+  /// Starts recording the simulation as a run: before the first step as an ordinary run, after the deposition
+  /// as one that branches off from the present state. Throws Error(cannot_create), and Error(usage) if it is
+  /// being recorded already.
   void record(const std::string& path, bool overwrite = false);
   bool recorded() const;
-  /// Writes the state as it is as a run of its own, which can be resumed. Throws as record does.
+  /// Writes the present state as a separate run that can be resumed. Throws as record does.
   void save(const std::string& path, bool overwrite = false) const;
-  /// Makes all that was recorded durable. It is done at each frame, at the end, and when the simulation goes.
-  /// Once the run is over, this packs it where that has failed before, on a full disk.
+  /// Makes all recorded data durable. This also happens at each frame, at the end of the run, and when the
+  /// simulation is destroyed. After the end of the run, it also packs the file if that failed earlier, for
+  /// example because the disk was full.
   void commit();
 
  private:

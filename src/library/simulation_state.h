@@ -1,5 +1,5 @@
 #pragma once
-/// What a Simulation holds.
+/// State of a Simulation.
 
 #include <sys/types.h>
 
@@ -23,20 +23,20 @@ struct Simulation::State {
   std::function<bool()> interrupts;
   analysis::AnalysisParameters parameters;
   bool is_new = true;            ///< neither stepped nor changed
-  std::optional<Frame> begin{};  ///< as the tilt began, where that was seen
+  std::optional<Frame> begin{};  ///< frame at the start of the tilt, if the simulation reached it
 
-  std::optional<MeasuredFrame> measured{};  ///< of the state after the last step, once it was asked for
+  std::optional<MeasuredFrame> measured{};  ///< measurements of the state after the last step, if requested
 
-  pid_t process;  ///< that made it: in a child of fork it can only be looked at and copied
+  pid_t process;  ///< the creating process; a forked child may only inspect and copy the state
 
   explicit State(session::Session from);
   bool is_own() const;
-  /// Throws Error(usage) in a child of fork.
+  /// Throws Error(usage) in a forked child.
   void require_own() const;
 
-  /// Steps once, and records it.
+  /// Takes one step and records it.
   void advance();
-  /// Makes durable what was recorded, and packs the run once it is over.
+  /// Makes recorded data durable, and packs the run when it is over.
   void commit();
   MeasuredFrame& measure();
 };

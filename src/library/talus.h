@@ -1,5 +1,5 @@
 #pragma once
-/// All of Talus as a library. docs/library.md shows how it is used.
+/// Includes all of Talus as a library. docs/library.md shows how to use it.
 
 #include "base/errors.h"
 #include "base/version.h"

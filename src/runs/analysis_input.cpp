@@ -12,7 +12,7 @@
 namespace talus::runs {
 namespace {
 
-/// Frames of a window are told by their tilt, which is a multiple of a step up to rounding.
+/// Tolerance for the tilts of frames in a window; a tilt is a multiple of a step up to rounding.
 constexpr double rounding = 1e-9;  // rad
 
 void average_moments(const io::RunFile& run, double half_window, std::size_t k, Frame& frame) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A frame of a run as its analysis sees it.
+/// Input of the analysis from a frame of a run.
 
 #include <cstddef>
 
@@ -8,12 +8,12 @@
 
 namespace talus::runs {
 
-/// Frame k of a run. With `averaging`, internal moments are means over the frames in a row around k whose
-/// tilt is at most half of it away, and gamma is that of the mean; contacts and places stay those of frame k.
-/// A frame of the flow after failure is not averaged. Then gamma is that of with_analysed_gamma. Not for
-/// several threads at once. Throws as RunFile::frame does.
+/// Returns frame k of a run with the gamma of with_analysed_gamma. With `averaging`, internal moments are
+/// means over the consecutive frames around k whose tilts differ by at most half of it, and gamma is that of
+/// the means; contacts and positions remain those of frame k. A frame of the flow after failure is not
+/// averaged. Not thread-safe. Throws as RunFile::frame does.
 Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k);
-/// The same where frame k was read already.
+/// Does the same with frame k already read.
 Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k,
                      Frame frame);
 

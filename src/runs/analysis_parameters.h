@@ -1,6 +1,5 @@
 #pragma once
-/// The keys of the parameters of an analysis: `--set key=value` of `talus analyze` and docs/analysis.md go by
-/// their table.
+/// Table of the parameters of an analysis, used by `talus analyze --set key=value` and docs/analysis.md.
 
 #include <string>
 #include <vector>
@@ -15,13 +14,14 @@ using AnalysisKey = scenario::Key<analysis::AnalysisParameters>;
 
 const std::vector<AnalysisKey>& analysis_keys();
 
-/// The parameters with "key=value" settings on the defaults. Throws LocatedError(bad_data) with a line for
-/// each setting that is not accepted.
+/// Returns the parameters with "key=value" settings applied to the defaults. Throws LocatedError(bad_data)
+/// with a line for each setting that is not accepted.
 analysis::AnalysisParameters parse_analysis_settings(const std::vector<std::string>& settings);
 
-/// Names and values of all parameters, in the order of their table.
+/// Returns names and values of all parameters, in the order of their table.
 Facts as_facts(const analysis::AnalysisParameters& parameters);
-/// The parameters of such a list, as an analysis has it. Throws as parse_analysis_settings does.
+/// Returns the parameters from such a list, as stored with an analysis. Throws as parse_analysis_settings
+/// does.
 analysis::AnalysisParameters from_facts(const Facts& facts);
 
 }  // namespace talus::runs

@@ -23,7 +23,7 @@
 namespace talus::runs {
 namespace {
 
-/// What the next frame is compared with.
+/// Returns the data of a frame that the comparison with the next frame needs.
 Frame places_of(const Frame& frame) {
   Frame places;
   places.x = frame.x;
@@ -32,14 +32,14 @@ Frame places_of(const Frame& frame) {
   return places;
 }
 
-/// Frames are handed out one at a time, in their order: HDF5 reads for one thread only.
+/// Analyses all frames. They are read one at a time in order, because HDF5 is not thread-safe.
 void analyse_frames(const io::RunFile& run, const analysis::AnalysisParameters& parameters, int threads,
                     const AnalysisProgress& progress, analysis::Analysis& analysis) {
   analysis.frames.resize(run.frame_count());
   std::vector<analysis::PersistenceDiagram> networks(run.frame_count());
   std::mutex reading;
   std::size_t next = 0, done = 0;
-  Frame last;  ///< places in the frame that was read before
+  Frame last;  ///< positions in the preceding frame
   const auto work = [&] {
     for (;;) {
       std::unique_lock lock(reading);
@@ -66,8 +66,8 @@ void analyse_frames(const io::RunFile& run, const analysis::AnalysisParameters& 
   analysis::take_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
-/// What the run has observed already: for each frame that of the last row not after it. By the time: a
-/// command may hold the tilt.
+/// Copies the observables of the run into the frames, for each frame from the last row at or before its time.
+/// Tilts cannot be compared because a command may hold the tilt.
 void take_observables(const io::RunFile& run, const std::vector<ObservableRow>& rows,
                       analysis::Analysis& analysis) {
   const std::vector<double>& times = run.all_frame_times();
@@ -151,8 +151,8 @@ void find_growth(analysis::Analysis& analysis) {
 std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParameters& parameters) {
   std::string text =
       fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), io::analysis_version);
-  // Analyses without these lines took every contact for one between grains, and none for mobilised without
-  // friction, and the last row of a hold for all frames in it.
+  // These lines distinguish analyses that treat walls, frictionless contacts and holds of the tilt separately
+  // from stored analyses that do not.
   const RunStatics& statics = run.header().statics;
   if (!statics.periodic && statics.wall_friction != statics.friction)
     text += fmt::format("wall_friction={}\n", statics.wall_friction);
@@ -166,7 +166,8 @@ std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParamet
 analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisParameters& parameters,
                                int threads, const AnalysisProgress& progress) {
   if (run.frame_count() == 0)
-    throw Error(ExitCode::bad_data, "the run has no frames: its bed has not been tilted yet; let it go on");
+    throw Error(ExitCode::bad_data,
+                "the run has no frames: its bed has not been tilted yet; let the run continue");
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   const RunStatics& statics = run.header().statics;
   analysis::Analysis analysis = analysis::begin_analysis(statics, parameters, theta_c);

@@ -1,5 +1,5 @@
 #pragma once
-/// The analysis of a whole run: every frame, and what follows from their series.
+/// Analysis of an entire run: all frames, and quantities that follow from their series.
 
 #include <functional>
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace talus::runs {
 
-/// What decides whether a stored analysis is still valid: the XXH3 of the state hash of the run, all
-/// parameters and analysis_version, 16 hexadecimal digits.
+/// Returns the key by which a stored analysis is recognised as valid: the XXH3 hash of the state hash of the
+/// run, all parameters and analysis_version, 16 hexadecimal digits.
 std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParameters& parameters);
 
-/// Called after each frame with the number of frames that are done; may be empty.
+/// Callback after each frame with the number of completed frames; may be empty.
 using AnalysisProgress = std::function<void(std::size_t done)>;
 
-/// Reads the frames one by one, on each thread, and finds all quantities. Where the slope has not failed and
-/// no gamma_c is given there are no thresholds. The same for any number of threads. Throws Error(bad_data)
-/// where the run has no frames, and as RunFile::frame does.
+/// Reads the frames one by one and computes all quantities, with the same result for any number of threads.
+/// There are no thresholds if the slope has not failed and no gamma_c is given. Throws Error(bad_data) if the
+/// run has no frames, and as RunFile::frame does.
 analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisParameters& parameters,
                                int threads, const AnalysisProgress& progress);
 

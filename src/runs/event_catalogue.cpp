@@ -17,15 +17,15 @@ namespace {
 
 constexpr double phase_of_tilt = 1.0;
 
-/// The steps of the tilt: step `first` + k left the bed with velocity[k].
+/// The steps of the tilt: velocity[k] belongs to the state after step `first` + k.
 struct TiltSteps {
   std::int64_t first = 0;
   std::vector<double> velocity;  ///< rms, m/s
   double h = 0.0;                ///< s
-  std::vector<double> path;      ///< m: path[k] was gone by the k steps before step k
+  std::vector<double> path;      ///< m; path[k] is the path length of the k steps before step k
 
   std::int64_t step(std::size_t k) const { return first + static_cast<std::int64_t>(k); }
-  /// The way that the grains go from one step on to another, the former not included, m.
+  /// Returns the path length of the grains from one step to another, excluding the first of them, m.
   double path_between(std::int64_t from, std::int64_t to) const { return path_by(to) - path_by(from); }
 
  private:
@@ -35,7 +35,8 @@ struct TiltSteps {
   }
 };
 
-/// None where the run has no steps of the tilt, one is missing, or there are no two rows to tell h from.
+/// Returns the steps of the tilt; empty if the run has none, if one is missing, or if there are no two rows
+/// to determine h.
 std::optional<TiltSteps> tilt_steps(const io::RunFile& run, const std::vector<ObservableRow>& rows) {
   TiltSteps steps;
   for (const StepRow& row : run.steps()) {
@@ -58,7 +59,8 @@ std::optional<TiltSteps> tilt_steps(const io::RunFile& run, const std::vector<Ob
 struct StepSeries {
   const std::vector<ObservableRow>& rows;
 
-  /// The last row not after a step, and the first not before it; the ends of the series beyond them.
+  /// Return the last row at or before a step, and the first at or after it; beyond the series, the end of the
+  /// series.
   const ObservableRow& not_after(std::int64_t step) const {
     const auto after = std::ranges::upper_bound(rows, static_cast<double>(step), {}, step_of);
     return after == rows.begin() ? rows.front() : *std::prev(after);
@@ -67,7 +69,7 @@ struct StepSeries {
     const auto found = std::ranges::lower_bound(rows, static_cast<double>(step), {}, step_of);
     return found == rows.end() ? rows.back() : *found;
   }
-  /// A value after a step, between two rows.
+  /// Interpolates a value after a step between two rows.
   double value(std::int64_t step, Observable field) const {
     const ObservableRow &low = not_after(step), &high = not_before(step);
     const double width = step_of(high) - step_of(low);
@@ -79,11 +81,11 @@ struct StepSeries {
   static double step_of(const ObservableRow& row) { return at(row, Observable::step); }
 };
 
-/// What is needed of an event while frames are read.
+/// State of an event while frames are read.
 struct EventSpan {
   std::int64_t first = 0, last = 0;       ///< steps
-  std::shared_ptr<const Frame> before{};  ///< the last frame before it, once it is met
-  double surface = 0.0;                   ///< m, mean free surface in that frame
+  std::shared_ptr<const Frame> before{};  ///< the last frame before the event, once it has been read
+  double surface = 0.0;                   ///< height of the mean free surface in this frame, m
 };
 
 double threshold_of(const io::RunFile& run, const analysis::AnalysisParameters& parameters, double h) {
@@ -112,14 +114,14 @@ analysis::EventRecord record_of(const analysis::Burst& burst, const TiltSteps& s
   return event;
 }
 
-/// The number of the step with which the last rise of the tilt begins.
+/// Returns the number of the first step of the last rise of the tilt.
 double begin_of_last_rise(const std::vector<ObservableRow>& rows) {
   std::vector<double> tilts;
   for (const ObservableRow& row : rows) tilts.push_back(at(row, Observable::tilt));
   return at(rows[analysis::last_rise(tilts).first], Observable::step);
 }
 
-/// The angle by which the bed is turned from one step to another, up or down, rad.
+/// Returns the angle by which the bed is tilted from one step to another, up or down, rad.
 double angle_turned(const StepSeries& series, std::int64_t from, std::int64_t to) {
   double angle = 0.0, tilt = series.value(from, Observable::tilt);
   const auto turn_to = [&](double next) {
@@ -134,14 +136,15 @@ double angle_turned(const StepSeries& series, std::int64_t from, std::int64_t to
   return angle;
 }
 
-/// Failure by theta_c, which is in the event of the last rise that began before it and ends after it.
+/// Returns the kind of an event. Failure is the event of the last rise that begins before theta_c and ends
+/// after it, and all later ones.
 analysis::EventKind kind_of(const analysis::Burst& burst, const analysis::EventRecord& event, double theta_c,
                             bool in_last_rise) {
   if (in_last_rise && std::abs(event.end) >= theta_c) return analysis::EventKind::failure;
   return burst.is_over ? analysis::EventKind::rearrangement : analysis::EventKind::unfinished;
 }
 
-/// Reads the frames in their order, and tells the events what lies between two of them.
+/// Reads the frames in order and assigns the motion between two frames to the events between them.
 class EventFrames {
  public:
   EventFrames(const io::RunFile& run, const TiltSteps& steps, const analysis::AnalysisParameters& parameters,
@@ -160,7 +163,8 @@ class EventFrames {
   }
 
  private:
-  /// `surface`: m, mean free surface in the frame before.
+  /// Assigns the motion between two frames. `surface`: height of the mean free surface in the earlier frame,
+  /// m.
   void take_interval(const std::shared_ptr<const Frame>& before, const Frame& now, double surface) {
     while (next_ < spans_.size() && spans_[next_].last <= before->step) ++next_;
     std::size_t end = next_;
@@ -200,7 +204,7 @@ class EventFrames {
   double least_;  ///< m
   std::span<EventSpan> spans_;
   analysis::Analysis& analysis_;
-  std::size_t next_ = 0;  ///< the first event that is not over before the frames that are met
+  std::size_t next_ = 0;  ///< first event that is not over before the present frames
 };
 
 }  // namespace

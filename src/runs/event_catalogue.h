@@ -1,6 +1,6 @@
 #pragma once
-/// The rearrangements of a run: from its steps when, from its rows of observables by how much, from its
-/// frames what moved.
+/// The rearrangements of a run: their times from its steps, their magnitudes from its rows of observables,
+/// and the displaced grains from its frames.
 
 #include <vector>
 
@@ -10,23 +10,23 @@
 
 namespace talus::runs {
 
-/// Velocity that the solver leaves at a residual eta, over eta g h, in the paper's bed (docs/solver.md).
+/// Velocity error of the solver at a residual eta, over eta g h, in the bed of the paper (docs/solver.md).
 inline constexpr double solver_velocity_error = 3000.0;
-/// How far above it the threshold of events lies where none is given.
+/// Default threshold of events over this velocity error.
 inline constexpr double event_threshold_factor = 10.0;
 
-/// Where the slope failed, the tilt and the fields of frames are known already. `rows` are those of the
-/// tilt. Sets all members of the analysis that are called event..., as the table of quantities defines
-/// them. Nothing but their NaN where the run has no steps or rows of the tilt, as one that was repaired may.
-/// Throws as RunFile::positions does.
+/// Finds the events of a run and sets all members of the analysis named event..., as defined in the table of
+/// quantities. `rows` are those of the tilt; theta_c, the tilt and the fields of frames must be set. The
+/// members remain NaN if the run has no steps or rows of the tilt, as a repaired run may. Throws as
+/// RunFile::positions does.
 void find_events(const io::RunFile& run, const std::vector<ObservableRow>& rows,
                  const analysis::AnalysisParameters& parameters, analysis::Analysis& analysis);
 
-/// The laws of sizes and waiting angles, and the share that dilates, of the events that are there.
-/// `size_minimum`: J/m, NaN for that of the best fit.
+/// Fits the laws of sizes and waiting angles, and computes the share of dilating events, from the events
+/// found. `size_minimum`: J/m, NaN for the best fit.
 void find_event_laws(double size_minimum, analysis::Analysis& analysis);
 
-/// Mean mass of a free grain, kg/m.
+/// Returns the mean mass of a free grain, kg per metre of thickness.
 double mean_grain_mass(const RunStatics& statics);
 
 }  // namespace talus::runs

@@ -11,7 +11,7 @@ namespace talus::runs {
 std::vector<FirstMove> first_moves(const io::RunFile& run, double distance) {
   const RunStatics& statics = run.header().statics;
   const auto free_count = static_cast<std::size_t>(statics.free_count);
-  // From frame to frame, because a grain can go round a periodic bed more than once.
+  // Displacements are added from frame to frame, because a grain can cross a periodic bed more than once.
   std::vector<Vec2> moved(free_count);
   std::vector<bool> has_moved(free_count, false);
   std::vector<FirstMove> moves;

@@ -1,5 +1,5 @@
 #pragma once
-/// The first grains of a run that moved so far.
+/// The first grains of a run that move by a given distance.
 
 #include <cstddef>
 #include <vector>
@@ -8,21 +8,22 @@
 
 namespace talus::runs {
 
-/// A free grain in the first frame in which it is a given distance or more from where it was in the first
-/// frame of the run, as the tilt began; in the frame of the bed, not counting the turn of the bed.
+/// A free grain in the first frame in which its displacement since the first frame of the run, at the start
+/// of the tilt, reaches a given distance. Displacements are relative to the bed and do not include its
+/// rotation.
 struct FirstMove {
   Index grain = 0;
-  std::size_t frame = 0;      ///< counted from 0
-  double time = 0.0;          ///< s, of the frame
+  std::size_t frame = 0;      ///< number of the frame, counted from 0
+  double time = 0.0;          ///< time of the frame, s
   double tilt = 0.0;          ///< rad
-  double x = 0.0, y = 0.0;    ///< m, its centre in that frame
-  double depth = 0.0;         ///< m below the mean free surface, V / L, of that frame
+  double x = 0.0, y = 0.0;    ///< centre of the grain in this frame, m
+  double depth = 0.0;         ///< depth below the mean free surface, V / L, of this frame, m
   double displacement = 0.0;  ///< m
 };
 
-/// Of each grain that moves `distance` (m), by frame, and within a frame the farthest first. The flow after
-/// failure counts. A grain that comes back in less than a frame is not seen. Throws as RunFile::positions
-/// does.
+/// Returns the first move of each grain that moves by `distance` (m), by frame, and within a frame in
+/// descending order of displacement. The flow after failure is included. Motion that reverses within the
+/// interval between two frames is not detected. Throws as RunFile::positions does.
 std::vector<FirstMove> first_moves(const io::RunFile& run, double distance);
 
 }  // namespace talus::runs

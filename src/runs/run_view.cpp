@@ -48,7 +48,7 @@ RunView analysed_run(const std::string& path, const analysis::AnalysisParameters
     if (options.progress) options.progress(done, count);
   };
   analysis::Analysis analysis = analyse_run(run, parameters, options.threads, progress);
-  // Who may not write here reads all the same.
+  // Without write permission the analysis is not stored.
   const std::string reason = run.complete() ? protection_of(path) : "the run is not complete";
   if (reason.empty()) {
     io::store_analysis(path, analysis, hash_text(state_hash(run.checkpoint().world)));

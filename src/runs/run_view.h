@@ -1,6 +1,6 @@
 #pragma once
-/// A run that is there to be looked at: opened, with its scenario and its analysis; or told by the values
-/// that an ensemble has kept of it.
+/// A run for inspection: an opened file with its scenario and its analysis, or the values that an ensemble
+/// has stored of it.
 
 #include <algorithm>
 #include <optional>
@@ -17,41 +17,41 @@
 namespace talus::runs {
 
 struct RunView {
-  std::string path;                 ///< its own, or "FOLDER/ensemble.h5#seed-7" of the values of a member
-  std::optional<io::RunFile> file;  ///< frames and observables; nothing where there are only values
-  RunStatics statics;               ///< of values: mean_diameter alone
+  std::string path;  ///< path of the file, or "FOLDER/ensemble.h5#seed-7" for the values of a member
+  std::optional<io::RunFile> file;  ///< frames and observables; empty if only values exist
+  RunStatics statics;               ///< for values alone only mean_diameter is set
   analysis::Analysis analysis;
   scenario::Scenario scenario;
-  std::string scenario_text;   ///< with every key, as the run has it
-  std::string state_hash;      ///< of its last state
+  std::string scenario_text;   ///< resolved text with all keys
+  std::string state_hash;      ///< hash of its last state
   double theta_r = not_known;  ///< angle at rest after failure, rad
   std::string kept;            ///< "analysis read from the file", "analysis not stored: ..."
-  bool is_kept = false;        ///< the file holds the analysis
+  bool is_kept = false;        ///< whether the file contains the analysis
 };
 
-/// The scenario of a stored run, from its header; `name` is what messages call it. Throws as parse_scenario
-/// does.
+/// Returns the scenario of a stored run from its header; `name` is its name in messages. Throws as
+/// parse_scenario does.
 scenario::Scenario stored_scenario(const io::RunHeader& header, const std::string& name);
 
-/// The version that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".
+/// Returns the version of Talus that computed a run, with its git hash, from its provenance: "0.1.0 (abc)".
 std::string version_of(const Facts& provenance);
 
-/// Of a run file. Throws Error(bad_data) where its scenario cannot be read.
+/// Returns the view of a run file. Throws Error(bad_data) if its scenario cannot be read.
 RunView view_of_run(const std::string& path, io::RunFile file, analysis::Analysis analysis);
 
 struct AnalysisOptions {
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 2u));
-  bool force = false;       ///< compute again what is stored and valid
-  CountDone progress = {};  ///< frames that are done
+  bool force = false;       ///< recompute a stored, valid analysis
+  CountDone progress = {};  ///< number of completed frames
 };
 
-/// A run with its analysis, read from the file where it is stored and valid, else computed and stored. A run
-/// that is not complete is analysed, not stored; nor is one that is write-protected, or in a folder that may
-/// not be written. Throws as RunFile::open, view_of_run, analyse_run and store_analysis do.
+/// Returns a run with its analysis, which is read from the file if it is stored and valid, and otherwise
+/// computed and stored. The analysis is not stored if the run is incomplete or write-protected, or if its
+/// folder is. Throws as RunFile::open, view_of_run, analyse_run and store_analysis do.
 RunView analysed_run(const std::string& path, const analysis::AnalysisParameters& parameters,
                      const AnalysisOptions& options);
 
-/// The last rise of a run, all of it where its tilt does not fall.
+/// Returns the last rise of a run, which is the entire run if its tilt does not fall.
 inline analysis::FramesOfRise last_rise_of(const RunView& run) {
   return analysis::last_rise(run.analysis.frames);
 }

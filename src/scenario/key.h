@@ -1,7 +1,7 @@
 #pragma once
-/// A key of a table: what a user writes, its unit, range and meaning, and the field of a struct that it sets.
-/// Scenarios and the parameters of analyses have one table each; reading, writing, checking, suggestions and
-/// the tables of the documents go by them.
+/// A key of a table: its name, unit, range and meaning, and the member of a struct that it sets. Scenarios
+/// and the parameters of analyses have one table each, on which reading, writing, checking, suggestions and
+/// the tables in the documentation are based.
 
 #include <algorithm>
 #include <functional>
@@ -16,10 +16,10 @@
 
 namespace talus::scenario {
 
-/// A finite number from `low` (included or not) to `high`, or the string `word`, if there is one.
+/// A finite number from `low` (included or not) to `high`, or the string `word` unless it is empty.
 struct NumberRange {
   double low = 0.0;
-  double high = 0.0;  ///< infinite: no upper end
+  double high = 0.0;  ///< infinite for no upper limit
   bool low_included = true;
   std::string word;
 };
@@ -29,40 +29,40 @@ struct IntegerRange {
   std::int64_t high = 0;
 };
 
-/// One of several strings, in the order of the enumerators that they stand for.
+/// One of several strings, in the order of the corresponding enumerators.
 struct Choices {
   std::vector<std::string> names;
 };
 
-/// true or false.
+/// A boolean, true or false.
 struct Switch {};
 
-/// Any string without a zero byte, up to a number of bytes; the empty string stands for none.
+/// A string without zero bytes, of limited length in bytes; the empty string means no value.
 struct TextRange {
   std::string what;  ///< "the path of a file"
   std::size_t longest = 0;
 };
 
-/// From one to `most` ascending numbers in (0, high].
+/// A list of 1 to `most` ascending numbers in (0, high].
 struct NumberList {
   std::size_t most = 0;
   double high = 0.0;
 };
 
-/// From one to `most` phrases, each of which is `good`, or the string `word` for none.
+/// A list of 1 to `most` phrases that are accepted by `good`, or the string `word` for none.
 struct PhraseList {
   std::string what;  ///< "phrases"
   std::size_t most = 0;
   std::string word;
-  std::string forms;  ///< what a phrase may be
+  std::string forms;  ///< description of the accepted phrases
   bool (*good)(const std::string& phrase) = nullptr;
-  /// The end of a message about one that is not: "; did you mean 'to 12'?", or nothing.
+  /// Returns the end of a message about a phrase that is not accepted: "; did you mean 'to 12'?", or nothing.
   std::string (*meant)(const std::string& phrase) = nullptr;
 };
 
 using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList, PhraseList, Switch>;
 
-/// What there is to say of a key, whatever the struct.
+/// The part of a key that does not depend on the struct.
 struct KeyHead {
   std::string name;
   std::string unit;  ///< empty for a number without one
@@ -71,9 +71,9 @@ struct KeyHead {
   std::string section{};  ///< empty for a key above the first section
 };
 
-/// The value of a field: a number, an integer, true or false, text, a list of numbers, an enumerator
-/// (Choices), a number that may be missing (the word of its NumberRange), or phrases (without any the word of
-/// their PhraseList).
+/// Returns the value of a field: a number, an integer, a boolean, text, a list of numbers, an enumerator
+/// (Choices), an optional number (without one, the word of its NumberRange), or phrases (without any, the
+/// word of their PhraseList).
 template <typename T>
 KeyValue value_of_field(const T& field, const KeyRange& range) {
   if constexpr (std::is_enum_v<T>)
@@ -88,7 +88,7 @@ KeyValue value_of_field(const T& field, const KeyRange& range) {
     return field;
 }
 
-/// Sets it to a value that admitted() returned.
+/// Sets a field to a value returned by admitted().
 template <typename T>
 void set_field(T& field, const KeyValue& value, const KeyRange& range) {
   if constexpr (std::is_enum_v<T>) {
@@ -111,7 +111,7 @@ void set_field(T& field, const KeyValue& value, const KeyRange& range) {
 template <typename Struct>
 struct Key : KeyHead {
   std::function<KeyValue(const Struct&)> get;
-  /// Sets the field to a value that admitted() returned.
+  /// Sets the field to a value returned by admitted().
   std::function<void(Struct&, const KeyValue&)> set;
 
   template <typename T>
@@ -122,7 +122,7 @@ struct Key : KeyHead {
           set_field(of.*field, value, range);
         }) {}
 
-  /// A key of a part, as one of the whole.
+  /// Creates a key of the whole struct from a key of a part.
   template <typename Part>
   Key(Part Struct::*part, const Key<Part>& key)
       : KeyHead(key),
@@ -130,7 +130,7 @@ struct Key : KeyHead {
         set([part, set = key.set](Struct& of, const KeyValue& value) { set(of.*part, value); }) {}
 };
 
-/// The keys of a table, in its order. They live as long as it does.
+/// The keys of a table, in its order. The pointers are valid as long as the table exists.
 using KeyHeads = std::vector<const KeyHead*>;
 template <typename Struct>
 KeyHeads heads(const std::vector<Key<Struct>>& keys) {
@@ -139,23 +139,24 @@ KeyHeads heads(const std::vector<Key<Struct>>& keys) {
   return all;
 }
 
-/// "contact.friction", "seed".
+/// Returns the full name of a key: "contact.friction", "seed".
 std::string full_name(const KeyHead& key);
 
-/// The key with that full name; nullptr if there is none.
+/// Returns the key with this full name; nullptr if there is none.
 const KeyHead* find_key(const KeyHeads& keys, std::string_view full_name);
 
-/// The sections of a table, in its order; none where its keys have none.
+/// Returns the sections of a table, in its order; empty if its keys have none.
 std::vector<std::string> sections_of(const KeyHeads& keys);
 
-/// "a number in [0, 1]", "an integer in 1 ... 100", "\"periodic\" or \"walls\"".
+/// Describes the range of a key: "a number in [0, 1]", "an integer in 1 ... 100", "\"periodic\" or
+/// \"walls\"".
 std::string range_text(const KeyHead& key);
 
-/// range_text with the unit, for messages that say what was expected.
+/// Describes the range and unit of a key, for messages about the expected value.
 std::string expectation(const KeyHead& key);
 
-/// The value as the key holds it (an integer becomes a number if a number is expected); nothing if the
-/// value is of another kind or out of range.
+/// Returns the value as stored in the key (an integer becomes a number if a number is expected); empty if the
+/// value has another type or is out of range.
 std::optional<KeyValue> admitted(const KeyHead& key, const KeyValue& value);
 
 }  // namespace talus::scenario

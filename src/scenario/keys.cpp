@@ -20,7 +20,7 @@ NumberRange above_to_or(double low, double high, std::string word) {
 }
 NumberRange positive() { return above_to(0.0, std::numeric_limits<double>::infinity()); }
 
-/// The keys of a section, which is a part of the scenario.
+/// Returns the keys of a section, which is a part of the scenario.
 template <typename Part>
 Keys section(const std::string& name, Part Scenario::*part, const std::vector<Key<Part>>& keys) {
   Keys all;
@@ -106,20 +106,20 @@ Keys deposition_keys() {
             "grain in each line; relative to the working directory"},
            &P::file},
           {{"file_unit", "", Choices{{"D", "m", "cm", "mm", "um"}},
-            "file: unit of the lengths in a table; one that its columns name, as in \"x [mm]\", goes before "
-            "D"},
+            "file: unit of the lengths in a table; a unit in its column names, as in \"x [mm]\", takes "
+            "precedence over D"},
            &P::file_unit},
           {{"file_scale", "", above_to(0.0, 1e9),
-            "file: factor on all lengths of a table or dump, which are in file_unit then"},
+            "file: factor on all lengths of a table or dump, which are then in file_unit"},
            &P::file_scale},
           {{"frame", "", IntegerRange{-1, 1'000'000'000},
             "file: number of the frame of a run or dump, from 0; -1: the last"},
            &P::frame},
           {{"relax", "", Switch{},
-            "file: overlaps of up to 0.1 D, of grains that were soft, are pushed apart first"},
+            "file: overlaps of up to 0.1 D, as between soft grains, are removed first"},
            &P::relax},
           {{"initial_solid_fraction", "", from_to(0.1, 0.7),
-            "collapse: solid fraction of the loose arrangement; lower where the size ratio needs more room"},
+            "collapse: solid fraction of the loose arrangement; lower if the size ratio needs more room"},
            &P::initial_solid_fraction},
           {{"friction", "", from_to_or(0.0, 10.0, "contact"),
             "coefficient of friction between grains until the bed is at rest; \"contact\": that of "
@@ -170,18 +170,18 @@ Keys solver_keys() {
             "Gauss-Seidel with momentum, or without: the slow reference"},
            &P::method},
           {{"tolerance", "", from_to(1e-12, 1e-2),
-            "natural-map residual asked of a step while the bed is at rest"},
+            "required natural-map residual of a step while the bed is at rest"},
            &P::tolerance},
           {{"moving_tolerance", "", from_to(1e-12, 1e-2),
             "the same at an rms velocity of g h or more; below that, in proportion to the velocity"},
            &P::moving_tolerance},
           {{"max_iterations", "", IntegerRange{1, 10'000'000},
-            "number of iterations after which a step is taken as it is"},
+            "number of iterations after which a step is accepted as it is"},
            &P::max_iterations},
           {{"allowed_overlap", "D", from_to(0.0, 0.01), "overlaps up to this are left as they are"},
            &P::allowed_overlap},
           {{"overlap_correction", "", from_to(0.0, 1.0),
-            "share of the overlap beyond the allowed one that is removed in each step, at most"},
+            "largest share of the overlap beyond the allowed one that is removed in each step"},
            &P::overlap_correction},
       });
 }
@@ -208,7 +208,7 @@ Keys guards_keys() {
       "guards", &Scenario::guards,
       {
           {{"action", "", Choices{{"stop", "warn"}},
-            "what happens when a guard is broken: the run stops, or goes on with a recorded warning"},
+            "what happens when a guard is broken: the run stops, or continues with a recorded warning"},
            &P::action},
           {{"velocity", "sqrt(g D)", positive(), "largest velocity of a grain"}, &P::velocity},
           {{"overlap", "D", positive(), "largest overlap of two grains"}, &P::overlap},

@@ -19,7 +19,7 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
   std::vector<BrokenRule> broken;
   const double h = time_step(scenario);
   const double fall = std::sqrt(scenario.grains.mean_diameter / gravity);
-  // 0.001 / 100 is not 1e-5 to the last bit: what is written as the end of the range belongs to it.
+  // A product such as 0.001 / 100 may differ from 1e-5 by rounding, and the ends of the range are included.
   constexpr double round_off = 1e-12;
   if (h < shortest_time_step * (1.0 - round_off) || h > longest_time_step * (1.0 + round_off))
     broken.push_back(
@@ -27,11 +27,10 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
          fmt::format("a time step h = tilt.step / tilt.rate in [{}, {}] s; it is {} s",
                      short_text(shortest_time_step), short_text(longest_time_step), short_text(h))});
   else if (h > longest_over_fall * fall * (1.0 + round_off))
-    broken.push_back(
-        {{"grains.mean_diameter", "tilt.step", "tilt.rate"},
-         fmt::format("a time step h = tilt.step / tilt.rate of at most {} sqrt(D / g), or grains "
-                     "would fall past each other; it is {} sqrt(D / g)",
-                     short_text(longest_over_fall), short_text(h / fall))});
+    broken.push_back({{"grains.mean_diameter", "tilt.step", "tilt.rate"},
+                      fmt::format("a time step h = tilt.step / tilt.rate of at most {} sqrt(D / g), or "
+                                  "grains would fall past each other; it is {} sqrt(D / g)",
+                                  short_text(longest_over_fall), short_text(h / fall))});
   const double grains = scenario.bed.length * scenario.bed.depth;
   const bool from_file = scenario.deposition.method == DepositionMethod::file;
   if (grains > most_grains && !from_file)
@@ -40,7 +39,7 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
                                   short_text(most_grains), short_text(grains))});
   if (from_file && scenario.deposition.file.empty())
     broken.push_back({{"deposition.method", "deposition.file"},
-                      "with it deposition.file, the path of a run or of a table; it is not given"});
+                      "deposition.file, the path of a run or of a table, with it; it is not given"});
   if (!from_file && !scenario.deposition.file.empty())
     broken.push_back(
         {{"deposition.file", "deposition.method"}, "deposition.method = \"file\" with it, or no file"});
@@ -48,7 +47,7 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
     broken.push_back({{"tilt.end_angle", "tilt.step"},
                       fmt::format("tilt.end_angle >= tilt.step; they are {} and {} deg",
                                   short_text(*scenario.tilt.end_angle), short_text(scenario.tilt.step))});
-  // A time step that is none counts no steps.
+  // Steps can only be counted with a valid time step.
   if (broken.empty())
     if (std::string fault = program_fault(scenario); !fault.empty())
       broken.push_back({{"tilt.program", "tilt.end_angle"}, std::move(fault)});

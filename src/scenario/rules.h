@@ -1,5 +1,5 @@
 #pragma once
-/// Conditions between the keys of a scenario.
+/// Rules that relate several keys of a scenario.
 
 #include <string>
 #include <vector>
@@ -8,15 +8,16 @@
 
 namespace talus::scenario {
 
-inline constexpr double gravity = 9.81;     ///< m/s^2, of every run
-inline constexpr double most_grains = 2e6;  ///< of a bed
+inline constexpr double gravity = 9.81;     ///< gravitational acceleration of every run, m/s^2
+inline constexpr double most_grains = 2e6;  ///< largest number of grains in a bed
 
 struct BrokenRule {
-  std::vector<std::string> keys;  ///< full names of its keys, the one most likely to be wrong first
-  std::string expected;           ///< for a message: what was expected and what was found
+  std::vector<std::string> keys;  ///< full names of the keys, the one most likely to be wrong first
+  std::string expected;           ///< expected and found values, for a message
 };
 
-/// The rules that are broken by a scenario whose keys are each in range; none if it can be run.
+/// Returns the rules broken by a scenario whose keys are individually in range; empty if the scenario can be
+/// run.
 std::vector<BrokenRule> broken_rules(const Scenario& scenario);
 
 }  // namespace talus::scenario

@@ -21,7 +21,7 @@ std::string differs(const std::string& found, const std::string& expected) {
 }
 
 std::string range_fault(const char* name, double value, double highest, const char* unit) {
-  if (value >= 0.0 && value <= highest) return {};  // not for NaN
+  if (value >= 0.0 && value <= highest) return {};  // false for NaN
   return differs(fmt::format("{} {:.4g}{}", name, value, unit), fmt::format("0 ... {:.4g}{}", highest, unit));
 }
 
@@ -43,7 +43,8 @@ std::string drop_fault(const Command& command, const Scenario& scenario) {
   const double diameter = scenario.grains.mean_diameter;
   if (command.grain < 1 || command.grain > most_dropped)
     return differs(fmt::format("{} grains", command.grain), fmt::format("1 ... {}", most_dropped));
-  if (!std::isfinite(command.x)) return differs(fmt::format("x = {:.4g} m", command.x), "a place on the bed");
+  if (!std::isfinite(command.x))
+    return differs(fmt::format("x = {:.4g} m", command.x), "a position on the bed");
   if (scenario.bed.boundary == BedBoundary::walls)
     if (std::string fault = range_fault("x =", command.x, scenario.bed.length * diameter, " m");
         !fault.empty())
@@ -59,22 +60,22 @@ std::vector<CommandKey> command_keys(const std::string& section) {
   const NumberRange any = {-1e9, 1e9, true, {}};
   std::vector<CommandKey> keys = {
       {{"at", "deg", NumberRange{-60.0, 60.0, true, "none"},
-        "the command is carried out when the tilt has first reached this angle; below 0: on the other side"},
+        "the command is carried out when the tilt first reaches this angle; below 0: on the opposite side"},
        &C::at},
       {{"time", "s", NumberRange{0.0, 1e6, true, "none"},
         "the same for the time since the tilt began; a command has an angle or a time"},
        &C::time},
-      {{"kind", "", Choices{kinds}, "what is done"}, &C::kind},
+      {{"kind", "", Choices{kinds}, "action of the command"}, &C::kind},
       {{"grain", "", IntegerRange{0, 2'000'000},
-        "push, drag: number of the free grain; drop: how many grains of the free surface"},
+        "push, drag: number of the free grain; drop: number of grains of the free surface"},
        &C::grain},
       {{"x", "", any,
-        "push: velocity added along the bed, m/s; drop: where along the bed, m; friction: the coefficient; "
-        "tilt_rate: deg/s; drag: where along the bed the spring is held, m"},
+        "push: velocity added along the bed, m/s; drop: position along the bed, m; friction: the "
+        "coefficient; tilt_rate: deg/s; drag: position of the spring along the bed, m"},
        &C::x},
       {{"y", "", any,
-        "push: velocity added away from the floor, m/s; drop: height above the free surface, m; drag: where "
-        "above the floor the spring is held, m"},
+        "push: velocity added away from the floor, m/s; drop: height above the free surface, m; drag: height "
+        "of the spring above the floor, m"},
        &C::y},
   };
   for (CommandKey& key : keys) key.section = section;
@@ -95,7 +96,7 @@ std::string table_fault(const ScriptedCommand& command, const std::vector<std::s
   const auto has = [&](const char* name) { return std::ranges::find(given, name) != given.end(); };
   if (has("at") && has("time")) return "has an angle and a time: expected at or time";
   if (!has("at") && !has("time"))
-    return "has no moment: expected at = an angle in deg, or time = s since the tilt began";
+    return "has neither an angle nor a time: expected at = an angle in deg, or time = s since the tilt began";
   if (!has("kind"))
     return fmt::format("has no kind: expected kind = \"{}\"", joined(command_kind_names, "\" or \""));
   const std::string_view word = command_kind_names[static_cast<std::size_t>(command.kind)];

@@ -11,7 +11,7 @@
 namespace talus::scenario {
 namespace {
 
-/// Small letters and digits alone.
+/// Returns the letters, in lower case, and the digits of a name.
 std::string bare(std::string_view name) {
   std::string letters;
   for (const unsigned char c : name)
@@ -19,7 +19,7 @@ std::string bare(std::string_view name) {
   return letters;
 }
 
-/// All of the text as a finite number; "+3" is one.
+/// Returns the entire text as a finite number; a leading "+" is accepted.
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0.0;
@@ -28,7 +28,7 @@ std::optional<double> number_in(std::string_view text) {
   return number;
 }
 
-/// Where the number at the beginning of a text ends; 0 where there is none.
+/// Returns the end of the number at the beginning of a text; 0 if there is none.
 std::size_t end_of_number(std::string_view text) {
   double number = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -43,7 +43,7 @@ std::string quoted_setting(const std::string& option, std::string_view name, std
   return fmt::format("{} {}={}", option, name, visible_word(value));
 }
 
-/// "contact.friction:0.3", "contact.friction 0.3".
+/// Suggests a correction for settings such as "contact.friction:0.3" and "contact.friction 0.3".
 std::string with_another_sign(const KeyHeads& keys, const std::string& option, std::string_view setting) {
   const std::size_t end = setting.find_first_of(": \t");
   if (end == std::string_view::npos) return {};
@@ -52,7 +52,7 @@ std::string with_another_sign(const KeyHeads& keys, const std::string& option, s
   return fmt::format("; did you mean '{}'?", quoted_setting(option, name, value));
 }
 
-/// "contact.friction=0.3,tilt.step=0.002".
+/// Suggests a correction for two settings in one, such as "contact.friction=0.3,tilt.step=0.002".
 std::string two_in_one(const KeyHeads& keys, const std::string& option, const KeyHead& key,
                        std::string_view value) {
   const std::size_t end = value.find_first_of(",; ");
@@ -95,7 +95,8 @@ std::optional<KeyValue> typed_number(const KeyHead& key, std::string_view value)
   const auto number = number_in(value);
   if (!number || std::holds_alternative<NumberRange>(key.range))
     return number ? std::optional<KeyValue>(*number) : std::nullopt;
-  constexpr double largest = 9007199254740992.0;  // from here on a double is not every integer
+  // Smallest double beyond which not every integer is representable.
+  constexpr double largest = 9007199254740992.0;
   const bool is_whole = *number == std::floor(*number) && std::abs(*number) < largest;
   return is_whole ? std::optional<KeyValue>(static_cast<std::int64_t>(*number)) : std::nullopt;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// How people write settings: the forms that are understood beside `section.key=value`, and what is meant by
-/// those that are not.
+/// Forms of settings: those accepted in addition to `section.key=value`, and suggestions for those that are
+/// not.
 
 #include <optional>
 #include <string>
@@ -10,30 +10,30 @@
 
 namespace talus::scenario {
 
-/// Without blanks at its ends.
+/// Removes blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// A word that may stand for a string without quotes.
+/// Whether a word may be used as a string without quotes.
 bool is_bare_word(std::string_view text);
 
-/// Digits, more of them perhaps than TOML reads.
+/// Whether a text consists of digits, possibly more of them than TOML reads.
 bool is_whole_number(std::string_view text);
 
-/// The full name of the key that was meant by one that does not exist: written in other letters or with other
-/// signs between its words ("Contact.Friction", "contact/friction", "--contact_friction"), or without its
-/// section where only one has it. Empty where there is none.
+/// Returns the full name of the existing key that was meant by an unknown one: written with other letters or
+/// other separators ("Contact.Friction", "contact/friction", "--contact_friction"), or without its section if
+/// only one section has it. Empty if there is none.
 std::string meant_key(const KeyHeads& keys, std::string_view written);
 
-/// The full names of the keys called so, in whichever section.
+/// Returns the full names of all keys with this name, in any section.
 std::vector<std::string> keys_called(const KeyHeads& keys, std::string_view name);
 
-/// The number that a value is for this key, though TOML does not read it: ".3", "1.", "007", and with the
-/// unit of the key behind it, "20 D". Of an integer also "1e5". Nothing for other text and other keys.
+/// Returns the number that a value means for this key if TOML does not read it: ".3", "1.", "007", the unit
+/// of the key after the number ("20 D"), and for an integer also "1e5". Empty for other text and other keys.
 std::optional<KeyValue> typed_number(const KeyHead& key, std::string_view value);
 
-/// The end of a message about a setting that has no value, or none that is valid: "; did you mean --set
-/// contact.friction=0.3?" for "contact.friction:0.3", and the same for a decimal comma, for a foreign unit,
-/// and for two settings in one. Empty where nothing is known. `option`: "--set".
+/// Returns the end of a message about a setting without a valid value: "; did you mean --set
+/// contact.friction=0.3?" for "contact.friction:0.3", and similarly for a decimal comma, for another unit,
+/// and for two settings in one. Empty without a suggestion. `option`: "--set".
 std::string meant_setting(const KeyHeads& keys, const std::string& option, std::string_view setting);
 
 }  // namespace talus::scenario

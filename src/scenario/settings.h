@@ -1,5 +1,5 @@
 #pragma once
-/// "key=value" settings of the command line, read by a table of keys.
+/// "key=value" settings of the command line, interpreted by a table of keys.
 
 #include <map>
 #include <optional>
@@ -10,14 +10,14 @@
 
 namespace talus::scenario {
 
-/// The values of `--set key=value` settings. `example` is a setting for messages: "lc_cut=30". Throws
+/// Returns the values of `--set key=value` settings. `example` is a setting for messages: "lc_cut=30". Throws
 /// LocatedError(bad_data) with a line for each setting that is not accepted: `--set lc_cut=-3: error: key
 /// 'lc_cut' = -3: expected a number in (0, 10000] or "depth", in D`.
 std::map<const KeyHead*, KeyValue> read_settings(const KeyHeads& keys,
                                                  const std::vector<std::string>& settings,
                                                  const std::string& example);
 
-/// A struct with these values, and its defaults for the other keys. Throws as read_settings does.
+/// Returns a struct with these values and its defaults for the other keys. Throws as read_settings does.
 template <typename Struct>
 Struct parse_settings(const std::vector<Key<Struct>>& keys, const std::vector<std::string>& settings,
                       const std::string& example) {

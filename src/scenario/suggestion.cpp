@@ -20,9 +20,9 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Edit distance regardless of case; nothing if it is too large for a typing error.
+/// Returns the case-insensitive edit distance; empty if it is too large for a typing error.
 std::optional<std::size_t> slip(std::string_view written, std::string_view existing) {
-  // No name is this long, and the cost of comparing grows with the length.
+  // No name is this long, and the cost of the comparison grows with the length.
   if (written.size() > 100) return std::nullopt;
   const std::size_t distance = edit_distance(lower(written), existing);
   const std::size_t most = std::max<std::size_t>(2, existing.size() / 3);
@@ -33,7 +33,7 @@ std::string place_of(const std::string& section) {
   return section.empty() ? "the top of the file, above the first section" : fmt::format("[{}]", section);
 }
 
-/// The key nearest in name, one of the same section before others; nullptr where none is near. Names of
+/// Returns the key with the nearest name, preferably in the same section; nullptr if none is near. Names in
 /// other sections must be nearer: `speed` in [tilt] does not mean the seed.
 const KeyHead* nearest_key(const KeyHeads& keys, std::string_view section, std::string_view name) {
   const KeyHead* best = nullptr;
@@ -50,8 +50,8 @@ const KeyHead* nearest_key(const KeyHeads& keys, std::string_view section, std::
   return best;
 }
 
-/// The first key of the section of whose name one word, or the beginning, is written, but for one character:
-/// `thresold` means threshold_factors. nullptr where there is none.
+/// Returns the first key of the section of whose name one word, or the beginning, is written with at most one
+/// wrong character: `thresold` means threshold_factors. nullptr if there is none.
 const KeyHead* key_with_word(const KeyHeads& keys, std::string_view section, std::string_view name) {
   const auto near = [name](std::string_view word) {
     return word.size() > 3 && slip(name, word).value_or(2) < 2;
@@ -122,8 +122,8 @@ std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name
   const std::string meant = meant_key(keys, name);
   if (meant.empty() && name.starts_with("command."))
     return fmt::format(
-        "unknown key '{}': expected command.N.KEY with N from 1 to the number of [[command]] "
-        "tables of the scenario, and KEY at, time, kind, grain, x or y",
+        "unknown key '{}': expected command.N.KEY with N from 1 to the number of [[command]] tables of the "
+        "scenario, and KEY at, time, kind, grain, x or y",
         visible_word(name));
   const std::vector<std::string> several = keys_called(keys, name);
   if (!meant.empty() || !several.empty())

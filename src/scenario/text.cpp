@@ -23,7 +23,7 @@ struct SettingLine {
   std::string comment;
 };
 
-/// Lines of one section, with their comments one below the other.
+/// Returns the lines of one section with aligned comments.
 std::string aligned(const std::vector<SettingLine>& lines) {
   std::size_t width = 0;
   for (const SettingLine& line : lines) width = std::max(width, line.setting.size());
@@ -38,7 +38,7 @@ std::string aligned(const std::vector<SettingLine>& lines) {
 }  // namespace
 
 std::string short_text(double value) {
-  // 100000 reads better than 1e+05, though it is longer.
+  // 100000 is easier to read than 1e+05, although it is longer.
   const bool plain = value == 0.0 || (std::abs(value) >= 1e-4 && std::abs(value) < 1e7);
   std::array<char, 32> digits;
   char* const last = digits.data() + digits.size();
@@ -55,7 +55,7 @@ std::string toml_text(const KeyValue& value) {
     return fmt::format("[{}]", joined(*numbers, ", ", [](double number) { return toml_text(number); }));
   if (const auto* phrases = std::get_if<std::vector<std::string>>(&value))
     return fmt::format("[{}]", joined(*phrases, ", ", quoted_utf8));
-  // Without a point or an exponent (and for nan and inf, which have an "n") TOML would read an integer.
+  // TOML would read an integer without a point or an exponent; nan and inf contain an "n".
   const std::string digits = short_text(std::get<double>(value));
   return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
 }

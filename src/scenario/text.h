@@ -1,5 +1,5 @@
 #pragma once
-/// Values of keys as text, exact if they are read back.
+/// Values of keys as text that reads back exactly.
 
 #include <cstdint>
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace talus::scenario {
 
-/// The value of a key, as in TOML.
+/// The value of a key, with the types of TOML.
 using KeyValue =
     std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>, bool>;
 
-/// The shortest decimal that reads back as the same double: "200", "1e-06".
+/// Returns the shortest decimal that reads back as the same double: "200", "1e-06".
 std::string short_text(double value);
 
-/// The value in TOML: 200.0, 1e-06, 7, "periodic", [1.0, 2.0], ["to 12", "to 0"].
+/// Returns the value in TOML: 200.0, 1e-06, 7, "periodic", [1.0, 2.0], ["to 12", "to 0"].
 std::string toml_text(const KeyValue& value);
 
-/// The value as it is written in a setting: 200, 1e-06, periodic, 1,2, or "to 12, to 0".
+/// Returns the value as written in a setting: 200, 1e-06, periodic, 1,2, or "to 12, to 0".
 std::string plain_text(const KeyValue& value);
 
 }  // namespace talus::scenario

@@ -18,9 +18,9 @@ constexpr double slowest = 1e-4, fastest = 100.0;  // deg/s
 constexpr double most_times = 10'000.0;
 constexpr std::size_t most_segments = 100'000;
 constexpr double most_steps = 1e12;
-constexpr double steepest_rounding = 1e-9;  // deg, of sums of angles
+constexpr double steepest_rounding = 1e-9;  // tolerance for sums of angles, deg
 
-/// The words of a phrase that are still to be read.
+/// The remaining words of a phrase.
 struct Words {
   std::vector<std::string_view> words;
   std::size_t next = 0;
@@ -44,7 +44,7 @@ struct Words {
     return true;
   }
 
-  /// The next word as a number in [low, high].
+  /// Reads the next word as a number in [low, high].
   std::optional<double> number(double low, double high) {
     if (at_end()) return std::nullopt;
     std::string_view word = words[next];
@@ -54,10 +54,10 @@ struct Words {
     if (error != std::errc() || end != word.data() + word.size() || !(value >= low && value <= high))
       return std::nullopt;
     ++next;
-    return value + 0.0;  // no -0
+    return value + 0.0;  // avoids -0
   }
 
-  /// The same, with its unit after it or not.
+  /// Reads a number, optionally followed by its unit.
   std::optional<double> number(double low, double high, std::string_view unit) {
     const std::optional<double> value = number(low, high);
     if (value) take(unit);
@@ -90,18 +90,18 @@ std::optional<ProgramPhrase> verb_of(Words& words) {
   return with(Verb::times, times);
 }
 
-/// A programme while its phrases are carried out.
+/// A programme while its phrases are executed.
 struct Course {
   const Scenario& scenario;
   std::vector<TiltSegment> segments;
-  std::size_t block = 0;  ///< phrases of it begin here
+  std::size_t block = 0;  ///< first phrase of the present block
   bool to_repose = false;
   std::string fault;
 
   double tilt() const { return segments.empty() ? 0.0 : segments.back().to; }
   std::int64_t end() const { return segments.empty() ? 0 : segments.back().end(); }
 
-  /// A segment without a step is none.
+  /// Adds a segment unless it has no steps.
   void add(double to, double step, double steps) {
     if (!(steps + static_cast<double>(end()) <= most_steps)) return complain("takes more than 1e12 steps");
     if (std::abs(to) > steepest + steepest_rounding)
@@ -113,7 +113,8 @@ struct Course {
 
   void go_to(double angle, const std::optional<double>& rate) {
     const double size =
-        rate ? *rate * time_step(scenario) : scenario.tilt.step;  // so that "at tilt.rate" changes no bit
+        // Exact, so that "at tilt.rate" changes no bit.
+        rate ? *rate * time_step(scenario) : scenario.tilt.step;
     const double way = angle - tilt();
     add(angle, way < 0.0 ? -size : size, way == 0.0 ? 0.0 : std::max(1.0, std::round(std::abs(way) / size)));
   }
@@ -138,7 +139,7 @@ struct Course {
   }
 };
 
-/// Carries out the phrases from `first` to `end`, `times` times.
+/// Executes the phrases from `first` to `end`, `times` times.
 void repeat(Course& course, const std::vector<ProgramPhrase>& phrases, std::size_t first, std::size_t end,
             double times) {
   for (double done = 0.0; done < times && course.fault.empty(); ++done)
@@ -153,7 +154,7 @@ Course course_of(const Scenario& scenario) {
   std::size_t block = 0;
   for (std::size_t k = 0; k < phrases.size(); ++k) {
     if (phrases[k].verb == Verb::to_repose && k + 1 < phrases.size())
-      course.complain("goes on after \"to repose\", with which it has to end");
+      course.complain("continues after \"to repose\", which must be the last phrase");
     if (phrases[k].verb != Verb::times) continue;
     if (k == block)
       course.complain(fmt::format("has nothing to repeat before \"{}\"", scenario.tilt.program[k]));
@@ -183,8 +184,7 @@ std::optional<ProgramPhrase> program_phrase(std::string_view text) {
 std::string program_phrase_forms() {
   return fmt::format(
       "\"to A\" or \"by A\" (an angle in [-{0}, {0}] deg) or \"to repose\", each also with \"at R\" (a rate "
-      "in "
-      "[{1}, {2}] deg/s), \"hold T\" (a time in (0, {3}] s), \"N times\" (1 ... {4}), or \"once\"",
+      "in [{1}, {2}] deg/s), \"hold T\" (a time in (0, {3}] s), \"N times\" (1 ... {4}), or \"once\"",
       short_text(steepest), short_text(slowest), short_text(fastest), short_text(longest_hold),
       short_text(most_times));
 }
@@ -205,7 +205,7 @@ std::string meant_program_phrase(const std::string& text) {
   else if (!meant.empty())
     phrase = meant + rest;
   else if (words.words.size() == 1)
-    phrase = "to " + first;  // an angle alone
+    phrase = "to " + first;  // an angle without a verb
   return program_phrase(phrase) ? fmt::format("; did you mean '{}'?", phrase) : "";
 }
 
@@ -231,7 +231,7 @@ double TiltProgram::tilt(std::int64_t steps) const {
 std::string program_fault(const Scenario& scenario) {
   if (scenario.tilt.program.empty()) return {};
   if (scenario.tilt.end_angle)
-    return fmt::format("no tilt.end_angle with it, as the programme says where it ends; it is {} deg",
+    return fmt::format("no tilt.end_angle, because the programme determines the end of the run; it is {} deg",
                        short_text(*scenario.tilt.end_angle));
   const std::string fault = course_of(scenario).fault;
   return fault.empty() ? "" : "a programme that can be carried out; this one " + fault;

@@ -1,4 +1,5 @@
-/// Reading scenarios and settings: TOML to values, values to fields, and every error with its place.
+/// Parser of scenarios and settings: converts TOML to values and fields, and reports every error with its
+/// place.
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -28,10 +29,10 @@ namespace talus::scenario {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes
-constexpr std::size_t most_complaints = 100;                // shown at once
-constexpr std::ptrdiff_t most_dots = 1000;                  // in a line
+constexpr std::size_t most_complaints = 100;                // largest number reported at once
+constexpr std::ptrdiff_t most_dots = 1000;                  // largest number in a line
 
-/// Where a value stands: in the file, or in a setting of the command line.
+/// Place of a value: in the file, or in a setting of the command line.
 struct SourcePlace {
   std::string text;  ///< "slope.toml:4:11", "--set contact.friction=-1"
   std::uint32_t line = 0;
@@ -47,17 +48,18 @@ struct Complaint {
 /// A key that has been given a value.
 struct Given {
   SourcePlace place;
-  std::optional<KeyValue> value;  ///< none where it is not accepted
+  std::optional<KeyValue> value;  ///< empty if the value is not accepted
 };
 
-/// A scenario, or settings, while they are read.
+/// A scenario, or settings, during parsing.
 struct ParsedKeys {
   KeyHeads keys;
-  std::string example;  ///< of a setting
-  std::string name;     ///< of the file
+  std::string example;  ///< example of a setting
+  std::string name;     ///< name of the file
   std::map<const KeyHead*, Given> given;
   std::vector<Complaint> complaints;
-  std::vector<std::vector<CommandKey>> commands{};  ///< the keys of each [[command]], which are in `keys` too
+  /// Keys of each [[command]]; `keys` contains them as well.
+  std::vector<std::vector<CommandKey>> commands{};
 
   void complain(const SourcePlace& place, const std::string& message) {
     complaints.push_back({place, message});
@@ -76,7 +78,7 @@ std::string line_of(const SourcePlace& place, const std::string& message) {
   throw LocatedError(ExitCode::bad_data, line_of(place, message));
 }
 
-/// All complaints by their place in the file, then those about settings in the order of these.
+/// Throws an error with all complaints, ordered by their place in the file, followed by those about settings.
 [[noreturn]] void refuse(std::vector<Complaint> complaints, const std::string& name) {
   std::ranges::stable_sort(complaints, [](const Complaint& first, const Complaint& second) {
     const auto order = [](const SourcePlace& p) { return std::tuple(!p.in_file, p.line, p.column); };
@@ -132,7 +134,7 @@ std::optional<KeyValue> value_of(const toml::node& node) {
   return numbers;
 }
 
-/// " = 0.5"; nothing for a value that would not fit a line.
+/// Returns " = 0.5" for the value of a node; empty for a value that does not fit into a line.
 std::string shown(const toml::node& node) {
   if (const auto* text = node.as_string()) return fmt::format(" = \"{}\"", visible_word(text->get()));
   const auto value = node.is_array() ? std::nullopt : value_of(node);
@@ -149,7 +151,7 @@ bool is_of_expected_kind(const KeyHead& key, const toml::node& node) {
   return node.is_number() || (node.is_string() && !std::get<NumberRange>(key.range).word.empty());
 }
 
-/// The words that a key may have for its value.
+/// Returns the words that are allowed as the value of a key.
 std::vector<std::string> words_of(const KeyHead& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names;
   if (const auto* range = std::get_if<NumberRange>(&key.range)) return {range->word};
@@ -157,7 +159,7 @@ std::vector<std::string> words_of(const KeyHead& key) {
   return {};
 }
 
-/// Complains at each phrase of a list that is none; whether there was one.
+/// Adds a complaint for each invalid phrase of a list; returns whether there is one.
 bool complain_of_phrases(ParsedKeys& reading, const KeyHead& key, const toml::node& node,
                          const SourcePlace& place) {
   const auto* list = std::get_if<PhraseList>(&key.range);
@@ -187,8 +189,8 @@ void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node,
                            node.is_string() ? did_you_mean(node.as_string()->get(), words_of(key)) : ""));
 }
 
-/// Sections are tables at the top level (`section` empty), keys are what else there is. `keys` are those that
-/// the table may have.
+/// Reads a table. Sections are tables at the top level (`section` empty); all other entries are keys. `keys`
+/// are those allowed in the table.
 void take_table(ParsedKeys& reading, const KeyHeads& keys, const toml::table& table,
                 const std::string& section) {
   for (const auto& [name, node] : table) {
@@ -198,7 +200,7 @@ void take_table(ParsedKeys& reading, const KeyHeads& keys, const toml::table& ta
     if (key != nullptr) {
       if (!reading.given.contains(key)) take_value(reading, *key, node, at_value);
     } else if (section.empty() && !reading.commands.empty() && name.str() == "command") {
-      // one by one, by take_commands
+      // read by take_commands
     } else if (section.empty() && is_section(keys, name.str())) {
       if (node.is_table())
         take_table(reading, keys, *node.as_table(), std::string(name.str()));
@@ -213,7 +215,7 @@ void take_table(ParsedKeys& reading, const KeyHeads& keys, const toml::table& ta
   }
 }
 
-/// The message of the TOML library, in plainer words for the most frequent ones.
+/// Returns the message of the TOML library, reworded for the most frequent errors.
 std::string syntax_message(const toml::parse_error& error) {
   const std::string_view said = error.description();
   const auto again = said.find("cannot redefine");
@@ -224,7 +226,7 @@ std::string syntax_message(const toml::parse_error& error) {
                      bare_word ? "; expected a number, true, false, or a string in quotes" : "");
 }
 
-/// The TOML library takes a number for none where the memory to read it is missing; errno tells.
+/// Parses TOML. Out of memory, the TOML library reports an invalid number; errno distinguishes the two cases.
 template <typename... Arguments>
 toml::table parse_toml(const Arguments&... text) {
   errno = 0;
@@ -244,8 +246,8 @@ toml::table parse_text(const std::string& text, const std::string& name) {
   }
 }
 
-/// The first line, from 1, with so many dots that its name could be a table in a table in a table ... deeper
-/// than the stack of the parser; 0 where there is none.
+/// Returns the number of the first line, counted from 1, whose dots could nest tables deeper than the stack
+/// of the parser allows; 0 if there is none.
 std::uint32_t line_too_deep(std::string_view text) {
   for (std::uint32_t line = 1;; ++line) {
     const auto end = text.find('\n');
@@ -255,13 +257,13 @@ std::uint32_t line_too_deep(std::string_view text) {
   }
 }
 
-/// A number as a value that was read.
+/// Wraps a number in a table, like a parsed value.
 toml::table table_of(const KeyValue& number) {
   if (const auto* whole = std::get_if<std::int64_t>(&number)) return toml::table{{"value", *whole}};
   return toml::table{{"value", std::get<double>(number)}};
 }
 
-/// Phrases with commas between, without quotes, as a value that was read.
+/// Wraps comma-separated phrases without quotes in a table, like a parsed value.
 toml::table table_of_phrases(std::string_view text) {
   toml::array phrases;
   while (true) {
@@ -272,9 +274,10 @@ toml::table table_of_phrases(std::string_view text) {
   }
 }
 
-/// The value of a setting: TOML, a number as people type it, a list without its brackets, or a bare word that
-/// stands for a string; of a key that takes any text, also what is no TOML (`--set
-/// deposition.file=beds/dense.csv`). One entry, named "value"; nothing where it is none of these.
+/// Parses the value of a setting: TOML, a number as people type it, a list without brackets, or a bare word
+/// as a string; for a key that takes any text, also text that is not TOML (`--set
+/// deposition.file=beds/dense.csv`). Returns a table with one entry, "value"; empty if the value has none of
+/// these forms.
 std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& value) {
   if (line_too_deep(value) != 0) return std::nullopt;
   const bool bare_list = std::holds_alternative<NumberList>(key.range) && !value.starts_with('[');
@@ -294,7 +297,7 @@ std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& 
   return std::nullopt;
 }
 
-/// A setting of `option`, "--set".
+/// Reads a setting of `option`, such as "--set".
 void take_setting(ParsedKeys& reading, const std::string& option, const std::string& setting) {
   SourcePlace place;
   place.text = fmt::format("{} {}", option, visible_word(setting));
@@ -324,7 +327,7 @@ void take_setting(ParsedKeys& reading, const std::string& option, const std::str
                                expectation(*key), meant));
 }
 
-/// Makes the keys of the commands of a file known, so that settings can name them.
+/// Registers the keys of the commands of a file, so that settings can name them.
 void begin_commands(ParsedKeys& reading, const toml::table& table) {
   const toml::node* node = table.get("command");
   if (node == nullptr) return;
@@ -341,7 +344,7 @@ void begin_commands(ParsedKeys& reading, const toml::table& table) {
     for (const CommandKey& key : keys) reading.keys.push_back(&key);
 }
 
-/// The commands as far as their keys are accepted.
+/// Reads the commands whose keys are accepted.
 void take_commands(ParsedKeys& reading, const toml::table& table, Scenario& scenario) {
   for (std::size_t k = 0; k < reading.commands.size(); ++k) {
     const toml::node& node = table.get("command")->as_array()->at(k);
@@ -365,7 +368,7 @@ void take_commands(ParsedKeys& reading, const toml::table& table, Scenario& scen
   }
 }
 
-/// The scenario as far as its keys are accepted.
+/// Returns the scenario with all accepted keys.
 Scenario scenario_of(const ParsedKeys& reading) {
   Scenario scenario;
   for (const ScenarioKey& key : scenario_keys())
@@ -374,7 +377,8 @@ Scenario scenario_of(const ParsedKeys& reading) {
   return scenario;
 }
 
-/// Complains at a key that the rule concerns: one set on the command line, otherwise the first one given.
+/// Adds complaints about broken rules, at a key that the rule concerns: one set on the command line,
+/// otherwise the first one given.
 void check_rules(ParsedKeys& reading, const Scenario& scenario) {
   for (const BrokenRule& rule : broken_rules(scenario)) {
     const ScenarioKey* blamed = find_key(rule.keys.front());
@@ -395,13 +399,13 @@ void check_rules(ParsedKeys& reading, const Scenario& scenario) {
   }
 }
 
-/// Throws if the text cannot be TOML, so that the parser is spared.
+/// Throws if the text cannot be TOML, before the parser sees it.
 void refuse_what_is_no_text(const std::string& text, const std::string& name) {
   const auto zero = text.find('\0');
   if (zero != std::string::npos || text.starts_with("talus run file"))
     refuse(place_in_file(name, {1, 1}),
-           "this is not a scenario but binary data; expected TOML (see docs/scenario.md). "
-           "`talus info` shows what a run holds");
+           "this is not a scenario but binary data; expected TOML (see docs/scenario.md). `talus info` shows "
+           "the contents of a run");
   if (text.size() > largest_file)
     refuse(place_in_file(name, {1, 1}),
            fmt::format("the file is too large: expected a scenario of at most {} bytes", largest_file));
@@ -450,13 +454,11 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
                 fmt::format("{} is a folder; expected a scenario file (TOML)", path));
   std::string content(largest_file + 1, '\0');
   content.resize(read_at_most(file, std::as_writable_bytes(std::span(content)), path));
-  // A pipe that was read before has nothing more to say, which is not the scenario of all defaults.
+  // A pipe that has been read is empty, and must not count as a scenario with all defaults.
   if (known && !S_ISREG(status.st_mode) && content.empty())
     throw Error(
         ExitCode::missing_input,
-        fmt::format("{} is a pipe or a device that holds nothing, or no longer; save the scenario as a "
-                    "file, and give that",
-                    path));
+        fmt::format("{} is an empty pipe or device; save the scenario to a file and give its path", path));
   if (text != nullptr) *text = content;
   return parse_scenario(content, path, overrides, varied);
 }

@@ -100,8 +100,8 @@ ReproducedOutcome measure_member(const ReproductionPlan& plan, std::size_t m) {
   auto values = run ? values_of(member, *run) : std::nullopt;
   if (!values)
     throw Error(ExitCode::bad_data, member.path +
-                                        " lacks analyses of this version of Talus, and they could "
-                                        "not be stored; make the folder writable");
+                                        " lacks analyses of this version of Talus, and they could not be "
+                                        "stored; make the folder writable");
   const ensemble::MemberNumbers found = ensemble::member_numbers(*run->file, run->analysis);
   return {m, found.version, found.seconds, std::move(*values), wall_point(*run)};
 }

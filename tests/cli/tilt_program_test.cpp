@@ -56,7 +56,7 @@ TEST_F(TiltProgramCommands, a_bad_one_is_refused_before_anything_is_made) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("bed.h5")));
   const Outcome vary = talus({"check", "bed.toml", "--set", "tilt.end_angle=5"});
   EXPECT_EQ(vary.exit_code, 65);
-  EXPECT_NE(vary.err.find("no tilt.end_angle with it"), std::string::npos) << vary.err;
+  EXPECT_NE(vary.err.find("no tilt.end_angle, because"), std::string::npos) << vary.err;
 }
 
 TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {

@@ -63,7 +63,7 @@ def test_a_child_of_fork_looks_draws_and_copies_and_leaves_the_recording_alone(t
         def child():
             for do in (sim.step, sim.run, sim.commit, lambda: sim.push(1, (0, 0)), lambda: setattr(sim, "friction", 0.1),
                        lambda: sim.record("other.h5")):
-                assert "copy() makes one" in refused(do)
+                assert "use copy() to create one" in refused(do)
             assert sim.state_hash == before and sim.tilt == 0 and len(sim.grains.position) == len(sim.grains)
             assert sim["kinetic_energy"] > 0 and sim.draw("gamma", width=300).shape[1] == 300
             copied = sim.copy()
@@ -152,7 +152,7 @@ def test_a_signal_that_forks_steps_no_bed_in_the_child(tmp_path):
         try:
             sim.step(600 if not children else 0)
         except talus.Error as error:
-            assert children == [0] and "copy() makes one" in str(error), error
+            assert children == [0] and "use copy() to create one" in str(error), error
             sys.exit()
         while not children:
             time.sleep(0.01)

@@ -39,8 +39,7 @@ std::vector<Quantity> rows_of_events() {
        bursts},
       {&EventRecord::volume_strain, "events/volume_strain", "E", "1",
        "change of the volume strain from the row of observables before the event to that after it; negative "
-       "= "
-       "contraction",
+       "= contraction",
        bursts},
       {&EventRecord::centre_of_mass_strain, "events/centre_of_mass_strain", "E", "1",
        "change of the centre-of-mass strain between the same rows, with less noise; positive = dilation",

@@ -187,7 +187,8 @@ TEST(TiltProgram, that_cannot_be_carried_out_is_refused_as_a_whole) {
   EXPECT_EQ(fault({"to 12"}), "");
   EXPECT_EQ(fault({"10 times"}), head + "has nothing to repeat before \"10 times\"");
   EXPECT_EQ(fault({"to 3", "once", "2 times"}), head + "has nothing to repeat before \"2 times\"");
-  EXPECT_EQ(fault({"to repose", "to 3"}), head + "goes on after \"to repose\", with which it has to end");
+  EXPECT_EQ(fault({"to repose", "to 3"}),
+            head + "continues after \"to repose\", which must be the last phrase");
   EXPECT_EQ(fault({"by 7", "9 times"}), head + "tilts to 63 deg, beyond 60 deg");
   EXPECT_EQ(fault({"by -7", "9 times"}), head + "tilts to -63 deg, beyond 60 deg");
   EXPECT_EQ(fault({"to 0"}), head + "neither tilts nor holds the bed for a step");
@@ -199,8 +200,8 @@ TEST(TiltProgram, that_cannot_be_carried_out_is_refused_as_a_whole) {
 
 TEST(TiltProgram, and_an_end_angle_are_one_too_many) {
   EXPECT_EQ(message_of("[tilt]\nend_angle = 5\nprogram = ['to 3']"),
-            "s.toml:3:11: error: key 'tilt.program' = [\"to 3\"]: expected no tilt.end_angle with it, as the "
-            "programme says where it ends; it is 5 deg");
+            "s.toml:3:11: error: key 'tilt.program' = [\"to 3\"]: expected no tilt.end_angle, because "
+            "the programme determines the end of the run; it is 5 deg");
   EXPECT_EQ(message_of("[tilt]\nend_angle = 'repose'\nprogram = ['to 3']"), "");
 }
 
