@@ -27,7 +27,7 @@ struct CoarseField {
   Tensor2 kinetic_stress;  ///< Pa, from the velocities relative to the field at this point (T34)
   Vec2 boundary_force;     ///< force density of floor and walls on grains, N/m^3; 0 far from them (T35)
   Tensor2 velocity_gradient;  ///< dV_i / dx_j of V = momentum / density, 1/s; NaN if density is 0 (T36)
-  /// M^2/s^2 (T37); NaN with fewer than four grains, or if all are in one line.
+  /// Granular temperature, m^2/s^2 (T37); NaN with fewer than four grains, or if all are in one line.
   double temperature = not_known;
 
   Vec2 velocity() const { return {momentum.x / density, momentum.y / density}; }

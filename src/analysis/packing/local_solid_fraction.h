@@ -16,7 +16,7 @@ inline constexpr double largest_power = 0.75;
 /// grain is lower than to any other. Unlike Voronoi cells of the centres, radical cells never cut a disk of a
 /// different size. Walls and a smooth floor bound the cells, as do the cells of floor grains. (T30)
 struct GrainCell {
-  /// M, counter-clockwise; those of an open cell may lie beyond the largest power.
+  /// Corners, m, counter-clockwise; those of an open cell may lie beyond the largest power.
   std::vector<Vec2> corners;
   bool is_open = false;  ///< whether it extends beyond the largest power: the grain is at the free surface
 

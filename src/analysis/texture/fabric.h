@@ -9,8 +9,8 @@
 
 namespace talus::analysis {
 
-/// Returns the distribution of the directions of contact normals in [0, 180) deg from the bed, in equal bins.
-/// Each contact counts once, or with the weight f_n.
+/// Returns the distribution of the directions of contact normals in [0, 180) deg relative to the bed, in
+/// equal bins. Each contact counts once, or with the weight f_n.
 Histogram normal_directions(const Frame& frame, int bins, bool weighted_by_force);
 
 /// Amplitude 2 <cos m (theta - theta_m)> of the m-th Fourier component of the density of contact normals
