@@ -23,6 +23,8 @@ struct Cells {
 /// than a few for each point. `period` is 0 if the bed is not periodic.
 Cells sort_into_cells(const std::vector<double>& x, const std::vector<double>& y, double size, double period);
 
+/// Return the column and the row of the cell that contains x and y (m). A point outside the grid belongs to
+/// the nearest cell; x is taken modulo the period.
 Index column_of(const Cells& cells, double x);
 Index row_of(const Cells& cells, double y);
 

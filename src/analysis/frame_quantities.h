@@ -59,6 +59,7 @@ struct MapRule {
   std::string_view sign{};  ///< convention of the sign: ", counter-clockwise positive"
 };
 
+/// A quantity of each grain or of each contact of a frame.
 struct FrameQuantity {
   /// Name; tables append _x or _xx for each component. Empty for the centre (columns x and y).
   std::string_view name;
@@ -74,9 +75,11 @@ struct FrameQuantity {
   MapRule map{};
 };
 
+/// Return the tables of the quantities of grains and of contacts.
 std::span<const FrameQuantity> grain_quantities();
 std::span<const FrameQuantity> contact_quantities();
 
+/// Returns the number of components of a quantity: 1, 2 or 4.
 inline std::size_t components(const FrameQuantity& quantity) {
   return static_cast<std::size_t>(quantity.shape);
 }

@@ -31,6 +31,7 @@ inline double branch_length(const BedFrame& bed, Index c) {
   return length;
 }
 
+/// Adds a tensor to a sum.
 inline void add_to(Tensor2& sum, const Tensor2& term) { matrix(sum) += matrix(term); }
 
 }  // namespace talus::analysis

@@ -21,6 +21,7 @@ struct Histogram {
   /// Creates bins of equal width.
   Histogram(double from, double to, int bins);
 
+  /// Adds a value with a weight; NaN is ignored.
   void add(double value, double weight_of_value = 1.0);
 
   double width(std::size_t bin) const { return edges[bin + 1] - edges[bin]; }

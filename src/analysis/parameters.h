@@ -14,6 +14,7 @@ enum class Joining {
   neighbours,  ///< centres closer than 1.1 times the sum of the radii
 };
 
+/// Parameters of an analysis with their defaults (docs/analysis.md).
 struct AnalysisParameters {
   std::vector<double> threshold_factors = {1.0, 2.0};  ///< thresholds in units of Gamma_c, ascending
   std::optional<double> gamma_c;                       ///< default: sin(theta_c) of the run

@@ -38,6 +38,7 @@ struct Display {
       std::nullopt;  ///< the same quantity as a run records it, more often than in frames
 };
 
+/// A row of the table of quantities.
 struct Quantity {
   QuantityMember member;
   std::string name;        ///< "lc/mean": below /analysis in a file, and in JSON
@@ -56,6 +57,7 @@ const Quantity& quantity_of(const QuantityMember& member);
 
 /// Values of a quantity in the order of its shape: by frame, then by threshold, then within each.
 using Values = std::variant<std::vector<double>, std::vector<float>, std::vector<Index>>;
+/// Returns all values of a quantity.
 Values values_of(const Quantity& quantity, const Analysis& analysis);
 
 /// Sets the values of a quantity, an equal number for each frame and threshold; these records must exist.

@@ -38,6 +38,7 @@ struct FigureMaker {
   OfFrames* of_frames = nullptr;
 };
 
+/// An entry of the catalogue.
 struct FigureRecipe {
   std::string_view name;   ///< Figure::name
   std::string_view title;  ///< Figure::title
@@ -46,9 +47,11 @@ struct FigureRecipe {
   std::string_view needs;  ///< required runs, for messages: "a periodic bed that has failed"
   FigureMaker make;
 
+  /// Whether the figure shows single frames, which can be chosen.
   bool shows_frames() const { return make.of_frames != nullptr; }
 };
 
+/// Returns the catalogue.
 std::span<const FigureRecipe> figure_catalogue();
 
 }  // namespace talus::figures

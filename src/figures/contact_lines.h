@@ -21,6 +21,7 @@ std::vector<ContactLine> contact_lines(const BedFrame& bed);
 struct SurfaceLine {
   std::vector<double> x, y;
 };
+/// Returns the free surface of a bed.
 SurfaceLine surface_line(const BedFrame& bed);
 
 }  // namespace talus::figures

@@ -28,6 +28,7 @@ struct Table {
   bool in_blocks = false;
 };
 
+/// A figure with its tables or maps.
 struct Figure {
   std::string name;     ///< "fig09-overloaded-fraction", also the name of its script and of all its files
   std::string title;    ///< "Overloaded fraction over tilt (paper, Fig. 9)"

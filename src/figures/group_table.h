@@ -35,6 +35,7 @@ struct FramesAtAngle {
   RunChoice runs;
   std::vector<std::size_t> frames;
 };
+/// Returns the runs that reach a tilt (rad), and the nearest frame of each.
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt);
 
 /// Returns a sentence for captions with the neighbourhood of a grain to which gamma refers.

@@ -28,6 +28,7 @@ struct AngleGroups {
   std::vector<RunChoice> choices;
   std::vector<RunAngle> angles;
 };
+/// Returns the groups with several runs, and their angles.
 AngleGroups angle_groups(std::span<const RunGroup> groups);
 
 /// Adds a table for each group with the seed and all angles of each run.

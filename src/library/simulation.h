@@ -51,6 +51,7 @@ class Simulation {
   // (Session::advance); steps computed before the error are kept. Functions that depend on the tilt first
   // complete the deposition.
 
+  /// Takes `count` steps.
   bool step(std::int64_t count = 1);
   bool deposit();                                      ///< until the bed is at rest and the tilt begins
   bool tilt_to(double degrees);                        ///< until the tilt is at least this
@@ -74,7 +75,9 @@ class Simulation {
   /// Drops grains of the free surface onto x (m) from a height (m).
   void drop(Index grains, double x, double height);
   void drag(Index grain, Vec2 to);  ///< drags a grain by a spring held at this point, m
+  /// Releases the dragged grain.
   void release();
+  /// Sets the coefficient of friction between grains.
   void set_friction(double friction);
   void set_tilt_rate(double degrees_per_second);  ///< 0 holds the tilt
 
@@ -96,6 +99,7 @@ class Simulation {
 
   /// Sets parameters of the analysis, as `talus analyze --set` does: "l_min=0", "gamma_c=0.3".
   void set_analysis(const std::vector<std::string>& settings);
+  /// Return measured quantities as the functions of MeasuredFrame do.
   double quantity(std::string_view name);
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name);

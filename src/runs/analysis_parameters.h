@@ -12,6 +12,7 @@ namespace talus::runs {
 
 using AnalysisKey = scenario::Key<analysis::AnalysisParameters>;
 
+/// Returns the table of the parameters, in the order of docs/analysis.md.
 const std::vector<AnalysisKey>& analysis_keys();
 
 /// Returns the parameters with "key=value" settings applied to the defaults. Throws LocatedError(bad_data)

@@ -16,6 +16,7 @@
 
 namespace talus::runs {
 
+/// A run with its scenario and analysis.
 struct RunView {
   std::string path;  ///< path of the file, or "FOLDER/ensemble.h5#seed-7" for the values of a member
   std::optional<io::RunFile> file;  ///< frames and observables; empty if only values exist
@@ -39,6 +40,7 @@ std::string version_of(const Facts& provenance);
 /// Returns the view of a run file. Throws Error(bad_data) if its scenario cannot be read.
 RunView view_of_run(const std::string& path, io::RunFile file, analysis::Analysis analysis);
 
+/// Options for computing and storing an analysis.
 struct AnalysisOptions {
   int threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, 2u));
   bool force = false;       ///< recompute a stored, valid analysis

@@ -24,6 +24,7 @@ struct NumberRange {
   std::string word;
 };
 
+/// An integer from `low` to `high`, both included.
 struct IntegerRange {
   std::int64_t low = 0;
   std::int64_t high = 0;
@@ -60,6 +61,7 @@ struct PhraseList {
   std::string (*meant)(const std::string& phrase) = nullptr;
 };
 
+/// The accepted values of a key.
 using KeyRange = std::variant<NumberRange, IntegerRange, Choices, TextRange, NumberList, PhraseList, Switch>;
 
 /// The part of a key that does not depend on the struct.
@@ -132,6 +134,7 @@ struct Key : KeyHead {
 
 /// The keys of a table, in its order. The pointers are valid as long as the table exists.
 using KeyHeads = std::vector<const KeyHead*>;
+/// Returns the keys of a table.
 template <typename Struct>
 KeyHeads heads(const std::vector<Key<Struct>>& keys) {
   KeyHeads all;

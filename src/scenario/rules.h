@@ -11,6 +11,7 @@ namespace talus::scenario {
 inline constexpr double gravity = 9.81;     ///< gravitational acceleration of every run, m/s^2
 inline constexpr double most_grains = 2e6;  ///< largest number of grains in a bed
 
+/// A rule that a scenario breaks.
 struct BrokenRule {
   std::vector<std::string> keys;  ///< full names of the keys, the one most likely to be wrong first
   std::string expected;           ///< expected and found values, for a message

@@ -30,6 +30,7 @@ struct ScriptedCommand {
   bool operator==(const ScriptedCommand&) const = default;
 };
 
+/// All parameters of a run with their defaults; lengths in D refer to the mean diameter.
 struct Scenario {
   std::uint64_t seed = 1;
 

@@ -16,6 +16,7 @@ std::string suggest_key(const KeyHeads& keys, std::string_view section, std::str
 /// Returns the same for an unknown section.
 std::string suggest_section(const KeyHeads& keys, std::string_view section);
 
+/// Whether a section with this name exists.
 bool is_section(const KeyHeads& keys, std::string_view name);
 
 /// Returns the full name: "contact.friction", or "seed" if the section is empty.

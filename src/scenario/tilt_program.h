@@ -55,7 +55,9 @@ class TiltProgram {
 
   bool empty() const { return segments_.empty(); }
   const std::vector<TiltSegment>& segments() const { return segments_; }
+  /// Returns the total number of steps of the tilt.
   std::int64_t steps() const { return empty() ? 0 : segments_.back().end(); }
+  /// Whether the programme ends with "to repose": the tilt grows until the slope fails.
   bool ends_at_repose() const { return to_repose_; }
 
   /// Returns the segment that contains step number `step` of the tilt, counted from 1; the last segment

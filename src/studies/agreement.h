@@ -16,8 +16,10 @@ struct Spread {
   Statistics values;
   bool at_most = false;  ///< true if a run gives only an upper bound
 };
+/// Computes the statistics; NaN values are left out of the statistics but counted as runs.
 Spread spread_of(std::span<const Measured> values);
 
+/// Result of a comparison.
 enum class Agreement {
   agrees,
   differs,
@@ -25,6 +27,7 @@ enum class Agreement {
   not_comparable,  ///< the two quantities differ in kind; see the reason
 };
 
+/// A comparison of our value with the paper's.
 struct Judgement {
   Agreement agreement = Agreement::not_comparable;
   double difference = 0.0;  ///< our value minus the paper's

@@ -30,6 +30,7 @@ struct Reading {
   std::size_t analysis = 0;  ///< index into chain_analyses()
   std::size_t factor = 0;    ///< index of the threshold
 };
+/// Returns all readings.
 std::span<const Reading> readings();
 /// Returns the three readings without a change: single grains with the printed threshold and with twice it,
 /// and grains with their first neighbours.
@@ -69,6 +70,7 @@ struct ChainConclusion {
   std::vector<double> score_of_reading;
   std::vector<double> score_of_preparation;
 };
+/// Draws the conclusions from the results.
 ChainConclusion conclude(std::span<const ReadingResult> results);
 
 }  // namespace talus::studies

@@ -24,7 +24,9 @@ struct ReproductionPlan : ensemble::EnsemblePlan {
 /// does.
 ReproductionPlan plan_reproduction(bool quick, const std::string& seeds, const std::string& folder);
 
+/// Whether the bed has a periodic boundary.
 bool is_periodic(const ensemble::Variant& bed);
+/// Returns the nominal H / L of a bed.
 double depth_over_length(const ensemble::Variant& bed);
 
 /// Values of one complete member.
@@ -38,6 +40,7 @@ struct ReproducedOutcome {
   WallPoint wall;  ///< ratio at failure; H is the mean height at failure
 };
 
+/// A reproduction with the values of its completed members.
 struct ReproductionResult {
   ReproductionPlan plan;
   std::vector<ReproducedOutcome> outcomes;  ///< complete members, in the order of the plan

@@ -35,6 +35,7 @@ struct StudyOutcome {
   std::string version;  ///< version of Talus that computed it, with its git hash
 };
 
+/// A study with the results of its completed members.
 struct StudyResult {
   StudyPlan plan;
   double reference = 0.0;              ///< angle at which beds are compared, deg
@@ -58,6 +59,7 @@ struct Comparison {
   Statistics value;
   Statistics difference;
 };
+/// Compares a variant with the baseline.
 Comparison compare(const StudyResult& result, std::size_t variant, StudyQuantity quantity);
 
 }  // namespace talus::studies

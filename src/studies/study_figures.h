@@ -36,8 +36,10 @@ enum class StudyQuantity : std::size_t {
 };
 inline constexpr std::size_t study_quantity_count = static_cast<std::size_t>(StudyQuantity::count);
 
+/// Part of a study to which a result belongs.
 enum class StudyGroup { slope, at_reference, at_theta_c, solver };
 
+/// A result that a study compares.
 struct StudyField {
   /// Name in CSV and JSON; the endings "_deg" and "_s" are units, other values are dimensionless.
   std::string name;
@@ -60,6 +62,7 @@ struct RunReach {
   double theta_c = 0.0;  ///< deg; NaN if the slope has not failed
   double end = 0.0;      ///< last tilt, deg
 };
+/// Returns how far a run went.
 RunReach reach(const io::RunFile& run);
 
 /// Returns the results with the bed at `reference` deg and at theta_c, each from the last frame with a tilt

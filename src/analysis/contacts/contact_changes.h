@@ -7,6 +7,7 @@
 
 namespace talus::analysis {
 
+/// Contacts gained and lost from one frame to another.
 struct ContactChanges {
   std::vector<Index> gained;  ///< indices into the contacts of the later frame, ascending
   std::vector<Index> lost;    ///< indices into those of the earlier frame, ascending

@@ -30,7 +30,9 @@ struct CoarseField {
   /// Granular temperature, m^2/s^2 (T37); NaN with fewer than four grains, or if all are in one line.
   double temperature = not_known;
 
+  /// Returns the velocity V, momentum over density, m/s; NaN if the density is 0.
   Vec2 velocity() const { return {momentum.x / density, momentum.y / density}; }
+  /// Returns the total stress, contact plus kinetic, Pa, compression positive.
   Tensor2 stress() const;
 };
 
@@ -45,6 +47,7 @@ class CoarseFields {
   /// the period.
   CoarseFields(const BedFrame& bed, double cutoff);
 
+  /// Returns the fields at the point (x, y), m, in the frame of the bed.
   CoarseField at(double x, double y) const;
 
  private:

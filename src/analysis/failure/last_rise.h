@@ -44,6 +44,7 @@ struct FramesOfRise {
   std::vector<double> tilts;  ///< rad
   bool other_side = false;
 };
+/// Returns the last rise of the frames of a run.
 FramesOfRise last_rise(std::span<const FrameRecord> frames);
 
 /// Whether a frame quantity changes sign if the bed slopes backwards.

@@ -24,6 +24,7 @@ enum class Place {
   theta_c,         ///< the last frame at or before theta_c
 };
 
+/// A scalar result: a quantity, and the place at which it is read.
 struct NumberOfRun {
   QuantityMember quantity;
   Place place = Place::run;

@@ -33,6 +33,7 @@ struct CoarseGrainingRule {
   double cut = 0.0;        ///< m; see length_cut
 };
 
+/// Coarse-graining lengths l_c of the overloaded grains of a frame.
 struct CoarseGraining {
   /// l_c of each free grain, a diameter, m; NaN if the grain is not overloaded; the cut if gamma_l stays
   /// above the end ratio up to there.
@@ -62,6 +63,7 @@ std::vector<double> overloaded_over_scale(const BedFrame& bed, double threshold,
 struct NeighbourhoodCurve {
   std::vector<double> l, gamma;
 };
+/// Returns the curve of one free grain.
 NeighbourhoodCurve neighbourhood_curve(const BedFrame& bed, Index grain, double largest);
 
 }  // namespace talus::analysis

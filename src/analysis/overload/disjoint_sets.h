@@ -17,6 +17,7 @@ class DisjointSets {
     Index root;
     Index periods;  ///< periods from the root to the element
   };
+  /// Returns the root of the set of an element, and the periods between them.
   Place find(Index element);
 
   /// Joins the sets of a and b, where b is `shift` periods away from a. Returns false if they already belong

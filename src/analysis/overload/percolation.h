@@ -16,6 +16,7 @@ struct BedEdges {
   std::vector<bool> surface;
   std::vector<bool> left, right;  ///< edge less than D away from a side wall; none in a periodic bed
 };
+/// Finds the free grains at each edge of the bed.
 BedEdges bed_edges(const BedFrame& bed);
 
 /// The largest cluster (the smallest label) that spans the bed; -1 if none does.
@@ -23,6 +24,7 @@ struct Spanning {
   Index floor_to_surface = -1;
   Index across = -1;  ///< wall to wall, or linked to itself through the periodic edge
 };
+/// Finds the largest cluster that spans from floor to surface and the largest that spans along the bed.
 Spanning find_spanning(const Clusters& clusters, const BedEdges& edges);
 
 /// Directed paths through the grains of a set.

@@ -20,6 +20,7 @@ struct FabricComponent {
   double amplitude = 0.0;
   double angle = 0.0;
 };
+/// Computes the component with each contact counted once.
 FabricComponent fabric_component(const Frame& frame, int m);
 /// Computes the same with contact c weighted by weights[c] >= 0; NaN if all weights are 0.
 FabricComponent fabric_component(const FrameContacts& contacts, int m, const std::vector<double>& weights);

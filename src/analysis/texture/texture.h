@@ -21,6 +21,7 @@ struct Texture {
   /// Returns Gamma to first order in the anisotropies.
   double stress_ratio() const { return 0.5 * (contacts + normal_forces + tangential_forces + branches); }
 };
+/// Computes the anisotropies of a frame.
 Texture texture_of(const BedFrame& bed);
 
 /// Sets members of a record that are defined in the table of quantities.
