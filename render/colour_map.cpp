@@ -11,18 +11,18 @@
 namespace talus::render {
 namespace {
 
-/// In the order of ColourMap.
+/// Names of the maps, in the order of ColourMap.
 constexpr std::array<std::string_view, 14> names = {
     "gray",   "viridis",   "cividis",   "magma",   "inferno",   "plasma",   "diverging",
     "gray_r", "viridis_r", "cividis_r", "magma_r", "inferno_r", "plasma_r", "diverging_r"};
-constexpr std::size_t one_way_count = names.size() / 2;  // without those that are reversed
+constexpr std::size_t one_way_count = names.size() / 2;  // number of maps that are not reversed
 
 std::size_t place_of(ColourMap map) { return static_cast<std::size_t>(map); }
 
-/// Colours from end to end, evenly spaced.
+/// Evenly spaced colours from the lower to the upper end.
 using ColourTable = std::vector<Colour>;
 
-/// Reads lines "red green blue"; one that begins with # is a comment.
+/// Parses lines "red green blue"; a line that begins with # is a comment.
 ColourTable parse_table(std::span<const unsigned char> file) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   ColourTable table;
@@ -34,7 +34,8 @@ ColourTable parse_table(std::span<const unsigned char> file) {
     Colour colour;
     for (std::uint8_t* part : {&colour.red, &colour.green, &colour.blue}) {
       const auto [next, error] = std::from_chars(at, stop, *part);
-      if (error != std::errc()) throw Error(ExitCode::internal, "a colour map has a line that is no colour");
+      if (error != std::errc())
+        throw Error(ExitCode::internal, "a colour map has a line that is not a colour");
       at = next == stop ? next : next + 1;
     }
     table.push_back(colour);
@@ -42,12 +43,12 @@ ColourTable parse_table(std::span<const unsigned char> file) {
   return table;
 }
 
-/// A colour of CIELAB, white point D65: lightness 0 ... 100, green to red, blue to yellow.
+/// A CIELAB colour with white point D65: lightness 0 ... 100, a from green to red, b from blue to yellow.
 struct Lab {
   double lightness, a, b;
 };
 
-/// The sRGB colour, each channel cut to its range (IEC 61966-2-1).
+/// Converts to sRGB and clamps each channel to its range (IEC 61966-2-1).
 Colour srgb(const Lab& lab) {
   const double f = (lab.lightness + 16.0) / 116.0;
   const auto linear = [](double t) { return t > 6.0 / 29.0 ? t * t * t : (t - 4.0 / 29.0) * 108.0 / 841.0; };
@@ -62,8 +63,8 @@ Colour srgb(const Lab& lab) {
           channel(0.0556434 * x - 0.2040259 * y + 1.0572252 * z)};
 }
 
-/// Straight from each end to near white: the lightness changes evenly on each side and ends at 28 and at 53,
-/// which can be told apart in a gray print.
+/// Interpolates linearly from each end to near white. The lightness changes evenly on each side and ends at
+/// 28 and at 53, so that the two ends differ in a gray print.
 Colour diverging(double share) {
   constexpr Lab low{28.3, 8.4, -37.6}, middle{97.2, 0.0, 0.0}, high{52.6, 38.3, 56.8};
   const Lab& end = share < 0.5 ? low : high;
@@ -84,7 +85,7 @@ const ColourTable& table(ColourMap map) {
   static const std::array<ColourTable, one_way_count> tables = {
       table_of(256, gray),          parse_table(embedded::viridis), parse_table(embedded::cividis),
       parse_table(embedded::magma), parse_table(embedded::inferno), parse_table(embedded::plasma),
-      table_of(511, diverging)};  // odd, so that it has a middle
+      table_of(511, diverging)};  // an odd number gives it a middle
   return tables.at(place_of(map) % one_way_count);
 }
 
@@ -115,7 +116,7 @@ std::optional<ColourMap> colour_map(std::string_view name) {
 
 Colour colour_at(ColourMap map, double share) {
   const ColourTable& colours = table(map);
-  double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // 0 for NaN too
+  double place = share > 0.0 ? std::min(share, 1.0) : 0.0;  // NaN gives 0
   if (is_reversed(map)) place = 1.0 - place;
   return colours[static_cast<std::size_t>(std::lround(place * static_cast<double>(colours.size() - 1)))];
 }

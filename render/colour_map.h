@@ -1,5 +1,5 @@
 #pragma once
-/// Colour maps: from a share of a range to a colour.
+/// Colour maps: they assign a colour to each position in a range.
 
 #include <optional>
 #include <span>
@@ -11,14 +11,14 @@
 namespace talus::render {
 
 enum class ColourMap {
-  gray,       ///< white to black, as the paper's maps
-  viridis,    ///< dark violet to yellow; lightness grows evenly, also for the colour-blind
-  cividis,    ///< dark blue to yellow, the same for red-green blindness (Nunez et al. 2018)
-  magma,      ///< black over purple to cream
-  inferno,    ///< black over red to pale yellow
-  plasma,     ///< blue over magenta to yellow
-  diverging,  ///< dark blue over white to orange; white at one half, the two ends of different lightness
-  // The same from the other end.
+  gray,       ///< white to black, as in the paper's maps
+  viridis,    ///< dark violet to yellow; lightness increases evenly, also for colour-blind readers
+  cividis,    ///< dark blue to yellow, optimised for red-green colour blindness (Nunez et al. 2018)
+  magma,      ///< black through purple to cream
+  inferno,    ///< black through red to pale yellow
+  plasma,     ///< blue through magenta to yellow
+  diverging,  ///< dark blue through white to orange; white is at one half, and the ends differ in lightness
+  // The reversed maps.
   gray_r,
   viridis_r,
   cividis_r,
@@ -28,24 +28,24 @@ enum class ColourMap {
   diverging_r,
 };
 
-/// Those that are not reversed, in the order in which users see them listed.
+/// Returns the maps that are not reversed, in the order in which they are listed to users.
 std::span<const ColourMap> colour_maps();
 
-/// viridis_r of viridis, and viridis of viridis_r.
+/// Returns the reversed map: viridis_r for viridis, and viridis for viridis_r.
 ColourMap reversed(ColourMap map);
 bool is_reversed(ColourMap map);
-/// viridis of either.
+/// Returns the map that is not reversed: viridis for viridis and for viridis_r.
 ColourMap one_way(ColourMap map);
 
-/// "viridis", "viridis_r".
+/// Returns the name, such as "viridis" or "viridis_r".
 std::string_view colour_map_name(ColourMap map);
-/// The map of a name; none if no map has it.
+/// Returns the map of a name, or nothing if the name is unknown.
 std::optional<ColourMap> colour_map(std::string_view name);
 
-/// The colour at a share of the range, clamped to [0, 1]; for NaN that of the lower end.
+/// Returns the colour at a position in the range, clamped to [0, 1]; NaN gives the colour of the lower end.
 Colour colour_at(ColourMap map, double share);
 
-/// The map from end to end in 256 steps, for a colour bar.
+/// Returns 256 colours from the lower to the upper end, for a colour bar.
 std::vector<Colour> colour_ramp(ColourMap map);
 
 }  // namespace talus::render

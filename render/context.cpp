@@ -15,15 +15,16 @@
 namespace talus::render {
 namespace {
 
-/// The file that names Mesa's driver to libEGL, which takes that of a GPU if there is one.
+/// The file that makes libEGL use Mesa's driver; without it, libEGL prefers the driver of a GPU.
 constexpr const char* mesa_of_egl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
 
-/// Beginnings of the names of the variables by which Mesa, its drivers and libEGL are configured.
+/// Prefixes of the environment variables that configure Mesa, its drivers and libEGL.
 constexpr std::array<std::string_view, 20> driver_families = {
     "D3D12_", "DRAW_", "DRI_", "DRIRC_", "EGL_",      "GALLIUM_", "GALLIVM_", "GBM_",  "GLSL_",  "LIBGL_",
     "LP_",    "MESA_", "NIR_", "PP_",    "SOFTPIPE_", "ST_",      "TGSI_",    "ZINK_", "__EGL_", "__GL"};
 
-/// Mesa also reads each of its options, such as force_glsl_version, from a variable in lower case.
+/// Whether a variable is an option of Mesa's driver configuration. Mesa also reads each option, such as
+/// force_glsl_version, from a variable in lower case.
 bool names_driver_option(std::string_view name) {
   const auto may_be_in_one = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -33,7 +34,7 @@ bool names_driver_option(std::string_view name) {
          std::all_of(name.begin(), name.end(), may_be_in_one);
 }
 
-/// Whether a variable can change what is drawn, or whether anything is. The number of threads cannot.
+/// Whether a variable can change a picture, or prevent drawing. The number of threads cannot.
 bool configures_driver(std::string_view name) {
   if (name == "LP_NUM_THREADS") return false;
   const auto begins_name = [name](std::string_view family) { return name.starts_with(family); };
@@ -56,10 +57,10 @@ namespace {
 
 /// Replaces the environment by one that makes Mesa draw in software, and returns the names of the variables
 /// that were removed. Drivers crash on values that they do not know, and other values change the pictures.
-/// The former environment is left as it was, because another thread may be reading it, and the new one is
-/// never freed.
+/// The former environment is left intact because another thread may be reading it. The new one is never
+/// freed.
 std::string configure_drivers() {
-  // The few small shaders compile in no time; a cache would only leave files in the user's home.
+  // The few small shaders compile quickly; a cache would only leave files in the user's home.
   static auto* const settings =
       new std::vector<std::string>{"MESA_SHADER_CACHE_DISABLE=true", "LIBGL_ALWAYS_SOFTWARE=true"};
   const bool finds_mesa = access(mesa_of_egl, R_OK) == 0;
@@ -68,7 +69,7 @@ std::string configure_drivers() {
   std::string removed;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text = *variable, name = text.substr(0, text.find('='));
-    // If Mesa is not in its usual place, these may say where it is.
+    // If Mesa is not in its usual place, these variables may give its location.
     const bool says_where = name.starts_with("__EGL_") && !finds_mesa;
     if (configures_driver(name) && !says_where)
       removed.append(removed.empty() ? "" : ", ").append(name);
@@ -104,9 +105,8 @@ std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {
     return *kind == ContextKind::osmesa ? make_osmesa_context() : make_egl_context();
   } catch (const Error& error) {
     if (error.code() != ExitCode::unavailable || removed.empty()) throw;
-    throw Error(error.code(),
-                fmt::format("{} (Talus draws in software and does not use {} of the environment)",
-                            error.what(), removed));
+    throw Error(error.code(), fmt::format("{} (Talus draws in software and ignores {} in the environment)",
+                                          error.what(), removed));
   }
 }
 

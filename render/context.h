@@ -1,6 +1,5 @@
 #pragma once
-/// Rendering contexts, one file per kind (context_<kind>.cpp). The renderer draws the same bits in all of
-/// them.
+/// Rendering contexts, one file per kind (context_<kind>.cpp). All of them produce bit-identical pictures.
 
 #include <functional>
 #include <memory>
@@ -10,44 +9,46 @@
 
 namespace talus::render {
 
-/// An OpenGL 3.3 core context, current on the thread that made it. A process uses one kind of context only.
+/// An OpenGL 3.3 core context, current on the thread that made it. A process uses only one kind of context.
 class Context {
  public:
   using Function = void (*)();
   virtual ~Context() = default;
-  /// The OpenGL function of that name. A pointer does not prove that the function exists: check versions.
+  /// Returns the OpenGL function of that name. A non-null pointer does not prove that the function exists;
+  /// check the version.
   virtual Function function(const char* name) const = 0;
 };
 
 enum class ContextKind {
-  osmesa,  ///< in memory: neither display nor driver
-  egl,     ///< without a surface: no display, Mesa's driver in software; OSMesa ends with Mesa 25.0
+  osmesa,  ///< draws into memory, without display or driver
+  egl,     ///< surfaceless: no display, Mesa's software driver; OSMesa ends with Mesa 25.0
 };
 
-/// "osmesa", "egl".
+/// Returns "osmesa" or "egl".
 std::string_view context_name(ContextKind kind);
-/// The kind of that name; none for "auto". Throws Error(usage) with the names that exist.
+/// Returns the kind of that name, or nothing for "auto". Throws Error(usage) with the valid names.
 std::optional<ContextKind> context_kind(std::string_view name);
 
-/// The names of the variables of the environment that configure drivers, "GALLIUM_DRIVER, LIBGL_DEBUG".
+/// Returns the names of the environment variables that configure drivers, such as "GALLIUM_DRIVER,
+/// LIBGL_DEBUG".
 std::string driver_variables();
 
-/// Whether that is the name of a renderer of Mesa in software (GL_RENDERER). A GPU rounds in other ways.
+/// Whether GL_RENDERER names one of Mesa's software renderers. A GPU rounds differently.
 bool draws_in_software(std::string_view renderer);
 
-/// Each throws Error(unavailable) if its library is not installed, or refuses. They draw as the environment
-/// says: call make_context.
+/// Make a context with the drivers that the environment selects; prefer make_context. Throw
+/// Error(unavailable) if the library is not installed or refuses.
 std::unique_ptr<Context> make_osmesa_context();
 std::unique_ptr<Context> make_egl_context();
 
-/// A context of that kind; without a kind OSMesa, or EGL if OSMesa is unavailable. The first call removes
-/// from the environment all that configures drivers (GALLIUM_DRIVER, LIBGL_*, MESA_*, ...), so that pictures
-/// have the same bits whatever it says. Throws Error(unavailable) with what is missing for each kind that was
-/// tried.
+/// Makes a context of that kind; without a kind, OSMesa, or EGL if OSMesa is unavailable. The first call
+/// removes everything that configures drivers (GALLIUM_DRIVER, LIBGL_*, MESA_*, ...) from the environment, so
+/// that pictures are bit-identical whatever it contains. Throws Error(unavailable) with the reason for each
+/// kind that was tried.
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
 
 using ContextMaker = std::function<std::unique_ptr<Context>()>;
-/// What make_context does when no kind is given.
+/// Makes the first context, or the second if the first is unavailable, as make_context does without a kind.
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second);
 
 }  // namespace talus::render

@@ -39,7 +39,8 @@ void find_egl(void* library, const char* name, Pointer& pointer) {
 }
 
 Egl open_egl() {
-  void* library = dlopen(egl_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+  void* library =
+      dlopen(egl_library, RTLD_NOW | RTLD_LOCAL);  // never closed, because Mesa keeps thread-local state
   if (!library) refuse(fmt::format("cannot load {} ({}); {}", egl_library, dlerror(), packages));
   Egl egl;
   find_egl(library, "eglGetPlatformDisplay", egl.get_display);
@@ -52,13 +53,14 @@ Egl open_egl() {
   return egl;
 }
 
-/// The display belongs to the process: it is not terminated, since other contexts may use it.
+/// An EGL context. Its display is shared by the process and not terminated, because other contexts may use
+/// it.
 class EglContextOwner final : public Context {
  public:
   EglContextOwner() : egl_(open_egl()) {
     display_ = egl_.get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display_ == EGL_NO_DISPLAY || !egl_.initialize(display_, nullptr, nullptr))
-      refuse(std::string("EGL has no display without a surface; ") + packages);
+      refuse(std::string("EGL offers no surfaceless display; ") + packages);
     constexpr std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
                                                   3,
                                                   EGL_CONTEXT_MINOR_VERSION,
@@ -66,18 +68,18 @@ class EglContextOwner final : public Context {
                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                                   EGL_NONE};
-    // Neither configuration nor surface: the renderer draws into a framebuffer of its own.
+    // Neither configuration nor surface is needed: the renderer draws into its own framebuffer.
     if (egl_.bind_api(EGL_OPENGL_API))
       context_ = egl_.create(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (context_ == EGL_NO_CONTEXT)
-      refuse("EGL refuses OpenGL 3.3 core; Talus needs libgl1-mesa-dri of Mesa 20 or later");
+      refuse("EGL refuses OpenGL 3.3 core; Talus needs libgl1-mesa-dri from Mesa 20 or later");
     if (!egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       egl_.destroy(display_, context_);
-      refuse("EGL makes no context current without a surface; Talus needs Mesa 20 or later");
+      refuse("EGL cannot make a context current without a surface; Talus needs Mesa 20 or later");
     }
     if (const std::string name = renderer(); !draws_in_software(name)) {
       release();
-      refuse(fmt::format("EGL draws with {}, not in software, and so other pixels than elsewhere; {}", name,
+      refuse(fmt::format("EGL draws with {} instead of in software, which gives different pixels; {}", name,
                          packages));
     }
   }

@@ -43,7 +43,7 @@ OSMesa entry_points(void* library) {
 OSMesa open_osmesa() {
   errno = 0;
   void* library =
-      dlopen(osmesa_library, RTLD_NOW | RTLD_LOCAL);  // never closed: Mesa keeps thread-local state
+      dlopen(osmesa_library, RTLD_NOW | RTLD_LOCAL);  // never closed, because Mesa keeps thread-local state
   if (library) return entry_points(library);
   const std::string reason = dlerror();
   const auto says = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
@@ -56,7 +56,7 @@ OSMesa open_osmesa() {
 class OSMesaContextOwner final : public Context {
  public:
   OSMesaContextOwner() : mesa_(open_osmesa()) {
-    // No depth, stencil or accumulation buffer: maps are flat.
+    // Maps are flat and need no depth, stencil or accumulation buffer.
     const std::array<int, 15> attributes = {OSMESA_FORMAT,
                                             OSMESA_RGBA,
                                             OSMESA_DEPTH_BITS,
@@ -73,12 +73,12 @@ class OSMesaContextOwner final : public Context {
                                             3,
                                             0};
     context_ = mesa_.create(attributes.data(), nullptr);
-    // The renderer draws into a framebuffer of its own, but a context becomes current only with a buffer.
+    // The renderer draws into its own framebuffer, but a context becomes current only with a buffer.
     if (!context_ || !mesa_.make_current(context_, dummy_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
       if (context_) mesa_.destroy(context_);
       throw Error(
           ExitCode::unavailable,
-          "no OSMesa context: OSMesa refuses OpenGL 3.3 core; Talus needs libosmesa6 of Mesa 20 to 25.0");
+          "no OSMesa context: OSMesa refuses OpenGL 3.3 core; Talus needs libosmesa6 from Mesa 20 to 25.0");
     }
   }
   ~OSMesaContextOwner() override { mesa_.destroy(context_); }

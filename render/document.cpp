@@ -22,7 +22,7 @@ Hatching hatching(const Point& centre, double radius) {
   Hatching hatching;
   hatching.width = 0.3 * period;
   for (double k = std::ceil((across - inner) / period - 0.5); (k + 0.5) * period < across + inner; k += 1.0) {
-    const double off = (k + 0.5) * period - across;  // of the line from the centre
+    const double off = (k + 0.5) * period - across;  // distance of the line from the centre
     const double half = std::sqrt(std::max(0.0, inner * inner - off * off)) / std::numbers::sqrt2;
     const Point middle{centre.x + off / std::numbers::sqrt2, centre.y + off / std::numbers::sqrt2};
     hatching.lines.push_back({{middle.x - half, middle.y + half}, {middle.x + half, middle.y - half}});
@@ -44,7 +44,7 @@ std::string joined_texts(const PictureTexts& texts) {
   std::string joined;
   for (const auto& [keyword, text] : texts)
     joined.append(joined.empty() ? "" : "; ").append(keyword).append("=").append(text);
-  for (char& c : joined)  // cairo writes a text with these in another encoding, where nobody finds it
+  for (char& c : joined)  // cairo would encode these differently, hidden from searches
     if (c == '(' || c == ')' || c == '\\') c = c == '(' ? '[' : c == ')' ? ']' : '/';
   return joined;
 }
@@ -64,7 +64,7 @@ void write_document(const std::string& path, const Sheet& sheet, double page_wid
 
 std::optional<std::string> document_text(const std::string& path, const std::string& keyword) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would wait
+  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would block
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const std::string_view last = path.ends_with(".pdf") ? "%%EOF\n" : "</svg>\n";

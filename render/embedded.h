@@ -1,5 +1,5 @@
 #pragma once
-/// Files built into the binary: the GLSL of shaders/, the font and the colour maps of the pictures.
+/// Files embedded in the binary: the GLSL of shaders/, the font and the colour maps of the pictures.
 
 #include <span>
 

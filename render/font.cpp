@@ -12,7 +12,7 @@
 namespace talus::render {
 namespace {
 
-/// Beside the letters of ASCII and of Latin-1, which names have.
+/// Code points in addition to the letters of ASCII and Latin-1, which names may contain.
 constexpr auto special_code_points =
     std::to_array<char32_t>({U'°', U'±', U'²', U'³', U'·', U'¹', U'Γ', U'Δ', U'Σ', U'α', U'γ', U'η', U'θ',
                              U'μ', U'ν', U'ρ', U'σ', U'τ', U'φ', U'–', U'…', U'⁰', U'⁴', U'⁵', U'⁶', U'⁷',
@@ -32,10 +32,10 @@ constexpr auto code_points = [] {
 static_assert(std::is_sorted(code_points.begin(), code_points.end()));
 
 [[noreturn]] void malformed(std::string_view text) {
-  throw Error(ExitCode::internal, fmt::format("the text '{}' of a picture is not valid UTF-8", text));
+  throw Error(ExitCode::internal, fmt::format("the text '{}' in a picture is not valid UTF-8", text));
 }
 
-/// The code point that begins at `position`, which moves on behind it.
+/// Returns the code point that begins at `position`, and moves `position` past it.
 char32_t next_code_point(std::string_view text, std::size_t& position) {
   const auto lead = static_cast<unsigned char>(text[position++]);
   if (lead < 0x80) return lead;
@@ -57,7 +57,7 @@ std::size_t place_of(char32_t code, std::string_view text) {
     return static_cast<std::size_t>(found - code_points.begin());
   throw Error(
       ExitCode::internal,
-      fmt::format("U+{:04X} in the text '{}' of a picture is not among the glyphs listed in render/font.cpp",
+      fmt::format("U+{:04X} in the text '{}' in a picture is not among the glyphs listed in render/font.cpp",
                   static_cast<unsigned>(code), text));
 }
 
@@ -79,7 +79,7 @@ bool pack(GlyphAtlas& atlas) {
   stbtt_pack_context context;
   if (!stbtt_PackBegin(&context, atlas.coverage.data(), atlas.size, atlas.size, 0, 1, nullptr))
     throw std::bad_alloc();
-  stbtt_PackSetOversampling(&context, 2, 1);  // glyphs stand at fractions of a pixel along the line
+  stbtt_PackSetOversampling(&context, 2, 1);  // glyphs lie at fractional pixels along the line
   const int packed = stbtt_PackFontRanges(&context, embedded::font.data(), 0, ranges.data(), 2);
   stbtt_PackEnd(&context);
   return packed != 0;
@@ -146,12 +146,12 @@ std::vector<TextRun> text_runs(std::string_view text) {
 std::vector<std::string> breakable_pieces(std::string_view text) {
   static constexpr std::array<std::string_view, 8> between = {"=", "≥", "≤", "<", ">", "×", "−", "/"};
   static constexpr std::array<std::string_view, 5> after = {"D", "D,", "D;", "%", "deg"};
-  constexpr std::size_t longest = 14;  // bytes: a long equation is broken
+  constexpr std::size_t longest = 14;  // bytes; longer equations may be broken
   const auto is_one_of = [](const auto& words, std::string_view word) {
     return std::ranges::find(words, word) != words.end();
   };
   std::vector<std::string> pieces;
-  bool joined = false;  // to what follows
+  bool joined = false;  // the previous word must not be separated from this one
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = std::min(text.find(' ', start), text.size());
     const std::string_view word = text.substr(start, end - start);

@@ -1,5 +1,5 @@
 #pragma once
-/// Text in pictures: the font, its measures, and an atlas of its glyphs.
+/// Text in pictures: the font, its metrics, and an atlas of its glyphs.
 
 #include <stb/stb_truetype.h>
 
@@ -12,16 +12,16 @@
 
 namespace talus::render {
 
-/// The embedded font. A value; its bytes belong to the binary.
+/// The embedded font. It is a value type; the binary owns its bytes.
 struct Font {
   stbtt_fontinfo info;
 };
 Font embedded_font();
 
-/// Every code point that texts of pictures may use, ascending.
+/// Returns every code point that texts of pictures may use, in ascending order.
 std::span<const char32_t> font_code_points();
 
-/// Size of a subscript, and how far it is lowered, in units of the font size.
+/// Size of a subscript, and its offset below the base line, in units of the font size.
 inline constexpr double subscript_size = 0.72;
 inline constexpr double subscript_drop = 0.18;
 
@@ -29,7 +29,7 @@ inline constexpr double subscript_drop = 0.18;
 inline constexpr double text_ascent = 0.93;
 inline constexpr double text_descent = 0.31;
 
-/// A glyph of a line: its place in font_code_points(), and the distance of its origin from the start of the
+/// A glyph of a line: its index in font_code_points(), and the distance of its origin from the start of the
 /// line, px.
 struct Glyph {
   std::size_t code = 0;
@@ -42,34 +42,35 @@ struct TextLine {
   double width = 0.0;  ///< px
 };
 
-/// Sets a UTF-8 text in a font size of `em` px. "_c" sets c as a subscript.
-/// Throws Error(internal) at a code point that is not listed in font_code_points(), and at malformed UTF-8.
+/// Sets a UTF-8 text in a font size of `em` px. "_c" sets c as a subscript. Throws Error(internal) at a code
+/// point that is not in font_code_points(), and at malformed UTF-8.
 TextLine set_text(const Font& font, std::string_view text, double em);
 
 /// Whether set_text knows all letters of a text.
 bool can_be_set(const Font& font, std::string_view text);
 
-/// A part of a line that is of one size, as documents write it.
+/// A part of a line in one font size, as documents write it.
 struct TextRun {
-  std::string text;  ///< UTF-8, without the marks of subscripts
+  std::string text;  ///< UTF-8, without the subscript marks
   bool subscript = false;
   std::size_t first = 0, count = 0;  ///< its glyphs in the line
 };
 std::vector<TextRun> text_runs(std::string_view text);
 
-/// The pieces of a text between which a line may end: its words, but "l = 10 D" as one and "95 % of" as two.
+/// Splits a text into the pieces between which a line may end. Pieces are words, but "l = 10 D" is one piece,
+/// and "95 % of" is two.
 std::vector<std::string> breakable_pieces(std::string_view text);
 
-/// The lines of a text, each with as many pieces as fit; a single piece may be wider.
+/// Breaks a text into lines, each with as many pieces as fit. A single piece may be wider.
 std::vector<std::string> broken_lines(std::string_view text,
                                       const std::function<bool(const std::string& line)>& fits);
 
-/// All listed glyphs, plain and as subscripts, drawn for one font size.
+/// All listed glyphs, plain and as subscripts, drawn in one font size.
 struct GlyphAtlas {
   double em = 0.0;  ///< px
   int size = 0;     ///< width and height, px
   std::vector<unsigned char> coverage;
-  std::vector<stbtt_packedchar> plain, subscript;  ///< by place in font_code_points()
+  std::vector<stbtt_packedchar> plain, subscript;  ///< indexed as font_code_points()
 };
 GlyphAtlas bake_glyphs(double em);
 

@@ -39,7 +39,7 @@ void add_scale_bar(Furniture& furniture, const Box& box, double line) {
   add_area(furniture, {x + box.width - line, y, line, box.height}, black);
 }
 
-/// An arrow of the length of its box, about the box's centre, in the direction (x, y), y downwards.
+/// Adds an arrow that is as long as its box and centred in it, in the direction (x, y), y downwards.
 void add_arrow(Furniture& furniture, const Box& box, double along_x, double along_y, double line) {
   if (box.width == 0.0) return;
   const double x = box.x + 0.5 * box.width, y = box.y + 0.5 * box.height;
@@ -54,7 +54,7 @@ void add_arrow(Furniture& furniture, const Box& box, double along_x, double alon
              {tip_x, tip_y}, half_width, black);
 }
 
-/// Walls and floor of a bed in its own frame, just outside of it, on whole pixels.
+/// Adds the walls and the floor of a bed that is not turned, just outside it, on whole pixels.
 void add_upright_edges(Furniture& furniture, const FrameView& view, const Box& bed, double width) {
   const double left = view.left_wall ? width : 0.0, right = view.right_wall ? width : 0.0;
   if (view.left_wall) add_area(furniture, {bed.x - width, bed.y, width, bed.height}, black);
@@ -63,7 +63,7 @@ void add_upright_edges(Furniture& furniture, const FrameView& view, const Box& b
     add_area(furniture, {bed.x - left, bed.bottom(), bed.width + left + right, width}, black);
 }
 
-/// The same of one that is turned.
+/// Adds the walls and the floor of a turned bed.
 void add_turned_edges(Furniture& furniture, const FrameView& view, const Window& bed, double width) {
   const double out = 0.5 * width / bed.camera.scale;  // m
   const double left = bed.x_min - (view.left_wall ? out : 0.0),
@@ -82,14 +82,14 @@ void add_turned_edges(Furniture& furniture, const FrameView& view, const Window&
 Furniture furnish(const FrameView& view, const Layout& layout) {
   Furniture furniture;
   furniture.texts = layout.texts;
-  const double line = std::max(1.0, std::round(layout.em / 12.0));  // px, whole: crisp
+  const double line = std::max(1.0, std::round(layout.em / 12.0));  // px; a whole number, for crisp edges
   if (view.turn_max == 0.0)
     add_upright_edges(furniture, view, layout.bed.box, 2.0 * line);
   else
     add_turned_edges(furniture, view, layout.bed, 2.0 * line);
   for (const PlacedBar& bar : layout.bars) add_bar(furniture, bar, layout.em, line);
   add_scale_bar(furniture, layout.scale_bar, line);
-  const double fall = view.tilt - view.turn;  // between gravity and straight down in the picture
+  const double fall = view.tilt - view.turn;  // angle from straight down to gravity
   add_arrow(furniture, layout.arrow, std::sin(fall), std::cos(fall), line);
   for (const PlacedTrace& trace : layout.traces) add_trace(furniture, trace, layout.em, line);
   for (const PlacedSwatch& swatch : layout.swatches) add_swatch(furniture, swatch);

@@ -1,5 +1,5 @@
 #pragma once
-/// The furniture of a picture as what a target draws: areas, texts, lines and discs.
+/// The furniture of a picture as a target draws it: areas, texts, lines and discs.
 
 #include <vector>
 
@@ -12,8 +12,8 @@ struct Furniture {
   std::vector<Area> areas;
   std::vector<PlacedText> texts;
   std::vector<Line>
-      lines;  ///< in px: x from the left, y upwards from the top, so that a plain camera draws them
-  std::vector<Disc> discs;  ///< the same
+      lines;  ///< px: x from the left, y upwards from the top, so that a plain camera draws them
+  std::vector<Disc> discs;  ///< same coordinates
 };
 
 Furniture furnish(const FrameView& view, const Layout& layout);

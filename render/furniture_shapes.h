@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes that furniture is made of. Boxes and points are in px from the left and from the top.
+/// The shapes that furniture consists of. Boxes and points are in px from the left and from the top.
 
 #include "render/furniture.h"
 
@@ -9,7 +9,7 @@ inline void add_area(Furniture& furniture, const Box& box, const Colour& colour)
   furniture.areas.push_back({box, {colour}});
 }
 
-/// A frame of lines around a box, outside of it.
+/// Adds a frame of lines around a box, outside it.
 inline void add_frame(Furniture& furniture, const Box& box, double line) {
   add_area(furniture, {box.x - line, box.y - line, box.width + 2.0 * line, line}, black);
   add_area(furniture, {box.x - line, box.bottom(), box.width + 2.0 * line, line}, black);

@@ -16,7 +16,7 @@ void add_curve(Furniture& furniture, const std::vector<Point>& curve, double hal
     if (!drawn(k)) continue;
     if (k + 1 < curve.size() && drawn(k + 1))
       add_line(furniture, curve[k], curve[k + 1], half_width, curve_colour);
-    else if (k == 0 || !drawn(k - 1))  // a point between gaps
+    else if (k == 0 || !drawn(k - 1))  // an isolated point between gaps
       add_line(furniture, curve[k], curve[k], half_width, curve_colour);
   }
 }

@@ -59,14 +59,14 @@
 
 namespace talus::render {
 
-/// OpenGL 3.3 core, each function by its name without "gl".
+/// The functions of OpenGL 3.3 core, named without "gl".
 struct Gl {
 #define TALUS_GL_MEMBER(type, name) type name = nullptr;
   TALUS_GL_FUNCTIONS(TALUS_GL_MEMBER)
 #undef TALUS_GL_MEMBER
 };
 
-/// Loads the functions of a current context. Throws Error(unavailable) below OpenGL 3.3.
+/// Loads the functions of the current context. Throws Error(unavailable) if it offers less than OpenGL 3.3.
 Gl load_gl(const Context& context);
 
 }  // namespace talus::render

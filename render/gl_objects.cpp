@@ -33,7 +33,7 @@ GLuint make_program(const Gl& gl, const std::string& name, std::span<const unsig
   for (GLuint shader : {compile(gl, name + ".vert", GL_VERTEX_SHADER, vertex),
                         compile(gl, name + ".frag", GL_FRAGMENT_SHADER, fragment)}) {
     gl.AttachShader(program, shader);
-    gl.DeleteShader(shader);  // lives on with the program
+    gl.DeleteShader(shader);  // deleted with the program
   }
   gl.LinkProgram(program);
   GLint linked = 0;
@@ -52,7 +52,7 @@ Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<Attribute> 
   gl.GenBuffers(1, &batch.buffer);
   gl.BindVertexArray(batch.vertex_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, batch.buffer);
-  const auto words = [](Attribute attribute) {  // of four bytes
+  const auto words = [](Attribute attribute) {  // number of four-byte words
     return attribute == Attribute::colour ? 1 : static_cast<int>(attribute);
   };
   int stride = 0;

@@ -12,10 +12,10 @@
 namespace talus::render {
 namespace {
 
-/// A corner of a triangle: a glyph of the atlas, or a plain area where u < 0.
+/// A corner of a triangle: part of a glyph of the atlas, or of a plain area if u < 0.
 struct Vertex {
   float x, y;  ///< px from the left and from the top
-  float u, v;  ///< in the atlas
+  float u, v;  ///< position in the atlas
   Colour colour;
 };
 
@@ -52,7 +52,7 @@ class GlTarget final : public TextureTarget {
   explicit GlTarget(std::unique_ptr<Context> context)
       : context_(std::move(context)), gl_(load_gl(*context_)) {
     using enum Attribute;
-    // The last number of a disc says which of the two draws it.
+    // The last number of a disc selects the program that draws it.
     discs_ = make_batch(gl_, make_program(gl_, "disc", embedded::disc_vert, embedded::disc_frag),
                         {floats3, colour, colour, floats1}, 1);
     hatched_discs_ =
@@ -84,11 +84,11 @@ class GlTarget final : public TextureTarget {
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     gl_.Enable(GL_BLEND);
     gl_.BlendFunc(GL_ONE,
-                  GL_ONE_MINUS_SRC_ALPHA);  // colours are multiplied by their alpha, here and in the picture
+                  GL_ONE_MINUS_SRC_ALPHA);  // colours are premultiplied by alpha, also in the picture
   }
 
   void draw_discs(std::span<const Disc> discs, const Window& window) override {
-    while (!discs.empty()) {  // as long as they are alike
+    while (!discs.empty()) {  // one run of equally hatched discs at a time
       const bool hatched = discs.front().hatched > 0.5f;
       const auto end = std::ranges::find_if(
           discs, [hatched](const Disc& disc) { return (disc.hatched > 0.5f) != hatched; });
@@ -171,7 +171,7 @@ class GlTarget final : public TextureTarget {
                   static_cast<float>(height_));
   }
 
-  /// Draws a batch that was filled: so many corners for each instance.
+  /// Draws a filled batch with that number of corners per instance.
   void draw_instances(const Batch& batch, GLenum shape, GLsizei corners, std::size_t count,
                       const Window& window) {
     const Camera& camera = window.camera;

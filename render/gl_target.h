@@ -1,5 +1,5 @@
 #pragma once
-/// Drawing with OpenGL, the same in any context.
+/// Drawing with OpenGL, identical in all contexts.
 
 #include <memory>
 
@@ -8,15 +8,16 @@
 
 namespace talus::render {
 
-/// A target whose picture is a texture of the context, which can be drawn there.
+/// A target whose picture is a texture of the context, available for drawing there.
 class TextureTarget : public ImageTarget {
  public:
-  /// The texture with the picture drawn last, row 0 at the top; it changes with its size and format. Gray
-  /// pictures have their one channel in red.
+  /// Returns the texture with the last picture, row 0 at the top. It changes when size or format change. Gray
+  /// pictures store their only channel in red.
   virtual unsigned texture() const = 0;
 };
 
-/// Owns its context and what it made there. Throws Error(unavailable) if a shader does not compile.
+/// Makes a target that owns the context and its objects. Throws Error(unavailable) if a shader does not
+/// compile.
 std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context);
 
 }  // namespace talus::render

@@ -17,13 +17,13 @@ Image beside(const std::vector<Image>& images) {
   for (const Image& image : images) {
     if (row.width == 0) row.channels = image.channels;
     if (image.channels != row.channels)
-      throw Error(ExitCode::internal, fmt::format("images of {} and {} channels beside each other",
+      throw Error(ExitCode::internal, fmt::format("images with {} and {} channels next to each other",
                                                   row.channels, image.channels));
     row.width += image.width;
     row.height = std::max(row.height, image.height);
   }
   row.pixels.assign(row.row_bytes() * static_cast<std::size_t>(row.height), ground(row.channels));
-  std::size_t left = 0;  // bytes
+  std::size_t left = 0;  // offset in bytes
   for (const Image& image : images) {
     for (std::size_t y = 0; y < static_cast<std::size_t>(image.height); ++y)
       std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(y * image.row_bytes()),

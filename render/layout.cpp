@@ -13,15 +13,15 @@
 namespace talus::render {
 namespace {
 
-// In units of the font size.
+// Lengths in units of the font size.
 constexpr double margin = 0.8;
 constexpr double gap_between_rows = 0.3;
 
-constexpr double smallest_em = 6.0;  // px: below, nothing can be read
-/// Letters are made smaller by no more before lines are broken.
+constexpr double smallest_em = 6.0;  // px; smaller type is illegible
+/// Smallest relative font size that is tried before lines are broken.
 constexpr double least_unbroken = 0.8;
 
-/// Puts groups from left to right, `last` at the right end, into as many rows as they need. Returns the lower
+/// Places groups from left to right, `last` at the right end, in as many rows as they need. Returns the lower
 /// edge, px.
 double add_rows(Layout& layout, const std::vector<Group>& groups, const Group& last, double y, double side) {
   const double right = layout.width - side;
@@ -46,23 +46,24 @@ double add_rows(Layout& layout, const std::vector<Group>& groups, const Group& l
   return std::ceil(bottom);
 }
 
-/// The height, px, unless it is above largest_side.
+/// Returns the height, px. Throws Error(usage) if it exceeds largest_side.
 int checked_height(int width, double height) {
   if (height > largest_side)
-    throw Error(ExitCode::usage, fmt::format("a picture {} px wide of this bed would be {} px high; at "
-                                             "most {} px are possible: ask for a smaller width",
-                                             width, std::llround(height), largest_side));
+    throw Error(ExitCode::usage,
+                fmt::format("a picture of this bed that is {} px wide would be {} px high; at "
+                            "most {} px are possible: use a smaller width",
+                            width, std::llround(height), largest_side));
   return static_cast<int>(height);
 }
 
-/// The largest a cos(turn) + b sin(turn) for turns from 0 to turn_max.
+/// Returns the largest a cos(turn) + b sin(turn) for turns from 0 to turn_max.
 double largest_extent(double a, double b, double turn_max) {
   const double turn = std::clamp(std::atan2(b, a), 0.0, turn_max);
   return a * std::cos(turn) + b * std::sin(turn);
 }
 
-/// The bed in a box of that width with its upper left corner at (x, y), as high as its own turn needs, or
-/// all.
+/// Places the bed in a box of that width with its upper left corner at (x, y). The box is as high as the
+/// bed's own turn needs or, by default, as high as any turn up to turn_max needs.
 Window place_bed(const FrameView& view, double x, double y, double width, bool own_turn = false) {
   const double length = view.x_max - view.x_min, depth = view.y_max - view.y_min;
   const double seen_length = largest_extent(length, depth, view.turn_max);
@@ -77,7 +78,7 @@ Window place_bed(const FrameView& view, double x, double y, double width, bool o
   Camera& camera = window.camera;
   camera.scale = width / seen_length;
   window.box = {x, y, width, std::ceil(seen_depth * camera.scale)};
-  if (view.turn_max == 0.0) {  // on the lower left corner: exact to the last bit
+  if (view.turn_max == 0.0) {  // anchored at the lower left corner, which keeps coordinates exact
     camera.origin_x = x - view.x_min * camera.scale;
     camera.origin_y = window.box.bottom() + view.y_min * camera.scale;
     return window;
@@ -90,7 +91,7 @@ Window place_bed(const FrameView& view, double x, double y, double width, bool o
   return window;
 }
 
-/// A picture of the bed alone.
+/// Lays out a picture of the bed alone.
 Layout lay_out_bed(const FrameView& view, int width) {
   Layout layout;
   layout.width = width;
@@ -109,14 +110,15 @@ std::vector<Group> legend_groups(const std::vector<Legend>& legends, double room
   return groups;
 }
 
-/// px: by how much a turned bed can move up beside the texts above it, which its slope leaves room for.
+/// Returns the distance in px by which a turned bed can move up next to the texts above it, into the room
+/// that its slope leaves.
 double room_above(const Layout& layout, const FrameView& view, const Window& bed) {
   const Point foot = bed.camera.project(view.x_min, view.y_min),
               top = bed.camera.project(view.x_min, view.y_max),
               end = bed.camera.project(view.x_max, view.y_max);
   double room = bed.box.y - std::ceil(0.5 * layout.em);
   const auto keep_off = [&](const Box& box) {
-    double edge = top.y;  // of the bed, where it is highest below the box
+    double edge = top.y;  // the upper edge of the bed at its highest point below the box
     if (box.x > top.x)
       edge = std::lerp(top.y, end.y, (box.x - top.x) / (end.x - top.x));
     else if (box.right() < top.x)
@@ -128,7 +130,7 @@ double room_above(const Layout& layout, const FrameView& view, const Window& bed
   return std::max(0.0, std::floor(room));
 }
 
-/// The layout in one font size, if everything fits its width, with broken lines or without.
+/// Returns the layout in one font size, with or without broken lines, if everything fits the width.
 std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, bool broken, const Font& font,
                                    const LayoutLimits& limits) {
   Layout layout;
@@ -141,7 +143,7 @@ std::optional<Layout> lay_out_with(const FrameView& view, int width, double em, 
   const double room = broken ? available : std::numeric_limits<double>::infinity();
 
   const Group title = text_group(view.title, room, em, font);
-  // Where nothing below shows gravity, the caption does.
+  // If the furniture below shows no gravity arrow, the caption shows one.
   const bool arrow_above = has_bed && view.scale_label.empty() && !view.caption.empty();
   const Group caption = arrow_above ? text_with_arrow_group(view.caption, room, em, font)
                                     : text_group(view.caption, room, em, font, true);
@@ -208,8 +210,8 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
     throw Error(ExitCode::usage,
                 fmt::format("width = {}: expected {} ... {} px", width, smallest_width, largest_side));
   if (!view.furniture) return lay_out_bed(view, width);
-  // Lines are broken at the same size whether or not other pictures limit it: all of a panel have one size
-  // then.
+  // Lines are broken at the same font size whether or not other pictures limit it, so that all pictures of a
+  // panel share one size.
   const double wanted_em = std::max(10.0, std::round(width / view.letters));
   for (const bool broken : {false, true})
     for (double em = std::min(wanted_em, limits.largest_em);
@@ -217,7 +219,7 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
          em -= 0.5)
       if (std::optional<Layout> layout = lay_out_with(view, width, em, broken, font, limits)) return *layout;
   throw Error(ExitCode::usage,
-              fmt::format("width = {}: caption and legend of this map do not fit; ask for a larger width{}",
+              fmt::format("width = {}: the caption and legend of this map do not fit; use a larger width{}",
                           width, std::isfinite(view.most_letters) ? " in print" : ""));
 }
 

@@ -18,17 +18,17 @@ struct Box {
   double bottom() const { return y + height; }
 };
 
-/// A place in a picture, px from the left and from the top.
+/// A point in a picture, px from the left and from the top.
 struct Point {
   double x = 0.0, y = 0.0;
 };
 
-/// From metres in the frame of the bed to pixels: a clockwise turn, then a scale.
+/// Maps metres in the frame of the bed to pixels: a clockwise turn followed by scaling.
 struct Camera {
   double scale = 1.0;     ///< px per m
-  double origin_x = 0.0;  ///< where (0, 0) lies: px from the left
+  double origin_x = 0.0;  ///< position of (0, 0), px from the left
   double origin_y = 0.0;  ///< px from the top
-  double cosine = 1.0;    ///< of the turn
+  double cosine = 1.0;    ///< cosine of the turn
   double sine = 0.0;
 
   Point project(double x, double y) const {
@@ -36,7 +36,7 @@ struct Camera {
   }
 };
 
-/// A part of a picture that shows a part of a plane. Nothing outside of either is drawn.
+/// A part of a picture that shows a part of a plane. Drawing is clipped to both.
 struct Window {
   Camera camera;
   Box box;                                                    ///< whole pixels
@@ -47,7 +47,7 @@ struct PlacedText {
   Box box;
   std::string text;
 };
-/// px from the top: where the letters of a text stand, on a whole pixel.
+/// Returns the base line of a text, px from the top, on a whole pixel.
 double base_line_of(const PlacedText& text, double em);
 
 struct PlacedBar {
@@ -61,16 +61,16 @@ struct PlacedSwatch {
   Swatch swatch;
 };
 
-/// A tick of a trace: where it is along its axis, px.
+/// A trace with its ticks, px along the axes.
 struct PlacedTrace {
-  Box box;                                                  ///< its frame
+  Box box;                                                  ///< frame of the curve
   std::vector<double> x_ticks, y_ticks;                     ///< px
-  std::vector<Point> curve;                                 ///< a point with NaN parts it
-  Point mark;                                               ///< NaN where the curve has no value there
+  std::vector<Point> curve;                                 ///< a point with NaN interrupts the curve
+  Point mark;                                               ///< NaN if the curve has no value there
   double event = std::numeric_limits<double>::quiet_NaN();  ///< x of the dashed line
 };
 
-/// One picture. Boxes of parts that the view does not ask for are empty.
+/// One picture. The boxes of parts that the view does not request are empty.
 struct Layout {
   int width = 0, height = 0;  ///< px
   double em = 0.0;            ///< font size, px
@@ -79,33 +79,33 @@ struct Layout {
   std::vector<PlacedBar> bars;
   std::vector<PlacedSwatch> swatches;
   Box scale_bar;
-  Box arrow;  ///< square; gravity turns about its centre
+  Box arrow;  ///< a square; the gravity arrow turns about its centre
   std::vector<PlacedTrace> traces;
-  double traces_top = 0.0;  ///< px: of the title of the first
+  double traces_top = 0.0;  ///< px: top of the first trace's title
 };
 
 /// Smallest and largest side of a picture, px.
 inline constexpr int smallest_width = 200;
 inline constexpr int largest_side = 16384;
 
-/// What pictures beside each other, or one after the other, have in common.
+/// Limits shared by pictures shown next to each other or one after the other.
 struct LayoutLimits {
   double largest_em = std::numeric_limits<double>::infinity();
-  double bed_top = 0.0;     ///< px: the bed, or what stands below it, begins here or below
+  double bed_top = 0.0;     ///< px: the bed, or the furniture below it, begins at this height or lower
   double traces_top = 0.0;  ///< px
-  bool own_turn = false;    ///< a turned bed gets the height that its turn needs, not that of turn_max
+  bool own_turn = false;    ///< a turned bed gets the height that its own turn needs, not that of turn_max
 };
 
-/// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect of
-/// the bed. The font grows with the width, as the view asks for, up to `largest_em`. If a text does not fit,
-/// the font shrinks a little, then lines are broken, then it shrinks as far as can be read.
-/// Throws Error(usage) if nothing legible fits, or if the picture is larger than largest_side.
+/// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect
+/// ratio of the bed. The font grows with the width as the view requests, up to `largest_em`. If a text does
+/// not fit, the font shrinks slightly, then lines are broken, then the font shrinks to the limit of
+/// legibility. Throws Error(usage) if nothing legible fits, or if the picture exceeds largest_side.
 Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits = {});
 
-/// Moves all of a layout, by whole pixels.
+/// Moves an entire layout by whole pixels.
 void move_by(Layout& layout, double x, double y);
 
-/// Limits with which the beds of pictures are level, and so are their traces, beside or after each other.
+/// Returns limits that align the beds of pictures with each other, and also their traces.
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits);
 
 }  // namespace talus::render

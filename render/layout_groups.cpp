@@ -7,7 +7,7 @@
 namespace talus::render {
 namespace {
 
-// In units of the font size.
+// Lengths in units of the font size.
 constexpr double gap_in_group = 0.6;
 constexpr double bar_height = 0.9;
 constexpr double tick_length = 0.3;
@@ -18,7 +18,7 @@ constexpr double line_swatch_width = 1.8;
 
 Box moved(const Box& box, double x, double y) { return {box.x + x, box.y + y, box.width, box.height}; }
 
-/// So long that the labels of neighbouring ticks do not touch, px.
+/// Returns the shortest length, px, at which the labels of neighbouring ticks do not touch.
 double least_length(const Bar& bar, const std::vector<double>& widths, double em) {
   double length = 0.0;
   for (std::size_t k = 1; k < widths.size(); ++k)
@@ -33,7 +33,7 @@ std::vector<double> label_widths(const Bar& bar, double em, const Font& font) {
   return widths;
 }
 
-/// With every second tick, until the labels have room.
+/// Drops every second tick until the labels fit.
 Bar thinned(Bar bar, double room, double em, const Font& font) {
   const auto needed = [&] {
     const std::vector<double> widths = label_widths(bar, em, font);
@@ -47,13 +47,13 @@ Bar thinned(Bar bar, double room, double em, const Font& font) {
   return bar;
 }
 
-/// Where a bar lies along its line, px.
+/// Horizontal position of a bar, px.
 struct BarEnds {
   double left = 0.0, length = 0.0;
-  double right = 0.0;  ///< of its last label, if that goes beyond the bar
+  double right = 0.0;  ///< right end of the last label, if it extends beyond the bar
 };
 
-/// Of a bar that begins at `first` or, if its labels need that, further right.
+/// Returns the position of a bar that begins at `first` or, if its labels require it, further right.
 BarEnds ends_of(const Bar& bar, const std::vector<double>& widths, double first, double length) {
   BarEnds ends{first, length, 0.0};
   for (std::size_t k = 0; k < widths.size(); ++k)
@@ -65,7 +65,7 @@ BarEnds ends_of(const Bar& bar, const std::vector<double>& widths, double first,
   return ends;
 }
 
-/// A bar in the line at `top`, with its ticks and labels, added to its title.
+/// Adds a bar in the line at `top`, with its ticks and labels, to the group of its title.
 Group bar_at(const Bar& bar, const std::vector<double>& widths, Group title, const BarEnds& ends, double top,
              double em, const Font& font) {
   Group group = std::move(title);

@@ -8,7 +8,7 @@
 
 namespace talus::render {
 
-// In units of the font size.
+// Lengths in units of the font size.
 inline constexpr double line_height = text_ascent + text_descent;
 inline constexpr double gap_between_groups = 2.0;
 
@@ -21,17 +21,17 @@ struct Group {
   Box arrow;
 };
 
-// `room`, px: what groups are to fit, if their lines can be broken.
+// `room` is the available width, px, for groups whose lines can be broken.
 
-/// A text; lines that are broken end at its right if it is `right_aligned`.
+/// Lays out a text; broken lines are aligned at the right if `right_aligned`.
 Group text_group(const std::string& text, double room, double em, const Font& font,
                  bool right_aligned = false);
-/// A right-aligned text with a small gravity arrow behind it.
+/// Lays out a right-aligned text followed by a small gravity arrow.
 Group text_with_arrow_group(const std::string& text, double room, double em, const Font& font);
-/// A bar with its title on the left, or above if there is no room for both, and its ticks below.
+/// Lays out a bar with its title on the left, or above if there is no room for both, and its ticks below.
 Group bar_group(const Bar& bar, double room, double em, const Font& font);
 Group swatch_group(const Swatch& swatch, double room, double em, const Font& font);
-/// The scale bar with its label below, and the gravity arrow with its label.
+/// Lays out the scale bar with its label below, and the gravity arrow with its label.
 Group scale_group(const FrameView& view, double scale, double em, const Font& font);
 
 /// Places a text with its upper left corner at (x, y).

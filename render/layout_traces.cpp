@@ -8,15 +8,15 @@
 namespace talus::render {
 namespace {
 
-// In units of the font size.
+// Lengths in units of the font size.
 constexpr double label_gap = 0.4;
-constexpr double gap_below_frame = 0.65;  // the lowest label beside it reaches half a line below it
+constexpr double gap_below_frame = 0.65;  // the lowest label left of the frame extends half a line below it
 constexpr double narrowest_frame = 8.0;
 constexpr double gap_between_labels = 0.8;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// From a value to its share of a range; the middle of an empty one.
+/// Returns the relative position of a value in a range; 0.5 if the range is empty.
 double share_of(double value, double low, double high) {
   return high > low ? (value - low) / (high - low) : 0.5;
 }
@@ -29,7 +29,7 @@ double y_of(const Trace& trace, const Box& box, double value) {
   return box.bottom() - box.height * share_of(value, trace.y_min, trace.y_max);
 }
 
-/// The value of the curve at x: between its points, and nothing beyond them.
+/// Interpolates the curve at x; NaN outside its range.
 double value_at(const Trace& trace, double x) {
   if (trace.x.empty() || !(x >= trace.x.front() && x <= trace.x.back())) return nan;
   const auto above = std::lower_bound(trace.x.begin(), trace.x.end(), x);
@@ -47,7 +47,7 @@ double widest_label(const std::vector<Trace>& traces, double em, const Font& fon
   return widest;
 }
 
-/// Labels left of the frame, from the lowest on, as far as they have room.
+/// Adds labels left of the frame, from the lowest upwards, as long as they fit.
 void add_y_labels(Layout& layout, const Trace& trace, const PlacedTrace& placed, const Font& font) {
   const double em = layout.em;
   double lowest_free = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ void add_y_labels(Layout& layout, const Trace& trace, const PlacedTrace& placed,
   }
 }
 
-/// Labels below the frame, from the left on, as far as they have room; then the title of the axis.
+/// Adds labels below the frame, from left to right, as long as they fit, and then the title of the axis.
 double add_x_labels(Layout& layout, const Trace& trace, const PlacedTrace& placed, double right,
                     const Font& font) {
   const double em = layout.em;
@@ -82,7 +82,7 @@ double add_x_labels(Layout& layout, const Trace& trace, const PlacedTrace& place
   return title.box.bottom();
 }
 
-/// The name of the event above the frame, where the title leaves room for it.
+/// Adds the name of the event above the frame if the title leaves room for it.
 void add_event_label(Layout& layout, const Trace& trace, const PlacedTrace& placed, const Box& title,
                      double right, const Font& font) {
   if (trace.event_label.empty() || !(placed.event >= placed.box.x && placed.event <= placed.box.right()))

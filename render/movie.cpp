@@ -16,10 +16,10 @@
 namespace talus::render {
 namespace {
 
-/// Filters and encoder by the ending of the path.
+/// Returns the filters and encoder for the extension of the path.
 std::vector<std::string> encoder_arguments(const std::string& path, int channels) {
-  // Colours by one matrix that the file names, or players would guess another for small pictures than for
-  // large.
+  // The file states its colour matrix; without that, players guess different matrices for small and large
+  // pictures.
   const std::string to_yuv = "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
   const std::vector<std::string> bt709 = {"-colorspace", "bt709", "-color_primaries", "bt709",
                                           "-color_trc",  "bt709", "-color_range",     "tv"};
@@ -27,23 +27,23 @@ std::vector<std::string> encoder_arguments(const std::string& path, int channels
   const auto add = [&](const std::vector<std::string>& more) {
     arguments.insert(arguments.end(), more.begin(), more.end());
   };
-  if (path.ends_with(".mp4")) {  // H.264 with shared chroma takes even sizes only
+  if (path.ends_with(".mp4")) {  // H.264 with subsampled chroma requires even sizes
     add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:0:0:white," + to_yuv, "-c:v", "libx264", "-preset", "veryfast",
          "-crf", "20"});
     add(bt709);
     add({"-movflags", "+faststart", "-f", "mp4"});
   } else if (path.ends_with(
-                 ".webm")) {  // "good" quality takes six times as long, for a file smaller by a tenth
+                 ".webm")) {  // "good" quality takes six times as long and reduces the file by only a tenth
     add({"-vf", to_yuv, "-c:v", "libvpx-vp9", "-row-mt", "1", "-deadline", "realtime", "-cpu-used", "6",
          "-crf", "32", "-b:v", "0"});
     add(bt709);
     add({"-f", "webm"});
   } else if (path.ends_with(".gif") && channels == 1) {
-    // 64 fixed grays. A palette made from the frames would be the same one, after holding all of them in
-    // memory.
+    // 64 fixed grays. A palette computed from the frames would be the same, but ffmpeg would hold all frames
+    // in memory.
     add({"-vf", "format=gray,lut=c0=round(val*63/255)*255/63", "-pix_fmt", "gray", "-f", "gif"});
   } else if (path.ends_with(".gif")) {
-    // A palette for each frame: one for all of them would hold all in memory as well.
+    // One palette per frame; a common palette would also require all frames in memory.
     add({"-vf", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=dither=none:new=1", "-f",
          "gif"});
   } else {
@@ -55,7 +55,7 @@ std::vector<std::string> encoder_arguments(const std::string& path, int channels
 std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::string& output, int width,
                                           int height, int channels, double fps) {
   if (channels != 1 && channels != 3)
-    throw Error(ExitCode::usage, path + ": movies are not transparent; leave the background white");
+    throw Error(ExitCode::usage, path + ": movies cannot be transparent; keep the white background");
   std::vector<std::string> arguments = {"ffmpeg",
                                         "-nostdin",
                                         "-hide_banner",
@@ -74,7 +74,8 @@ std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::st
                                         "-i",
                                         "pipe:0"};
   for (std::string& argument : encoder_arguments(path, channels)) arguments.push_back(std::move(argument));
-  // ffmpeg reads "pipe:1.gif" as a protocol and "-x.mp4" as an option, but nothing into what follows "file:".
+  // ffmpeg parses "pipe:1.gif" as a protocol and "-x.mp4" as an option, but takes the name after "file:"
+  // literally.
   arguments.push_back("file:" + output);
   return arguments;
 }
@@ -84,7 +85,7 @@ pid_t start(const std::vector<std::string>& arguments, int input, int messages) 
   const pid_t program = start_program(arguments, {.in = input, .err = messages});
   if (program < 0 && errno == ENOENT)
     throw Error(ExitCode::unavailable,
-                "ffmpeg is not installed, so no movie can be made: apt-get install ffmpeg, or draw "
+                "ffmpeg, which encodes movies, is not installed: apt-get install ffmpeg, or draw "
                 "single pictures with talus render");
   if (program < 0) throw system_error(ExitCode::unavailable, "start", "ffmpeg", errno);
   return program;
@@ -100,7 +101,7 @@ Movie::Movie(const std::string& path, int width, int height, int channels, doubl
     : path_(path), width_(width), height_(height), channels_(channels), file_(path), made_(path) {
   const std::vector<std::string> arguments =
       ffmpeg_arguments(path, made_.path(), width, height, channels, fps);
-  // A socket pair instead of a pipe: writing to it can be told not to raise SIGPIPE.
+  // A socket pair rather than a pipe, because MSG_NOSIGNAL then suppresses SIGPIPE.
   std::array<int, 2> ends{};
   messages_ = std::tmpfile();
   if (!messages_ || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {

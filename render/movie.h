@@ -1,5 +1,5 @@
 #pragma once
-/// Movies, through a pipe of raw frames to ffmpeg.
+/// Movies, encoded by ffmpeg from raw frames.
 
 #include <sys/types.h>
 
@@ -11,20 +11,20 @@
 
 namespace talus::render {
 
-/// A movie being written: H.264 in a file that ends in .mp4, VP9 in .webm; in .gif 64 grays, or the 256 best
-/// colours of each frame in colour. The file appears under its name when finish returns; a movie that is not
-/// finished leaves nothing.
+/// A movie being written: H.264 for .mp4, VP9 for .webm, and for .gif 64 grays or, in colour, the best 256
+/// colours of each frame. The file appears under its name when finish() returns; an unfinished movie leaves
+/// nothing.
 class Movie {
  public:
-  /// All frames have the size and number of channels given, 1 or 3; `fps` frames a second are shown.
-  /// Throws Error(usage) at another ending or at four channels, for movies are not transparent;
-  /// Error(unavailable) without ffmpeg; Error(cannot_create) if the file cannot be created.
+  /// Starts ffmpeg. All frames have the given size and number of channels, 1 or 3, and are shown at `fps`
+  /// frames per second. Throws Error(usage) for another extension or for four channels, because movies cannot
+  /// be transparent; Error(unavailable) without ffmpeg; Error(cannot_create) if the file cannot be created.
   Movie(const std::string& path, int width, int height, int channels, double fps);
   ~Movie();
   Movie(const Movie&) = delete;
   Movie& operator=(const Movie&) = delete;
 
-  /// Throws Error(io_error) with the message of ffmpeg if it gave up.
+  /// Adds a frame. Throws Error(io_error) with ffmpeg's message if ffmpeg failed.
   void add(const Image& image);
   void finish();
 

@@ -30,7 +30,7 @@ struct EmbeddedFace {
                            &face) != 0)
       throw Error(ExitCode::internal, "the embedded font cannot be read");
   }
-  ~EmbeddedFace() { FT_Done_FreeType(library); }  // and the face
+  ~EmbeddedFace() { FT_Done_FreeType(library); }  // also frees the face
   EmbeddedFace(const EmbeddedFace&) = delete;
   EmbeddedFace& operator=(const EmbeddedFace&) = delete;
 };
@@ -136,7 +136,7 @@ class PdfTarget final : public DocumentTarget {
     surface_ = nullptr;
   }
 
-  /// Without the time, so that the same picture gives the same bytes.
+  /// Writes the metadata, without the time, so that the same picture gives the same bytes.
   void describe() {
     for (const auto& [keyword, text] : texts_) {
       if (keyword == "Software")
@@ -173,7 +173,7 @@ class PdfTarget final : public DocumentTarget {
       cairo_arc(cairo_, centre.x, centre.y, size, 0.0, 2.0 * std::numbers::pi);
       cairo_close_path(cairo_);
     };
-    // The rim is no stroke: viewers draw thin strokes too wide.
+    // The rim is not a stroke, because viewers draw thin strokes too wide.
     add_circle(radius);
     set_colour(disc.rim);
     cairo_fill(cairo_);
@@ -190,7 +190,7 @@ class PdfTarget final : public DocumentTarget {
     cairo_stroke(cairo_);
   }
 
-  /// As glyphs in their places, and as text that can be searched and copied.
+  /// Draws a run as positioned glyphs, and as text that can be searched and copied.
   void show(const TextRun& run, const TextLine& line, double x, double y) {
     const std::span<const char32_t> codes = font_code_points();
     std::vector<cairo_glyph_t> glyphs;

@@ -17,13 +17,13 @@
 namespace talus::render {
 namespace {
 
-using PngEntry = ::png_text;  // our function has that name
+using PngEntry = ::png_text;  // alias, because talus::render::png_text hides this name
 
 void append(png_structp png, png_bytep data, std::size_t size) {
   auto* bytes = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
   try {
     bytes->insert(bytes->end(), data, data + size);
-  } catch (const std::bad_alloc&) {  // no exception may pass through the C code of libpng
+  } catch (const std::bad_alloc&) {  // exceptions must not propagate through the C code of libpng
     png_error(png, "out of memory");
   }
 }
@@ -34,8 +34,8 @@ int colour_type(int channels) {
   return channels == 1 ? PNG_COLOR_TYPE_GRAY : channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA;
 }
 
-/// Rows without filter. Gray maps compress by runs only, and looking only for runs is fastest; in
-/// colour a run is a repeated pixel of several bytes, which only the search for matches finds.
+/// Rows are stored without a filter. Gray maps compress by runs only, and run-length encoding is fastest. In
+/// colour, a run is a repeated pixel of several bytes, which only the search for matches finds.
 void choose_compression(png_structp png, const Image& image) {
   constexpr int largest_memory_level = 9;
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
@@ -45,7 +45,7 @@ void choose_compression(png_structp png, const Image& image) {
   png_set_compression_buffer_size(png, 1 << 16);
 }
 
-/// Returns false if libpng gives up; nothing that its jump skips has a destructor.
+/// Returns false if libpng fails. The objects that its jump skips have no destructors.
 bool encode(png_structp png, png_infop info, const Image& image, std::vector<PngEntry>& texts,
             std::vector<std::uint8_t>& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
@@ -66,8 +66,9 @@ void check(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       (image.channels != 1 && image.channels != 3 && image.channels != 4) ||
       image.pixels.size() != static_cast<std::size_t>(image.height) * image.row_bytes())
-    throw Error(ExitCode::internal, fmt::format("an image of {} x {} px with {} channels is no picture",
-                                                image.width, image.height, image.channels));
+    throw Error(ExitCode::internal,
+                fmt::format("an image of {} x {} px with {} channels cannot be encoded as PNG", image.width,
+                            image.height, image.channels));
 }
 
 void check(const std::string& keyword, const std::string& text) {
@@ -78,7 +79,7 @@ void check(const std::string& keyword, const std::string& text) {
                 fmt::format("a PNG cannot hold the text \"{}\" as \"{}\"", text, keyword));
 }
 
-/// As libpng takes texts; it does not change them.
+/// Converts texts to libpng's structures; libpng does not change them.
 std::vector<PngEntry> texts_for_libpng(const PictureTexts& texts) {
   std::vector<PngEntry> result;
   for (const auto& [keyword, text] : texts) {
@@ -110,7 +111,7 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& tex
 }
 
 void print_at(std::vector<std::uint8_t>& png, double printed_width) {
-  constexpr std::size_t header_end = 33, width_at = 16;  // of the signature and the chunk IHDR
+  constexpr std::size_t header_end = 33, width_at = 16;  // bytes: the signature and the IHDR chunk
   if (png.size() < header_end || png[1] != 'P' || png[2] != 'N' || png[3] != 'G') return;
   const auto dots = static_cast<png_uint_32>(std::lround(png_get_uint_32(&png[width_at]) / printed_width));
   std::array<std::uint8_t, 21> chunk = {0, 0, 0, 9, 'p', 'H', 'Y', 's'};

@@ -1,5 +1,5 @@
 #pragma once
-/// How libpng's errors reach us: it jumps back to setjmp, and prints nothing.
+/// Error handlers for libpng: errors jump to the setjmp of the caller, and nothing is printed.
 
 #include <png.h>
 

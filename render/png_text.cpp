@@ -11,8 +11,8 @@
 namespace talus::render {
 namespace {
 
-/// Reads all of a picture, row by row. Returns false if libpng finds it damaged; nothing that its jump skips
-/// has a destructor.
+/// Reads a picture row by row. Returns false if libpng finds it damaged. The objects that its jump skips have
+/// no destructors.
 bool read_all(png_structp png, png_infop info, std::FILE* file, std::vector<png_byte>& row) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_init_io(png, file);
@@ -38,7 +38,7 @@ std::optional<std::string> first_text(png_structp png, png_infop info, const std
 
 std::optional<std::string> png_text(const std::string& path, const std::string& keyword) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would wait
+  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would block
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) return std::nullopt;
   std::vector<png_byte> row;

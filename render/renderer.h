@@ -11,18 +11,19 @@
 
 namespace talus::render {
 
-/// Owns its target. Use it on the thread that made the context.
+/// Draws pictures on a target, which it owns. Use it on the thread that made the context.
 class Renderer {
  public:
   explicit Renderer(std::unique_ptr<Context> context);
   explicit Renderer(std::unique_ptr<ImageTarget> target);
 
-  /// The picture of a view, `width` px wide, laid out by lay_out. The same view gives the same bits.
-  /// Throws Error as lay_out and the target do.
+  /// Returns the picture of a view, `width` px wide, laid out by lay_out. The same view gives the same bits.
+  /// Throws the errors of lay_out and of the target.
   Image draw(const FrameView& view, int width, const LayoutLimits& limits = {});
   Image draw(const Sheet& sheet);
 
-  /// Draws without reading the picture back: it stays in the target, with the size of the returned layout.
+  /// Draws without reading the picture back. The picture remains in the target, with the size of the returned
+  /// layout.
   Layout paint(const FrameView& view, int width, const LayoutLimits& limits = {});
 
   const Font& font() const { return font_; }

@@ -21,7 +21,7 @@ bool is_gray(const Legend& legend) {
          });
 }
 
-/// Pixels as they are: for furniture, which has y upwards from the top of the picture.
+/// Returns a window with pixel coordinates for furniture, which has y upwards from the top of the picture.
 Window whole_picture(int width, int height) {
   Window window;
   window.box = {0.0, 0.0, static_cast<double>(width), static_cast<double>(height)};
@@ -87,16 +87,16 @@ Sheet sheet_of_rows(std::vector<std::vector<FrameView>> rows, int width, const F
 
 namespace {
 
-/// Curves alone that begin a row have all of it.
+/// Returns the width of view k; a view with curves alone that begins a row takes the full row.
 int width_of(const FrameView& view, std::size_t k, const Arrangement& arrangement) {
   const bool alone = view.x_max <= view.x_min && k % static_cast<std::size_t>(arrangement.columns) == 0;
   return arrangement.cell * (alone ? arrangement.columns : 1);
 }
 
-/// Views as they stand in their cells: letters go by the width of the sheet, and curves alone are as high as
-/// a bed beside them.
+/// Adapts views to their cells: font sizes refer to the width of the sheet, and curves alone are as high as a
+/// bed next to them.
 void fit_to_cells(std::vector<FrameView>& views, const Arrangement& arrangement) {
-  double height = 0.0;  // of a bed, in font sizes
+  double height = 0.0;  // height of the bed, in font sizes
   for (std::size_t k = 0; k < views.size(); ++k) {
     FrameView& view = views[k];
     const double share = static_cast<double>(width_of(view, k, arrangement)) / arrangement.width;
@@ -138,7 +138,7 @@ Arrangement arrange_with(std::vector<std::vector<FrameView>> pictures, int width
   return found;
 }
 
-/// Some of many pictures, to see how large they are.
+/// Returns a sample of the pictures, to estimate their sizes.
 std::vector<std::vector<FrameView>> sample_of(const std::vector<std::vector<FrameView>>& pictures) {
   constexpr std::size_t most = 8;
   const std::size_t step = (pictures.size() + most - 1) / most;
@@ -147,8 +147,8 @@ std::vector<std::vector<FrameView>> sample_of(const std::vector<std::vector<Fram
   return sample;
 }
 
-/// The largest cells, wider than `least`, with which so many columns fit; none where none do. Narrower cells
-/// may need more room, as their texts take more lines.
+/// Returns the arrangement with the largest cells, wider than `least`, that fits this number of columns, or
+/// nothing if none fits. Narrower cells may need more height because their texts break into more lines.
 std::optional<Arrangement> largest_fit(const std::vector<std::vector<FrameView>>& pictures, int width,
                                        int height, int columns, int least, const Font& font) {
   const auto fit = [&](const std::vector<std::vector<FrameView>>& of,
@@ -156,7 +156,7 @@ std::optional<Arrangement> largest_fit(const std::vector<std::vector<FrameView>>
     try {
       Arrangement found = arrange_with(of, width, columns, cell, font);
       if (found.height <= height) return found;
-    } catch (const Error&) {  // nothing legible
+    } catch (const Error&) {  // no legible layout
     }
     return std::nullopt;
   };
@@ -179,7 +179,7 @@ Arrangement arrange(std::vector<std::vector<FrameView>> pictures, int width, int
       best = std::move(found);
   if (!best)
     throw Error(ExitCode::usage,
-                fmt::format("the maps with their texts do not fit into {} x {} px; ask for a larger size, "
+                fmt::format("the maps with their texts do not fit into {} x {} px; use a larger size, "
                             "or for fewer maps",
                             width, height));
   best->left = (width - best->columns * best->cell) / 2;

@@ -1,5 +1,5 @@
 #pragma once
-/// A picture of several views: where each of them stands.
+/// A picture of several views and their positions.
 
 #include <vector>
 
@@ -19,39 +19,39 @@ struct Sheet {
   std::vector<PlacedView> views;
 };
 
-/// One view alone. Throws as lay_out does.
+/// Returns a sheet with one view. Throws the errors of lay_out.
 Sheet sheet_of(FrameView view, int width, const Font& font, const LayoutLimits& limits = {});
 
-/// The limits of each row of views that share the width of a sheet, whose letters are set to go by that
-/// width.
+/// Returns the limits of each row of views that share the width of a sheet, and rescales the font sizes of
+/// the views to that width.
 std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, int width, const Font& font);
 
-/// Rows of views below each other on a sheet of that width, which the views of a row share equally. The beds
-/// and the traces of a row are level, and all letters have one size, which goes by the width of the sheet.
-/// Throws as lay_out does.
+/// Returns a sheet of that width with rows of views below each other. The views of a row share the width
+/// equally, and their beds and traces are aligned. All font sizes are equal and refer to the width of the
+/// sheet. Throws the errors of lay_out.
 Sheet sheet_of_rows(std::vector<std::vector<FrameView>> rows, int width, const Font& font);
 
-/// How the views of each of several pictures stand on sheets of one size, as the frames of a movie do.
+/// The arrangement of views on sheets of one size, such as the frames of a movie.
 struct Arrangement {
-  int width = 0, height = 0;         ///< px, of the sheets
-  int columns = 1;                   ///< of views beside each other
-  int cell = 0;                      ///< px: the width of a view
-  int left = 0, top = 0;             ///< px: where the first one stands
-  std::vector<int> rows;             ///< px: the heights of rows
-  std::vector<LayoutLimits> limits;  ///< of each row
+  int width = 0, height = 0;         ///< size of the sheets, px
+  int columns = 1;                   ///< number of views next to each other
+  int cell = 0;                      ///< width of a view, px
+  int left = 0, top = 0;             ///< position of the first view, px
+  std::vector<int> rows;             ///< heights of the rows, px
+  std::vector<LayoutLimits> limits;  ///< one for each row
 };
 
-/// Fits pictures with the same number of views, in as many columns as make the beds largest, into `height`;
-/// with 0 all views stand beside each other, and the height follows. Throws as lay_out does, and Error(usage)
-/// if they do not fit.
+/// Fits pictures with the same number of views into `height`, in the number of columns that makes the beds
+/// largest. With height 0, all views are next to each other, and the height follows. Throws the errors of
+/// lay_out, and Error(usage) if the views do not fit.
 Arrangement arrange(std::vector<std::vector<FrameView>> pictures, int width, int height, const Font& font);
 Sheet arranged(std::vector<FrameView> views, const Arrangement& arrangement, const Font& font);
 
-/// Gray, in colour, or in colour on a transparent background, as the views of the sheet ask for.
+/// Returns the format that the views require: gray, colour, or colour on a transparent background.
 PixelFormat pixel_format(const Sheet& sheet);
 PixelFormat pixel_format(const FrameView& view);
 
-/// Draws a sheet, or a view in a layout of its own.
+/// Draws a sheet, or a view in a given layout.
 void paint(Target& target, const Sheet& sheet);
 void paint(Target& target, const FrameView& view, const Layout& layout);
 

@@ -7,7 +7,7 @@
 namespace talus::render {
 namespace {
 
-/// In hundredths of a px, without zeros that say nothing.
+/// Formats a number to 0.01 px, without trailing zeros.
 std::string number(double value) {
   std::string text = fmt::format("{:.2f}", value);
   text.erase(text.find_last_not_of('0') + 1);
@@ -109,7 +109,7 @@ class SvgTarget final : public DocumentTarget {
     file_ += fmt::format("\"/></clipPath>\n<g clip-path=\"url(#c{})\">\n", name);
   }
 
-  /// Neighbours that look alike share a group.
+  /// Begins a group, unless the previous element has the same style.
   void begin_group(std::string& look, const std::string& next) {
     if (look == next) return;
     if (!look.empty()) file_ += "</g>\n";
@@ -140,7 +140,7 @@ class SvgTarget final : public DocumentTarget {
   PictureTexts texts_;
   Font measures_ = embedded_font();
   std::string file_;
-  int names_ = 0;  ///< given so far
+  int names_ = 0;  ///< number of names assigned
 };
 
 }  // namespace
