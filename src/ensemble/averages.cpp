@@ -10,7 +10,7 @@ namespace {
 
 constexpr double same_angle = 1e-6;  // deg, far below the spacing of frames
 
-/// The resamples of each number of values, made once.
+/// Bootstrap resamples by number of values, each made once.
 using ResamplesByCount = std::map<int, Resamples>;
 
 const Resamples& resamples_for(const std::vector<double>& values, ResamplesByCount& known) {
@@ -30,8 +30,8 @@ void summarise(AveragedQuantity& quantity, std::size_t points, ResamplesByCount&
   }
 }
 
-/// Members of different versions may have different quantities: all names, in the order of their first
-/// member.
+/// Collects the names of all quantities, in order of first appearance. Members of different versions may have
+/// different quantities.
 template <typename Item, typename ItemsOf>
 std::vector<AveragedQuantity> all_quantities(const std::vector<MemberResult>& members,
                                              const ItemsOf& items_of) {
@@ -56,7 +56,8 @@ std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& 
   return all;
 }
 
-/// `tilt_at(member, angle)`: the tilt of a member (deg) that belongs to a point of the grid.
+/// Averages the quantities of all members over a grid of angles. `tilt_at(member, angle)` returns the tilt of
+/// a member (deg) at a point of the grid.
 AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::vector<double> angles,
                                const std::function<double(const MemberResult&, double)>& tilt_at,
                                ResamplesByCount& resamples) {
@@ -103,7 +104,7 @@ AveragedCurves averages_before_failure(const std::vector<MemberResult>& members,
       [](const MemberResult& member, double angle) { return theta_c_of(member) - angle; }, resamples);
 }
 
-/// Whether it is an angle at which something happens, rather than the width of a range or an error.
+/// Whether a number is the angle of an event, rather than the width of a range or an error.
 bool is_event(const std::string& name) {
   if (name == "theta_c" || name == "first_slide" || name == "theta_r") return true;
   return name.starts_with("theta_d/") && name.find("_error") == std::string::npos &&

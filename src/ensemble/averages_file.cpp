@@ -13,7 +13,7 @@
 namespace talus::ensemble {
 namespace {
 
-/// The columns of a summary, in the file and in CSV.
+/// The columns of a summary, in ensemble.h5 and in CSV.
 constexpr std::array<const char*, 9> summary_columns = {
     "n", "mean", "deviation", "error", "low", "high", "lower_quartile", "median", "upper_quartile"};
 
@@ -30,8 +30,8 @@ std::array<double, 9> row_of(const Summary& summary) {
           summary.upper_quartile};
 }
 
-/// An array of one or two dimensions with the attributes `unit` and `definition`; of two it is compressed in
-/// chunks of rows, as the letter S of a shape asks for.
+/// Writes an array of one or two dimensions with the attributes `unit` and `definition`. Arrays of two
+/// dimensions are compressed in chunks of rows (the letter S of a shape).
 template <typename T>
 void add(io::hdf5::Writer& file, const std::string& path, const std::vector<std::size_t>& shape,
          const std::string& unit, const std::string& definition, const std::vector<T>& values) {
@@ -41,20 +41,21 @@ void add(io::hdf5::Writer& file, const std::string& path, const std::vector<std:
   file.set_attribute(path, "definition", definition);
 }
 
-/// Takes the values of the members out of the quantity.
+/// Writes a quantity, and moves its values out of it to free memory.
 void add_quantity(io::hdf5::Writer& file, const std::string& group, AveragedQuantity& quantity) {
   const std::string path = group + "/" + quantity.name;
   const std::size_t points = quantity.summaries.size();
   const std::vector<double> values = std::move(quantity.values);
   add(file, path + "/values", {points == 0 ? 0 : values.size() / points, points}, quantity.unit,
-      "of each member, in the order of the seeds, at each point of the grid", values);
+      "values of each member, in the order of the seeds, at each point of the grid", values);
   std::vector<double> rows;
   for (const Summary& point : quantity.summaries) {
     const std::array<double, 9> row = row_of(point);
     rows.insert(rows.end(), row.begin(), row.end());
   }
   add(file, path + "/summary", {points, summary_columns.size()}, quantity.unit,
-      "of the members at each point of the grid, in the columns of the attribute `columns`", rows);
+      "statistics over the members at each point of the grid; the attribute `columns` names the columns",
+      rows);
   file.set_attribute(path + "/summary", "columns",
                      std::vector<std::string>(summary_columns.begin(), summary_columns.end()));
 }
@@ -65,7 +66,7 @@ void add_curves(io::hdf5::Writer& file, const std::string& group, AveragedCurves
   for (AveragedQuantity& quantity : curves.quantities) add_quantity(file, group, quantity);
 }
 
-/// Lists at the points of a grid of `points` angles, those that no member reached without values.
+/// Writes lists at a grid of `points` angles; angles that no member reached have no values.
 void add_lists(io::hdf5::Writer& file, const std::string& group, const std::vector<AveragedList>& lists,
                std::size_t points) {
   for (const AveragedList& list : lists) {
@@ -75,10 +76,11 @@ void add_lists(io::hdf5::Writer& file, const std::string& group, const std::vect
       add(file, fmt::format("{}/{}/{}", group, list.name, name), {points, list.width}, unit, definition,
           values);
     };
-    add_one("n", "1", "members behind each number", list.count, 0.0);
+    add_one("n", "1", "number of members that contribute to each number", list.count, 0.0);
     add_one("mean", list.unit, "mean over the members of: " + list.definition, list.mean, std::nan(""));
-    add_one("deviation", list.unit, "standard deviation; that of the mean is deviation / sqrt(n)",
-            deviation_of(list), std::nan(""));
+    add_one("deviation", list.unit,
+            "standard deviation; the standard error of the mean is deviation / sqrt(n)", deviation_of(list),
+            std::nan(""));
   }
 }
 
@@ -103,16 +105,16 @@ void add_variant(io::hdf5::Writer& file, const std::string& group, NamedAverages
   const std::vector<std::size_t> members = {averages.seeds.size()};
   std::vector<std::uint64_t> hashes;
   for (const std::string& hash : averages.state_hashes) hashes.push_back(parse_hash(hash));
-  add(file, group + "/seed", members, "1", "of the members that are done, ascending", averages.seeds);
+  add(file, group + "/seed", members, "1", "seeds of the completed members, ascending", averages.seeds);
   add(file, group + "/state_hash", members, "1",
-      "of the last state of each member; members.csv has it in hexadecimal digits", hashes);
+      "hash of the final state of each member; members.csv has it in hexadecimal digits", hashes);
   for (AveragedQuantity& quantity : averages.numbers) add_quantity(file, group + "/numbers", quantity);
   add_correlations(file, group + "/correlations", averages.correlations);
   add_curves(file, group + "/over_tilt", averages.over_tilt, "theta", "tilt");
   add_lists(file, group + "/over_tilt", variant.lists.over_tilt, averages.over_tilt.angles.size());
   if (!averages.before_failure.quantities.empty()) {
     add_curves(file, group + "/before_failure", averages.before_failure, "angle_left",
-               "theta_c - theta, theta_c that of each member");
+               "theta_c - theta, with the theta_c of each member");
     add_lists(file, group + "/before_failure", variant.lists.before_failure,
               averages.before_failure.angles.size());
   }
@@ -123,7 +125,7 @@ void add_variant(io::hdf5::Writer& file, const std::string& group, NamedAverages
 
 std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{:.7g}", value); }
 
-/// Rows of a quantity; `angles` is empty for numbers that there is one of in a run.
+/// Returns the CSV rows of a quantity; `angles` is empty for scalar results of a run.
 std::string csv_rows(const std::string& variant, const char* grid, const std::vector<double>& angles,
                      const AveragedQuantity& quantity) {
   std::string text;

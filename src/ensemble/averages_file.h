@@ -1,5 +1,5 @@
 #pragma once
-/// The averages of an ensemble as files: ensemble.h5, which has all of them, and averages.csv
+/// Output files with the averages of an ensemble: ensemble.h5, which contains all of them, and averages.csv
 /// (docs/ensembles.md).
 
 #include <string>
@@ -10,19 +10,20 @@
 
 namespace talus::ensemble {
 
-/// The averages of a variant, and what it is.
+/// The averages of a variant, with its name and scenario.
 struct NamedAverages {
-  std::string name;      ///< of the variant; empty for the only one
-  std::string scenario;  ///< its text, every key written out
+  std::string name;      ///< name of the variant; empty if there is only one
+  std::string scenario;  ///< TOML with every key
   Averages averages;
   ListAverages lists = {};
 };
 
-/// Takes the values out of `variants` as it goes, since there may be many. Throws as write_durably does.
+/// Writes ensemble.h5. Frees the values of `variants` while it writes, because they may be large. Throws the
+/// errors of write_durably.
 void write_averages(const std::string& path, std::vector<NamedAverages> variants, const std::string& version);
 
-/// A row for each quantity with one number at each angle: variant, grid, angle, quantity, unit, n, mean,
-/// standard deviation, standard error, interval of 95 % for the mean, quartiles.
+/// Returns a CSV row for each scalar quantity at each angle: variant, grid, angle, quantity, unit, n, mean,
+/// standard deviation, standard error, 95 % interval of the mean, quartiles.
 std::string averages_csv(const std::vector<NamedAverages>& variants);
 
 }  // namespace talus::ensemble

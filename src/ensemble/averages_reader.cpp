@@ -17,7 +17,7 @@ namespace {
 
 constexpr double same_theta = 1e-6;  // deg
 
-/// Doubles of a data set; those that are not known are NaN.
+/// Reads a data set of doubles; unknown values are NaN.
 std::vector<double> numbers_at(io::hdf5::Reader& file, const std::string& path, const std::string& shape) {
   std::vector<double> values = file.read<double>(
       io::DataSetField{path, io::ElementType::float64, shape, {}, {}}, io::hdf5::any_number);
@@ -30,16 +30,16 @@ std::vector<std::uint64_t> integers_at(io::hdf5::Reader& file, const std::string
   return file.read<std::uint64_t>(io::DataSetField{path, io::ElementType::uint64, "S", {}, {}});
 }
 
-/// Empty where there is no grid.
+/// Reads a grid; empty if the file has none.
 std::vector<double> grid_at(io::hdf5::Reader& file, const std::string& path) {
   if (!file.has(path)) return {};
   std::vector<double> grid = file.read<double>(io::DataSetField{path, io::ElementType::float64, "P", {}, {}});
   if (std::ranges::adjacent_find(grid, std::greater_equal<>()) != grid.end())
-    file.refuse(path, "does not ascend");
+    file.refuse(path, "is not in ascending order");
   return grid;
 }
 
-/// All quantities of a group, each with so many members and points.
+/// Reads all quantities of a group, each with this number of members and points.
 std::vector<StoredQuantity> quantities_at(io::hdf5::Reader& file, const std::string& group,
                                           std::size_t members, std::size_t points) {
   constexpr std::string_view ending = "/values";
@@ -62,25 +62,25 @@ StoredVariant variant_at(io::hdf5::Reader file, const std::string& group) {
   for (const std::uint64_t hash : integers_at(file, group + "/state_hash"))
     variant.state_hashes.push_back(hash_text(hash));
   const std::size_t members = variant.seeds.size();
-  if (members == 0) return variant;  // none is done yet
+  if (members == 0) return variant;  // no member is done yet
   variant.numbers = quantities_at(file, group + "/numbers", members, 1);
   variant.tilts = grid_at(file, group + "/over_tilt/theta");
   variant.over_tilt = quantities_at(file, group + "/over_tilt", members, variant.tilts.size());
-  io::hdf5::Reader again = file.again();  // the other grid has as many points as it will
+  io::hdf5::Reader again = file.again();  // the other grid may have any number of points
   variant.angles_left = grid_at(again, group + "/before_failure/angle_left");
   variant.before_failure =
       quantities_at(again, group + "/before_failure", members, variant.angles_left.size());
   return variant;
 }
 
-/// A point at which a member has values: which of which grid.
+/// A point at which a member has values, and the grid to which it belongs.
 struct Point {
   double theta = 0.0;
   bool before_failure = false;
   std::size_t index = 0;
 };
 
-/// Adds the points of one grid at which member m has any value. `theta_at(k)`: the tilt of point k.
+/// Adds the points of one grid at which member m has any value. `theta_at(k)` is the tilt of point k.
 template <typename ThetaAt>
 void add_points(std::vector<Point>& points, const std::vector<StoredQuantity>& quantities, std::size_t m,
                 std::size_t count, bool before_failure, const ThetaAt& theta_at) {
@@ -92,7 +92,7 @@ void add_points(std::vector<Point>& points, const std::vector<StoredQuantity>& q
   }
 }
 
-/// Those of both grids by ascending tilt, each tilt once.
+/// Returns the points of both grids by ascending tilt, each tilt once.
 std::vector<Point> points_of(const StoredVariant& variant, std::size_t m, double theta_c) {
   std::vector<Point> points;
   add_points(points, variant.over_tilt, m, variant.tilts.size(), false,

@@ -1,5 +1,5 @@
 #pragma once
-/// The values of the members of an ensemble, read back from its ensemble.h5 (docs/ensembles.md).
+/// Reads the values of the members of an ensemble from its ensemble.h5 (docs/ensembles.md).
 
 #include <cstddef>
 #include <string>
@@ -10,46 +10,46 @@
 
 namespace talus::ensemble {
 
-/// A quantity of all members, as it stands in the file.
+/// A quantity of all members, as stored in the file.
 struct StoredQuantity {
   std::string name;
   std::string unit;
-  std::vector<double> values;  ///< member by member, in each by point
+  std::vector<double> values;  ///< members x points
 };
 
 /// One variant of ensemble.h5.
 struct StoredVariant {
-  std::string name;      ///< empty for the only one
-  std::string scenario;  ///< TOML, every key
+  std::string name;      ///< empty if there is only one variant
+  std::string scenario;  ///< TOML with every key
   std::vector<std::uint64_t> seeds;
   std::vector<std::string> state_hashes;
   std::vector<StoredQuantity> numbers;
-  std::vector<double> tilts;  ///< deg, of over_tilt
+  std::vector<double> tilts;  ///< deg, grid of over_tilt
   std::vector<StoredQuantity> over_tilt;
-  std::vector<double> angles_left;  ///< deg, of before_failure; empty where no slope failed
+  std::vector<double> angles_left;  ///< deg, grid of before_failure; empty if no slope failed
   std::vector<StoredQuantity> before_failure;
 };
 
-/// Whether it begins as one of these, sound or not.
+/// Whether a file begins like an ensemble.h5, even if it is damaged.
 bool holds_averages(const std::string& path);
 
-/// Throws Error(missing_input) where there is no such file, and Error(bad_data) where it is not what
-/// write_averages makes.
+/// Reads ensemble.h5. Throws Error(missing_input) if the file does not exist, and Error(bad_data) if
+/// write_averages cannot have written it.
 std::vector<StoredVariant> read_averages(const std::string& path);
 
-/// What the file knows of member m. Its series have the points of both grids at which it has values: with
-/// those of before_failure they are known up to the last frame before theta_c, and a straight line between
-/// two points is that of the frames.
+/// Returns the stored results of member m. Its series contain the points of both grids at which it has
+/// values. With those of before_failure they extend to the last frame before theta_c, and between two points
+/// they equal the interpolation between frames.
 MemberResult member_of(const StoredVariant& variant, std::size_t m);
 
-/// The analysis of such a member: all its numbers of a run and of its frames, and a frame for each row of its
-/// series. What is no single number (distributions, fabric, grains) is empty, and what the file does not have
-/// is not known. It is that of the default parameters, with which members are analysed. `mean_diameter`: D,
-/// m.
+/// Rebuilds the analysis of such a member, with all scalar results, and one frame for each row of its series.
+/// Quantities with several values (distributions, fabric, grains) are empty, and quantities that the file
+/// lacks are unknown. The analysis parameters are the defaults, with which members are analysed.
+/// `mean_diameter` is D, m.
 analysis::Analysis analysis_of(const MemberResult& member, double mean_diameter);
 
-/// Member m as a run whose file is not there; `path` is that of ensemble.h5. Throws Error(bad_data) where its
-/// scenario cannot be read.
+/// Returns member m as a run without a run file; `path` is the path of ensemble.h5. Throws Error(bad_data) if
+/// its scenario cannot be read.
 runs::RunView view_of_values(const std::string& path, const StoredVariant& variant, std::size_t m);
 
 }  // namespace talus::ensemble

@@ -26,12 +26,11 @@ namespace {
 }
 
 [[noreturn]] void refuse_open_value(const std::string& text, std::size_t begin) {
-  throw Error(ExitCode::usage,
-              fmt::format("--vary {}: expected the quote or bracket to be closed that begins at {}",
-                          visible_word(text), visible_word(text.substr(begin), 20)));
+  throw Error(ExitCode::usage, fmt::format("--vary {}: expected a closing quote or bracket for the one at {}",
+                                           visible_word(text), visible_word(text.substr(begin), 20)));
 }
 
-/// The place behind the string of TOML whose quote is at `begin`; npos if it has no end.
+/// Returns the position after the TOML string whose opening quote is at `begin`; npos if it is not closed.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
   const std::string_view three = text.substr(begin, 3);
   const bool is_long = three == R"(""")" || three == "'''";
@@ -45,7 +44,8 @@ std::size_t end_of_string(std::string_view text, std::size_t begin) {
   return std::string_view::npos;
 }
 
-/// The same of an array or an inline table. Whether brackets fit is for the reader of TOML to say.
+/// Returns the position after an array or an inline table. Whether the brackets match is left to the TOML
+/// parser.
 std::size_t end_of_bracket(std::string_view text, std::size_t begin) {
   int depth = 0;
   for (std::size_t at = begin; at < text.size();) {
@@ -61,7 +61,7 @@ std::size_t end_of_bracket(std::string_view text, std::size_t begin) {
   return std::string_view::npos;
 }
 
-/// Whether a text begins with digits where `form` has 0, and with the same signs elsewhere.
+/// Whether a text begins with digits at the zeros of `form`, and with the same characters elsewhere.
 bool has_form(std::string_view text, std::string_view form) {
   if (text.size() < form.size()) return false;
   return std::equal(form.begin(), form.end(), text.begin(), [](char wanted, char found) {
@@ -69,7 +69,7 @@ bool has_form(std::string_view text, std::string_view form) {
   });
 }
 
-/// The place behind a date with a time, which may have an offset, at `begin`; `begin` if there is none.
+/// Returns the position after a date with time and optional offset at `begin`; `begin` if there is none.
 std::size_t end_of_date(std::string_view text, std::size_t begin) {
   const std::string_view rest = text.substr(begin);
   if (!has_form(rest, "0000-00-00T00:00:00") && !has_form(rest, "0000-00-00 00:00:00")) return begin;
@@ -78,7 +78,7 @@ std::size_t end_of_date(std::string_view text, std::size_t begin) {
   return begin + end + (has_offset ? 6 : 0);
 }
 
-/// The separator behind the value that begins at `begin`, or the end of the text.
+/// Returns the position of the separator after the value that begins at `begin`, or the end of the text.
 std::size_t end_of_value(const std::string& text, std::size_t begin, std::string_view separators) {
   std::size_t at = std::min(text.find_first_not_of(' ', begin), text.size());
   const char first = at < text.size() ? text[at] : '\0';
@@ -93,7 +93,7 @@ std::size_t end_of_value(const std::string& text, std::size_t begin, std::string
   return std::min(text.find_first_of(separators, at), text.size());
 }
 
-/// "tilt.rate=2,tilt.step=0.002", with what `shorten` leaves of each value.
+/// Returns "tilt.rate=2,tilt.step=0.002", each value shortened by `shorten`.
 std::string named_values(const std::vector<std::string>& variation, const scenario::Scenario& scenario,
                          const std::function<std::string(const std::string&)>& shorten) {
   std::string name;
@@ -105,7 +105,8 @@ std::string named_values(const std::vector<std::string>& variation, const scenar
   return name;
 }
 
-/// What every file system has in names, and tells apart.
+/// Whether every file system accepts the character in names and distinguishes it from others; this excludes
+/// capitals.
 bool is_plain(char c) { return c >= ' ' && c <= '~' && c != '/' && c != '\\' && !(c >= 'A' && c <= 'Z'); }
 
 }  // namespace
@@ -132,7 +133,7 @@ std::string folder_name(const std::vector<std::string>& variation, const scenari
   std::string whole = variation_name(variation, scenario);
   if (whole.size() <= longest && std::ranges::all_of(whole, is_plain)) return whole;
   std::string name = named_values(variation, scenario, [](const std::string& value) {
-    return value.substr(value.rfind('/') + 1);  // all of it, without a slash
+    return value.substr(value.rfind('/') + 1);  // the entire value if it has no slash
   });
   for (char& c : name)
     if (c < ' ' || c > '~' || c == '\\') c = '_';

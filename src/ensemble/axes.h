@@ -8,26 +8,26 @@
 
 namespace talus::ensemble {
 
-/// The settings of each value of an axis. "tilt.step=0.002,0.0005" gives {tilt.step=0.002} and
+/// Returns the settings for each value of an axis. "tilt.step=0.002,0.0005" gives {tilt.step=0.002} and
 /// {tilt.step=0.0005}. Keys joined by colons change together: "tilt.rate:tilt.step=2:0.002,0.5:0.0005" gives
-/// {tilt.rate=2, tilt.step=0.002} and {tilt.rate=0.5, tilt.step=0.0005}. A value of TOML is one value, as
-/// `--set` takes it: a comma or colon in a string, an array, an inline table or a date does not end it.
-/// Throws Error(usage) if the text has another form; keys and values are not looked at.
+/// {tilt.rate=2, tilt.step=0.002} and {tilt.rate=0.5, tilt.step=0.0005}. A TOML value counts as one value, as
+/// in `--set`: a comma or colon inside a string, an array, an inline table or a date does not end it. Throws
+/// Error(usage) if the text has another form; keys and values are not checked.
 std::vector<std::vector<std::string>> parse_axis(const std::string& text);
 
-/// "tilt.step" of "tilt.step=0.002".
+/// Returns the key of a setting: "tilt.step" for "tilt.step=0.002".
 std::string key_of_setting(const std::string& setting);
 
-/// `settings` without those whose keys the variation sets.
+/// Returns `settings` without those whose keys the variation sets.
 std::vector<std::string> settings_without(std::vector<std::string> settings,
                                           const std::vector<std::string>& variation);
 
-/// "tilt.rate=2,tilt.step=0.002": the values that a scenario has for the keys of a variation. They are not as
-/// they were spelled: 1e-6 and 0.000001 are one variation.
+/// Returns the values that a scenario has for the keys of a variation: "tilt.rate=2,tilt.step=0.002". The
+/// spelling is normalised: 1e-6 and 0.000001 are the same variation.
 std::string variation_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario);
 
-/// The name of a variation as that of a folder: the same where it is short and plain. Otherwise it is cut,
-/// has of a path the last part, and ends with a hash of the whole name: "deposition.file=dense.csv~0f3c...".
+/// Returns the folder name of a variation. Short plain names are kept. Other names are cut, keep only the
+/// last part of a path, and end with a hash of the full name: "deposition.file=dense.csv~0f3c...".
 std::string folder_name(const std::vector<std::string>& variation, const scenario::Scenario& scenario);
 
 }  // namespace talus::ensemble

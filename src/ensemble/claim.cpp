@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* infix = ".claim-";
 
-/// Which start of this machine: the same for all its processes, in containers too.
+/// Returns the boot id of this machine; all its processes share it, also in containers.
 std::string this_boot() {
   const Descriptor file(::open("/proc/sys/kernel/random/boot_id", O_RDONLY | O_CLOEXEC));
   std::array<std::byte, 64> text{};
@@ -35,7 +35,7 @@ std::string this_boot() {
   return boot.substr(0, boot.find('\n'));
 }
 
-/// The first line of a claim; after it comes a byte for each heartbeat.
+/// Returns the first line of a claim; each heartbeat appends one byte after it.
 std::string line_of_claim() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
@@ -44,7 +44,8 @@ std::string line_of_claim() {
 
 constexpr int last_number = std::numeric_limits<int>::max();
 
-/// The number of the claim that replaces a dead one. After the last one it is the first that is free.
+/// Returns the number of the claim that replaces a dead one. After the last number, it is the lowest free
+/// one.
 int number_after(const std::string& run, std::optional<int> found) {
   if (!found) return 0;
   if (*found < last_number) return *found + 1;
@@ -66,7 +67,7 @@ std::optional<ClaimName> parse_claim_name(const std::string& file) {
   const char* const last = file.data() + file.size();
   ClaimName name{file.substr(0, at), 0};
   const auto [end, error] = std::from_chars(digits, last, name.number);
-  // Only as claim_path writes it: another spelling would be of another file.
+  // Accept only the spelling of claim_path; another spelling belongs to another file.
   if (error != std::errc() || end != last || name.number < 0 || std::to_string(name.number) != digits)
     return std::nullopt;
   return name;
@@ -99,7 +100,7 @@ std::optional<ClaimHolder> read_claim(const std::string& run, int number) {
 ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
   const std::optional<ClaimHolder> holder = read_claim(run, number);
   if (holder && holder->boot == this_boot())
-    // Without locks this machine goes by the heartbeats as well.
+    // Without locks, heartbeats also decide on this machine.
     if (const std::optional<bool> held = is_locked(claim_path(run, number)))
       return *held ? ClaimState::alive : ClaimState::dead;
   const std::uint64_t beats = holder ? holder->beats : 0;
@@ -124,17 +125,17 @@ Claim::Claim(std::string path, int number, std::string next, Descriptor file, do
 std::optional<Claim> Claim::take(const std::string& run, std::optional<int> found, const ClaimTimes& times) {
   const int number = number_after(run, found);
   const std::string path = claim_path(run, number);
-  // The processes that compute the member inherit the lock: as long as one of them lives, the claim does.
+  // The processes that compute the member inherit the lock, so that the claim lives as long as any of them.
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_APPEND, 0666));
   if (file.get() < 0 && errno == EEXIST) return std::nullopt;
   if (file.get() < 0) throw creation_error("create", path, errno);
-  ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; others go by the heartbeats
+  ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; other machines rely on heartbeats
   Claim claim(path, number, claim_path(run, number_after(run, number)), std::move(file), times.beat());
   const std::string text = line_of_claim();
   if (::write(claim.file_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw system_error(ExitCode::io_error, "write", path, errno);
-  ::fdatasync(claim.file_.get());  // other machines see it sooner; where it fails they see it later
-  // The dead claim is still the one that was found, or this one is a number too high by now.
+  ::fdatasync(claim.file_.get());  // lets other machines see it sooner; a failure is harmless
+  // If the dead claim has disappeared, another process has replaced it, and this number is too high.
   if (found && ::unlink(claim_path(run, *found).c_str()) != 0) return std::nullopt;
   return claim;
 }
@@ -148,7 +149,7 @@ bool Claim::beat() {
   if (!is_named(path_, file_) || std::filesystem::exists(next_, unknown)) return false;
   if (Clock::now() - last_ < interval_) return true;
   last_ = Clock::now();
-  // A full disk is no reason to give up a member that computes.
+  // A full disk must not end a member that is being computed.
   if (::write(file_.get(), ".", 1) == 1) ::fdatasync(file_.get());
   return true;
 }

@@ -35,17 +35,17 @@ namespace fs = std::filesystem;
 
 constexpr const char* first_line = "talus ensemble 1";
 constexpr std::size_t most_variants = 10000;
-constexpr std::size_t longest_name = 255;  // bytes, of a folder
+constexpr std::size_t longest_name = 255;  // bytes of a folder name
 
 std::string hash_of(const std::string& text) { return hash_text(hash_bytes(std::as_bytes(std::span(text)))); }
 
-/// DIR/scenarios/contact.friction=0.3.toml, DIR/scenarios/scenario.toml.
+/// Returns DIR/scenarios/contact.friction=0.3.toml, or DIR/scenarios/scenario.toml without a variant.
 std::string scenario_path(const std::string& folder, const std::string& variant) {
   const std::string name = variant.empty() ? "scenario" : variant;
   return (fs::path(folder) / "scenarios" / (name + ".toml")).string();
 }
 
-/// "1-3,8", which parse_seeds reads.
+/// Formats seeds as "1-3,8", the form that parse_seeds reads.
 std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
   std::vector<std::string> parts;
   for (auto first = seeds.begin(); first != seeds.end();) {
@@ -57,8 +57,8 @@ std::string seeds_text(const std::vector<std::uint64_t>& seeds) {
   return joined(parts, ",");
 }
 
-/// The scenarios are written already, and stay as they are: another version of Talus would write them
-/// otherwise.
+/// Returns the text of a manifest. Scenario files that exist are kept, because another version of Talus would
+/// write them differently.
 std::string text_of(const EnsembleManifest& manifest) {
   std::string text =
       fmt::format("{}\nversion {}\nseeds {}\n", first_line, manifest.version, seeds_text(manifest.seeds));
@@ -87,20 +87,20 @@ std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> seeds) {
   return seeds;
 }
 
-/// Reads the scenario of a variant, which must be the text of its hash.
+/// Reads the scenario of a variant, and checks it against its hash.
 void read_scenario_of(Variant& variant, const std::string& folder) {
   variant.scenario_file = scenario_path(folder, variant.name);
   const std::string text = io::read_text(variant.scenario_file);
   if (hash_of(text) != variant.origin.scenario)
     throw Error(ExitCode::bad_data,
                 variant.scenario_file +
-                    " was changed since the ensemble began; expected the scenario that it was made with: "
+                    " was changed since the ensemble began; expected the original scenario: "
                     "undo the change, or begin another ensemble with it");
   variant.scenario = scenario::parse_scenario(text, variant.scenario_file);
 }
 
-/// Whether runs under this name are in the folder of the ensemble. Names of earlier versions have parts, as
-/// paths have.
+/// Whether a variant name lies in the folder of the ensemble. Names of earlier versions have several parts,
+/// like paths.
 bool is_name_of_folder(const std::string& name) {
   if (name.empty()) return true;  // the folder of the ensemble itself
   const std::vector<std::string> parts = split(name, '/');
@@ -110,7 +110,7 @@ bool is_name_of_folder(const std::string& name) {
          });
 }
 
-/// Two variants would have one folder, or one scenario.
+/// Whether a name would share its folder or its scenario file with another variant.
 bool is_there(const EnsembleManifest& manifest, const std::string& name) {
   const std::string path = scenario_path("", name);
   return std::ranges::any_of(manifest.variants, [&](const Variant& variant) {
@@ -122,14 +122,14 @@ void take_variant(EnsembleManifest& manifest, const std::string& rest) {
   const std::size_t end = std::min(rest.find(' '), rest.size());
   const std::string name = rest.substr(std::min(end + 1, rest.size()));
   if (!is_name_of_folder(name))
-    throw Error(ExitCode::bad_data, "expected a variant whose name is that of a folder in this one");
-  if (is_there(manifest, name)) throw Error(ExitCode::bad_data, "expected each name once");
+    throw Error(ExitCode::bad_data, "expected a variant whose name is a folder in this one");
+  if (is_there(manifest, name)) throw Error(ExitCode::bad_data, "expected unique names");
   if (manifest.variants.size() == most_variants)
     throw Error(ExitCode::bad_data, fmt::format("expected at most {} variants", most_variants));
   manifest.variants.push_back({name, "", {}, "", {rest.substr(0, end), ""}});
 }
 
-/// Adds what a line of the manifest says. Throws Error where talus writes no such line.
+/// Parses a line of the manifest. Throws Error if talus never writes such a line.
 void take_line(EnsembleManifest& manifest, const std::string& folder, const std::string& line) {
   const std::size_t blank = std::min(line.find(' '), line.size());
   const std::string kind = line.substr(0, blank), rest = line.substr(std::min(blank + 1, line.size()));
@@ -144,7 +144,7 @@ void take_line(EnsembleManifest& manifest, const std::string& folder, const std:
   if (kind == "keep") check_keep(manifest.keep = rest);
   if (kind == "variant") take_variant(manifest, rest);
   if ((kind == "full" || kind == "bed") && manifest.variants.empty())
-    throw Error(ExitCode::bad_data, "expected a variant before it");
+    throw Error(ExitCode::bad_data, "expected a preceding line with a variant");
   if (kind == "full") manifest.variants.back().full_name = visible(rest);
   if (kind == "bed") manifest.variants.back().origin.bed = rest;
 }
@@ -156,7 +156,7 @@ const Variant* variant_called(const EnsembleManifest& manifest, const std::strin
 
 std::string shown(const MemberTask& task) {
   const std::string text = task_text(task);
-  return text.empty() ? "no task beside their analysis" : fmt::format("the task '{}'", text);
+  return text.empty() ? "no task in addition to the analysis" : fmt::format("the task '{}'", text);
 }
 
 void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted, const std::string& folder) {
@@ -183,14 +183,14 @@ void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted,
                                                                 : found.variants.front().name));
 }
 
-/// Whether a member failed for what its scenario says, not for a signal or a full disk.
+/// Whether a member failed because of its scenario, rather than a signal or a full disk.
 bool has_failed_itself(const Member& member) {
   const auto code = static_cast<ExitCode>(read_failure(member.path).exit_code);
   return code == ExitCode::usage || code == ExitCode::bad_data || code == ExitCode::missing_input ||
          code == ExitCode::internal || code == ExitCode::out_of_memory;
 }
 
-/// Whether all that is known of a variant is that it fails.
+/// Whether a variant has only failures: no member has a run, is done or is under way.
 bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
   const EnsemblePlan plan = plan_ensemble(found.seeds, {variant}, folder);
   const std::vector<MemberState> states = look_at_members(plan);
@@ -216,8 +216,8 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
   return false;
 }
 
-/// Takes those out of a manifest that are not wanted, as a value had a mistake in it, and would keep the
-/// ensemble from ever being complete.
+/// Removes unwanted variants with only failures from a manifest, and returns them. They result from a
+/// mistaken value, and would keep the ensemble from ever being complete.
 std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManifest& wanted,
                                    const std::string& folder) {
   std::vector<Variant> hopeless, others;
@@ -231,8 +231,8 @@ std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManife
   return hopeless;
 }
 
-/// Makes the names of variants free that are no longer in the manifest. Of their members stay the logs, and
-/// what was computed until they failed.
+/// Frees the names of variants that are no longer in the manifest. The logs of their members, and the results
+/// up to their failure, are kept.
 void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdrawn,
               const std::string& folder) {
   if (rest.variants.empty())
@@ -248,15 +248,15 @@ void withdraw(const EnsembleManifest& rest, const std::vector<Variant>& withdraw
   }
 }
 
-/// A text that may be shown, as one line.
+/// Makes a text printable on one line.
 std::string in_one_line(const std::string& text) { return joined(split(visible(text), '\n'), "\\x0a"); }
 
-/// Throws Error(usage) for a path that TOML cannot hold: from the command line it may have any bytes.
+/// Throws Error(usage) for a path that TOML cannot hold; on the command line it may contain any bytes.
 void require_path_of_toml(const scenario::Scenario& scenario) {
   try {
     if (scenario::parse_scenario(scenario::resolved_toml(scenario), "scenario") == scenario) return;
   } catch (const Error&) {
-    // below
+    // reported below
   }
   throw Error(
       ExitCode::usage,
@@ -265,7 +265,7 @@ void require_path_of_toml(const scenario::Scenario& scenario) {
                   visible_word(scenario.deposition.file, 200)));
 }
 
-/// `base` with each value of an axis in turn.
+/// Returns `base` combined with each value of an axis.
 std::vector<std::vector<std::string>> combined(const std::vector<std::vector<std::string>>& base,
                                                const std::vector<std::vector<std::string>>& axis) {
   std::vector<std::vector<std::string>> all;
@@ -307,13 +307,13 @@ EnsembleManifest read_ensemble(const std::string& folder) {
   EnsembleManifest manifest;
   std::istringstream lines = text_stream(text.substr(0, seal));
   std::string line;
-  std::getline(lines, line);  // the first, which tells the version of the format
+  std::getline(lines, line);  // skips the first line, which holds the version of the format
   for (int number = 2; std::getline(lines, line); ++number) try {
       take_line(manifest, folder, line);
     } catch (const Error& error) {
       throw LocatedError(
           ExitCode::bad_data,
-          fmt::format("{}:{}:1: error: '{}' is no line that talus writes ({}); the runs of the "
+          fmt::format("{}:{}:1: error: '{}' is not a line that talus writes ({}); the runs of the "
                       "ensemble are not affected: begin another one from its scenario, and "
                       "move them there",
                       path, number, visible_word(line), error.what()));
@@ -376,7 +376,7 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
     if (is_known && !there->origin.bed.empty() && there->origin.bed != variant.origin.bed)
       throw Error(
           ExitCode::bad_data,
-          fmt::format("{} (deposition.file) holds another bed than when the ensemble in {} began with "
+          fmt::format("{} (deposition.file) holds a different bed than when the ensemble in {} began with "
                       "it; undo the change, give the changed bed another name, or the ensemble "
                       "another folder",
                       visible(variant.scenario.deposition.file), folder));
@@ -405,7 +405,7 @@ EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest
       all.variants = found.variants;
     }
   }
-  all.seeds = parse_seeds(seeds_text(sorted(all.seeds)));  // refuses too many of them
+  all.seeds = parse_seeds(seeds_text(sorted(all.seeds)));  // rejects too many seeds
   for (const Variant& variant : wanted.variants) {
     if (variant_called(all, variant.name) != nullptr) continue;
     all.variants.push_back(variant);
@@ -424,7 +424,7 @@ EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted) {
   prepare_folder(folder);
   EnsembleManifest all;
-  // Only one process at a time extends an ensemble; the others wait.
+  // Only one process at a time extends an ensemble; others wait.
   while_locked(manifest_path(folder) + ".lock", [&] { all = extend_locked(folder, wanted); });
   return all;
 }

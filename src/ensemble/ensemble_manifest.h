@@ -1,6 +1,6 @@
 #pragma once
-/// What an ensemble is: a small text file in its folder, from which any number of processes of any number of
-/// machines work.
+/// The definition of an ensemble: a small text file in its folder, used by any number of processes on any
+/// number of machines.
 
 #include <cstdint>
 #include <string>
@@ -12,52 +12,52 @@
 namespace talus::ensemble {
 
 struct EnsembleManifest {
-  std::string version = {};               ///< of the Talus that wrote it
+  std::string version = {};               ///< version of Talus that wrote it
   std::vector<std::uint64_t> seeds = {};  ///< ascending
-  std::string until = {};                 ///< "theta_c:0.2": no more members from then on; empty: all of them
-  std::vector<Variant> variants = {};     ///< their scenario files lie in the folder
+  std::string until =
+      {};  ///< for example "theta_c:0.2": no new members once it is reached; empty: all members
+  std::vector<Variant> variants = {};  ///< their scenario files are in the folder
   MemberTask task = {};
-  std::string keep = {};  ///< which runs stay once they are done (keeps_run); empty: all
+  std::string keep = {};  ///< selects the completed runs that are kept (keeps_frames); empty: all
 };
 
-/// DIR/ensemble.manifest.
+/// Returns DIR/ensemble.manifest.
 std::string manifest_path(const std::string& folder);
 
-/// Whether there is an ensemble in the folder.
+/// Whether the folder contains an ensemble.
 bool is_ensemble(const std::string& folder);
 
-/// The members, in files of the folder.
+/// Returns the plan of the members, with their files in the folder.
 EnsemblePlan plan_of(const EnsembleManifest& manifest, const std::string& folder);
 
-/// Reads manifest and scenarios. Throws Error(missing_input) where there is no ensemble, Error(bad_data)
-/// where the manifest is damaged, says what talus never writes (with its line), or where a scenario is not
-/// what the ensemble began with.
+/// Reads the manifest and the scenarios. Throws Error(missing_input) if there is no ensemble, and
+/// Error(bad_data) if the manifest is damaged or has a line that talus never writes (with its number), or if
+/// a scenario differs from the original one.
 EnsembleManifest read_ensemble(const std::string& folder);
 
-/// Variants of a scenario: each combination of a value of each axis ("contact.friction=0.3,0.5"), named by
-/// them (folder_name); without axes the scenario itself, without a name. Their seeds are 1 and count for
-/// nothing; the file of a bed is an absolute path, since members are computed from other places. Throws as
-/// read_scenario and parse_axis do, and Error(usage) for too many of them, and for a path that no scenario
-/// file can hold.
+/// Returns the variants of a scenario: one for each combination of values of the axes
+/// ("contact.friction=0.3,0.5"), named by folder_name. Without axes it returns the scenario itself, without a
+/// name. Their seed is 1 and has no effect. The file of a bed becomes an absolute path, because members are
+/// computed in other working directories. Throws the errors of read_scenario and parse_axis, and Error(usage)
+/// for too many variants and for a path that no scenario file can hold.
 std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
                                    const std::vector<std::string>& axes);
 
-/// Gives variants whose scenario an ensemble has already the names that they have there: earlier versions
-/// called them otherwise.
+/// Replaces the names of variants that an ensemble already contains by their stored names, because earlier
+/// versions named variants differently.
 void take_earlier_names(std::vector<Variant>& variants, const std::string& folder);
 
-/// Reads the beds of variants that take them from a file (deposition.file), and notes their hashes. Throws as
-/// bed_of_file does, unless the ensemble in the folder has the variant already, whose members report it; and
-/// Error(bad_data) where the file has held another bed when the ensemble began.
+/// Reads the beds of variants with deposition.file, and stores their hashes. Throws the errors of bed_of_file
+/// unless the ensemble in the folder already has the variant, whose members then report them. Throws
+/// Error(bad_data) if the file held a different bed when the ensemble began.
 void hash_beds(std::vector<Variant>& variants, const std::string& folder);
 
-/// Begins an ensemble in the folder, or adds to the one that is there what it lacks: seeds and variants.
-/// `until` and `keep` replace those before, unless they are empty. A variant that is not wanted is withdrawn
-/// where all that is known of it is that it fails: a member has failed, or its bed cannot be made, and no
-/// member has a run, is done or under way. The manifest is written last, whole or not at all. Returns what is
-/// there then. Throws Error(bad_data) where a variant of the same name has another
-/// scenario there, where none of the variants is there yet, or where the members have another task; otherwise
-/// as write_text does.
+/// Begins an ensemble in the folder, or adds missing seeds and variants to an existing one. `until` and
+/// `keep` replace the stored values unless they are empty. An unwanted variant is withdrawn if it has only
+/// failures: a member has failed or its bed cannot be made, and no member has a run, is done or is under way.
+/// The manifest is written last and atomically. Returns the resulting manifest. Throws Error(bad_data) if a
+/// variant of the same name has another scenario, if none of the variants exists yet, or if the members have
+/// another task; otherwise the errors of write_text.
 EnsembleManifest extend_ensemble(const std::string& folder, const EnsembleManifest& wanted);
 
 }  // namespace talus::ensemble

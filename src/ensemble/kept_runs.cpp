@@ -18,7 +18,7 @@
 namespace talus::ensemble {
 namespace {
 
-/// How many runs stay; nothing: all.
+/// Returns the number of runs that are kept; nothing means all.
 std::optional<std::size_t> number_kept(const std::string& keep) {
   if (keep.empty() || keep == "all") return std::nullopt;
   if (keep == "analysis") return 0;
@@ -31,7 +31,7 @@ std::optional<std::size_t> number_kept(const std::string& keep) {
                           visible_word(keep)));
 }
 
-/// Removes the folder of a run that is packed, unless somebody is at it; what stays does no harm.
+/// Removes the folder of a packed run unless another process uses it; a folder that remains is harmless.
 void discard_packed(const std::string& run) try {
   if (io::run_presence(run) == io::RunPresence::packed) io::discard_folder(run);
 } catch (const Error& error) {

@@ -8,7 +8,7 @@
 namespace talus::ensemble {
 namespace {
 
-/// The averages of a list, with room for so many points.
+/// Returns the averages of a list, with room for `points` points.
 AveragedList& averages_for(std::vector<AveragedList>& all, const NamedList& list, std::size_t points) {
   auto found = std::ranges::find(all, list.name, &AveragedList::name);
   if (found == all.end()) found = all.insert(all.end(), {list.name, list.unit, list.definition, list.width});
@@ -19,7 +19,7 @@ AveragedList& averages_for(std::vector<AveragedList>& all, const NamedList& list
   return *found;
 }
 
-/// Welford's update (1962).
+/// Updates mean and variance (Welford 1962).
 void add_value(AveragedList& list, std::size_t k, double value) {
   if (std::isnan(value)) return;
   list.count[k] += 1.0;
@@ -29,7 +29,7 @@ void add_value(AveragedList& list, std::size_t k, double value) {
   list.squares[k] += before * (value - list.mean[k]);
 }
 
-/// Adds the lists at the tilts (deg) of a member that belong to the points of a grid.
+/// Adds the lists of a member at the tilts (deg) that correspond to the points of a grid.
 void add_at(std::vector<AveragedList>& all, const MemberLists& lists, const std::vector<double>& tilts) {
   for (const NamedList& list : lists.lists) {
     AveragedList& averages = averages_for(all, list, tilts.size());

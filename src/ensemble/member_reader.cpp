@@ -43,7 +43,8 @@ const std::vector<analysis::Quantity>& numbers_of_members() {
   return table;
 }
 
-/// What averages are made of: no values of single grains, which are most of an analysis.
+/// Returns the quantities that are averaged. Values of single grains, which make up most of an analysis, are
+/// excluded.
 const std::vector<analysis::Quantity>& averaged_quantities() {
   static const std::vector<analysis::Quantity> table = rows_where([](const analysis::Quantity& quantity) {
     return analysis::is_number_of_run(quantity) || analysis::is_number_of_frame(quantity) ||
@@ -76,7 +77,8 @@ const MemberResult& keep(const Member& member, KnownMembers& known, KnownMembers
 }
 
 const MemberResult& read_parts(const Member& member, KnownMembers& known, bool whole) {
-  const KnownMembers::FileMark mark = mark_of(member.path);  // before it is read, lest it changes meanwhile
+  const KnownMembers::FileMark mark =
+      mark_of(member.path);  // recorded before reading, in case the file changes meanwhile
   const auto found = known.by_path.find(member.path);
   if (found != known.by_path.end() && (found->second.whole || !whole) && found->second.mark == mark)
     return found->second.result;
@@ -86,7 +88,7 @@ const MemberResult& read_parts(const Member& member, KnownMembers& known, bool w
 }  // namespace
 
 void require_own_run(const Member& member, const io::RunHeader& header) {
-  // Values are compared, not texts: a key that an earlier version did not have is at its default in it.
+  // Values are compared, not texts: a key that an earlier version did not have takes its default.
   const scenario::Scenario scenario = runs::stored_scenario(header, member.path);
   if (scenario != member.scenario)
     throw Error(
@@ -133,7 +135,7 @@ const MemberResult& analysed_member(const Member& member, KnownMembers& known) {
   if (!read.numbers.numbers.empty()) return read;
   const runs::RunView run = runs::analysed_run(member.path, analysis::AnalysisParameters(), {});
   if (!run.file->complete())
-    throw Error(ExitCode::bad_data, member.path + " is just being computed again; wait for its end");
+    throw Error(ExitCode::bad_data, member.path + " is being computed again; wait until it ends");
   return keep(member, known, {mark_of(member.path), true, result_of(member, *run.file, run.analysis)});
 }
 

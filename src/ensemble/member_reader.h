@@ -1,5 +1,5 @@
 #pragma once
-/// What the members of an ensemble have given, read from their run files.
+/// Results of the members of an ensemble, read from their run files.
 
 #include <cstdint>
 #include <map>
@@ -13,16 +13,16 @@
 
 namespace talus::ensemble {
 
-/// Throws Error(bad_data) where a run is not that of the member: of another scenario, seed or bed.
+/// Throws Error(bad_data) if a run has another scenario, seed or bed than the member.
 void require_own_run(const Member& member, const io::RunHeader& header);
 
-/// Whether the run of a member is complete. Throws as require_own_run and RunFile::open do.
+/// Whether the run of a member is complete. Throws the errors of require_own_run and RunFile::open.
 bool is_complete(const Member& member);
 
-/// What a process has read of members, each once as long as its file stays the same: every byte of a run file
-/// is compared with its hash, which takes a while where there are many.
+/// A cache of the members that a process has read. A member is read again only if its file changes, because
+/// every byte of a run file is compared with its hash, which is slow for many members.
 struct KnownMembers {
-  /// Which file it was; another one, or one that was written to, has another mark.
+  /// Identifies a file and its state; another file, or a modified one, has another mark.
   struct FileMark {
     std::uint64_t device = 0, inode = 0;
     std::int64_t size = 0, seconds = 0, nanoseconds = 0;
@@ -30,23 +30,23 @@ struct KnownMembers {
   };
   struct Known {
     FileMark mark;
-    bool whole = false;  ///< with series and lists
+    bool whole = false;  ///< includes series and lists
     MemberResult result;
   };
   std::map<std::string, Known> by_path;
 };
 
-/// The numbers of a member that is done, at least. The reference holds until its file is found changed.
-/// Throws as require_own_run and RunFile::open do.
+/// Returns the results of a completed member, at least its scalar ones. The reference is valid until its file
+/// is found changed. Throws the errors of require_own_run and RunFile::open.
 const MemberResult& read_member(const Member& member, KnownMembers& known);
 
-/// Takes members whose files are damaged for ones that wait, and says why. Those that read_member refuses for
-/// another reason stay done.
+/// Marks members with damaged files as waiting, and records the damage. Members that read_member refuses for
+/// another reason remain done.
 void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known);
 
-/// All of a member that is done, whose run may not be analysed yet, such as one that `talus run` has put
-/// there: it is then, and the analysis stored where it may be. Throws as analysed_run does as well, and
-/// Error(bad_data) where the run is just being computed again.
+/// Returns all results of a completed member. If its run has no valid analysis, such as one that `talus run`
+/// has put there, it is analysed first, and the analysis is stored if possible. Throws also the errors of
+/// analysed_run, and Error(bad_data) if the run is being computed again.
 const MemberResult& analysed_member(const Member& member, KnownMembers& known);
 
 }  // namespace talus::ensemble

@@ -24,22 +24,22 @@ constexpr const char* folder_ending = ".h5.run";
 
 constexpr const char* endings[] = {run_ending, folder_ending, failure_ending, old_table_ending};
 
-/// What one folder tells of its members, by the names of their runs without ending.
+/// The members found in one folder, by the names of their runs without extension.
 struct FolderNames {
   std::set<std::string> files;
-  std::map<std::string, int> claims;  ///< the highest of each
+  std::map<std::string, int> claims;  ///< highest claim of each run
 };
 
 FolderNames members_named_in(const fs::path& folder) {
   FolderNames names;
-  std::error_code error, unknown;  // a folder that is not there has no members yet
+  std::error_code error, unknown;  // a folder that does not exist has no members yet
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string file = entry->path().filename().string();
     if (const std::optional<ClaimName> claim = parse_claim_name(file)) {
       int& highest = names.claims.try_emplace(claim->run, claim->number).first->second;
       highest = std::max(highest, claim->number);
     } else if (file.ends_with(run_ending) && !entry->is_regular_file(unknown)) {
-      continue;  // no run file, whatever else it is
+      continue;  // not a run file
     } else if (std::ranges::any_of(endings, [&](const char* ending) { return file.ends_with(ending); })) {
       names.files.insert(file);
     }
@@ -103,11 +103,11 @@ MemberFailure read_failure(const std::string& run) {
   std::getline(lines, failure.message);
   std::getline(lines, failure.message);
   failure.message = visible(failure.message);
-  // A member with such a file has failed, whatever stands in it.
+  // A member with such a file has failed, whatever the file contains.
   if (failure.exit_code < 1 || failure.exit_code > 255)
     return {
         static_cast<int>(ExitCode::bad_data),
-        visible(failure_path(run)) + " is not as talus writes it, and does not tell why the member failed"};
+        visible(failure_path(run)) + " is not in the form that talus writes; the member's error is unknown"};
   return failure;
 }
 

@@ -30,7 +30,7 @@ MemberTask parse_task(const std::string& text, const std::string& path) {
     if (const auto plan = session::parse_plan(text.substr(std::char_traits<char>::length(trials_word))))
       return *plan;
   throw Error(ExitCode::bad_data,
-              fmt::format("{}: members with the task '{}' are not known to this version of Talus", path,
+              fmt::format("{}: this version of Talus does not know the task '{}' of members", path,
                           visible_word(text)));
 }
 

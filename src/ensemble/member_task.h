@@ -1,5 +1,5 @@
 #pragma once
-/// What the members of an ensemble are besides runs and their analyses.
+/// The tasks of the members of an ensemble in addition to runs and their analyses.
 
 #include <string>
 #include <variant>
@@ -8,23 +8,23 @@
 
 namespace talus::ensemble {
 
-/// A member is a run and its analysis, no more.
+/// No additional task: a member is a run and its analysis.
 struct PlainTask {
   bool operator==(const PlainTask&) const = default;
 };
 
-/// Periodic beds are analysed again for each reading of the paper's definitions (reproduction_values.h).
+/// Analyses periodic beds again for each reading of the paper's definitions (reproduction_values.h).
 struct ReadingsTask {
   bool operator==(const ReadingsTask&) const = default;
 };
 
-/// A PerturbationPlan: copies of the bed are pushed while the run goes on.
+/// The task of each member. A PerturbationPlan perturbs copies of the bed during the run.
 using MemberTask = std::variant<PlainTask, ReadingsTask, session::PerturbationPlan>;
 
-/// "readings", "trials --from 12 ...": what the manifest says of the task. Plain: empty.
+/// Returns the manifest's text of a task: "readings", "trials --from 12 ..."; empty for PlainTask.
 std::string task_text(const MemberTask& task);
 
-/// Throws Error(bad_data), naming `path`, where it is no such text.
+/// Parses such a text. Throws Error(bad_data), naming `path`, for any other text.
 MemberTask parse_task(const std::string& text, const std::string& path);
 
 }  // namespace talus::ensemble

@@ -17,11 +17,11 @@
 namespace talus::ensemble {
 namespace {
 
-/// What a run finds by itself, without an analysis.
+/// Results that the run itself computes, without an analysis.
 constexpr const char* angle_at_rest = "theta_r";
 constexpr std::array<const char*, 2> counted_steps = {"unconverged_steps_deposition", "unconverged_steps"};
 
-/// How many there are of it: elements, or thresholds.
+/// Returns the number of values of a result: its elements, or the thresholds.
 std::size_t count_of(const analysis::NumberOfRun& number, const analysis::Analysis& analysis) {
   const analysis::Quantity& quantity = analysis::quantity_of(number.quantity);
   if (number.place == analysis::Place::run)
@@ -39,7 +39,7 @@ std::vector<double> tilts_of(const std::vector<const analysis::FrameRecord*>& fr
   return tilts;
 }
 
-/// An empty list of the quantity.
+/// Returns an empty list of the quantity.
 NamedList list_called(const analysis::Quantity& quantity, std::size_t f) {
   return {element_name(quantity.name, f), analysis::scaled_unit(quantity.unit), quantity.definition, 0, {}};
 }
@@ -86,7 +86,7 @@ std::vector<std::string> numbers_of_run() {
 bool is_number_of_run(const std::string& name) {
   const std::vector<std::string> names = numbers_of_run();
   const std::size_t bracket = std::min(name.find('['), name.size());
-  const std::string element = name.substr(bracket);  // "[1]"
+  const std::string element = name.substr(bracket);  // for example "[1]"
   const std::size_t digits = element.find_first_not_of("0123456789", 1);
   const bool is_element =
       element.empty() || (digits != std::string::npos && digits > 1 && element.substr(digits) == "]");

@@ -14,11 +14,11 @@ namespace talus::ensemble {
 namespace {
 
 constexpr std::size_t most_seeds = 10000;
-constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();  // an integer of TOML
+constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();  // largest TOML integer
 
 [[noreturn]] void refuse_seeds(const std::string& text) {
   throw Error(ExitCode::usage, fmt::format("--seeds {}: expected seeds such as 1-4, 7 or 1-3,8, at most {}, "
-                                           "none of them above {}",
+                                           "none above {}",
                                            visible_word(text), most_seeds, largest_seed));
 }
 
@@ -75,7 +75,7 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan) {
     try {
       seconds.back() = session::estimate(variant.scenario).seconds;
     } catch (const Error&) {
-      continue;  // a bed of a file that is not there, say, is no reason to stop the other members
+      continue;  // one bad variant, such as one whose bed file is missing, must not stop the others
     }
   }
   return seconds;

@@ -1,5 +1,5 @@
 #pragma once
-/// A mean and its width as text.
+/// Formats a mean with its uncertainty.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 
 namespace talus::ensemble {
 
-/// "16.43 ± 0.21": the width, above 0, with two digits, and the mean with as many decimals. `sign`: a plus
-/// before a mean that is not negative.
+/// Formats "16.43 ± 0.21": the width, which must be positive, with two digits, and the mean with the same
+/// number of decimals. `sign` adds a plus before a non-negative mean.
 inline std::string plus_minus(double mean, double width, bool sign = false) {
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 12);
   return fmt::format(fmt::runtime(sign ? "{0:+.{2}f} ± {1:.{2}f}" : "{0:.{2}f} ± {1:.{2}f}"), mean, width,

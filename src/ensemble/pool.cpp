@@ -21,13 +21,13 @@
 namespace talus::ensemble {
 namespace {
 
-/// The signals that run_jobs waits for, kept from being delivered while it lives.
+/// Blocks the signals that run_jobs waits for during its lifetime.
 class HeldSignals {
  public:
   HeldSignals() {
     sigemptyset(&held_);
     for (const int signal : {SIGINT, SIGTERM, SIGCHLD}) sigaddset(&held_, signal);
-    struct sigaction hangup = {};  // ignored by nohup
+    struct sigaction hangup = {};  // nohup ignores it
     if (sigaction(SIGHUP, nullptr, &hangup) != 0 || hangup.sa_handler != SIG_IGN) sigaddset(&held_, SIGHUP);
     sigprocmask(SIG_BLOCK, &held_, &before_);
   }
@@ -35,7 +35,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  /// The next of them, or -1 after half a second without one.
+  /// Returns the next signal, or -1 after half a second without one.
   int wait() const {
     constexpr timespec half_a_second = {0, 500'000'000};
     return sigtimedwait(&held_, nullptr, &half_a_second);
@@ -54,21 +54,21 @@ pid_t start(const Job& job) {
   return process;
 }
 
-/// The last line of a job. On a full disk its log has none, and its exit code tells why.
+/// Returns the last line of a job. On a full disk its log has none, and the exit code indicates the reason.
 std::string said_in(const std::string& log, int code) {
   std::string said;
   try {
     said = last_line_of(log);
-  } catch (const Error&) {  // it is gone
+  } catch (const Error&) {  // the log no longer exists
   }
   if (!said.empty() || code != static_cast<int>(ExitCode::io_error)) return said;
   std::error_code unknown;
   const std::filesystem::space_info space = std::filesystem::space(parent_folder(log), unknown);
-  return !unknown && space.available < 65536 ? "no space is left on the disk of this folder"
+  return !unknown && space.available < 65536 ? "no space left on the disk of this folder"
                                              : "a file could not be read or written";
 }
 
-/// Takes the jobs out of `running` that have ended; those with an error go to `failed`.
+/// Removes the jobs that have ended from `running`; those with an error are added to `failed`.
 void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& failed) {
   for (auto child = running.begin(); child != running.end();) {
     int status = 0;
@@ -77,7 +77,7 @@ void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& faile
       ++child;
       continue;
     }
-    // Without a status (somebody else has it) nobody knows how it ended.
+    // Without a status (another process has collected it), the outcome is unknown.
     const int ended_with = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     const int code = ended < 0 ? static_cast<int>(ExitCode::internal) : ended_with;
     if (code != 0) failed.push_back({child->second->log, code, said_in(child->second->log, code)});
@@ -91,7 +91,7 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
                                 const std::function<bool()>& go_on) {
   for (const Job& job : jobs) {
     prepare_folder_of(job.log);
-    output_target(job.log);  // a FIFO would wait for somebody to read it
+    output_target(job.log);  // opening a FIFO would block
   }
   const HeldSignals signals;
   std::map<pid_t, const Job*> running;

@@ -13,7 +13,7 @@
 namespace talus::ensemble {
 namespace {
 
-/// States of tasks that are over; every other one is still to come to an end, those that Slurm may add too.
+/// Final states of tasks; every other state, also an unknown one, counts as unfinished.
 constexpr std::array<const char*, 10> ended_states = {"BOOT_FAIL", "CANCELLED", "COMPLETED", "DEADLINE",
                                                       "FAILED",    "NODE_FAIL", "PREEMPTED", "OUT_OF_MEMORY",
                                                       "TIMEOUT",   "REVOKED"};
@@ -30,8 +30,8 @@ std::vector<std::string> worker_words(const SlurmArray& array) {
   return words;
 }
 
-/// The log that the script writes to: for what Slurm itself has to say, of a time that is over or memory that
-/// was exceeded. In the path of its folder Slurm would expand % and take a backslash for a mark.
+/// Returns the option for the log of Slurm's own messages, for example about exceeded time or memory. Slurm
+/// would expand % and interpret backslashes in a path, so a folder with these gets no such log.
 std::string output_word(const std::string& folder) {
   const bool plain = folder.find_first_of("%\\") == std::string::npos;
   return plain ? "--output=workers/slurm-%A_%a.log" : "--output=/dev/null";
@@ -49,7 +49,7 @@ std::string time_text(double seconds) {
 std::string worker_command(const SlurmArray& array) {
   if ((array.program + array.folder).find('\n') != std::string::npos)
     throw Error(ExitCode::usage,
-                fmt::format("{}: the line of a command cannot hold a path with a line break; give the folder "
+                fmt::format("{}: a command line cannot contain a path with a line break; give the folder "
                             "another name",
                             array.folder));
   return fmt::format("{} ensemble work {} {}", shell_quoted(array.program), shell_quoted(array.folder),
@@ -58,28 +58,28 @@ std::string worker_command(const SlurmArray& array) {
 
 std::string job_script(const SlurmArray& array) {
   return fmt::format(R"(#!/bin/bash
-# One task of a job array: a worker of the ensemble in this folder. Written by talus ensemble submit; Slurm has its own
-# copy, so a change here does nothing.
+# One task of a job array: a worker of the ensemble in this folder. Written by talus ensemble submit. Slurm uses its
+# own copy, so changes here have no effect.
 talus={}
 cd -- {} || exit 66
 exec >>"workers/slurm-${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID.log" 2>&1
 
-# USR1 says that the time is nearly over; TERM that the job is cancelled, preempted or queued again, and then it is not
-# for this script to queue it again.
-told=''
+# USR1 signals that the time is nearly over. TERM signals that the job is cancelled, preempted or requeued; this script
+# must then not requeue it.
+signalled=''
 cancelled=''
-trap 'told=yes; kill -TERM "$worker"' USR1
-trap 'told=yes; cancelled=yes; kill -TERM "$worker"' TERM INT
+trap 'signalled=yes; kill -TERM "$worker"' USR1
+trap 'signalled=yes; cancelled=yes; kill -TERM "$worker"' TERM INT
 "$talus" ensemble work . {} &
 worker=$!
 while :; do
-  told=''
+  signalled=''
   wait "$worker"
   code=$?
-  [[ $told ]] || break # a signal ends the waiting, not the worker
+  [[ $signalled ]] || break # a signal interrupts the wait, not the worker
 done
 
-# 75: it stopped with its member at a checkpoint; above 128: it was killed. Anything else is its end.
+# 75: stopped with its member at a checkpoint; above 128: killed. Any other code is final.
 if [[ $cancelled ]] || ((code != 75 && code <= 128)); then
   exit "$code"
 fi

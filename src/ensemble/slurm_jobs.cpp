@@ -32,7 +32,7 @@ std::string memory_path(const std::string& folder, const std::string& job, const
   return (fs::path(slurm_folder(folder)) / fmt::format("task-{}_{}.csv", job, task)).string();
 }
 
-/// The number in "job-12.csv"; empty for another name.
+/// Returns the number in "job-12.csv"; empty for another name.
 std::string id_in(const std::string& name) {
   const std::string before = job_beginning, after = ending;
   if (!name.starts_with(before) || !name.ends_with(after) || name.size() < before.size() + after.size())
@@ -50,19 +50,19 @@ SlurmJob read_job(const std::string& folder, const std::string& id) {
   const std::vector<std::string> fields = split(row, ',');
   if (header + "\n" != job_header || fields.size() != 3 || fields[0] != id || !is_slurm_number(fields[2]))
     throw Error(ExitCode::bad_data,
-                path + ": expected a job as talus ensemble submit records it; remove the file, and end job " +
-                    id + " with scancel if it is there");
+                path + ": expected a job recorded by talus ensemble submit; remove the file, and end job " +
+                    id + " with scancel if it exists");
   return {id, fields[1], std::stoul(fields[2].substr(0, 9))};
 }
 
-/// Steps of a run that is under way; none where it has not begun, or cannot be read.
+/// Returns the committed steps of a run under way; 0 if it has not begun or cannot be read.
 std::uint64_t committed_steps(const std::string& run) {
   std::uint64_t steps = 0;
   try {
     for (const io::StoredSegment& segment : io::read_manifest(io::run_folder(run)).segments)
       steps += segment.steps;
   } catch (const Error&) {
-    return 0;  // the worker that takes it says what is wrong with it
+    return 0;  // the worker that computes it reports what is wrong
   }
   return steps;
 }
@@ -84,7 +84,7 @@ void forget_job(const std::string& folder, const SlurmJob& job) {
 
 std::vector<SlurmJob> recorded_jobs(const std::string& folder) {
   std::vector<SlurmJob> jobs;
-  std::error_code error;  // a folder that is not there has no jobs yet
+  std::error_code error;  // a folder that does not exist has no jobs yet
   for (const std::string& name : names_in(slurm_folder(folder), error))
     if (const std::string id = id_in(name); !id.empty()) jobs.push_back(read_job(folder, id));
   std::ranges::sort(jobs, {}, [](const SlurmJob& job) { return std::stoull(job.id); });
@@ -110,7 +110,7 @@ bool is_further(const EnsembleMark& now, const EnsembleMark& before) {
 }
 
 TaskMemory after_start(const TaskMemory& before, const EnsembleMark& now) {
-  // Members that were added or are tried again may set the mark back: that start has not helped either.
+  // Members that were added or are retried may set the mark back; such a start also counts as idle.
   return {now, is_further(now, before.mark) ? 0 : before.idle_starts + 1};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The jobs of an ensemble: files in its folder that tell which were submitted, and how far it was when a
-/// task last asked to be queued again.
+/// The Slurm jobs of an ensemble: files in its folder that record the submitted jobs, and the progress at the
+/// time when a task last asked to be requeued.
 
 #include <cstdint>
 #include <string>
@@ -11,44 +11,44 @@
 
 namespace talus::ensemble {
 
-/// DIR/slurm, with the script job.sh and a file for each job, job-12.csv.
+/// Returns DIR/slurm, which contains the script job.sh and a file for each job, job-12.csv.
 std::string slurm_folder(const std::string& folder);
 
-/// Remembers a job, and forgets it. A job has a file of its own, so that any number of processes may do it at
-/// a time. Throw as write_text and remove_file do.
+/// Record and remove a job. Each job has its own file, so that any number of processes may do this
+/// concurrently. Throw the errors of write_text and remove_file.
 void record_job(const std::string& folder, const SlurmJob& job);
 void forget_job(const std::string& folder, const SlurmJob& job);
 
-/// The jobs that were recorded and not forgotten, by their numbers. Throws Error(bad_data) where the file of
-/// one is not what record_job writes.
+/// Returns the jobs that were recorded and not removed, ordered by number. Throws Error(bad_data) if a file
+/// is not in the form that record_job writes.
 std::vector<SlurmJob> recorded_jobs(const std::string& folder);
 
-/// How far an ensemble is.
+/// Progress of an ensemble.
 struct EnsembleMark {
-  std::uint64_t done = 0;   ///< members
-  std::uint64_t steps = 0;  ///< committed in the runs that are under way
+  std::uint64_t done = 0;   ///< completed members
+  std::uint64_t steps = 0;  ///< steps committed in the runs under way
   bool operator==(const EnsembleMark&) const = default;
 };
 EnsembleMark mark_of(const EnsemblePlan& plan);
 
-/// Whether any member has come further from `before` to `now`. A member that is done counts no steps any
-/// more: the first of these numbers that differs tells.
+/// Whether `now` is further than `before`. The number of completed members is compared first, because the
+/// steps of a completed member no longer count.
 bool is_further(const EnsembleMark& now, const EnsembleMark& before);
 
-/// Starts of a task, one after the other, after which no member had come further.
+/// Largest number of consecutive starts of a task without progress of any member.
 inline constexpr int most_idle_starts = 3;
 
-/// What a task remembers from one start to the next.
+/// The progress that a task remembers from one start to the next.
 struct TaskMemory {
   EnsembleMark mark;
   int idle_starts = 0;
 };
 
-/// `before` with one start more, after which the ensemble is at `now`.
+/// Returns `before` updated by one more start, after which the ensemble is at `now`.
 TaskMemory after_start(const TaskMemory& before, const EnsembleMark& now);
 
-/// The memory of task `task` of a job, DIR/slurm/task-12_3.csv; that of a first start where there is none or
-/// it cannot be read.
+/// Reads the memory of task `task` of a job, DIR/slurm/task-12_3.csv; that of a first start if the file is
+/// missing or unreadable.
 TaskMemory read_memory(const std::string& folder, const std::string& job, const std::string& task);
 void write_memory(const std::string& folder, const std::string& job, const std::string& task,
                   const TaskMemory& memory);

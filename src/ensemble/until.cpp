@@ -24,11 +24,11 @@ Precision parse_precision(const std::string& text) {
     if (has_error && is_number_of_run(precision.quantity)) return precision;
     if (has_error)
       throw Error(ExitCode::usage,
-                  fmt::format("--until {}: {} is no number of a run; there are {}", visible_word(text),
+                  fmt::format("--until {}: {} is no result of a run; expected {}", visible_word(text),
                               visible_word(precision.quantity), joined(numbers_of_run(), ", ")));
   }
   throw Error(ExitCode::usage,
-              fmt::format("--until {}: expected a quantity and the standard error asked of its mean, such as "
+              fmt::format("--until {}: expected a quantity and the standard error of its mean, such as "
                           "theta_c:0.2 (deg)",
                           visible_word(text)));
 }
@@ -41,7 +41,7 @@ std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vecto
     if (states[m].stage != MemberStage::done) continue;
     const Member& member = plan.members[m];
     numbers[m] = read_member(member, known).numbers;
-    // Nothing is random in the bed of a file, so there it may be the same for all seeds.
+    // A bed from a file has no random element and may be the same for all seeds.
     if (member.scenario.deposition.method == scenario::DepositionMethod::file) continue;
     const auto [first, is_new] = ends.emplace(std::pair(member.variant, numbers[m].state_hash), &member);
     if (!is_new)

@@ -1,5 +1,5 @@
 #pragma once
-/// When an ensemble knows enough: the standard error that is asked of a mean.
+/// The stopping criterion of an ensemble: the required standard error of a mean.
 
 #include <string>
 #include <vector>
@@ -10,26 +10,27 @@
 
 namespace talus::ensemble {
 
-/// "theta_c:0.2": the standard error of the mean of theta_c, in the unit of tables (deg).
+/// For example "theta_c:0.2": the required standard error of the mean of theta_c, in the unit of tables
+/// (deg).
 struct Precision {
   std::string quantity;
   double error = 0.0;
 };
 
-/// Fewer values than this have no error that means anything.
+/// The standard error is unreliable with fewer values.
 inline constexpr int least_members = 5;
 
-/// Throws Error(usage), naming --until, where the text has another form, or the quantity is no number of a
-/// run.
+/// Parses a criterion. Throws Error(usage), naming --until, if the text has another form or the quantity is
+/// not a scalar result.
 Precision parse_precision(const std::string& text);
 
-/// The numbers of the members that are done, in the order of the plan; of the others nothing. Throws as
-/// read_member does, and Error(bad_data) where two seeds of a variant have the same state hash.
+/// Returns the results of the completed members, in the order of the plan, and empty results for the others.
+/// Throws the errors of read_member, and Error(bad_data) if two seeds of a variant have the same state hash.
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states,
                                       KnownMembers& known);
 
-/// Whether the mean of each variant is known that well, each from `least_members` values or more. `numbers`
-/// as numbers_of gives them.
+/// Whether the mean of each variant has that precision, with at least `least_members` values. `numbers` comes
+/// from numbers_of.
 bool is_reached(const Precision& precision, const EnsemblePlan& plan,
                 const std::vector<MemberNumbers>& numbers);
 

@@ -22,18 +22,18 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A worker on its way.
+/// State of a worker.
 struct Worker {
   const WorkerOptions& options;
   ClaimWatch watch;
-  std::map<std::string, std::string> waits_for = {};  ///< who writes the run of which member, as was told
-  std::set<std::string> refused = {};                 ///< members that ended with 73 once
+  std::map<std::string, std::string> waits_for = {};  ///< last reported writer of the run of each member
+  std::set<std::string> refused = {};                 ///< members that have ended once with exit code 73
   KnownMembers known = {};
   Clock::time_point begin = Clock::now();
   WorkerEnd end = {};
 };
 
-/// Members by their estimates, the longest first; those that take the same time in the order of the plan.
+/// Returns the members by descending estimated time; equal times keep the order of the plan.
 std::vector<std::size_t> longest_first(const EnsemblePlan& plan) {
   const std::vector<double> of_variant = estimated_seconds(plan);
   std::vector<std::size_t> order(plan.members.size());
@@ -48,14 +48,14 @@ struct Taken {
   Claim claim;
 };
 
-/// Whether a claim that was just taken is that of a member which still has to be computed.
+/// Whether a newly acquired claim is valid, for a member that still has to be computed.
 bool still_ours(const EnsemblePlan& plan, std::size_t member, const Claim& claim) {
   const MemberState now = look_at_members(plan)[member];
   return now.stage == MemberStage::claimed && now.claim == claim.number();
 }
 
-/// Whether somebody writes the run of a member, such as `talus run --resume`, or a process whose worker was
-/// taken for dead. Each time that is another one, it is told who.
+/// Whether another process writes the run of a member, such as `talus run --resume`, or a process whose
+/// worker was considered dead. Reports each new writer.
 bool is_written(const Member& member, Worker& worker) {
   const std::string writer = io::writer_of(io::run_folder(member.path));
   if (writer.empty()) {
@@ -68,12 +68,12 @@ bool is_written(const Member& member, Worker& worker) {
   return true;
 }
 
-/// What a look at all members gave.
+/// The result of scanning all members.
 struct Look {
   std::optional<Taken> taken;
   std::size_t alive = 0;
-  std::size_t unknown = 0;  ///< claims that have to be watched for longer
-  std::size_t written = 0;  ///< members whose runs others write, which are waited for
+  std::size_t unknown = 0;  ///< claims that must be watched for longer
+  std::size_t written = 0;  ///< members whose runs other processes write, to be awaited
 };
 
 Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states, Worker& worker) {
@@ -101,7 +101,7 @@ Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states,
   return look;
 }
 
-/// What is left of the time of the worker, as talus reads it; nothing where it has no end.
+/// Returns the remaining time of the worker, formatted for talus; nothing without a limit.
 std::optional<std::string> time_left(const Worker& worker) {
   if (!worker.options.max_wall) return std::nullopt;
   const double left =
@@ -111,7 +111,7 @@ std::optional<std::string> time_left(const Worker& worker) {
   return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
 }
 
-/// One process computes the member and analyses it, while this one keeps the claim alive.
+/// Computes and analyses the member in another process, and keeps the claim alive meanwhile.
 void compute(Worker& worker, Taken& taken) {
   const Member& member = taken.member;
   std::vector<std::string> arguments = {"ensemble", "member", path_word(worker.options.folder),
@@ -126,21 +126,22 @@ void compute(Worker& worker, Taken& taken) {
   const std::vector<FailedJob> failed =
       run_jobs({{std::move(arguments), file_beside(member.path, ".log")}}, "the worker", keep_claim);
   const int code = failed.empty() ? 0 : failed.front().exit_code;
-  // Somebody else goes on with it: what a process says that was taken for dead is no failure of the member.
+  // Another worker continues the member, so that the error of a process that was considered dead does not
+  // count as a failure.
   if (lost || (code != 0 && !taken.claim.beat())) return;
   if (worker.options.tell) worker.options.tell(member.name, code);
   if (code == static_cast<int>(ExitCode::stopped))
     throw Error(ExitCode::stopped,
-                "the worker was stopped; the members under way go on from their checkpoints");
+                "the worker was stopped; the members under way resume from their checkpoints");
   if (code == 0) {
     ++worker.end.done;
     return;
   }
-  // Another process was at the run, maybe one whose worker was taken for dead: once that is no failure
-  // either.
+  // Another process was writing the run, perhaps one whose worker was considered dead; the first time does
+  // not count as a failure either.
   if (code == static_cast<int>(ExitCode::cannot_create) && worker.refused.insert(member.name).second) return;
-  // Whoever kills all that a job has started kills this worker too, maybe a moment after its member: then it
-  // is not the member that has failed.
+  // A signal to all processes of a job also ends this worker, perhaps a moment after its member. In that case
+  // the member has not failed.
   if (code > 128) std::this_thread::sleep_for(std::chrono::seconds(1));
   record_failure(member.path, {code, failed.front().said});
   ++worker.end.failed;
@@ -175,7 +176,7 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
     else if (look.unknown + look.written == 0)
       return worker.end;
     else {
-      time_left(worker);  // throws when it is over
+      time_left(worker);  // throws when the time is over
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }
   }
