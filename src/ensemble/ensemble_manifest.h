@@ -14,9 +14,8 @@ namespace talus::ensemble {
 struct EnsembleManifest {
   std::string version = {};               ///< version of Talus that wrote it
   std::vector<std::uint64_t> seeds = {};  ///< ascending
-  std::string until =
-      {};  ///< for example "theta_c:0.2": no new members once it is reached; empty: all members
-  std::vector<Variant> variants = {};  ///< their scenario files are in the folder
+  std::string until = {};                 ///< "theta_c:0.2": no new members once reached; empty: all members
+  std::vector<Variant> variants = {};     ///< their scenario files are in the folder
   MemberTask task = {};
   std::string keep = {};  ///< selects the completed runs that are kept (keeps_frames); empty: all
 };

@@ -44,7 +44,7 @@ struct EnsemblePlan {
 };
 
 /// Parses the seeds of "1-4", "7" or "1-3,8"; returns them in ascending order, each once. Throws Error(usage)
-/// if they exceed the number of members or the largest seed allowed.
+/// if there are too many, or if one exceeds the largest seed of a scenario.
 std::vector<std::uint64_t> parse_seeds(const std::string& text);
 
 /// Returns the plan with every variant and seed, in files below `folder`.

@@ -23,7 +23,8 @@ std::string path_in(const ExportPlan& plan, const std::string& name) {
   return (std::filesystem::path(plan.output) / name).string();
 }
 
-/// "frames/grains_0012.vtp" of frame 12: names sort by time.
+/// Returns the file name of a frame, such as "frames/grains_0012.vtp" for frame 12, so that names sort by
+/// time.
 std::string frame_name(const char* what, std::size_t number, std::string_view ending) {
   return fmt::format("{}_{:04}{}", what, number, ending);
 }
@@ -32,7 +33,7 @@ std::string frame_name(const char* what, std::size_t number, std::string_view en
 void for_each_frame(const io::RunFile& run, const ExportPlan& plan, const Watch& watch,
                     const std::function<void(const analysis::GrainSource&)>& write) {
   if (run.frame_count() == 0)
-    throw Error(ExitCode::bad_data, "the run has no frames yet: the first is that of the bed at rest");
+    throw Error(ExitCode::bad_data, "the run has no frames yet: the first one is the bed at rest");
   const RunStatics& statics = run.header().statics;
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   const analysis::Analysis analysis = analysis::begin_analysis(statics, plan.parameters, theta_c);
@@ -55,7 +56,7 @@ void for_each_frame(const io::RunFile& run, const ExportPlan& plan, const Watch&
 
 void write(OutputFile& file, std::string_view text) { file.write(std::as_bytes(std::span(text))); }
 
-/// The .pvd are written last: they name files that are there.
+/// Writes the .pvd files last, because they refer to the other files.
 void export_paraview(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
   prepare_folder(path_in(plan, "frames"));
   std::vector<PvdEntry> grains, contacts;
@@ -82,7 +83,7 @@ void export_fields(const io::RunFile& run, const ExportPlan& plan, const Watch& 
   io::write_text(path_in(plan, "fields.pvd"), pvd_text(fields));
 }
 
-/// All frames one after the other in one file, below a head.
+/// Writes all frames consecutively to one file, after a header.
 void export_series(const io::RunFile& run, const ExportPlan& plan, const Watch& watch, std::string_view head,
                    std::string (*text_of)(const analysis::GrainSource&)) {
   prepare_folder_of(plan.output);
@@ -92,7 +93,7 @@ void export_series(const io::RunFile& run, const ExportPlan& plan, const Watch& 
   file.commit();
 }
 
-/// Whether the output is the name of a file, rather than of a folder.
+/// Whether the output is the name of a file rather than of a folder.
 bool is_file_name(const ExportPlan& plan) { return plan.output.ends_with(entry_of(plan.format).ending); }
 
 std::string network_path(const ExportPlan& plan, std::size_t number) {
@@ -106,7 +107,7 @@ void export_networks(const io::RunFile& run, const ExportPlan& plan, const Watch
   });
 }
 
-/// A table in a file, the first line from the first frame.
+/// A table in a file, whose header comes from the first frame.
 class CsvFile {
  public:
   explicit CsvFile(const std::string& path) : file_(path) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// Frames of a run as files of a format.
+/// Exports frames of a run to files of a format.
 
 #include <cstddef>
 #include <string>
@@ -16,24 +16,24 @@ namespace talus::exports {
 struct ExportPlan {
   ExportFormat format = ExportFormat::paraview;
   std::string output;               ///< file or folder
-  std::vector<std::size_t> frames;  ///< numbers in the run, ascending; none where the format has no frames
-  bool flow = false;                ///< where it has none: also what was observed after failure
-  analysis::AnalysisParameters parameters;  ///< of overloaded grains, their lengths and clusters
+  std::vector<std::size_t> frames;  ///< indices in the run, ascending; empty if the format has no frames
+  bool flow = false;                ///< formats without frames: also export what was observed after failure
+  analysis::AnalysisParameters parameters;  ///< parameters of overloaded grains, their lengths and clusters
   double field_width = 10.0;                ///< D: diameter of the coarse-graining function of vti
-  std::string run;                          ///< path of the run, where a format tells its name
-  analysis::Analysis analysis;              ///< of the run by these parameters, where the format needs it
+  std::string run;                          ///< path of the run, for formats that name it
+  analysis::Analysis analysis;  ///< analysis of the run with these parameters, for formats that need it
 };
 
-/// Throws Error(usage) where a format that writes one file has another ending than the name of the output.
+/// Throws Error(usage) if the format writes one file and `output` does not have its extension.
 void check_output_name(ExportFormat format, const std::string& output);
 
-/// The files that a plan writes. Throws Error(usage) where there are several frames, each in a file of its
-/// own, and the output is the name of one file.
+/// Returns the files that a plan writes. Throws Error(usage) if it has several frames, each in its own file,
+/// and the output is the name of one file.
 std::vector<std::string> files_of(const ExportPlan& plan);
 
-/// Writes them, each whole or not at all, and makes the folder where it is missing. Frames are read one by
-/// one. Returns how many frames there are, or rows of observables. Throws Error(stopped) where it was
-/// stopped, Error(bad_data) where the run has no frames, and as RunFile::frame and write_text do.
+/// Writes the files, each atomically, and creates the folder if it is missing. Frames are read one by one.
+/// Returns the number of frames, or of rows of observables. Throws Error(stopped) if it was stopped,
+/// Error(bad_data) if the run has no frames, and the errors of RunFile::frame and write_text.
 std::size_t export_files(const io::RunFile& run, const ExportPlan& plan, const Watch& watch);
 
 }  // namespace talus::exports

@@ -8,7 +8,7 @@
 namespace talus::exports {
 namespace {
 
-/// Where other programs have a name of their own; empty: as in other formats.
+/// Names of a quantity in other programs; empty: the same name as in other formats.
 struct OtherNames {
   std::string_view name, xyz, lammps;
 };
@@ -25,7 +25,8 @@ OtherNames names_elsewhere(const analysis::FrameQuantity& field) {
   return found == std::end(other_names) ? OtherNames{} : *found;
 }
 
-/// "_2" of the factor 2, "_1_5" of 1.5: a dot in a name means a component to OVITO.
+/// Returns the suffix of a factor: "_2" for 2, "_1_5" for 1.5. OVITO reads a dot in a name as the start of a
+/// component.
 std::string ending_of(double factor) {
   std::string text = fmt::format("_{}", factor);
   std::ranges::replace(text, '.', '_');
@@ -37,7 +38,7 @@ std::vector<FieldColumn> columns(std::span<const analysis::FrameQuantity> fields
   std::vector<FieldColumn> found;
   for (const analysis::FrameQuantity& field : fields) {
     if (field.name.empty() || !analysis::is_of_frame(field))
-      continue;  // the centre, and what is measured otherwise
+      continue;  // the centre, and quantities that are measured in other ways
     const bool by_threshold = field.need == analysis::FrameNeed::threshold;
     if (!by_threshold) found.push_back({field, "", field.values(frame, 0)});
     for (std::size_t f = 0; by_threshold && f < frame.thresholds.size(); ++f)

@@ -1,7 +1,7 @@
 #pragma once
 /// The quantities of a frame (frame_quantities.h) as columns, in the order of their table, which all writers
-/// go by; and what other programs call some of them. Centres of grains are not among them: each format has a
-/// place of its own for these.
+/// follow; and the names that other programs use for some of them. Centres of grains are excluded, because
+/// each format stores them in its own place.
 
 #include <cstddef>
 #include <string>
@@ -15,26 +15,26 @@ namespace talus::exports {
 /// A quantity of a frame.
 struct FieldColumn {
   const analysis::FrameQuantity& field;
-  std::string ending;          ///< "_1.5" as "_1_5": of its threshold, if it has one
-  std::vector<double> values;  ///< row by row
+  std::string ending;          ///< suffix of its threshold, if it has one: "_1_5" for 1.5
+  std::vector<double> values;  ///< one entry per row
 
   std::string name() const { return std::string(field.name) + ending; }
 };
 
-/// In tables these columns of grains, id and type, come before the centre.
+/// Number of columns of grains, id and type, that precede the centre in tables.
 inline constexpr std::size_t columns_before_centre = 2;
 
-/// Of all grains, floor included, in the order of their ids.
+/// Returns the columns of all grains, floor included, in the order of their ids.
 std::vector<FieldColumn> grain_columns(const analysis::GrainSource& frame);
-/// Of all contacts, in the order of their keys.
+/// Returns the columns of all contacts, in the order of their keys.
 std::vector<FieldColumn> contact_columns(const analysis::GrainSource& frame);
 
-/// Names of the components of a column in tables: "velocity_x", "velocity_y", "lc_1_5".
+/// Returns the names of a column's components in tables: "velocity_x", "velocity_y", "lc_1_5".
 std::vector<std::string> component_names(const FieldColumn& column);
 
-/// The name in extended XYZ, by which OVITO knows it.
+/// Returns the name in extended XYZ by which OVITO recognises the quantity.
 std::string xyz_name(const FieldColumn& column);
-/// Those of the components in a LAMMPS dump, with blanks between.
+/// Returns the names of the components in a LAMMPS dump, separated by blanks.
 std::string lammps_names(const FieldColumn& column);
 
 }  // namespace talus::exports

@@ -24,9 +24,9 @@ constexpr auto entries = std::to_array<FormatEntry>({
     {ExportFormat::csv, "csv", "pandas, R and spreadsheets", ExportOutput::folder, "",
      "frames.csv, grains.csv and contacts.csv, one row for each"},
     {ExportFormat::observables, "observables", "pandas, R and spreadsheets", ExportOutput::file, ".csv",
-     "observables of the tilt as CSV, one row for each time that they were recorded", false},
+     "observables of the tilt as CSV, one row for each time at which they were recorded", false},
     {ExportFormat::html, "html", "web browsers", ExportOutput::file, ".html",
-     "one page with maps, time line and curves, which needs neither Talus nor a network", true, true},
+     "one page with maps, time line and curves, readable without Talus or a network", true, true},
 });
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The formats that runs are exported to, in one table: --help, messages and docs/export.md go by it.
+/// The export formats, in one table that --help, messages and docs/export.md follow.
 
 #include <optional>
 #include <span>
@@ -10,29 +10,29 @@ namespace talus::exports {
 
 enum class ExportFormat { paraview, vti, xyz, lammps, graphml, csv, observables, html };
 
-/// What the output of a format is called.
+/// The kind of output of a format.
 enum class ExportOutput {
   folder,          ///< a folder of files
-  file,            ///< one file of all frames
-  file_per_frame,  ///< one file; a folder of them where there are several frames
+  file,            ///< one file with all frames
+  file_per_frame,  ///< one file, or a folder of files if there are several frames
 };
 
 struct FormatEntry {
   ExportFormat format;
-  std::string_view name;     ///< as in --to
-  std::string_view program;  ///< who reads it
+  std::string_view name;     ///< name in --to
+  std::string_view program;  ///< programs that read it
   ExportOutput output;
-  std::string_view ending;  ///< of the name of a file; empty for a folder
-  std::string_view help;    ///< a line for users: what is written
+  std::string_view ending;  ///< extension of the file name; empty for a folder
+  std::string_view help;    ///< one line of help: the contents
   bool has_frames = true;
-  bool needs_analysis = false;  ///< of the whole run
+  bool needs_analysis = false;  ///< needs the analysis of the entire run
 };
 
-/// All of them, in the order in which they are listed to users.
+/// Returns all formats, in the order in which they are listed to users.
 std::span<const FormatEntry> export_formats();
 const FormatEntry& entry_of(ExportFormat format);
 std::optional<ExportFormat> export_format(std::string_view name);
-/// "paraview: a folder ..., for ParaView; ...", of all.
+/// Returns a list of all formats: "paraview: a folder ..., for ParaView; ...".
 std::string list_of_formats();
 
 }  // namespace talus::exports

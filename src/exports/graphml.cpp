@@ -19,7 +19,7 @@ struct Key {
   std::string_view unit, definition;
 };
 
-/// Its identity is that of its owner and name: "node.radius".
+/// Returns the XML of a key. Its id consists of owner and name: "node.radius".
 std::string key_text(const Key& key) {
   const std::string unit = key.unit == "1" || key.unit.empty() ? "" : fmt::format(", {}", key.unit);
   return fmt::format(

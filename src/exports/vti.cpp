@@ -12,7 +12,7 @@
 namespace talus::exports {
 namespace {
 
-constexpr double points_across = 10.0;  // the coarse-graining function
+constexpr double points_across = 10.0;  // grid points per diameter of the coarse-graining function
 
 void append(std::vector<double>& values, const Vec2& vector) {
   values.insert(values.end(), {vector.x, vector.y});
@@ -36,7 +36,7 @@ constexpr auto all_grid_fields = std::to_array<GridField>({
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        append(values, at.momentum);
      }},
-    {"velocity", analysis::FieldShape::vector, "m/s", "momentum over density; NaN where nothing is",
+    {"velocity", analysis::FieldShape::vector, "m/s", "momentum over density; NaN without mass",
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        append(values, at.velocity());
      }},
@@ -45,7 +45,7 @@ constexpr auto all_grid_fields = std::to_array<GridField>({
        append(values, at.stress());
      }},
     {"contact_stress", analysis::FieldShape::tensor, "Pa",
-     "stress of the contact forces along the branches between centres, at floor and walls from a centre to "
+     "stress of the contact forces along the branches between centres, at floor and walls from the centre to "
      "the contact; compression positive, the index of the branch first",
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        append(values, at.contact_stress);
@@ -59,7 +59,7 @@ constexpr auto all_grid_fields = std::to_array<GridField>({
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        values.push_back(stress::stress_state(at.stress()).mean);
      }},
-    {"stress_ratio", analysis::FieldShape::scalar, "1", "Q/P of the stress; NaN where P is not above 0",
+    {"stress_ratio", analysis::FieldShape::scalar, "1", "Q/P of the stress; NaN unless P is positive",
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        values.push_back(stress::stress_state(at.stress()).ratio);
      }},
@@ -83,7 +83,7 @@ constexpr auto all_grid_fields = std::to_array<GridField>({
        values.push_back(at.velocity_gradient.yx - at.velocity_gradient.xy);
      }},
     {"temperature", analysis::FieldShape::scalar, "m^2/s^2",
-     "granular temperature, half the mean square of the velocities about one that is linear in space; NaN "
+     "granular temperature, half the mean square of the velocities about a linear velocity field; NaN "
      "with fewer than four grains",
      [](std::vector<double>& values, const analysis::CoarseField& at, double) {
        values.push_back(at.temperature);

@@ -24,7 +24,7 @@ constexpr const char* type_name<std::int32_t> = "Int32";
 template <>
 constexpr const char* type_name<std::int64_t> = "Int64";
 
-/// The number of bytes, and the bytes.
+/// Returns the number of bytes followed by the bytes, encoded.
 template <typename Number>
 std::string encoded(const std::vector<Number>& values) {
   const std::uint64_t size = values.size() * sizeof(Number);
@@ -34,7 +34,7 @@ std::string encoded(const std::vector<Number>& values) {
   return base64(bytes);
 }
 
-/// A number of the frame as a whole.
+/// Returns a scalar of the entire frame.
 std::string field_datum(const char* type, std::string_view name, const std::string& value,
                         std::string_view unit) {
   return fmt::format(

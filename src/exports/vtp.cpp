@@ -16,7 +16,7 @@ std::string column_array(const FieldColumn& column) {
                    column.values);
 }
 
-/// Cells of `size` points each, which follow each other.
+/// Returns cells of `size` consecutive points each.
 std::string cells(std::string_view kind, std::size_t count, std::size_t size) {
   std::vector<std::int64_t> connectivity, offsets;
   for (std::size_t k = 0; k < count * size; ++k) connectivity.push_back(static_cast<std::int64_t>(k));
@@ -36,7 +36,7 @@ std::string piece_head(std::size_t points, std::size_t vertices, std::size_t lin
       points, vertices, lines);
 }
 
-/// Centre of a, and where the line to b ends.
+/// Returns for each contact the centre of a and the end point of the line to b.
 std::vector<double> line_ends(const analysis::GrainSource& of) {
   const Frame& frame = of.frame;
   const FrameContacts& contacts = frame.contacts;

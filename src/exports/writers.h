@@ -1,5 +1,5 @@
 #pragma once
-/// What the writers of all formats make of a frame.
+/// Frames as text in all export formats.
 
 #include <span>
 #include <string>
@@ -14,83 +14,84 @@
 namespace talus::exports {
 
 // bounds.cpp
-// The box around a bed, as formats of molecular dynamics want one.
+// The box around a bed, which formats of molecular dynamics require.
 
-/// m. Along x the period, or from wall to wall; along y from the lowest to the highest point of the grains of
-/// the frame; across the plane, where nothing is, a mean diameter.
+/// The box, m. Along x it is the period, or reaches from wall to wall; along y it reaches from the lowest to
+/// the highest point of the grains in the frame; in the empty direction z it is one mean diameter thick.
 struct BedBounds {
   double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0, z_low = 0.0, z_high = 0.0;
 };
 BedBounds bed_bounds(const analysis::GrainSource& frame);
 
 // csv.cpp
-// Frames and observables as tables. The first line names columns, with their units in brackets: "time (s)".
-// A number that is none is an empty field.
+// Frames and observables as tables. The first line names columns, with their units in brackets: "time (s)". A
+// missing number is an empty field.
 
-/// Rows of a frame, and what they are called.
+/// Rows of a frame, and their header.
 struct CsvRows {
   std::string head, rows;
 };
 
-/// A row for the frame: its number, step, time and tilt.
+/// Returns a row for the frame: its number, step, time and tilt.
 CsvRows frame_csv(const analysis::GrainSource& frame);
-/// A row for each grain, and for each contact; the first column is the number of the frame.
+/// Return a row for each grain or contact; the first column is the number of the frame.
 CsvRows grains_csv(const analysis::GrainSource& frame);
 CsvRows contacts_csv(const analysis::GrainSource& frame);
 
-/// All of a series.
+/// Returns a table of all observables.
 std::string observables_csv(std::span<const ObservableRow> rows);
 
 // xyz.cpp
 // Frames as extended XYZ, for OVITO and ASE.
 
-/// A frame, to follow the one before in the same file. Lengths are in mean diameters, all else is SI: OVITO
-/// takes coordinates that all lie between 0 and 1 for shares of the box, as those of a bed shorter than a
-/// metre would. The line of the box has the mean diameter in m.
+/// Returns a frame, to be appended to the preceding one in the same file. Lengths are in mean diameters, and
+/// everything else is in SI units: OVITO interprets coordinates that all lie between 0 and 1 as fractions of
+/// the box, which would happen for a bed shorter than a metre. The line of the box contains the mean diameter
+/// in m.
 std::string xyz_text(const analysis::GrainSource& frame);
 
 // lammps_dump.cpp
 // Frames as the text of a LAMMPS dump (custom style), for OVITO.
 
-/// Before the first frame, and only there, as LAMMPS does: OVITO would not find the frames after a second
-/// one.
+/// Written only before the first frame, as LAMMPS does; after a second header, OVITO would not find the
+/// frames.
 inline constexpr std::string_view lammps_dump_head = "ITEM: UNITS\nsi\n";
 
-/// A frame, to follow the one before in the same file: SI units (`units si`), without a column z, by which
-/// OVITO knows that it is two-dimensional.
+/// Returns a frame, to be appended to the preceding one in the same file: SI units (`units si`), and no
+/// column z, which shows OVITO that the frame is two-dimensional.
 std::string lammps_dump_text(const analysis::GrainSource& frame);
 
 // graphml.cpp
-// The contact network of a frame as GraphML, for networkx and the like.
+// The contact network of a frame as GraphML, for networkx and similar programs.
 
-/// An undirected graph: grains, and planes that something touches, are nodes with their ids; contacts are
-/// edges, from a to b. Two grains of a short periodic bed may touch twice.
+/// Returns an undirected graph: grains, and planes with contacts, are nodes with their ids; contacts are
+/// edges from a to b. Two grains of a short periodic bed may touch twice.
 std::string graphml_text(const analysis::GrainSource& frame);
 
 // vtp.cpp
-// Frames as XML PolyData of VTK, for ParaView.
+// Frames as VTK XML PolyData, for ParaView.
 
-/// Grains as points (vertices), m, with their fields as point data.
+/// Returns grains as points (vertices), m, with their fields as point data.
 std::string grains_vtp(const analysis::GrainSource& frame);
 
-/// Contacts as lines, m, each with end points of its own: from the centre of a to that of b, or to the
-/// contact point where b is a plane. Across the periodic edge a line goes on to the image of b. Fields are
-/// cell data, and normal forces point data too, as filters that draw tubes want them.
+/// Returns contacts as lines, m, each with its own end points: from the centre of a to that of b, or to the
+/// contact point if b is a plane. Across the periodic edge a line continues to the image of b. Fields are
+/// cell data; normal forces are also point data, which filters that draw tubes require.
 std::string contacts_vtp(const analysis::GrainSource& frame);
 
 /// A file of a series.
 struct PvdEntry {
   double time = 0.0;  ///< s
-  std::string file;   ///< seen from the .pvd
+  std::string file;   ///< path relative to the .pvd
 };
 
-/// A .pvd: files over time.
+/// Returns a .pvd: files over time.
 std::string pvd_text(std::span<const PvdEntry> entries);
 
 // vti.cpp
-// Coarse-grained fields of frames on a grid, as XML ImageData of VTK, for ParaView.
+// Coarse-grained fields of frames on a grid, as VTK XML ImageData, for ParaView.
 
-/// A field of the bed as a continuum; docs/export.md is compared with their table by a test.
+/// A field of the bed as a continuum; a test compares docs/export.md with the table of these.
 struct GridField {
   std::string_view name;
   analysis::FieldShape shape = analysis::FieldShape::scalar;
@@ -101,21 +102,21 @@ struct GridField {
 };
 std::span<const GridField> grid_fields();
 
-/// Points in rows, from the lowest row up and along x in each, m. Around the bed they go on for the cutoff of
-/// the coarse-graining function, beyond which nothing is: a sum over all of them, times dx dy, is an integral
-/// over the bed. Around a period they go once.
+/// Points in rows, from the lowest row upwards and along x in each, m. They extend beyond the bed by the
+/// cutoff of the coarse-graining function, beyond which all fields vanish, so that a sum over all points,
+/// times dx dy, is an integral over the bed. They cover a period once.
 struct FieldGrid {
   double x = 0.0, y = 0.0, dx = 1.0, dy = 1.0;
   int columns = 0, rows = 0;
 };
-/// `width`: diameter of the support of the coarse-graining function, m. Points are a tenth of it apart, or a
-/// little less along x, as a whole number goes around the period.
+/// Returns the grid for a coarse-graining function whose support has diameter `width`, m. Points are a tenth
+/// of it apart, or slightly less along x, because a whole number must fit the length.
 FieldGrid field_grid(const analysis::GrainSource& frame, double width);
 
-/// Throws Error(usage) where `width` is not in (0, length of the bed].
+/// Throws Error(usage) if `width` is not in (0, length of the bed].
 void check_field_width(const RunStatics& statics, double width);
 
-/// Throws as check_field_width.
+/// Returns the file of a frame. Throws the errors of check_field_width.
 std::string fields_vti(const analysis::GrainSource& frame, double width);
 
 }  // namespace talus::exports

@@ -7,12 +7,12 @@
 namespace talus::exports {
 namespace {
 
-/// Vectors have three components here, tensors four.
+/// Returns the number of components: three for vectors, four for tensors.
 std::size_t width_of(const analysis::FrameQuantity& field) {
   return field.shape == analysis::FieldShape::vector ? 3 : analysis::components(field);
 }
 
-/// "pos:R:3:radius:R:1": names, kinds and numbers of columns.
+/// Returns names, types and numbers of columns: "pos:R:3:radius:R:1".
 std::string properties(const std::vector<FieldColumn>& columns) {
   std::string text = "species:S:1:pos:R:3";
   for (const FieldColumn& column : columns)

@@ -1,5 +1,5 @@
 #pragma once
-/// The contacts of all frames of a page: which pairs ever touch, and how hard they press in each frame.
+/// The contacts in all frames of a page: the pairs that ever touch, and their force in each frame.
 
 #include <array>
 #include <cstdint>
@@ -12,9 +12,10 @@
 
 namespace talus::exports {
 
-/// Forces are kept up to this over the mean of their frame, finer where they are small: lines are no wider.
+/// Returns the force of a code, over the mean of its frame. Forces are stored up to the value at which lines
+/// reach their largest width, with finer steps at small values.
 double force_of(std::uint32_t code);
-/// 1 to 255; 0 is for no contact.
+/// Returns the code of a force, 1 to 255; 0 means no contact.
 std::uint32_t force_code(double force_over_mean);
 
 /// A plane that grains touch, and the normal towards it.
@@ -25,11 +26,11 @@ struct TouchedPlane {
 
 struct ContactTables {
   CodeTable a, b, shift;  ///< one column: ids of each pair, by ascending keys; shift is 0, 1, or 255 for -1
-  CodeTable force, sliding;  ///< a row for each pair: code of f_n over the mean of the frame; 1: sliding
+  CodeTable force, sliding;  ///< one row per pair: code of f_n over the frame's mean; 1: sliding
   std::vector<TouchedPlane> planes;
 };
 
-/// Takes in frame after frame.
+/// Collects the contacts of frame after frame.
 class ContactCollector {
  public:
   explicit ContactCollector(const PageRun& run) : run_(run) {}

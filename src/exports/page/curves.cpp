@@ -17,15 +17,15 @@ namespace talus::exports {
 namespace {
 
 constexpr int digits = 5;
-constexpr std::size_t most_rows = 1000;  // of a curve: about as many as pixels
+constexpr std::size_t most_rows = 1000;  // rows of a curve: about the number of pixels
 
 struct PageCurve {
-  std::string label;  ///< rich text, empty for a single one
+  std::string label;  ///< rich text, empty if there is only one curve
   bool recorded = false;
   std::vector<double> values;
 };
 
-/// Every row, or as many as there are pixels, evenly.
+/// Returns every row, or an even selection of about as many as there are pixels.
 std::vector<ObservableRow> shown_rows(const io::RunFile& file) {
   std::vector<ObservableRow> rows = file.observables(), shown;
   const std::size_t together = (rows.size() + most_rows - 1) / most_rows;
@@ -75,7 +75,7 @@ std::string curve_json(const PageCurve& curve) {
                      {"values", json::rounded(curve.values, digits)}});
 }
 
-/// As curves have it, or for a quantity that none shows its name and unit.
+/// Returns the title used for curves, or name and unit of a quantity without a symbol.
 std::string title_of(const analysis::Quantity& quantity) {
   if (!quantity.display.symbol.empty()) return analysis::shown_title(quantity);
   const std::string unit = analysis::scaled_unit(quantity.unit);
@@ -108,7 +108,7 @@ std::string kind_text(view::TimelineEvent::Kind kind) {
   return "transition";
 }
 
-/// The frames of the page that are of the tilt.
+/// Returns the tilts of the page's frames that belong to the tilt.
 std::vector<double> tilts_on_page(const PageRun& run) {
   std::vector<double> tilts;
   for (const std::size_t k : run.frames)
@@ -158,7 +158,7 @@ std::string events_json(const PageRun& run) {
   const std::vector<double> tilts = tilts_on_page(run);
   std::vector<std::string> texts;
   for (const view::TimelineEvent& event : view::timeline_events(source)) {
-    // Beyond the frames of the page an event has no place; theta_c may lie just after the last.
+    // An event outside the range of the page's frames cannot be placed; theta_c may lie just after the last.
     const double spacing = source.tilts.size() > 1 ? source.tilts[1] - source.tilts[0] : 0.0;
     if (tilts.empty() || event.tilt < tilts.front() - spacing || event.tilt > tilts.back() + spacing)
       continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// Quantities over the tilt, and what happened at which tilt, as JSON.
+/// Quantities over tilt, and the tilts of events, as JSON.
 
 #include <string>
 
@@ -7,13 +7,14 @@
 
 namespace talus::exports {
 
-/// {"rows": tilts of the observables, deg; "frames": tilts of all frames of the tilt, deg; "quantities": all
-/// numbers of a frame that the analysis knows, in the order of the table, each with its title, definition and
-/// curves: one, or one for each threshold}. Where a run records a quantity as well, its curve is that.
+/// Returns {"rows": tilts of the observables, deg; "frames": tilts of all frames of the tilt, deg;
+/// "quantities": all known scalar quantities of a frame, in the order of the table, each with its title,
+/// definition and curves: one, or one for each threshold}. The curve of a quantity that the run also records
+/// uses the recorded values.
 std::string curves_json(const PageRun& run);
 
-/// The events of the time line (view/timeline.h) that lie between the frames of the page, each with its
-/// place among these.
+/// Returns the events of the time line (view/timeline.h) between the frames of the page, each with its
+/// position among them.
 std::string events_json(const PageRun& run);
 
 }  // namespace talus::exports

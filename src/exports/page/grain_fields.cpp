@@ -8,15 +8,15 @@
 namespace talus::exports {
 namespace {
 
-/// Finer than what is shown: a shade of a map is a 256th of its range.
+/// Resolutions finer than the display: a shade of a map is 1/256 of its range.
 constexpr double ratio_step = 1.0 / 4000.0;
 constexpr double pressure_step = 1.0 / 200.0;  // rho g D
 constexpr double length_step = 1.0 / 100.0;    // D
 constexpr Quantum motion{1e-7, 0.02, true};    // D, or D per degree
-constexpr double rotation_steps = 400.0;       // of the end of the scale
+constexpr double rotation_steps = 400.0;       // steps up to the end of the scale
 constexpr double middle_code = 32767.0;
 
-/// Signed, about zero.
+/// Returns the quantum of rotations, which are signed and centred on zero.
 Quantum rotation_quantum(const pictures::MapSettings& settings) {
   const auto per_degree = settings.motion.of(pictures::MapKind::rotation, true);
   const auto fitting = per_degree ? per_degree : settings.motion.of(pictures::MapKind::rotation, false);
@@ -56,7 +56,7 @@ GrainFields::GrainFields(const PageRun& run) : run_(run) {
 
 GrainField& GrainFields::field(const std::string& name) {
   const auto found = std::ranges::find(fields_, name, &GrainField::name);
-  if (found == fields_.end()) throw Error(ExitCode::internal, "no field of grains is called " + name);
+  if (found == fields_.end()) throw Error(ExitCode::internal, "there is no grain field called " + name);
   return *found;
 }
 

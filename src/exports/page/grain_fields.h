@@ -1,5 +1,5 @@
 #pragma once
-/// What a page holds of each grain in each frame, in 16 bits.
+/// The values of each grain in each frame of a page, stored in 16 bits.
 
 #include <string>
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace talus::exports {
 
-/// A number of each grain: how it is called, and its codes, grain by grain.
+/// A scalar of each grain: its name, and its codes by grain.
 struct GrainField {
-  std::string name;   ///< "gamma": in the page, and of the map that is coloured by it
-  std::string label;  ///< rich text: "γ, l = 3 D"
-  std::string unit;   ///< rich text, empty for a number
-  int digits = 3;     ///< significant ones that are shown
+  std::string name;   ///< for example "gamma": name in the page, and of the map that shows it
+  std::string label;  ///< rich text, for example "γ, l = 3 D"
+  std::string unit;   ///< rich text, empty for a dimensionless number
+  int digits = 3;     ///< significant digits shown
   Quantum quantum;
   CodeTable codes;
 };
 
-/// Fields of the maps with a bar, of l_c, and of the clusters (their numbers; no_code outside of them).
+/// The fields of maps with a bar, of l_c, and of clusters (their numbers; no_code outside them).
 class GrainFields {
  public:
   explicit GrainFields(const PageRun& run);
-  /// What a map shows of the grains of a frame; one that has no values is left out.
+  /// Adds the values that a map shows of the grains of a frame; a layer without values is skipped.
   void add(const PageFrame& frame, pictures::MapKind kind, const pictures::MapLayer& layer);
-  /// Places, l_c and clusters.
+  /// Adds positions, l_c and clusters.
   void add(const PageFrame& frame);
 
   const std::vector<GrainField>& fields() const { return fields_; }
@@ -41,7 +41,7 @@ class GrainFields {
 
   const PageRun& run_;
   PlaceQuantum x_quantum_, y_quantum_;
-  CodeTable x_, y_;  ///< of all grains, floor included
+  CodeTable x_, y_;  ///< positions of all grains, floor included
   std::vector<GrainField> fields_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The short JSON of a page, whose numbers have as many digits as are drawn.
+/// Compact JSON for a page, whose numbers have as many digits as are drawn.
 
 #include <cmath>
 #include <concepts>
@@ -14,20 +14,20 @@
 
 namespace talus::exports::json {
 
-/// Names and values that are JSON already, in writing order.
+/// Names with values that are already JSON, in writing order.
 using Members = std::vector<std::pair<std::string, std::string>>;
 
-/// A text in quotes.
+/// Returns a quoted text.
 inline std::string quoted(const std::string& text) { return quoted_utf8(text); }
 
-/// The shortest digits that read back as the same number; null where the value is none.
+/// Returns the shortest digits that read back as the same number; null if the value is not finite.
 inline std::string number(double value) {
   return std::isfinite(value) ? scenario::short_text(value) : "null";
 }
 inline std::string truth(bool value) { return value ? "true" : "false"; }
 inline std::string number(std::integral auto value) { return std::to_string(value); }
 
-/// { "name": value, ... }, one member a line, `depth` levels deep.
+/// Returns { "name": value, ... } with one member per line, at nesting level `depth`.
 inline std::string object(const Members& members, int depth = 0) {
   const std::string margin(2 * static_cast<std::size_t>(depth), ' ');
   std::string text = "{";
@@ -36,26 +36,26 @@ inline std::string object(const Members& members, int depth = 0) {
   return fmt::format("{}\n{}}}", text, margin);
 }
 
-/// {"name": value, ...} in one line.
+/// Returns {"name": value, ...} on one line.
 inline std::string line(const Members& members) {
   return fmt::format("{{{}}}", joined(members, ",", [](const auto& member) {
                        return fmt::format("{}:{}", quoted(member.first), member.second);
                      }));
 }
 
-/// Values that are JSON already, in one line.
+/// Returns a list, on one line, of values that are already JSON.
 inline std::string list(const std::vector<std::string>& values) {
   return fmt::format("[{}]", joined(values, ","));
 }
 
-/// Numbers with so many significant digits, null for one that is none, in one line.
+/// Returns a list of numbers with `digits` significant digits, on one line; null if not finite.
 inline std::string rounded(const std::vector<double>& values, int digits) {
   return fmt::format("[{}]", joined(values, ",", [digits](double value) {
                        return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "null";
                      }));
 }
 
-/// [ "text", ... ]
+/// Returns [ "text", ... ].
 inline std::string array(const std::vector<std::string>& texts) {
   return fmt::format("[{}]", joined(texts, ", ", quoted));
 }

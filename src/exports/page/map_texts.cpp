@@ -42,8 +42,8 @@ std::string look_text(const pictures::GrainLook& look) {
   return colour_text(look.fill) + colour_text(look.rim);
 }
 
-/// Looks by cluster, the largest first: those of the first ones, that of all the others, and that of grains
-/// in none.
+/// Returns the styles of clusters, the largest first: those of the coloured clusters, that of all others, and
+/// that of grains in no cluster.
 std::string looks_json(const PageFrame& frame, const pictures::MapLayer& layer) {
   std::vector<std::string> looks(static_cast<std::size_t>(frame.clusters.count()));
   std::string none;
@@ -59,7 +59,7 @@ std::string looks_json(const PageFrame& frame, const pictures::MapLayer& layer) 
       {{"first", json::array(looks)}, {"rest", json::quoted(rest)}, {"none", json::quoted(none)}});
 }
 
-/// "#ffffff..." of fills, and the same of rims: eight digits for each of 256 steps.
+/// Returns "#ffffff..." for fills, and the same for rims: eight digits for each of 256 steps.
 std::string ramp_json(const std::vector<render::Colour>& colours) {
   std::string fills, rims;
   for (const render::Colour& colour : colours) {

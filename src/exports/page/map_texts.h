@@ -1,5 +1,5 @@
 #pragma once
-/// What a page says of its maps: titles, legends and colours, as the pictures of `talus render` have them.
+/// Texts of the maps of a page: titles, legends and colours, identical to the pictures of `talus render`.
 
 #include <map>
 #include <string>
@@ -11,26 +11,26 @@
 
 namespace talus::exports {
 
-/// The maps that fill grains, in the order in which they are listed to users.
+/// Returns the maps that fill grains, in the order in which they are listed to users.
 std::vector<pictures::MapKind> filling_maps(const PageRun& run);
 
-/// One map over all frames of the page.
+/// The texts of one map over all frames of the page.
 class MapTexts {
  public:
   MapTexts(const PageRun& run, pictures::MapKind kind);
-  /// Of the next frame. `layer` is that of the map.
+  /// Adds the next frame; `layer` is the layer of the map.
   void add(const PageFrame& frame, const pictures::MapLayer& layer);
   std::string json() const;
 
  private:
   pictures::MapKind kind_;
-  std::string over_;  ///< colour of lines over it
-  std::string ramp_;  ///< fills and rims from end to end, where grains are coloured by a value
+  std::string over_;  ///< colour of lines over the map
+  std::string ramp_;  ///< fills and rims from end to end, if grains are coloured by a value
   Distinct titles_, legends_, scales_, looks_;
 };
 
-/// Lines between grains, or at contacts, over all frames: their titles, and for each colour of `over` (that
-/// of lines over a map; empty: over outlines) their legends.
+/// The texts of lines between grains or at contacts over all frames: their titles, and their legends for each
+/// colour of lines (over a map, or over outlines).
 class LineTexts {
  public:
   LineTexts(const PageRun& run, pictures::MapKind kind);
@@ -41,10 +41,10 @@ class LineTexts {
   pictures::MapKind kind_;
   std::vector<pictures::OverColour> over_;
   Distinct titles_;
-  std::vector<std::string> legends_;  ///< for each of these colours
+  std::vector<std::string> legends_;  ///< one for each of these colours
 };
 
-/// "#rrggbbaa".
+/// Returns "#rrggbbaa".
 std::string colour_text(const render::Colour& colour);
 
 }  // namespace talus::exports

@@ -15,7 +15,8 @@
 namespace talus::exports {
 namespace {
 
-/// The angle by which maps are scaled: that of the run, or that of the threshold which was given instead.
+/// Sets the angle that scales maps: the angle of repose, or the angle of the threshold that was given
+/// instead.
 void take_angle(pictures::MapSettings& settings, const analysis::Analysis& analysis) {
   if (std::isfinite(analysis.theta_c)) {
     settings.theta_c = analysis.theta_c;
@@ -31,7 +32,7 @@ pictures::MapSettings settings_of(const analysis::Analysis& analysis,
                                   const analysis::AnalysisParameters& parameters) {
   pictures::MapSettings settings;
   take_angle(settings, analysis);
-  // With a Gamma_c of its own, the first threshold is another multiple of sin(theta_c).
+  // With an explicit Gamma_c, the first threshold is another multiple of sin(theta_c).
   if (!analysis.thresholds.empty())
     settings.threshold_factor = std::isfinite(analysis.theta_c) && parameters.gamma_c
                                     ? analysis.thresholds.front().gamma / sine(settings.theta_c)
@@ -42,7 +43,7 @@ pictures::MapSettings settings_of(const analysis::Analysis& analysis,
 }
 
 Frame seen_frame(const PageRun& run, std::size_t k) {
-  // Moments are averaged over frames of the tilt only.
+  // Moments are averaged only over frames of the tilt.
   return k < run.file.frame_count()
              ? runs::analysed_frame(run.file, run.parameters, k)
              : analysis::with_analysed_gamma(run.file.frame(k), run.statics(), run.parameters);
@@ -70,8 +71,8 @@ PageRun begin_page(const io::RunFile& file, const analysis::Analysis& analysis,
   if (file.has_program())
     throw Error(
         ExitCode::bad_data,
-        "the tilt of this run follows a programme (tilt.program), and a page shows runs whose tilt only "
-        "grows; look at it with talus view, or export it to another format");
+        "the tilt of this run follows a programme (tilt.program), but a page shows runs whose tilt only "
+        "grows; open it with talus view, or export it to another format");
   const analysis::AnalysisParameters parameters = runs::from_facts(analysis.parameters);
   PageRun run{file, analysis, std::move(frames), parameters, settings_of(analysis, parameters), {}};
   run.extent = pictures::bed_extent(run.statics());
@@ -99,7 +100,7 @@ void for_each_frame(const PageRun& run, const Watch& watch,
   std::size_t column = 0;
   for (std::size_t k = 0; column < run.frames.size(); ++k) {
     if (watch.stopped && watch.stopped())
-      throw Error(ExitCode::stopped, "stopped before the page was whole; repeat the command");
+      throw Error(ExitCode::stopped, "stopped before the page was complete; repeat the command");
     Frame frame = seen_frame(run, k);
     const BedFrame bed{frame, run.statics()};
     analysis::Clusters clusters =

@@ -1,5 +1,5 @@
 #pragma once
-/// What all frames of a page have in common, and the frames themselves, one after the other.
+/// The frames of a page, one after the other, and the properties that they share.
 
 #include <cstddef>
 #include <functional>
@@ -17,42 +17,41 @@ namespace talus::exports {
 
 struct PageRun {
   const io::RunFile& file;
-  const analysis::Analysis& analysis;       ///< of the same run
-  std::vector<std::size_t> frames;          ///< which are on the page: numbers in the run, ascending
-  analysis::AnalysisParameters parameters;  ///< those of the analysis
-  pictures::MapSettings
-      settings;  ///< of all maps, whose layers are empty; theta_c is assumed where it is not known
-  pictures::MapExtent extent;  ///< of all frames of the run, as in its pictures
+  const analysis::Analysis& analysis;       ///< analysis of the same run
+  std::vector<std::size_t> frames;          ///< frames on the page: indices in the run, ascending
+  analysis::AnalysisParameters parameters;  ///< parameters of the analysis
+  pictures::MapSettings settings;  ///< settings of all maps, with empty layers; theta_c is assumed if unknown
+  pictures::MapExtent extent;      ///< extent of all frames of the run, as in its pictures
 
   const RunStatics& statics() const { return file.header().statics; }
-  /// Whether there are overloaded grains: an analysis without threshold has none.
+  /// Whether overloaded grains are defined; an analysis without threshold has none.
   bool has_threshold() const { return !analysis.thresholds.empty(); }
-  /// Whether a page of this run has the map: a bed can be shorter than its neighbourhoods, and have no
-  /// threshold.
+  /// Whether a page of this run has the map. Some maps need a threshold, or a bed that is larger than its
+  /// neighbourhoods.
   bool shows(pictures::MapKind kind) const;
 };
 
-/// Reads the frames once: for the extent, and for ranges that fit how grains have moved in those on the page.
-/// Throws as RunFile::frame does.
+/// Reads the frames once to find the extent, and the ranges of motion that fit the frames on the page. Throws
+/// the errors of RunFile::frame.
 PageRun begin_page(const io::RunFile& file, const analysis::Analysis& analysis,
                    std::vector<std::size_t> frames);
 
 /// A frame on the page.
 struct PageFrame {
-  std::size_t column;           ///< on the page, counted from 0
-  const Frame& frame;           ///< as its analysis sees it
-  const Frame* reference;       ///< the frame of the run before it, null for the first
-  analysis::Clusters clusters;  ///< of its overloaded grains; empty where there is no threshold
+  std::size_t column;           ///< index on the page, from 0
+  const Frame& frame;           ///< frame as its analysis sees it
+  const Frame* reference;       ///< preceding frame of the run, null for the first
+  analysis::Clusters clusters;  ///< clusters of its overloaded grains; empty without a threshold
   std::vector<pictures::ClusterColour>
-      colours;            ///< of the clusters, which keep them over all frames of the run
-  std::vector<float> lc;  ///< m, of each grain; empty where there is no threshold
+      colours;            ///< colours of the clusters, consistent over all frames of the run
+  std::vector<float> lc;  ///< m, for each grain; empty without a threshold
 
-  /// What maps are made from.
+  /// Returns the input of the maps.
   pictures::MapFrame mapped(const PageRun& run) const;
 };
 
-/// Calls `use` with each frame of the page, in their order. Throws Error(stopped) where it was stopped, and
-/// as RunFile::frame does.
+/// Calls `use` with each frame of the page, in order. Throws Error(stopped) if it was stopped, and the errors
+/// of RunFile::frame.
 void for_each_frame(const PageRun& run, const Watch& watch, const std::function<void(const PageFrame&)>& use);
 
 }  // namespace talus::exports

@@ -25,13 +25,13 @@ std::string end_text(const PageRun& run) {
   return fmt::format("to {:.2f}°; the slope has not failed", degrees(run.file.frame_tilts().back()));
 }
 
-/// "A granular slope, tilted until it fails".
+/// Returns the title, such as "A granular slope, tilted until it fails".
 std::string page_title(const PageRun& run) {
   return std::isfinite(run.analysis.theta_c) ? "A granular slope, tilted until it fails"
                                              : "A granular slope, tilted";
 }
 
-/// What was simulated, and what is on the page: rich text.
+/// Returns a description of the run and of the page, as rich text.
 std::string page_sentence(const PageRun& run) {
   const RunStatics& statics = run.statics();
   const double diameter = statics.mean_diameter;
@@ -43,11 +43,11 @@ std::string page_sentence(const PageRun& run) {
       statics.periodic ? "periodic along the slope" : "between two walls", end_text(run));
 }
 
-/// Names and values: seed, version, hash of the state; nothing of the machine.
+/// Returns names and values: seed, version, hash of the state; nothing about the machine.
 Facts page_provenance(const PageRun& run) {
   const io::RunHeader& header = run.file.header();
   Facts facts = {{"seed", std::to_string(header.seed)}};
-  // What tells of the machine and its folders stays there.
+  // Information about the machine and its folders is left out.
   for (const char* name : {"version", "git_hash", "compiler", "start", "end"})
     if (const auto value = find_value(header.provenance, name); value && !value->empty())
       facts.emplace_back(name, *value);
@@ -57,7 +57,7 @@ Facts page_provenance(const PageRun& run) {
   return facts;
 }
 
-/// Everything that is gathered frame by frame.
+/// The data that are collected frame by frame.
 struct PageParts {
   GrainFields grains;
   ContactCollector contacts;
@@ -87,7 +87,7 @@ void take(PageParts& parts, const PageRun& run, const PageFrame& frame) {
   parts.captions.push_back(pictures::caption_of(frame.frame, settings));
 }
 
-/// A table in the document, and what is said of it in its data.
+/// The tables in the document, and their descriptions in its data.
 struct PageTables {
   std::vector<std::string> entries;
   std::string elements;
@@ -102,7 +102,7 @@ struct PageTables {
   }
 };
 
-/// In mean diameters, as everything on the page.
+/// Converts to mean diameters, the unit of length on the page.
 std::string places_json(const PlaceQuantum& quantum, double diameter) {
   return json::line(
       {{"low", json::number(quantum.low / diameter)}, {"step", json::number(quantum.step / diameter)}});
@@ -221,7 +221,7 @@ std::string data_json(const PageRun& run, const std::string& name, const PagePar
                        {"provenance", facts_json(page_provenance(run))}});
 }
 
-/// JSON as the text of a script element, which ends at "</".
+/// Escapes JSON for a script element, which would end at "</".
 std::string as_script(const std::string& text) {
   std::string result;
   for (const char c : text)

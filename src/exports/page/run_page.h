@@ -1,6 +1,6 @@
 #pragma once
-/// A run as one page of HTML, for those without Talus: maps, time line, curves and texts, with all that it
-/// needs inside. docs/export.md says what a reader sees; assets/page has its source.
+/// A run as a single self-contained HTML page, readable without Talus: maps, time line, curves and texts.
+/// docs/export.md describes the page; its source is in assets/page.
 
 #include <cstddef>
 #include <string>
@@ -12,9 +12,9 @@
 
 namespace talus::exports {
 
-/// The page of these frames (numbers in the run, ascending) of the run file at `path`, of which its title
-/// has the name; `analysis` is that of the whole run. The same bytes for the same run, frames and analysis.
-/// Throws Error(stopped) where it was stopped, and as RunFile::frame does.
+/// Returns the page of these frames (indices in the run, ascending) of the run file at `path`, whose name is
+/// in the title; `analysis` is that of the entire run. The same run, frames and analysis give the same bytes.
+/// Throws Error(stopped) if it was stopped, and the errors of RunFile::frame.
 std::string run_page(const io::RunFile& file, const std::string& path, const analysis::Analysis& analysis,
                      const std::vector<std::size_t>& frames, const Watch& watch);
 

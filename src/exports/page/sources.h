@@ -1,18 +1,18 @@
 #pragma once
-/// The sources of a page, assets/page, which are part of the binary.
+/// The sources of a page, assets/page, which are embedded in the binary.
 
 #include <string>
 #include <string_view>
 
 namespace talus::exports {
 
-/// The document, with {{name}} where something is put in.
+/// Returns the document, with {{name}} as placeholders.
 std::string_view page_template();
 std::string_view page_style();
-/// All scripts, one after the other, as one function that keeps its names to itself.
+/// Returns all scripts in sequence, wrapped in one function that keeps their names local.
 std::string page_script();
 
-/// The template with each {{name}} replaced by what `value_of` gives for it.
+/// Returns the template with each {{name}} replaced by value_of(name).
 template <typename ValueOf>
 std::string filled(std::string_view text, const ValueOf& value_of) {
   std::string result;

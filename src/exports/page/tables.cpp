@@ -44,11 +44,12 @@ std::uint32_t place_code(const PlaceQuantum& quantum, double place) {
 std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::vector<std::byte> result(size);
-  // zlib's own types of bytes.
+  // zlib has its own byte type.
   const int state =
       compress2(reinterpret_cast<Bytef*>(result.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                 static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
-  if (state != Z_OK) throw std::bad_alloc();  // what else compress2 reports is too small a buffer
+  if (state != Z_OK)
+    throw std::bad_alloc();  // the only other error of compress2 is a buffer that is too small
   result.resize(size);
   return result;
 }

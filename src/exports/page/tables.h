@@ -1,6 +1,6 @@
 #pragma once
-/// What changes from frame to frame as a page holds it: numbers in 16 bits, tables of them as short texts,
-/// and texts of which each is kept once.
+/// The varying data of a page: numbers in 16 bits, tables of them as short texts, and texts that are stored
+/// only once.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,28 +10,29 @@
 
 namespace talus::exports {
 
-/// How a number becomes a code: evenly from `low` on, or, `logarithmic`, as low * exp(step * code).
+/// The mapping from numbers to codes: linear from `low` or, if `logarithmic`, low * exp(step * code).
 struct Quantum {
   double low = 0.0;
-  double step = 1.0;  ///< above 0
+  double step = 1.0;  ///< positive
   bool logarithmic = false;
 };
 
-/// The code of a number that there is none of.
+/// The code of a missing number.
 inline constexpr std::uint32_t no_code = 65535;
 
-/// The nearest code; beyond the ends that of the end, which is 65534 at the top. NaN is no_code, and on a
-/// logarithmic scale all that is not above `low` has code 0.
+/// Returns the nearest code, clamped to the ends of the range; the highest is 65534. NaN gives no_code. On a
+/// logarithmic scale, everything up to `low` gives code 0.
 std::uint32_t code_of(const Quantum& quantum, double value);
 
-/// What it stands for, half a quantum from the number at most; NaN for no_code.
+/// Returns the number of a code, within half a step of the original; NaN for no_code.
 double value_of(const Quantum& quantum, std::uint32_t code);
 
-/// Places along a line, which have no gaps: all 65536 codes, and around a period they go on from the first.
+/// Positions along a line, which are never missing: all 65536 codes are used, and wrap around a period.
 struct PlaceQuantum {
   double low = 0.0, step = 1.0;
 };
-/// Of a period: 65536 steps. Of a box from low to high: 65535, so that both ends have a code.
+/// Return the quantum of a period, with 65536 steps, or of a box from low to high, with 65535 steps so that
+/// both ends have a code.
 PlaceQuantum places_of_period(double period);
 PlaceQuantum places_of_box(double low, double high);
 std::uint32_t place_code(const PlaceQuantum& quantum, double place);
@@ -39,32 +40,33 @@ std::uint32_t place_code(const PlaceQuantum& quantum, double place);
 /// One row for each grain or contact, one column for each frame. The numbers are below 256^bytes.
 struct CodeTable {
   std::size_t rows = 0, columns = 0;
-  int bytes = 2;                     ///< of each number, 1 to 4
+  int bytes = 2;                     ///< per number, 1 to 4
   std::vector<std::uint32_t> codes;  ///< row by row
 
   std::uint32_t& at(std::size_t row, std::size_t column) { return codes[row * columns + column]; }
   std::uint32_t at(std::size_t row, std::size_t column) const { return codes[row * columns + column]; }
 };
 
-/// Full of `code`.
+/// Returns a table filled with `code`.
 CodeTable code_table(std::size_t rows, std::size_t columns, int bytes, std::uint32_t code = 0);
 
-/// The differences from column to column (in the first column from row to row) modulo 256^bytes, first the
-/// lowest byte of all of them, then the next one: what hardly changes becomes runs of zeros.
+/// Returns the differences from column to column (in the first column from row to row) modulo 256^bytes:
+/// first the lowest byte of all of them, then the next one. Slowly varying data then become runs of zeros.
 std::vector<std::byte> difference_bytes(const CodeTable& table);
 
-/// These bytes deflated, as base64.
+/// Returns these bytes deflated, as base64.
 std::string packed_text(const CodeTable& table);
 
-/// The bytes as a zlib stream (RFC 1950), which a browser undoes by DecompressionStream("deflate"). The same
-/// for the same bytes and the same version of zlib. Throws std::bad_alloc.
+/// Compresses the bytes to a zlib stream (RFC 1950), which a browser decompresses with
+/// DecompressionStream("deflate"). The result depends only on the bytes and the version of zlib. Throws
+/// std::bad_alloc.
 std::vector<std::byte> deflated(std::span<const std::byte> bytes);
 
-/// Texts of frames, most of which are the same: each is kept once.
+/// Texts of frames, most of which are equal; each distinct text is stored once.
 class Distinct {
  public:
   void add(const std::string& text);
-  /// {"kinds": [...], "of": [place of that of each frame]}; the texts are JSON already.
+  /// Returns {"kinds": [...], "of": [index of each frame's text]}; the texts are already JSON.
   std::string json() const;
 
  private:
