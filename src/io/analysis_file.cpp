@@ -17,7 +17,7 @@ namespace {
 
 const std::string analysis_group = "/analysis";
 
-/// "lc_cut = 40; joining = contacts": the parameters that a quantity depends on, with their values.
+/// Returns the parameters that a quantity depends on, with their values: "lc_cut = 40; joining = contacts".
 std::string parameters_text(const std::string& names_of_quantity, const Facts& parameters) {
   std::string text;
   std::istringstream names = text_stream(names_of_quantity);
@@ -57,7 +57,7 @@ analysis::Values read_values(hdf5::Reader& reader, const DataSetField& field) {
   return reader.read<double>(field, hdf5::any_number);
 }
 
-/// The frames, thresholds and events of a stored analysis, with nothing in them yet.
+/// Creates the empty frames, thresholds and events of a stored analysis.
 void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, analysis::Analysis& analysis) {
   if (reader.has(analysis_group + "/threshold"))
     analysis.thresholds.resize(reader.row_count(analysis_group + "/threshold"));
@@ -70,14 +70,14 @@ void make_records(hdf5::Reader& reader, const std::vector<double>& tilts, analys
   }
 }
 
-/// Others take the rows of all these frames without looking.
+/// Checks the number of rows; other code reads the rows of all these frames without a check.
 void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t frames) {
   if (rows != frames)
     reader.refuse(analysis_group,
                   fmt::format("(a group) has rows for {} frames, the tilt has {}", rows, frames));
 }
 
-/// The packed file at `path` without an analysis.
+/// Returns the packed file at `path` without an analysis.
 std::vector<std::byte> bare_bytes(const std::string& path, const std::string& state_hash, bool keep_frames) {
   verify_seal(path);
   std::vector<std::byte> bytes = read_file(path);
@@ -87,7 +87,7 @@ std::vector<std::byte> bare_bytes(const std::string& path, const std::string& st
   if (stored_hash != state_hash)
     throw Error(ExitCode::cannot_create,
                 path + ": was replaced by another run while it was being analysed; analyse it again");
-  // HDF5 leaves holes where something is removed from a file, so it is packed again.
+  // HDF5 leaves holes after a removal, so the file is packed again.
   if (!reader.has(analysis_group) && keep_frames) return bytes;
   const RunFile run = RunFile::open(path);
   return packed_bytes(content_of(run, keep_frames));
@@ -109,7 +109,7 @@ std::optional<analysis::Analysis> read_analysis(const RunFile& run,
                                      reader.read_text(fmt::format("{}/parameters/{}", analysis_group, name)));
   const std::vector<double>& tilts = run.frame_tilts();
   check_frame_count(reader, reader.row_count(analysis_group + "/packing/volume"), tilts.size());
-  reader.row_count("/particles/grains/id");  // how many grains there are
+  reader.row_count("/particles/grains/id");  // establishes the number of grains
   make_records(reader, tilts, analysis);
   for (const analysis::Quantity& quantity : table)
     if (is_present(quantity, analysis))
@@ -154,7 +154,7 @@ std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const
 namespace {
 
 void replace_packed(const std::string& path, const std::vector<std::byte>& file) {
-  // What a kill left of packing tells the file by its seal, which changes now.
+  // After a kill during packing, the leftover folder identifies its file by the seal, which changes here.
   if (const std::string target = output_target(path); run_presence(target) == RunPresence::packed)
     discard_folder(target);
   prepare_folder_of(path);

@@ -1,5 +1,5 @@
 #pragma once
-/// The analysis of a run in its packed file, quantity by quantity of a table.
+/// The analysis of a run in its packed file, stored by quantity.
 
 #include <cstddef>
 #include <optional>
@@ -11,34 +11,36 @@
 
 namespace talus::io {
 
-/// The analysis stored with a packed run; nothing where it has none, or one of another version. Throws
-/// Error(bad_data) where it is not what store_analysis writes.
+/// Returns the analysis stored with a packed run, or nothing if there is none or it has another version.
+/// Throws Error(bad_data) if store_analysis cannot have written it.
 std::optional<analysis::Analysis> read_analysis(
     const RunFile& run, std::span<const analysis::Quantity> table = analysis::quantities());
-/// The same of the packed file at `path`. Throws as RunFile::open does as well.
+/// Returns the analysis stored in the packed file at `path`. Throws also the errors of RunFile::open.
 inline std::optional<analysis::Analysis> read_analysis(
     const std::string& path, std::span<const analysis::Quantity> table = analysis::quantities()) {
   return read_analysis(RunFile::open(path), table);
 }
 
-/// The readings stored with it, in the order in which they were written.
+/// Returns the stored readings, in the order in which they were written.
 std::vector<StoredReading> read_readings(const RunFile& run);
 
-/// A packed file without an analysis, with one, and with readings. Sealed.
+/// Returns the bytes of a packed file with an analysis and readings added, sealed.
 std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const analysis::Analysis& analysis,
                                      const std::vector<StoredReading>& readings,
                                      std::span<const analysis::Quantity> table = analysis::quantities());
 
-/// Replaces the packed file at `path` by one that holds `analysis` as well, in the place of any that it held;
-/// all else in it stays as it is. The new file is written whole beside it and then renamed, so that a kill at
-/// any instant leaves the one or the other. Throws Error(cannot_create) where the file is not that of the run
-/// with `state_hash` any more, Error(io_error) where writing fails. Its frames go, unless they are kept.
+/// Replaces the packed file at `path` by one that contains `analysis`, which replaces any stored analysis;
+/// everything else is unchanged, except that the frames are removed unless `keep_frames`. The new file is
+/// written completely next to the old one and then renamed, so that a kill at any instant leaves one of the
+/// two. Throws Error(cannot_create) if the file no longer belongs to the run with `state_hash`, and
+/// Error(io_error) if writing fails.
 void store_analysis(const std::string& path, const analysis::Analysis& analysis,
                     const std::string& state_hash,
                     std::span<const analysis::Quantity> table = analysis::quantities(),
                     bool keep_frames = true);
 
-/// Replaces the readings of the packed file at `path`, which has an analysis. Throws as store_analysis does.
+/// Replaces the readings of the packed file at `path`, which has an analysis. Throws the errors of
+/// store_analysis.
 void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
                     const std::string& state_hash);
 

@@ -12,23 +12,23 @@
 
 namespace talus::io {
 
-/// Counts up with each change of the table or of what is computed: stored analyses of other versions are
-/// computed again.
+/// Increases with each change of the table or of the computation; stored analyses of other versions are
+/// recomputed.
 inline constexpr std::int32_t analysis_version = 7;
 
-/// The data set of a quantity.
+/// Returns the data set of a quantity.
 DataSetField data_set_of(const analysis::Quantity& quantity);
 
-/// All data sets, in the order in which they are written.
+/// Returns all data sets, in the order in which they are written.
 std::vector<DataSetField> analysis_schema(std::span<const analysis::Quantity> table = analysis::quantities());
 
-/// "/analysis/lc/mean" for "lc/mean".
+/// Returns "/analysis/lc/mean" for "lc/mean".
 std::string analysis_path(std::string_view name);
 
-/// The letters of the shapes for an analysis of one frame at least.
+/// Returns the letters of the shapes for an analysis of at least one frame.
 Sizes sizes_of(const analysis::Analysis& analysis);
 
-/// Whether an analysis has it: what needs a threshold, or events, is not there without any.
+/// Whether an analysis contains the quantity; some need a threshold or events.
 bool is_present(const analysis::Quantity& quantity, const analysis::Analysis& analysis);
 
 }  // namespace talus::io

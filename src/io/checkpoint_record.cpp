@@ -11,8 +11,8 @@ namespace {
 
 const std::string checkpoint_group = "/checkpoint/", branch_group = "/branch/";
 
-constexpr double most_steps = std::int64_t{1} << 53;  // all numbers of steps up to this are doubles
-constexpr Range angle_of_bed = {-1.6, 1.6};           // rad, upright and no further
+constexpr double most_steps = std::int64_t{1} << 53;  // every integer up to this is exact as a double
+constexpr Range angle_of_bed = {-1.6, 1.6};           // rad, at most upright
 
 template <typename Checkpoint, typename Direction>
 void for_each_field(const std::string& here, Checkpoint& checkpoint, Direction direction) {
@@ -128,7 +128,7 @@ BranchOrigin read_branch(hdf5::Reader& reader) {
   if (hash_text(parse_hash(branch.run_hash)) != branch.run_hash)
     reader.refuse(branch_group + "run_hash", "is no hash: expected 16 hexadecimal digits");
   read_state(reader, branch_group, branch.start);
-  // Each frame of a run is of a later step than the one before.
+  // Each frame of a run belongs to a later step than the preceding one.
   if (branch.frame > branch.start.world.step)
     reader.refuse(branch_group + "frame",
                   fmt::format("is {}, after {} steps", branch.frame, branch.start.world.step));

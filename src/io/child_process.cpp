@@ -31,15 +31,16 @@ void limit(__rlimit_resource resource, rlim_t most) {
 
 rlim_t memory_limit(std::size_t input) { return 2048 * mebibyte + 64 * static_cast<rlim_t>(input); }
 
-/// What this process has mapped already, which its child inherits, in bytes; 0 where the system does not say.
+/// Returns the memory that this process has mapped and its child inherits, in bytes; 0 if the system does not
+/// report it.
 rlim_t address_space() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Closes all that the child inherits but its pipe, which gets the number that is returned: a lock lasts as
-/// long as any process has its file open, and a pipe as long as anyone may listen.
+/// Closes everything that the child inherits except its pipe, and returns the new number of the pipe. A lock
+/// lasts as long as any process has its file open, and a pipe as long as a process can write to it.
 int keep_only(int pipe) {
   constexpr int kept = STDERR_FILENO + 1;
   if (pipe != kept) ::dup2(pipe, kept);
@@ -47,10 +48,10 @@ int keep_only(int pipe) {
   return kept;
 }
 
-/// What a child of `parent` is allowed, and nothing that it says on its way out.
+/// Restricts a child of `parent`, and silences its output.
 void restrain(pid_t parent, std::size_t input) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) _exit(1);  // it has ended already
+  if (::getppid() != parent) _exit(1);  // the parent has already ended
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
@@ -58,12 +59,12 @@ void restrain(pid_t parent, std::size_t input) {
   limit(RLIMIT_FSIZE, 0);
   const rlim_t seconds = 10 + input / mebibyte;
   limit(RLIMIT_CPU, seconds);
-  ::alarm(static_cast<unsigned>(6 * seconds));  // one that waits for ever
-  // A shadow memory is larger than any limit.
+  ::alarm(static_cast<unsigned>(6 * seconds));  // ends a child that blocks
+  // The shadow memory of AddressSanitizer exceeds any limit.
   if (!sanitizes_addresses) limit(RLIMIT_AS, address_space() + memory_limit(input));
 }
 
-/// What the child sends: the result, or the message of an error, and an exit code as the last byte.
+/// Returns the message of the child: the result or an error message, with the exit code as the last byte.
 Bytes message_of(ExitCode code, Bytes content) {
   content.push_back(static_cast<std::byte>(code));
   return content;
@@ -95,10 +96,10 @@ void send(int pipe, std::span<const std::byte> bytes) {
 
 struct Child {
   pid_t process;
-  Descriptor pipe;  ///< of what it sends
+  Descriptor pipe;  ///< receives the child's output
 };
 
-/// A child that is restrained, does `speak` with its pipe, and ends.
+/// Starts a restricted child that calls `speak` with its pipe, and ends.
 Child start(const std::string& path, std::size_t input, const std::function<void(int)>& speak) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) throw system_error(ExitCode::io_error, "make a pipe for", path, errno);
@@ -137,11 +138,11 @@ int wait_for(pid_t child) {
                                                 WTERMSIG(status) == SIGKILL);
   throw Error(ExitCode::bad_data,
               fmt::format("{}: cannot be read: {}; the file is malformed, write it again", path,
-                          too_long ? "HDF5 takes longer to read it than a file of its size can need"
-                                   : "HDF5 fails on it (in a process of its own)"));
+                          too_long ? "HDF5 takes longer to read it than its size can justify"
+                                   : "HDF5 fails on it (in a separate process)"));
 }
 
-/// A count of 64 bits, and so many bytes.
+/// Appends the size as 64 bits, followed by the bytes.
 void append(Bytes& to, std::span<const std::byte> bytes) {
   const std::uint64_t count = bytes.size();
   const auto counted = std::as_bytes(std::span(&count, 1));
@@ -149,7 +150,7 @@ void append(Bytes& to, std::span<const std::byte> bytes) {
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
-/// Takes from the front what was appended; nothing where it is not there.
+/// Removes one appended item from the front and returns it; nothing if it is incomplete.
 std::optional<Bytes> take(std::span<const std::byte>& from) {
   std::uint64_t count = 0;
   if (from.size() < sizeof count) return std::nullopt;
@@ -177,7 +178,7 @@ Parcels decode(std::span<const std::byte> bytes, const std::string& path) {
   while (!bytes.empty()) {
     const std::optional<Bytes> name = take(bytes);
     std::optional<Bytes> content = name ? take(bytes) : std::nullopt;
-    if (!content) throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 reads nonsense from it");
+    if (!content) throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 returns invalid data");
     parcels.insert_or_assign(values_of<std::string>(*name), std::move(*content));
   }
   return parcels;

@@ -1,6 +1,5 @@
 #pragma once
-/// Work that must not be able to end this process: on bytes that nobody vouches for, by a library that they
-/// may crash.
+/// Runs a parser of untrusted bytes in a child process, so that a crash in its library cannot end this one.
 
 #include <cstddef>
 #include <cstring>
@@ -12,22 +11,23 @@
 
 namespace talus::io {
 
-/// What a child process sends: bytes by their names.
+/// The output of a child process: bytes by name.
 using Parcels = std::map<std::string, std::vector<std::byte>>;
 
-/// Parcels that `work` returns in a child process. The child has no more than 10 s of processor time and 1 s
-/// for each MiB of `input`, the size of what it reads in bytes, and six times that by the clock; 2 GiB of
-/// memory and 64 times `input` beside what this process has; and it writes no files. An Error that `work`
-/// throws is thrown here; where the child ends in any other way, this throws Error(bad_data) with the name
-/// `path`. Not while another thread holds what `work` needs.
+/// Runs `work` in a child process and returns its output. The child is limited to 10 s of processor time plus
+/// 1 s for each MiB of `input`, the size of its input in bytes; to six times that in wall time; and to 2 GiB
+/// of memory plus 64 times `input`, in addition to the memory of this process. It writes no files. An Error
+/// that `work` throws is rethrown here; if the child ends in any other way, this throws Error(bad_data) with
+/// the name `path`. Must not be called while another thread holds a resource that `work` needs.
 Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work);
 
-/// Parcels to one row of bytes and back. `decode` throws Error(bad_data), naming `path`, for what `encode`
-/// never makes, as where HDF5 has damaged the memory of its process.
+/// Convert parcels to a sequence of bytes and back. `decode` throws Error(bad_data), naming `path`, for bytes
+/// that `encode` never produces, such as after memory corruption by HDF5.
 std::vector<std::byte> encode(const Parcels& parcels);
 Parcels decode(std::span<const std::byte> bytes, const std::string& path);
 
-/// Plain values as a parcel has them, as they are in memory, and back; of an incomplete value nothing.
+/// Convert plain values to the bytes of a parcel, as they are in memory, and back; an incomplete value is
+/// dropped.
 template <typename Values>
 std::vector<std::byte> bytes_of(const Values& values) {
   const auto bytes = std::as_bytes(std::span(values));

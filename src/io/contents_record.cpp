@@ -8,7 +8,7 @@
 namespace talus::io {
 namespace {
 
-/// The data sets of a stored analysis. Of one of another version nothing is known, and nothing is used.
+/// Returns the data sets of a stored analysis; none if it has another version, which is not interpreted.
 std::vector<std::string> analysis_data_sets(hdf5::Reader& reader) {
   const std::string version = "/analysis/version", parameters = "/analysis/parameters";
   if (!reader.has("/analysis")) return {};

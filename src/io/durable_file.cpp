@@ -13,7 +13,7 @@
 namespace talus::io {
 
 std::vector<std::byte> read_file(const std::string& path) {
-  // Not waiting for whoever may write into a pipe.
+  // Avoids blocking on a pipe without a writer.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (file.get() < 0 || ::fstat(file.get(), &status) != 0)

@@ -1,5 +1,5 @@
 #pragma once
-/// Files that are whole or absent, whatever happens to the process or the machine.
+/// Files that are complete or absent, even after a crash of the process or the machine.
 
 #include <cstddef>
 #include <span>
@@ -10,22 +10,22 @@
 
 namespace talus::io {
 
-/// The whole file. Throws Error(missing_input) where it cannot be opened, Error(io_error) where reading
+/// Reads an entire file. Throws Error(missing_input) if it cannot be opened, and Error(io_error) if reading
 /// fails.
 std::vector<std::byte> read_file(const std::string& path);
 std::string read_text(const std::string& path);
 
-/// Writes `bytes` as an OutputFile, commits it, and makes its name durable: a file called `path` is always
-/// whole. Throws as OutputFile does.
+/// Writes `bytes` as an OutputFile, commits it, and makes its name durable, so that a file called `path` is
+/// always complete. Throws the errors of OutputFile.
 void write_durably(const std::string& path, std::span<const std::byte> bytes);
 
-/// The same of a text, as UTF-8 whatever the bytes of the names in it.
+/// Writes a text durably, converted to UTF-8 even if names in it have other bytes.
 void write_text(const std::string& path, const std::string& text);
 
-/// Creates a folder durably; one that exists already is taken. Throws creation_error.
+/// Creates a folder durably, unless it exists. Throws creation_error.
 void make_folder(const std::string& path);
 
-/// Removes a file if there is one. Throws Error(io_error).
+/// Removes a file if it exists. Throws Error(io_error).
 void remove_file(const std::string& path);
 
 }  // namespace talus::io

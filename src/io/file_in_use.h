@@ -1,16 +1,17 @@
 #pragma once
-/// Which file HDF5 is reading, for the message of a crash. The seal of a run file tells damage, not intent: a
-/// file can be malformed and sealed again, and HDF5 crashes on some.
+/// The file that HDF5 is reading, for the message after a crash. The seal of a run file detects damage, not
+/// manipulation: a malformed file can be sealed again, and some make HDF5 crash.
 
 #include <string>
 #include <utility>
 
 namespace talus::io {
 
-/// The name of the file that HDF5 reads in this thread, as a handler of signals may read it; else null.
+/// The name of the file that HDF5 reads in this thread, in a form that signal handlers can read; otherwise
+/// null.
 inline constinit thread_local const char* file_in_use = nullptr;
 
-/// Names the file for as long as it lives; `name` must outlive it.
+/// Registers the file during its lifetime; `name` must outlive it.
 class FileInUse {
  public:
   explicit FileInUse(const std::string& name) : before_(std::exchange(file_in_use, name.c_str())) {}

@@ -15,7 +15,7 @@ using hdf5::Rows;
 
 const std::string grains = "/particles/grains/";
 const std::string contacts = "/contacts/";
-const std::string moments = contacts + "moment";  // only where contacts resist rolling
+const std::string moments = contacts + "moment";  // present only if contacts resist rolling
 
 template <typename SomeFrame, typename Direction>
 void for_each_field_of_positions(SomeFrame& frame, Fields<Direction>& fields) {
@@ -25,17 +25,17 @@ void for_each_field_of_positions(SomeFrame& frame, Fields<Direction>& fields) {
   fields.pairs(grains + "position/value", frame.x, frame.y);
 }
 
-/// The data sets of a frame in the order of the schema, which is that of its hash.
+/// Visits the data sets of a frame in the order of the schema, which the hash uses.
 template <typename SomeFrame, typename Direction>
 void for_each_field(SomeFrame& frame, Direction direction) {
   Fields fields{direction};
   for_each_field_of_positions(frame, fields);
-  std::vector<Index> across(frame.image.size(), 0);  // across the bed there is no period
+  std::vector<Index> across(frame.image.size(), 0);  // there is no period across the bed
   fields.pairs(grains + "image/value", frame.image, across);
   if constexpr (Direction::reads)
     if (std::ranges::count(across, 0) != std::ssize(across))
       direction.reader.refuse(grains + "image/value",
-                              "holds an image across the bed, where there is no period");
+                              "holds an image across the bed, which has no period there");
   fields.array(grains + "angle/value", frame.angle);
   fields.pairs(grains + "velocity/value", frame.vx, frame.vy);
   fields.array(grains + "angular_velocity/value", frame.omega);
@@ -53,7 +53,7 @@ void for_each_field(SomeFrame& frame, Direction direction) {
 
 bool is_of_contacts(const std::string& path) { return path.starts_with(contacts); }
 
-/// Gives the rows of each data set to `take(field, bytes)` as they are stored.
+/// Passes the rows of each data set, as they are stored, to `take(field, bytes)`.
 template <typename Take>
 struct ToRows {
   Take take;
@@ -73,7 +73,7 @@ ToRows(Take) -> ToRows<Take>;
 
 struct FromRows {
   hdf5::Reader& reader;
-  Rows frame, contact;  ///< which rows of each data set are of the frame
+  Rows frame, contact;  ///< rows of each data set that belong to the frame
   static constexpr bool reads = true;
 
   bool has(const std::string& path, bool) const { return reader.has(path); }
@@ -91,7 +91,7 @@ Rows contact_rows(hdf5::Reader& reader, std::size_t row) {
   return {static_cast<std::uint64_t>(offset[0]), static_cast<std::uint64_t>(offset[1] - offset[0])};
 }
 
-/// The time-dependent elements of H5MD: groups with value, step and time.
+/// Whether a path is a time-dependent element of H5MD: a group with value, step and time.
 bool is_element(const std::string& path) { return path.starts_with(grains) && path.ends_with("/value"); }
 
 void create_data_sets(hdf5::Writer& writer) {
@@ -124,7 +124,7 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
   write_one(contacts + "offset", 0, contact_count);
   for (std::size_t k = 0; k < writer.sizes().at('T'); ++k) {
     const Frame frame = frame_at(k);
-    // All frames with contacts have them, or none has.
+    // Either all frames with contacts have moments, or none has.
     if (!have_moments && !frame.contacts.moment.empty()) writer.create(field_of(moments));
     have_moments = have_moments || !frame.contacts.moment.empty();
     const auto first_contact = static_cast<std::uint64_t>(contact_count);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which frames of a run are of its tilt, and which of the flow that follows failure.
+/// Separates the frames of a run's tilt from those of the flow after failure.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace talus::io {
 
-/// How many frames, from the first one, are of the tilt: up to the first highest tilt (rad), or, with a
-/// programme of the tilt, whose `last_tilt_step` is known, up to the last one not after that step.
+/// Returns the number of frames, from the first one, that belong to the tilt: up to the first highest tilt
+/// (rad) or, with a programme of the tilt, whose `last_tilt_step` is known, up to the last frame not after
+/// that step.
 inline std::size_t frames_of_tilt(const std::vector<double>& tilts, const std::vector<std::int64_t>& steps,
                                   const std::optional<std::int64_t>& last_tilt_step) {
   if (last_tilt_step)

@@ -1,5 +1,5 @@
 #pragma once
-/// HDF5 identifiers that close themselves. Private to this room, as everything that sees hdf5.h.
+/// HDF5 identifiers that close themselves. Private to src/io, like everything that includes hdf5.h.
 
 #include <hdf5.h>
 
@@ -22,8 +22,8 @@
 
 namespace talus::io::hdf5 {
 
-/// Owns one HDF5 identifier. Where an allocation has failed it stays open: HDF5 can crash when it closes what
-/// it could not complete.
+/// Owns one HDF5 identifier. After a failed allocation it is left open, because HDF5 can crash when it closes
+/// an incomplete object.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -47,51 +47,49 @@ class Handle {
   Close close_ = nullptr;
 };
 
-/// A data set that is open.
+/// An open data set.
 struct DataSet {
   Handle id, type;
   std::vector<hsize_t> dims;
   std::string path;
 };
 
-/// Keeps HDF5 from printing errors, which we report ourselves, from loading plugins into this process, and
-/// from tidying up when the process ends: there is nothing left to write then, and after an error it can
-/// crash. Nor does it lock files: what it reads has been written whole before, and a file system without
-/// locks would let it read nothing. The environment overrules what a program asks of the library, so that is
-/// what is set, once, before the library looks.
+/// Configures HDF5. It must not print errors, which Talus reports itself; not load plugins into this process;
+/// and not clean up when the process ends, because nothing is left to write, and after an error it can crash.
+/// It also must not lock files: it reads only complete files, and on a file system without locks it could
+/// read nothing. The environment overrides a program's settings of the library, so the lock setting is put
+/// there, once, before the library reads it.
 inline void set_library_policy() {
   static const int without_locks = ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
   if (without_locks != 0) throw std::bad_alloc();
   errno = 0;
   H5dont_atexit();
-  if (H5open() < 0 || errno == ENOMEM) throw std::bad_alloc();  // it can begin, and lack a part
+  if (H5open() < 0 || errno == ENOMEM) throw std::bad_alloc();  // it can start incompletely
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   H5PLset_loading_state(0);
 }
 
-/// To be asked after a call of HDF5 that failed on `name`, a file or a data set of it: where the system is
-/// the cause, that is thrown (Error(out_of_memory), Error(io_error)). HDF5 does not tell it reliably, least
-/// of all when it has no memory to note it; errno does, since set_library_policy. A malformed file can ask
-/// for more memory than there is.
+/// Throws Error(out_of_memory) or Error(io_error) if the system caused a failed HDF5 call on `name`, a file
+/// or one of its data sets. HDF5 does not report the cause reliably, least of all without memory; errno does,
+/// after set_library_policy. A malformed file can request more memory than exists.
 inline void throw_cause(const std::string& name) {
   constexpr int of_the_system[] = {EIO, ENOSPC, EDQUOT, EMFILE, ENFILE, ESTALE};
   const int cause = errno;
   if (cause == ENOMEM)
     throw Error(ExitCode::out_of_memory,
-                name + ": out of memory while it was read; where there is enough, the file is malformed");
+                name + ": out of memory while it was read; if there is enough, the file is malformed");
   if (std::ranges::find(of_the_system, cause) != std::end(of_the_system))
     throw system_error(ExitCode::io_error, "read", name, cause);
 }
 
-/// A name for a file in memory, another one at each call. HDF5 takes open files of equal names for the same
-/// one, and looks for a file of that name on disk: below /dev/null there can be none.
+/// Returns a unique name for a file in memory. HDF5 considers open files of equal names the same file, and
+/// looks for a file of that name on disk; there can be none below /dev/null.
 inline std::string memory_name(const std::string& name) {
   static std::atomic<std::uint64_t> count = 0;
   return fmt::format("/dev/null/{} {}", name, ++count);
 }
 
-/// Passes on a file that is open. Throws Error(bad_data) where HDF5 could not open it, and as throw_cause
-/// does.
+/// Returns an open file. Throws Error(bad_data) if HDF5 could not open it, and the errors of throw_cause.
 inline Handle require_open(Handle file, const std::string& name) {
   if (file.get() < 0) throw_cause(name);
   if (file.get() < 0)
@@ -99,8 +97,8 @@ inline Handle require_open(Handle file, const std::string& name) {
   return file;
 }
 
-/// Opens a file in memory. HDF5 copies the image and never writes to the bytes it is given. Throws
-/// Error(out_of_memory), and as require_open does.
+/// Opens a file in memory. HDF5 copies the image and never writes to the given bytes. Throws
+/// Error(out_of_memory), and the errors of require_open.
 inline Handle open_image(std::vector<std::byte>& image, const std::string& name, unsigned access_flags) {
   set_library_policy();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -110,10 +108,10 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
   return require_open({H5Fopen(memory_name(name).c_str(), access_flags, access.get()), H5Fclose}, name);
 }
 
-/// What a path leads to.
+/// The target of a path.
 enum class Found { nothing, an_object, a_link_elsewhere };
 
-/// Follows a path from "/" on; no link to another file or place is followed.
+/// Follows a path from "/"; links to other files or places are not followed.
 inline Found find(hid_t file, const std::string& path) {
   for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
     const std::string part = path.substr(0, slash);
@@ -125,25 +123,25 @@ inline Found find(hid_t file, const std::string& path) {
   }
 }
 
-/// Whether the values of a data set lie in its own file, and are no view of other data sets.
+/// Whether the values of a data set are in its own file and not a view of other data sets.
 inline bool is_stored_within(hid_t set) {
   const Handle creation(H5Dget_create_plist(set), H5Pclose);
   const H5D_layout_t layout = H5Pget_layout(creation.get());
   return layout >= 0 && layout != H5D_VIRTUAL && H5Pget_external_count(creation.get()) == 0;
 }
 
-/// Whether a file of so many bytes can hold `count` values: deflate makes data at most 1032 times smaller,
-/// and nothing that is read at once is above 4 GiB of doubles.
+/// Whether a file of `file_size` bytes can hold `count` values: deflate shrinks data at most by a factor of
+/// 1032, and nothing that is read at once exceeds 4 GiB of doubles.
 inline bool can_hold(hsize_t file_size, hsize_t count) {
   constexpr hsize_t most = hsize_t{1} << 29;
   return count <= most && count / 1032 <= file_size;
 }
 
-/// The attribute of a data set with the hash of its values.
+/// The attribute of a data set that contains the hash of its values.
 inline constexpr const char* hash_attribute = "hash";
 
-/// The hash of a data set that is written whole: of its path, so that no link leads to another unseen, and of
-/// its values as they are stored; of a text without the zeros at its end.
+/// Returns the hash of a data set that is written in one piece: of its path, so that redirected links are
+/// detected, and of its values as stored; trailing zeros of texts are excluded.
 inline std::uint64_t piece_hash(const std::string& path, std::span<const std::byte> values) {
   Hasher hasher;
   hasher.add_array(path);
@@ -161,7 +159,8 @@ hid_t memory_type() {
   if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
 }
 
-/// The type in the file, little-endian everywhere. Not for text, whose type depends on its length.
+/// Returns the type in the file, which is always little-endian. Not for text, whose type depends on its
+/// length.
 inline hid_t file_type(ElementType type) {
   const hid_t types[] = {
       H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I8LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U64LE, -1};

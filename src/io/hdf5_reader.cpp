@@ -66,7 +66,7 @@ void Reader::check_shape(const DataSetField& field, const std::vector<hsize_t>& 
   refuse(field.path, fmt::format("has shape {}, expected [{}]{}", shape_text(dims), field.shape, expected));
 }
 
-/// Throws unless there is an object of that path, in this file.
+/// Throws unless this file contains an object at that path.
 void Reader::require(const std::string& path) const {
   const Found found = find(file_.get(), path);
   if (found == Found::nothing) refuse(path, "is missing");

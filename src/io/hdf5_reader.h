@@ -1,6 +1,6 @@
 #pragma once
-/// Reading an HDF5 file, data set by data set of a schema: in this process one whose bytes have been
-/// verified, in a child process any. Private to this room, and to those that have files of their own.
+/// Reads an HDF5 file, data set by data set of a schema. In this process, only verified bytes may be read; in
+/// a child process, any. Private to src/io, and to code with its own file formats.
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace talus::io::hdf5 {
 
-/// What the numbers of a data set can be.
+/// The valid range of the numbers of a data set.
 struct Range {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool is_finite = true;
@@ -30,25 +30,25 @@ struct Rows {
   std::uint64_t first = 0, count = 0;
 };
 
-/// Type, rank and shape of each data set are checked against the schema before anything is allocated; a
-/// letter of the shapes has one value in a file. Every function throws Error(bad_data) naming the file and
+/// A reader that checks type, rank and shape of each data set against the schema before it allocates memory.
+/// A letter in the shapes has one value per file. Every function throws Error(bad_data) naming the file and
 /// the data set.
 class Reader {
  public:
-  /// `name` is what messages call the file; `known` are sizes it must agree with.
+  /// Opens a file; `name` is its name in messages, and `known` are sizes that it must match.
   static Reader from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known = {});
   static Reader from_file(const std::string& path);
-  /// The same file, of whose letters nothing is known yet.
+  /// Returns a reader of the same file in which no letter has a value yet.
   Reader again() const { return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}}; }
 
-  /// Values of a data set, or of some of its rows, in doubles where it holds floats.
+  /// Reads a data set, or some of its rows; floats are converted to doubles.
   template <typename T>
   std::vector<T> read(const DataSetField& field, Range range = {}, std::optional<Rows> rows = {}) {
     std::vector<T> values = values_of<T>(open(field), rows);
     check(field.path, values, range);
     return values;
   }
-  /// The same of one that a schema of Talus has.
+  /// Reads a data set of a schema of Talus.
   template <typename T>
   std::vector<T> read(const std::string& path, Range range = {}, std::optional<Rows> rows = {}) {
     return read<T>(field_of(path), range, rows);
@@ -58,29 +58,29 @@ class Reader {
     return read<T>(path, range).at(0);
   }
   std::string read_text(const std::string& path);
-  /// All values of a data set of another program, whatever its shape: integers, or numbers of any type.
+  /// Reads a data set of another program in any shape: integers, or numbers of any type.
   template <typename T>
   std::vector<T> read_numbers(const std::string& path) const {
     return values_of<T>(open_numbers(path, std::is_same_v<T, double>), {});
   }
 
-  /// Whether a data set agrees with the hash of its values; one that has none does not.
+  /// Whether a data set matches the hash of its values; one without a hash does not.
   bool is_as_written(const std::string& path);
 
-  /// Whether there is a data set or a group of that path.
+  /// Whether a data set or a group exists at that path.
   bool has(const std::string& path) const;
-  /// The first dimension; 1 for a scalar.
+  /// Returns the first dimension; 1 for a scalar.
   std::uint64_t row_count(const std::string& path);
-  /// Names of the data sets in a group, in the order in which they were written.
+  /// Returns the names of the data sets in a group, in the order in which they were written.
   std::vector<std::string> names(const std::string& group) const { return names(group, H5O_TYPE_DATASET); }
-  /// Paths of the data sets below a group, those of groups in it after its own.
+  /// Returns the paths of the data sets below a group; those in subgroups come last.
   std::vector<std::string> data_sets(const std::string& group) const;
-  /// A text that is an attribute of a group or a data set.
+  /// Reads a text attribute of a group or a data set.
   std::string attribute(const std::string& path, const char* name) const;
 
   /// Throws Error(bad_data) about a data set of this file.
   [[noreturn]] void refuse(const std::string& path, const std::string& problem) const;
-  /// Throws it where a value is out of its range.
+  /// Throws Error(bad_data) if a value is outside its range.
   template <typename T>
   void check(const std::string& path, const std::vector<T>& values, Range range) const {
     for (std::size_t k = 0; k < values.size(); ++k)

@@ -12,10 +12,10 @@ namespace talus::io::hdf5 {
 namespace {
 
 constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image in memory grows
-constexpr hsize_t series_chunk = 1 << 16;             // rows of a series in a chunk
+constexpr hsize_t series_chunk = 1 << 16;             // rows of a series per chunk
 constexpr unsigned deflate_level = 4;
 
-/// Passes on what HDF5 returned, unless it is a failure: in memory, of which there is too little then.
+/// Returns the result of HDF5 unless it failed; in memory, the cause of a failure is lack of memory.
 template <typename Result>
 Result checked(Result result, const std::string& action) {
   if (result >= 0) return result;
@@ -60,12 +60,12 @@ void attach_hash(hid_t object, std::uint64_t hash) {
 Handle properties(hid_t kind) {
   Handle list(checked(H5Pcreate(kind), "create properties"), H5Pclose);
   if (kind != H5P_FILE_ACCESS && kind != H5P_FILE_CREATE && kind != H5P_DATASET_ACCESS)
-    checked(H5Pset_obj_track_times(list.get(), false), "leave out times");  // equal runs, equal bytes
+    checked(H5Pset_obj_track_times(list.get(), false), "leave out times");  // equal runs give equal bytes
   return list;
 }
 
-/// Names in the order of their writing, kept with their group: not in an index of their own, which grows at
-/// the end of the file and is lost with it.
+/// Keeps names in writing order inside their group; a separate index would grow at the end of the file and be
+/// lost with it.
 void keep_names_in_order(const Handle& creation, const std::string& path) {
   constexpr unsigned most_in_group = 10000;
   checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
@@ -73,7 +73,7 @@ void keep_names_in_order(const Handle& creation, const std::string& path) {
   checked(H5Pset_link_phase_change(creation.get(), most_in_group, 0), "keep the names of " + path);
 }
 
-/// The shape of a chunk; empty for data that is stored in one piece as it is.
+/// Returns the shape of a chunk; empty for contiguous data.
 std::vector<hsize_t> chunk_of(const DataSetField& field, const std::vector<hsize_t>& dims,
                               const Sizes& sizes) {
   if (dims.empty() || std::ranges::count(dims, 0u) > 0) return {};
@@ -93,8 +93,7 @@ std::vector<hsize_t> chunk_of(const DataSetField& field, const std::vector<hsize
 Handle creation_properties(ElementType type, const std::vector<hsize_t>& chunk) {
   Handle list = properties(H5P_DATASET_CREATE);
   if (type == ElementType::float32 || type == ElementType::float64) {
-    const double nan =
-        std::numeric_limits<double>::quiet_NaN();  // a value never written must not read as zero
+    const double nan = std::numeric_limits<double>::quiet_NaN();  // an unwritten value must not read as zero
     checked(H5Pset_fill_value(list.get(), H5T_NATIVE_DOUBLE, &nan), "set the fill value");
   }
   if (chunk.empty()) return list;
@@ -104,8 +103,8 @@ Handle creation_properties(ElementType type, const std::vector<hsize_t>& chunk) 
   return list;
 }
 
-/// A cache that holds the chunk being filled and no more: those before it are in the file, frame by frame,
-/// and a packed file that is cut keeps the frames before the cut.
+/// Sizes the chunk cache for the chunk being filled. Preceding chunks are then in the file, frame by frame,
+/// and a truncated packed file keeps the frames before the cut.
 Handle access_properties(ElementType type, const std::vector<hsize_t>& chunk) {
   std::size_t bytes = size_of(type);
   for (hsize_t extent : chunk) bytes *= extent;

@@ -16,7 +16,8 @@ constexpr std::int8_t floor_species = 1;
 constexpr const char* edges = "/particles/grains/box/edges";
 constexpr Range diameters = {1e-9, 1e9};
 
-/// Lengths must be those of one bed: grids are made from their ratios to the diameter d, m.
+/// Visits the static data. Lengths are limited relative to the diameter d, m, because grids are sized by
+/// these ratios.
 template <typename Statics, typename Direction>
 void for_each_field(Statics& statics, double d, Direction direction) {
   Fields fields{direction};
@@ -61,22 +62,22 @@ RunStatics read_statics(hdf5::Reader& reader) {
   return statics;
 }
 
-/// What the scenario of the run says, and no data set of its own repeats.
+/// Returns a parameter that only the scenario of the run states.
 double stored_wall_friction(const hdf5::Reader& reader, const std::string& scenario) {
   const std::string path = "/parameters/scenario_resolved";
   try {
     return scenario::parse_scenario(scenario, path).contact.wall_friction;
   } catch (const Error& error) {
-    reader.refuse(path, std::string("is no scenario: ") + error.what());
+    reader.refuse(path, std::string("is not a scenario: ") + error.what());
   }
 }
 
-/// Whether an inverse of a mass is that of the mass, or 0 for a grain of the floor.
+/// Whether `inverse` is the inverse of a mass, or 0 for a grain of the floor.
 bool is_inverse(double inverse, double of, bool free) {
   return free ? std::abs(inverse * of - 1.0) < 1e-9 : inverse == 0.0;
 }
 
-/// The state that a branch begins from is one of the bed of the run.
+/// Checks that the state from which a branch begins belongs to the bed of the run.
 void check_branch(const hdf5::Reader& reader, const World& start, const RunStatics& statics) {
   const Grains& of = start.grains;
   const auto must = [&reader](bool holds, const char* name) {

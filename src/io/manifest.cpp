@@ -56,7 +56,8 @@ Manifest parse(const std::string& text) {
   return manifest;
 }
 
-/// header.h5, checkpoint_000001.h5: of the folder itself, with a number that can be counted on from.
+/// Whether a name belongs to a file of the folder, such as header.h5 or checkpoint_000001.h5, whose number
+/// can be incremented.
 bool is_name_of_store(const std::string& name) {
   const auto digits = std::ranges::count_if(name, [](char c) { return c >= '0' && c <= '9'; });
   return name.ends_with(".h5") && digits <= 16 && name.find('/') == std::string::npos;
@@ -100,11 +101,10 @@ Manifest parse_manifest(const std::string& text, const std::string& path) {
         fmt::format(
             "{}: begins with '{}', expected '{}': it is damaged, or was written by another version of Talus",
             path, found, first_line));
-  throw Error(ExitCode::bad_data,
-              path +
-                  ": is damaged (its hash does not match its lines); the run cannot be "
-                  "continued: restore the folder from a copy, or keep what is whole of it: "
-                  "talus repair RUN.h5 -o NEW.h5");
+  throw Error(ExitCode::bad_data, path +
+                                      ": is damaged (its hash does not match its lines); the run cannot be "
+                                      "continued: restore the folder from a copy, or save what is undamaged: "
+                                      "talus repair RUN.h5 -o NEW.h5");
 }
 
 Manifest read_manifest(const std::string& folder) {

@@ -21,7 +21,7 @@ bool is_ensemble_folder(const std::string& path) {
   return fs::exists(fs::path(path) / ensemble_manifest_name, unknown);
 }
 
-/// "beds/seed-1.h5", the first run in a folder; empty if it holds none.
+/// Returns the first run in a folder, such as "beds/seed-1.h5"; empty if there is none.
 std::string first_run_in(const std::string& folder) {
   std::vector<std::string> runs;
   std::error_code unknown;
@@ -58,8 +58,8 @@ std::string first_run_in(const std::string& folder) {
     throw Error(
         ExitCode::bad_data,
         what +
-            " but an HDF5 file of another kind; talus solve takes contact problems, and talus ensemble "
-            "average makes an ensemble.h5 of an earlier version again");
+            " but an HDF5 file of another kind; talus solve reads contact problems, and talus ensemble "
+            "average replaces an ensemble.h5 of an earlier version");
   throw Error(ExitCode::bad_data, what + "; expected one that talus run, view or replay has written");
 }
 
@@ -86,7 +86,7 @@ void refuse_no_averages(const std::string& path) {
       ExitCode::bad_data,
       path +
           ": is not the ensemble.h5 of an ensemble (it does not begin with 'talus averages file 1'), or "
-          "one of an earlier version of Talus; make it again with: talus ensemble average FOLDER");
+          "one of an earlier version of Talus; recreate it with: talus ensemble average FOLDER");
 }
 
 void refuse_no_scenario(const std::string& path) {
@@ -99,8 +99,8 @@ void refuse_no_scenario(const std::string& path) {
   const RunPresence presence = run_presence(run);
   if (presence == RunPresence::folder)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is not a scenario but an incomplete run, now at {:.3f} deg; go on "
-                            "with it: talus run --resume {}",
+                fmt::format("{} is not a scenario but an incomplete run, now at {:.3f} deg; resume "
+                            "it with: talus run --resume {}",
                             path, degrees(RunFile::open(run).checkpoint().world.tilt), run));
   if (presence == RunPresence::packed && begins_as_run(run))
     throw Error(ExitCode::bad_data,
@@ -110,8 +110,8 @@ void refuse_no_scenario(const std::string& path) {
   if (is_ensemble_folder(path))
     throw Error(
         ExitCode::bad_data,
-        fmt::format("{0} is not a scenario but the folder of an ensemble; talus ensemble work {0} goes "
-                    "on with it",
+        fmt::format("{0} is not a scenario but the folder of an ensemble; talus ensemble work {0} resumes "
+                    "it",
                     path));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The packed file of a finished run: what it holds, its H5MD metadata, its bytes. Private to this room.
+/// The packed file of a finished run: its contents, its H5MD metadata, and its bytes. Private to src/io.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace talus::io {
 
-/// All that a packed file holds of a run; frames are asked for one after another.
+/// The contents of a packed file; frames are requested one after another.
 struct RunContent {
   RunHeader header;
   Checkpoint checkpoint;
@@ -20,18 +20,19 @@ struct RunContent {
   std::vector<Command> commands;
   std::vector<TrialRow> trials;
   std::size_t frames = 0;
-  std::uint64_t contacts = 0;  ///< of all frames
+  std::uint64_t contacts = 0;  ///< total of all frames
   std::function<Frame(std::size_t)> frame_at;
-  bool has_frames = true;  ///< false: of frames only steps, times and tilts are stored
+  bool has_frames = true;  ///< false: only steps, times and tilts of frames are stored
 };
-/// Of a run, which must outlive it; without its frames where it has none, or they are not wanted.
+/// Returns the contents of a run, which must outlive them; without frames if it has none or they are not
+/// wanted.
 RunContent content_of(const RunFile& run, bool with_frames = true);
 
-/// Whether a run was repaired and lacks its last state: it has no /checkpoint.
+/// Whether a run was repaired without its last state, and so has no /checkpoint.
 bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint);
 
-/// The packed file, sealed. Equal runs give equal bytes, however they were committed. Asks before each frame
-/// whether it `goes_on`, if asked to; returns nothing where it does not.
+/// Returns the bytes of the packed file, sealed. Equal runs give equal bytes, however they were committed. If
+/// `goes_on` is given, it is called before each frame; if it returns false, this returns nothing.
 std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on = {});
 
 }  // namespace talus::io

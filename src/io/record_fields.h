@@ -1,6 +1,6 @@
 #pragma once
-/// One table of fields for both directions: a record names its data sets once, in the order of the file, and
-/// the table is given Fields that write or read. Private to this room.
+/// One table of fields for both directions: a record lists its data sets once, in the order of the file, and
+/// passes them to Fields, which writes or reads them. Private to src/io.
 
 #include <functional>
 #include <string>
@@ -16,7 +16,7 @@ namespace talus::io {
 using hdf5::Range;
 inline constexpr Range not_negative = {.low = 0.0};
 
-/// Data sets that are written whole.
+/// Writes entire data sets.
 struct ToFile {
   hdf5::Writer& writer;
   static constexpr bool reads = false;
@@ -28,7 +28,7 @@ struct ToFile {
   }
 };
 
-/// Data sets that are read whole.
+/// Reads entire data sets.
 struct FromFile {
   hdf5::Reader& reader;
   static constexpr bool reads = true;
@@ -40,7 +40,7 @@ struct FromFile {
   }
 };
 
-/// A value is stored as one number, truths and kinds as int8, or as several of them, one after another.
+/// A value is stored as one number or several consecutive numbers; bools and enums are stored as int8.
 template <typename T>
 constexpr std::size_t part_count = std::is_same_v<T, Tensor2> ? 4
                                    : std::is_same_v<T, Vec2>  ? 2
@@ -60,7 +60,7 @@ template <typename T>
 using Stored = std::conditional_t<std::is_enum_v<NumberOf<T>> || std::is_same_v<NumberOf<T>, bool>,
                                   std::int8_t, NumberOf<T>>;
 
-/// The shapes of data sets, described once for both directions. A range is what values that are read can be.
+/// Exchanges data sets, described once for both directions. A range limits the values that are read.
 template <typename Direction>
 struct Fields {
   Direction direction;
@@ -70,7 +70,7 @@ struct Fields {
     exchange<Stored<T>>(
         path, 1, range, [](auto) {}, [&](std::size_t) -> T& { return value; });
   }
-  /// One member of each row, or what a function makes of it.
+  /// Exchanges one member of each row, or the result of a function of it.
   template <typename Rows, typename Member>
   void column(const std::string& path, Rows& rows, const Member& member, Range range = {}) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Member, decltype(rows[0])>>;
@@ -83,12 +83,12 @@ struct Fields {
   void array(const std::string& path, Array& values, Range range = {}) {
     column(path, values, std::identity(), range);
   }
-  /// An array that is there only where it holds something.
+  /// Exchanges an array that is stored only if it is not empty.
   template <typename Array>
   void array_if_any(const std::string& path, Array& values, Range range = {}) {
     if (direction.has(path, !values.empty())) array(path, values, range);
   }
-  /// Two arrays as one of pairs.
+  /// Exchanges two arrays as one array of pairs.
   template <typename X, typename Y>
   void pairs(const std::string& path, X& x, Y& y, Range range = {}) {
     exchange<Stored<typename X::value_type>>(
@@ -107,7 +107,7 @@ struct Fields {
     else
       direction.writer.write_text(path, value);
   }
-  /// A group of values, or of texts, whose names the record chooses.
+  /// Exchanges a group of values or texts, whose names the record chooses.
   template <typename Named>
   void named(const std::string& group, Named& values) {
     if constexpr (Direction::reads)
@@ -123,8 +123,8 @@ struct Fields {
   }
 
  private:
-  /// The values of a data set: `at(k)` is where the one at index k belongs, after `resize(count)` in a record
-  /// that is read.
+  /// Exchanges the values of a data set: `at(k)` refers to element k, after `resize(count)` in a record that
+  /// is read.
   template <typename T, typename Resize, typename At>
   void exchange(const std::string& path, std::size_t count, Range range, const Resize& resize, const At& at) {
     if constexpr (Direction::reads) {

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The state of a run has its grains, but for those that have not arrived yet while it is poured.
+/// Checks that the state contains the grains of the run, except those that have not arrived yet during
+/// pouring.
 void check_grains(const hdf5::Reader& reader, const RunStatics& statics, const Grains& grains) {
   const Index all = static_cast<Index>(statics.radius.size());
   if (grains.free_count <= statics.free_count &&
@@ -29,7 +30,7 @@ void check_grains(const hdf5::Reader& reader, const RunStatics& statics, const G
                             statics.free_count, all));
 }
 
-/// Sizes of the letters of the shapes that a file must agree with.
+/// Returns the letters of the shapes that a file must match.
 Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
   return {{'T', segment.frames},
           {'M', segment.contacts},
@@ -47,7 +48,7 @@ void append(std::vector<Row>& rows, const std::vector<Row>& more) {
   rows.insert(rows.end(), more.begin(), more.end());
 }
 
-/// What a packed file says of itself, in the words of a manifest.
+/// Describes a packed file as one segment of a manifest.
 StoredSegment whole_file(hdf5::Reader& reader) {
   StoredSegment segment;
   segment.frames = reader.row_count("/frames/tilt");
@@ -55,7 +56,7 @@ StoredSegment whole_file(hdf5::Reader& reader) {
   return segment;
 }
 
-/// RUN.h5 of the folder RUN.h5.run.
+/// Returns the packed file of a run folder: RUN.h5 for RUN.h5.run.
 std::string packed_name(std::string folder) {
   while (folder.ends_with('/')) folder.pop_back();
   const std::string ending = run_folder("");
@@ -79,21 +80,22 @@ bool is_known_command(const Command& command, std::int64_t last) { return comman
 
 }  // namespace
 
-/// A packed file is one segment that is open all the time; of a folder the segment used last is open.
+/// An open run. A packed file is one segment that is always open; of a folder, the segment used last is open.
 struct RunFile::State {
   std::string folder;  ///< empty for a packed file
   RunHeader header;
   Checkpoint checkpoint;
   std::vector<StoredSegment> segments;
-  std::string name;  ///< what messages call it
+  std::string name;  ///< name in messages
   std::vector<double> all_tilts, all_times;
   std::vector<std::int64_t> all_steps;
   bool has_frames = true;
-  std::vector<double> tilts;                   ///< of the frames of the tilt
-  std::optional<std::int64_t> last_tilt_step;  ///< with a programme
+  std::vector<double> tilts;                   ///< tilts of the frames that belong to the tilt
+  std::optional<std::int64_t> last_tilt_step;  ///< set with a programme
   std::size_t open_segment = 0;
   std::optional<hdf5::Reader> reader;
-  bool packed_since = false;  ///< the reader is that of the file into which the folder was packed meanwhile
+  bool packed_since =
+      false;  ///< the folder was packed after it was opened, and `reader` reads the packed file
 
   hdf5::Reader& segment(std::size_t s) {
     if (packed_since || (reader && open_segment == s)) return *reader;
@@ -107,8 +109,8 @@ struct RunFile::State {
     return *reader;
   }
 
-  /// Goes on with the file into which the writer of this folder has packed the run since it was opened; false
-  /// where there is none. What was known of the run stays: the file begins with it.
+  /// Switches to the file into which the writer of this folder has packed the run since it was opened;
+  /// returns false if there is none. Known data remain valid, because the file begins with them.
   bool follow_packing() {
     std::error_code unknown;
     if (folder.empty() || fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return false;
@@ -120,12 +122,12 @@ struct RunFile::State {
     if (now.scenario_resolved != header.scenario_resolved || now.seed != header.seed)
       throw Error(ExitCode::missing_input,
                   path + ": another run has taken the place of the one that was read");
-    whole_file(*reader);  // the sizes that its data sets must agree with
+    whole_file(*reader);  // establishes the sizes that its data sets must match
     packed_since = true;
     return true;
   }
 
-  /// Where frame k is stored.
+  /// The location of frame k.
   struct FramePlace {
     hdf5::Reader& reader;
     std::size_t row;
@@ -139,7 +141,7 @@ struct RunFile::State {
     return {from, packed_since ? k : in_segment};
   }
 
-  /// What `record` reads of frame k, from the segment that holds it.
+  /// Returns what `record` reads of frame k from its segment.
   Frame read(Frame (*record)(hdf5::Reader&, std::size_t), std::size_t k) {
     if (!has_frames)
       throw Error(
@@ -153,8 +155,8 @@ struct RunFile::State {
     return frame;
   }
 
-  /// The rows that `record` reads of all segments; of those of a file that was packed since, the ones that
-  /// `is_known`.
+  /// Returns the rows that `record` reads from all segments; if the run was packed since it was opened, only
+  /// rows that `is_known` accepts.
   template <typename Row>
   std::vector<Row> rows(std::vector<Row> (*record)(hdf5::Reader&),
                         bool (*is_known)(const Row&, std::int64_t)) {
@@ -171,7 +173,7 @@ struct RunFile::State {
     return all;
   }
 
-  /// Without its last state a run does not tell; two walls and a floor are the most that there can be.
+  /// The number is unknown without the last state; two walls and a floor are the maximum.
   std::size_t plane_count() const {
     return checkpoint.world.grains.count() == 0 ? 3 : checkpoint.world.boundary.planes.size();
   }
@@ -179,7 +181,7 @@ struct RunFile::State {
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
-      if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed at this moment");
+      if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed meanwhile");
       append(all_tilts, from.read<double>("/frames/tilt"));
       append(all_times, from.read<double>("/frames/time"));
       append(all_steps, from.read<std::int64_t>("/frames/step"));
@@ -192,7 +194,7 @@ struct RunFile::State {
 
 namespace {
 
-/// The manifest of a folder; empty where there is none any more.
+/// Reads the manifest of a folder; empty if it no longer exists.
 std::string manifest_if_there(const std::string& folder) {
   const fs::path manifest = fs::path(folder) / Manifest::file_name;
   try {
@@ -204,13 +206,13 @@ std::string manifest_if_there(const std::string& folder) {
   }
 }
 
-/// The folder of a run, or nothing where `path` is a packed file.
+/// Returns the folder of a run, or nothing if `path` is a packed file.
 std::optional<std::string> folder_to_read(const std::string& path) {
   std::error_code unknown;
   if (run_presence(path) == RunPresence::packed) return std::nullopt;
   for (const std::string& folder : {path, run_folder(path)})
     if (fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return folder;
-  if (fs::is_regular_file(path, unknown)) return std::nullopt;  // packed at this very moment
+  if (fs::is_regular_file(path, unknown)) return std::nullopt;  // packed at this moment
   refuse_no_run(path);
 }
 
@@ -252,7 +254,7 @@ RunFile RunFile::open_folder(const std::string& folder) {
   const Manifest manifest = read_manifest(folder);
   auto state = std::make_unique<State>();
   state->folder = folder;
-  // The next commit replaces it: it is read first.
+  // Read first, because the next commit replaces it.
   hdf5::Reader checkpoint = open_file_of(folder, manifest.checkpoint, {});
   hdf5::Reader header = open_file_of(folder, manifest.header, {});
   state->header = read_header(header);
@@ -271,7 +273,7 @@ RunFile RunFile::open(const std::string& path) {
     try {
       return open_folder(*folder);
     } catch (const Error&) {
-      // A writer at work replaces the checkpoint, and at the end packs the folder away: then look again.
+      // A writer at work replaces the checkpoint, and finally packs the folder. In these cases, retry.
       const bool changed = before.empty() || manifest_if_there(*folder) != before;
       if (!changed || attempts_left == 0) throw;
     }

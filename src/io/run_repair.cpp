@@ -29,22 +29,22 @@ namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 using Lines = std::vector<std::string>;
 
-/// A file of a run: a packed file is all of it, a folder has one for each commit and two more.
+/// A file of a run: a packed file is the entire run; a folder has one file for each commit and two more.
 struct Part {
-  std::string name;  ///< in a folder; empty for a packed file
+  std::string name;  ///< name in the folder; empty for a packed file
   Bytes bytes;
 };
 
-/// The new run, packed; empty where nothing can be kept. And what is to be said of it.
+/// The new run, packed (empty if nothing can be kept), and the lines of the report.
 struct Salvage {
   Bytes file;
   Lines kept, lost;
 };
 
 constexpr const char* origin_fact = "repaired_from";
-constexpr const char* lost_analysis = "/analysis: is no part of the run; make it again with talus analyze";
+constexpr const char* lost_analysis = "/analysis: is not part of the run; recompute it with talus analyze";
 
-/// That of a run which replaced another one in its folder has a number.
+/// Whether the folder has a header, which has a number if the run replaced another one in its folder.
 bool has_header(const std::string& folder) {
   std::error_code unknown;
   return std::ranges::any_of(names_in(folder, unknown), [](const std::string& name) {
@@ -60,15 +60,16 @@ std::optional<std::string> folder_of(const std::string& run) {
   refuse_no_run(run);
 }
 
-/// HDF5 opens no file that is shorter than it was; what lies before the cut can be read then.
+/// Pads a file to its original size. HDF5 does not open a truncated file; after padding, the data before the
+/// cut can be read.
 Bytes padded(Bytes bytes) {
-  constexpr std::uint64_t most = 8;  // times what there is
+  constexpr std::uint64_t most = 8;  // times the remaining size
   const std::uint64_t size = sealed_size(bytes);
   if (size > bytes.size() && size / most <= bytes.size()) bytes.resize(size);
   return bytes;
 }
 
-/// The files of a folder in the order of their commits; without a manifest, those that are there.
+/// Returns the files of a folder in the order of their commits; without a manifest, the files found there.
 Lines files_in(const std::string& folder, Lines& lost) {
   Lines names;
   try {
@@ -77,7 +78,7 @@ Lines files_in(const std::string& folder, Lines& lost) {
     lost.emplace_back("manifest: is not as it was written");
     for (const std::string& name : names_in(folder))
       if (name.ends_with(".h5")) names.push_back(name);
-    // By their lengths: the header, segments, checkpoints.
+    // Sorted by the length of their names: the header, segments, checkpoints.
     std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name.size(), name); });
   }
   return names;
@@ -95,8 +96,8 @@ std::vector<Part> parts_of(const std::string& run, Lines& lost) {
   return parts;
 }
 
-/// Reads the parts in a child process, where HDF5 can do no harm. All but frames and facts is kept group by
-/// group.
+/// Reads the parts in a child process, in which HDF5 can do no harm. Except for frames and facts, data are
+/// kept or dropped group by group.
 class Salvager {
  public:
   Salvager(std::string run, Lines lost) : name_(std::move(run)) { salvage_.lost = std::move(lost); }
@@ -127,7 +128,7 @@ class Salvager {
     salvage_.lost.push_back(fmt::format("{}{}: is not as it was written{}", prefix_, path, with));
   }
 
-  /// The data sets that a part should have. Where its list of them is lost, those that every run has.
+  /// Returns the data sets that a part should have; if its list is lost, those that every run has.
   Lines contents_of(hdf5::Reader& reader) {
     if (is_as_written(reader, "/contents")) return listed_data_sets(reader);
     lose("/contents", ", so the last state, results and commands are left out");
@@ -138,20 +139,21 @@ class Salvager {
     return paths;
   }
 
-  /// What is kept as one. The state needs the results, which are kept without it.
+  /// Returns the group that is kept or dropped together. The state needs the results, which are kept without
+  /// it.
   static std::string group_of(const std::string& path) {
     if (path.starts_with("/provenance/timing/")) return "/results";
     return path == "/provenance/seed" ? "/parameters" : path.substr(0, path.find('/', 1));
   }
 
-  /// The groups of a part of which all is as it was written.
+  /// Returns the undamaged groups of a part.
   std::set<std::string> whole_groups(hdf5::Reader& reader) {
     std::set<std::string> whole, broken;
     for (const std::string& path : contents_of(reader)) {
       const std::string group = group_of(path);
       whole.insert(group);
       if (is_as_written(reader, path)) continue;
-      if (group == "/provenance") {  // a fact alone
+      if (group == "/provenance") {  // facts are kept individually
         lose(path, "");
         continue;
       }
@@ -187,11 +189,11 @@ class Salvager {
     rows.insert(rows.end(), more.begin(), more.end());
   }
 
-  /// A frame that agrees with its hash is whole, whatever else is damaged.
+  /// Adds the frames that match their hashes, whatever else is damaged.
   void add_frames(hdf5::Reader& reader) {
     const auto hashes = reader.read<std::uint64_t>("/frames/hash");
     frames_before_ += hashes.size();
-    std::size_t lost = 0;  // those that follow each other up to here
+    std::size_t lost = 0;  // length of the current sequence of lost frames
     for (std::size_t row = 0; row < hashes.size(); ++row) {
       const bool kept = add_frame(reader, row, hashes[row]);
       if (kept) lose_frames(reader, row - lost, lost);
@@ -207,7 +209,7 @@ class Salvager {
     try {
       const double tilt = reader.read<double>("/frames/tilt", {}, hdf5::Rows{first, 1})[0];
       line += fmt::format(", {} {:.3f} deg", count == 1 ? "at" : "from", degrees(tilt));
-    } catch (const Error&) {  // that is lost too
+    } catch (const Error&) {  // the tilt is lost too
     }
     salvage_.lost.push_back(line);
   }
@@ -222,7 +224,7 @@ class Salvager {
     return false;
   }
 
-  /// What was lost before an earlier repair is so still.
+  /// Adds what was lost before an earlier repair to the record.
   void note_origin() {
     Facts& facts = run_.header.provenance;
     std::string lost = find_value(facts, lost_fact).value_or("");
@@ -252,12 +254,12 @@ class Salvager {
 
   std::string name_;
   Salvage salvage_;
-  std::string prefix_;  ///< of the lines about the part at hand
+  std::string prefix_;  ///< prefix of the lines about the current part
   std::deque<hdf5::Reader> readers_;
   RunContent run_;
   bool has_header_ = false, has_analysis_ = false;
   std::size_t frames_before_ = 0;
-  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each frame that is kept
+  std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each kept frame
 };
 
 std::string text_of(const Lines& lines) {
@@ -287,8 +289,8 @@ Salvage salvage_run(const std::string& run) {
   return {std::move(found["file"]), lines_of(found["kept"]), lines_of(found["lost"])};
 }
 
-/// Whether a run opens, so that all of its bytes agree with the hash of the file, and what it holds with its
-/// own.
+/// Whether a run opens, so that its bytes match the hash of the file, and its contents match their own
+/// hashes.
 bool is_whole(const std::string& run) try {
   const RunFile file = RunFile::open(run);
   for (std::size_t k = 0; file.has_frames() && k < file.all_frame_tilts().size(); ++k)
@@ -322,10 +324,10 @@ RepairReport repair_run(const RepairRequest& request) {
     throw Error(ExitCode::bad_data,
                 fmt::format("{}: nothing can be saved: {}; restore the run from a copy, or compute it again",
                             request.run, salvage.lost.at(0)));
-  RunFile::of_bytes(salvage.file, request.output);  // nothing is written that cannot be read
+  RunFile::of_bytes(salvage.file, request.output);  // checks that the output can be read before it is written
   prepare_folder_of(request.output);
   write_durably(request.output, salvage.file);
-  discard_folder(request.output);  // beside the file it would be another run of that name
+  discard_folder(request.output);  // next to the file it would be another run of the same name
   return {false, folder.has_value(), std::move(salvage.kept), std::move(salvage.lost)};
 }
 
@@ -335,7 +337,7 @@ std::vector<std::string> damaged_pieces(const std::string& run) try {
   return lost;
 } catch (const Error& error) {
   if (error.code() != ExitCode::bad_data) throw;
-  return {error.what()};  // HDF5 does not survive it
+  return {error.what()};  // HDF5 crashes on it
 }
 
 }  // namespace talus::io

@@ -1,6 +1,6 @@
 #pragma once
-/// Repairing a run that was damaged at rest: every frame whose hash holds, and every other part that is as it
-/// was written, is copied into a new run.
+/// Repairs a run that was damaged at rest: copies every frame whose hash matches, and every other undamaged
+/// part, into a new run.
 
 #include <string>
 #include <vector>
@@ -8,22 +8,22 @@
 namespace talus::io {
 
 struct RepairRequest {
-  std::string run;     ///< a packed file, or the folder of a run, by its name or that of its file
-  std::string output;  ///< of the new run, a packed file
+  std::string run;     ///< a packed file, or the folder of a run, by its own name or that of its file
+  std::string output;  ///< path of the new run, a packed file
   bool overwrite = false;
 };
 
 struct RepairReport {
-  bool was_whole = false;               ///< then nothing was written
-  bool of_folder = false;               ///< of a run that was not complete
+  bool was_whole = false;               ///< nothing was written in this case
+  bool of_folder = false;               ///< the run was incomplete
   std::vector<std::string> kept, lost;  ///< one line each
 };
 
-/// Throws Error(missing_input) where there is no such run, Error(bad_data) where nothing can be kept of it,
-/// and Error(cannot_create) where the output exists already, or a process is writing the run.
+/// Repairs a run. Throws Error(missing_input) if the run does not exist, Error(bad_data) if nothing can be
+/// kept of it, and Error(cannot_create) if the output already exists or a process is writing the run.
 RepairReport repair_run(const RepairRequest& request);
 
-/// What of a damaged run is not as it was written, one line each. Throws Error(missing_input).
+/// Returns the damaged pieces of a run, one line each. Throws Error(missing_input).
 std::vector<std::string> damaged_pieces(const std::string& run);
 
 }  // namespace talus::io

@@ -11,7 +11,7 @@ namespace {
 
 using enum ElementType;
 
-/// In the order of the types.
+/// Names and sizes, in the order of the types.
 constexpr struct {
   std::string_view name;
   std::size_t size;  ///< bytes
@@ -45,12 +45,12 @@ std::vector<DataSetField> header_fields() {
 std::vector<DataSetField> frame_fields() {
   return {
       {"/frames/hash", uint64, "T", "1",
-       "XXH3 of all that the data sets below hold of a frame, its contacts included"},
+       "XXH3 of the data of a frame in the data sets below, its contacts included"},
       {"/frames/step", int64, "T", "1",
-       "steps taken since the beginning of the run; also linked as `step` beside each `value` of "
+       "steps taken since the beginning of the run; also linked as `step` next to each `value` of "
        "/particles/grains"},
       {"/frames/time", float64, "T", "s",
-       "simulated time; also linked as `time` beside each `value` of /particles/grains"},
+       "simulated time; also linked as `time` next to each `value` of /particles/grains"},
       {"/frames/tilt", float64, "T", "rad",
        "angle of the bed to the horizontal, theta; ascending up to failure, what comes after the first "
        "highest value is the flow that follows it; with a programme see checkpoint/integers/last_tilt_step"},
@@ -81,8 +81,8 @@ std::vector<DataSetField> frame_fields() {
        "force (f_n, f_t) on b along n and t = (-n_y, n_x), per metre of thickness; f_n > 0 is compression"},
       {"/contacts/status", int8, "M", "1", "0 open, 1 sticking, 2 sliding (friction fully mobilised)"},
       {"/contacts/moment", float32, "M", "N",
-       "moment on b, counter-clockwise positive, per metre of thickness; its opposite acts on a; only there "
-       "where contacts resist rolling (contact.rolling_friction > 0)"},
+       "moment on b, counter-clockwise positive, per metre of thickness; its opposite acts on a; present "
+       "only if contacts resist rolling (contact.rolling_friction > 0)"},
   };
 }
 
@@ -109,13 +109,14 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/results/theta_c", float64, "", "rad",
        "angle of repose: the magnitude of the tilt at which the slope failed; NaN if it has not"},
       {"/results/theta_r", float64, "", "rad",
-       "angle at rest: slope of the free surface against the horizontal where the flow after failure has "
+       "angle at rest: slope of the free surface against the horizontal after the flow that follows failure "
+       "has "
        "come to "
-       "rest; NaN if it has not; not there with tilt.after_failure = \"stop\""},
+       "rest; NaN if it has not; absent with tilt.after_failure = \"stop\""},
       {"/results/*", float64, "", "SI", "a figure of the run, in the SI unit of its kind"},
       {"/provenance/timing/*", float64, "", "s", "wall time spent in a stage"},
       {"/checkpoint/state_hash", text, "", "1",
-       "XXH3 of all that the future of the state depends on, 16 hexadecimal digits"},
+       "XXH3 of everything that determines the future of the state, 16 hexadecimal digits"},
       {"/checkpoint/step", int64, "", "1", "steps taken since the beginning of the run"},
       {"/checkpoint/time", float64, "", "s", "simulated time"},
       {"/checkpoint/tilt", float64, "", "rad", "angle of the bed to the horizontal"},
@@ -151,7 +152,7 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/contact_force", float64, "C 2", "N/m",
        "force (f_n, f_t) on b, per metre of thickness: the contact memory"},
       {"/checkpoint/contact_moment", float64, "C", "N",
-       "moment on b, per metre of thickness: the memory of contacts that resist rolling, only there where "
+       "moment on b, per metre of thickness: the memory of contacts that resist rolling, present only if "
        "they do"},
       {"/checkpoint/integers/*", int64, "", "1", "a value of the schedule of the run"},
       {"/checkpoint/reals/*", float64, "", "SI",
@@ -159,7 +160,7 @@ std::vector<DataSetField> checkpoint_fields() {
   };
 }
 
-/// Values of further analyses, beside the one in /analysis.
+/// Values of further analyses, in addition to the one in /analysis.
 std::vector<DataSetField> reading_fields() {
   return {
       {"/readings/key/*", text, "", "1",
@@ -167,13 +168,13 @@ std::vector<DataSetField> reading_fields() {
       {"/readings/value/*", float64, "F W", "by quantity",
        "what it gives at each threshold for the quantities of the paper, in their order in the program and "
        "in "
-       "the units of the paper; NaN where there is none"},
-      {"/readings/at_most/*", int8, "F W", "1",
-       "1 where no more is known of a value than that it is not above it"},
+       "the units of the paper; NaN if there is none"},
+      {"/readings/at_most/*", int8, "F W", "1", "1 if the value is only an upper bound"},
   };
 }
 
-/// The state that a branch begins from has the data sets of the last state, in a group of its own.
+/// Returns the fields of /branch: the state from which a branch begins has the data sets of the last state,
+/// in a separate group.
 std::vector<DataSetField> branch_fields() {
   std::vector<DataSetField> fields = {
       {"/branch/run", text, "", "1", "the run that this one is a branch of, as the user named it"},

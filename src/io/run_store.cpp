@@ -36,8 +36,8 @@ std::string in(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
-/// What the names of a writer's files end with: eight letters that no other writer has, so that two who both
-/// take themselves for the only one never write to one file.
+/// Returns the suffix of a writer's file names: eight letters that no other writer has. Two writers that both
+/// consider themselves the only one therefore never write to the same file.
 std::string mark_of_writer() {
   std::array<unsigned char, 8> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
@@ -57,7 +57,8 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
   return digit == std::string::npos ? 0 : std::stoull(checkpoint.name.substr(digit));
 }
 
-/// "segment_000001-abcdefgh.h5"; without a mark in folders of earlier versions.
+/// Whether a name is that of a numbered file, such as "segment_000001-abcdefgh.h5"; folders of earlier
+/// versions have no suffix.
 bool is_serial_name(std::string_view name) {
   constexpr std::string_view ending = ".h5";
   if (!name.ends_with(ending)) return false;
@@ -75,12 +76,12 @@ bool is_serial_name(std::string_view name) {
   return false;
 }
 
-/// What is written under a temporary name before it takes that of the manifest or of the packed file.
+/// Temporary names of a manifest and of a packed file before they are renamed.
 constexpr std::string_view made_manifest = "manifest", made_packed = "packed";
 
 bool is_temporary(std::string_view name) { return name.ends_with(temporary_ending); }
 
-/// Whether a file of this name is the store's own: no other is ever removed.
+/// Whether a file of this name belongs to the store; no other file is ever removed.
 bool is_own(std::string_view name) {
   if (is_temporary(name)) {
     name.remove_suffix(std::string_view(temporary_ending).size());
@@ -95,7 +96,7 @@ bool is_named(const Manifest& manifest, const std::string& name) {
          std::ranges::any_of(files_of(manifest), [&](const StoredFile& file) { return file.name == name; });
 }
 
-/// Own files of the folder that `is_wanted` does not hold for.
+/// Returns the store's files in the folder that `is_wanted` selects.
 std::vector<std::string> own_files(const std::string& folder,
                                    const std::function<bool(const std::string&)>& is_wanted) {
   std::error_code unknown;
@@ -104,8 +105,8 @@ std::vector<std::string> own_files(const std::string& folder,
   return names;
 }
 
-/// Removes own files of the folder. A writer that has taken the run over after the lock was asked for has
-/// names of its own, which are not among these.
+/// Removes files of the store from the folder. Files of a writer that has taken over the run after the lock
+/// was checked have other names, which are not among these.
 void remove_own(const std::string& folder, const WriterLock& lock,
                 const std::function<bool(const std::string&)>& is_wanted) {
   const std::vector<std::string> names = own_files(folder, is_wanted);
@@ -113,19 +114,19 @@ void remove_own(const std::string& folder, const WriterLock& lock,
   for (const std::string& name : names) remove_file(in(folder, name));
 }
 
-/// Takes the run from a writer that has lost its lock without knowing it: of two renames that both want to
-/// be a commit, only that of the last writer finds its file (publish). To be done before anything is read.
+/// Takes over the run from a writer that has lost its lock without knowing it: its temporary file is removed,
+/// so that its rename cannot become a commit (see publish). Must be called before anything is read.
 void shut_out_others(const std::string& folder, const WriterLock& lock) {
   remove_own(folder, lock, is_temporary);
 }
 
-/// What a kill left behind: own files that the manifest does not name.
+/// Removes the leftovers of a kill: files of the store that the manifest does not list.
 void remove_leftovers(const std::string& folder, const WriterLock& lock, const Manifest& manifest) {
   remove_own(folder, lock, [&](const std::string& name) { return !is_named(manifest, name); });
 }
 
-/// A file system that keeps a file which is open, when it is removed, does so until it is closed (NFS), or
-/// until its server has heard of that (FUSE).
+/// Whether only files remain that a file system keeps, after removal, until they are closed (NFS) or until
+/// its server knows that (FUSE).
 bool is_kept_until_closed(const std::string& folder) {
   std::error_code unknown;
   for (const std::string& name : names_in(folder, unknown))
@@ -133,9 +134,8 @@ bool is_kept_until_closed(const std::string& folder) {
   return !unknown;
 }
 
-/// Removes the folder of a run that is packed or has not begun, the lock last; nothing where another writer
-/// has taken it over. What cannot be removed stays and does no harm; so does a folder where somebody keeps
-/// other files.
+/// Removes the folder of a run that is packed or has not begun, the lock last; does nothing if another writer
+/// has taken over the run. Files that cannot be removed are harmless, and so is a folder with foreign files.
 void remove_folder(const std::string& folder, WriterLock& lock) {
   const std::vector<std::string> names = own_files(folder, [](const std::string&) { return true; });
   if (!lock.is_held()) return;
@@ -171,7 +171,7 @@ std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
 }
 
 std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment& sizes, std::size_t grains) {
-  // Half of the time of a commit would go into compression, for a file that the packed one soon replaces.
+  // Compression would take half of the time of a commit, for a file that the packed one soon replaces.
   hdf5::Writer writer({{'T', sizes.frames},
                        {'N', grains},
                        {'M', sizes.contacts},
@@ -213,7 +213,7 @@ void refuse_existing(const std::string& path, bool overwrite) {
                                            "--overwrite, or choose another output with -o");
 }
 
-/// The first serial number that no file of the folder has.
+/// Returns the first serial number that no file of the folder uses.
 std::uint64_t next_serial(const std::string& folder) {
   std::uint64_t serial = 0;
   for (const std::string& name : own_files(folder, is_serial_name))
@@ -224,9 +224,9 @@ std::uint64_t next_serial(const std::string& folder) {
 }  // namespace
 
 struct RunStore::State {
-  /// Takes the lock of the folder, which must exist.
+  /// Acquires the lock of the folder, which must exist.
   explicit State(const std::string& run) : path(run), folder(run_folder(run)), lock(folder) {}
-  /// Of a run that has not begun nothing is left.
+  /// Removes the folder of a run that has not begun.
   ~State() {
     const bool has_begun = !manifest.checkpoint.name.empty() ||
                            ::access(in(folder, Manifest::file_name).c_str(), F_OK) == 0 || errno != ENOENT;
@@ -247,16 +247,16 @@ struct RunStore::State {
   Manifest manifest;
   std::vector<std::string> replaced;  ///< names of files of a run that this one replaces in its folder
   std::size_t grains = 0;
-  std::vector<std::byte> header;  ///< of a run that has not begun: written with its first commit
-  /// Of the next commit. A commit that failed may have left its files, or even its manifest: no name is used
-  /// twice.
+  std::vector<std::byte> header;  ///< header of a run that has not begun, written with its first commit
+  /// Number of the next commit. A commit that failed may have left its files, or even its manifest, so no
+  /// name is used twice.
   std::uint64_t serial = 1;
   double seconds_writing = 0.0;
 };
 
-/// Gives bytes a name, in one instant in which the run is this writer's. It can lose the run at any moment,
-/// and be stopped before any line; but whoever takes the run over removes the file that is renamed here
-/// before anything else (shut_out_others), so that the rename comes either before that, and counts, or never.
+/// Writes bytes and renames them to `target` while this writer holds the run. The writer can lose the run at
+/// any moment, and be stopped before any line. But another process that takes over the run first removes the
+/// temporary file (shut_out_others), so that the rename either precedes that and counts, or fails.
 void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
                               const std::string& target,
                               const std::function<void(const std::string& written)>& check) const {
@@ -287,10 +287,10 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   try {
     state = std::make_unique<State>(path);
   } catch (const Error&) {
-    ::rmdir(folder.c_str());  // if there is nothing in it
+    ::rmdir(folder.c_str());  // removes it only if it is empty
     throw;
   }
-  refuse_existing(path, overwrite);  // again, now that nobody else can change it
+  refuse_existing(path, overwrite);  // checked again while other writers are excluded
   std::error_code unknown;
   shut_out_others(folder, state->lock);
   if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, state->lock, {});
@@ -301,7 +301,7 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   state->header = header_bytes(header);
   state->grains = header.statics.radius.size();
   state->serial = next_serial(folder);
-  // No name of a run that is there is used: it is whole until the one manifest takes the place of the other.
+  // No name of an existing run is used, so that it remains complete until its manifest is replaced.
   state->manifest.header = describe(state->name_of_next("header_"), state->header);
   return RunStore(std::move(state));
 }
@@ -319,11 +319,11 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
     state->manifest.packed_seal = 0;  // it is packed again
     state->serial = serial_of(state->manifest.checkpoint) + 1;
     const RunFile run =
-        RunFile::open(folder);  // reads every file, so that damage is found before computing goes on
+        RunFile::open(folder);  // reads every file, to detect damage before computing continues
     header = run.header();
     checkpoint = run.checkpoint();
   } catch (const Error&) {
-    state->lock.require();  // what another writer changes meanwhile is no damage
+    state->lock.require();  // changes by another writer are not damage
     throw;
   }
   state->grains = header.statics.radius.size();
@@ -343,14 +343,15 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try 
   if (!is_empty(segment)) next.segments.push_back(store_segment(folder, segment_name, segment, state.grains));
   next.checkpoint = store(folder, checkpoint_name, checkpoint_bytes(checkpoint));
   if (!state.header.empty()) store(folder, next.header.name, state.header);
-  state.publish(next);  // here the commit happens
+  state.publish(next);  // the commit happens here
   state.header = {};
   std::swap(state.manifest, next);
-  if (!next.checkpoint.name.empty()) ::unlink(in(folder, next.checkpoint.name).c_str());  // or a leftover
+  if (!next.checkpoint.name.empty())
+    ::unlink(in(folder, next.checkpoint.name).c_str());  // a leftover is harmless
   for (const std::string& name : std::exchange(state.replaced, {})) ::unlink(in(folder, name).c_str());
   state.seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 } catch (const Error&) {
-  state_->lock.require();  // where another writer has taken the run over, that is what a missing file means
+  state_->lock.require();  // if another writer has taken over the run, this explains a missing file
   throw;
 }
 
@@ -362,14 +363,14 @@ bool RunStore::pack(const std::function<bool()>& goes_on, const PackedParts& par
   if (bytes.empty()) return false;
   if (parts.analysis != nullptr) bytes = with_analysis(bytes, *parts.analysis, parts.readings);
   if (state_->manifest.replaces) {
-    // When the new file has taken the name of the old one, the folder beside it must not hide it any more:
-    // the manifest tells the two apart, before and after the rename alike.
+    // Once the new file has replaced the old one, the folder next to it must no longer hide it. The manifest
+    // identifies the new file by its seal, before and after the rename.
     Manifest last = state_->manifest;
     last.packed_seal = seal_hash(bytes);
     state_->publish(last);
   }
-  // Until the file can be read, the folder is all there is of the run. Its bytes on the disk are those in
-  // memory, which HDF5 reads.
+  // Until the file is known to be readable, the run exists only in the folder. The seal shows that the bytes
+  // on disk equal those in memory, which HDF5 reads.
   state_->publish(made_packed, bytes, state_->path, [&](const std::string& packed) {
     verify_seal(packed);
     RunFile::of_bytes(std::move(bytes), state_->path);
@@ -397,14 +398,15 @@ std::string damage_of_packed(const std::string& path) {
     verify_seal(path);
     return "";
   } catch (const Error& error) {
-    if (error.code() == ExitCode::missing_input && !is_there(path)) return "";  // somebody has moved it
+    if (error.code() == ExitCode::missing_input && !is_there(path))
+      return "";  // another process has moved it
     if (error.code() != ExitCode::bad_data) throw;
     return begins_with(path, "talus run file ") && !begins_as_run(path) ? "" : error.what();
   }
 }
 
-/// Gives what makes way for a run a name that is free: `path`, `ending`, and a number from the second one on.
-/// Empty where it is gone, as another process has done the same.
+/// Renames what makes way for a run to a free name: `path`, `ending`, and a number from the second one on.
+/// Returns the name; empty if another process has already done so.
 static std::string set_aside(const std::string& what, const std::string& path, const std::string& ending) {
   std::string aside = path + ending;
   for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}{}-{}", path, ending, number);
@@ -415,11 +417,11 @@ static std::string set_aside(const std::string& what, const std::string& path, c
               fmt::format("{} cannot be renamed to {}: {}", what, aside, std::strerror(error)));
 }
 
-/// What was damaged, and where it lies now. After a semicolon stands advice for a run that cannot be made
-/// again.
+/// Describes the damage and its new location. Advice after a semicolon, which concerns runs that cannot be
+/// recomputed, is removed.
 static std::string damage_text(const std::string& damage, const std::string& aside) {
   if (aside.empty()) return "";
-  return fmt::format("{}; what is left of it is {} now", damage.substr(0, damage.find(';')), aside);
+  return fmt::format("{}; what is left of it is in {}", damage.substr(0, damage.find(';')), aside);
 }
 
 std::string set_damaged_aside(const std::string& path) {
@@ -428,7 +430,7 @@ std::string set_damaged_aside(const std::string& path) {
     const std::string damage = damage_of_packed(path);
     const std::string aside = damage.empty() ? "" : set_aside(path, path, ".damaged");
     if (aside.empty() || !damage_of_packed(aside).empty()) return damage_text(damage, aside);
-    // Another process was faster, and has computed it anew meanwhile.
+    // Another process was faster and has already recomputed the run.
     ::renameat2(AT_FDCWD, aside.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
     return "";
   }

@@ -28,7 +28,7 @@ std::vector<std::byte> seal_of(std::string_view kind, std::uint64_t size, std::u
   return block;
 }
 
-/// A file that is open at its begin, and its first bytes.
+/// A file opened at its beginning, and its first bytes.
 struct Begin {
   Descriptor file;
   std::vector<std::byte> bytes;
@@ -55,8 +55,9 @@ void seal(std::vector<std::byte>& file, std::string_view kind) {
 
 bool begins_with(const std::string& path, std::string_view bytes) {
   std::error_code unknown;
-  if (!std::filesystem::is_regular_file(path, unknown)) return false;      // a pipe gives its bytes once
-  if (::access(path.c_str(), R_OK) != 0 && errno == EACCES) return false;  // who needs it will say so
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // a pipe can be read only once
+  if (::access(path.c_str(), R_OK) != 0 && errno == EACCES)
+    return false;  // the code that needs it reports the error
   return starts_with(begin_of(path, bytes.size()).bytes, bytes);
 }
 
@@ -91,7 +92,7 @@ void verify_seal(const std::string& path, std::string_view kind) {
                           "restore it from a copy, or {}",
                           path, size, hash_text(hasher.value()),
                           is_run ? fmt::format("save what is undamaged with: talus repair {} -o NEW.h5", path)
-                                 : "make it again with: talus ensemble average FOLDER"));
+                                 : "recreate it with: talus ensemble average FOLDER"));
 }
 
 }  // namespace talus::io

@@ -1,5 +1,6 @@
 #pragma once
-/// One writer per run: an advisory lock on a file of our own, taken before anything is touched.
+/// Ensures one writer per run, with an advisory lock on a separate file that is acquired before anything is
+/// touched.
 
 #include <string>
 
@@ -7,30 +8,31 @@
 
 namespace talus::io {
 
-/// Holds the lock of a run folder. It dies with its process, so a file `lock` left behind does no harm. Where
-/// locks do not reach from one writer to the other, the later one makes a `lock` of its own, and the earlier
-/// one finds out by `require`.
+/// The lock of a run folder. It ends with its process, so a leftover file `lock` is harmless. If locks do not
+/// reach from one writer to the other, the later one creates its own `lock`, and the earlier one detects that
+/// by `require`.
 class WriterLock {
  public:
   static constexpr const char* file_name = "lock";
 
-  /// Throws Error(cannot_create) where another process holds the lock (the message names it), or where the
-  /// lock file cannot be made.
+  /// Acquires the lock. Throws Error(cannot_create) if another process holds it (the message names it), or if
+  /// the lock file cannot be created.
   explicit WriterLock(const std::string& folder);
 
-  /// Ends the lock in children of fork as well, which have the open file.
+  /// Releases the lock also in forked children, which share the open file.
   ~WriterLock();
   WriterLock(WriterLock&&) = default;
   WriterLock& operator=(WriterLock&&) = default;
 
-  /// Throws Error(cannot_create) where the folder is no longer the one that was locked: somebody has removed
-  /// it, and another process may have made a new one.
+  /// Throws Error(cannot_create) if the folder is no longer the locked one: it was removed, and another
+  /// process may have made a new one.
   void require() const;
 
   bool is_held() const;
 
-  /// Ends the lock, and removes its file first: others who find it free would take the run over. The file is
-  /// closed only then, and some file systems keep a file that is open, under another name, until it is.
+  /// Removes the lock file, and then releases the lock; in the opposite order, others would find it free and
+  /// take over the run. The file is closed last, because some file systems keep a removed open file under
+  /// another name until then.
   void remove();
 
  private:
@@ -39,11 +41,11 @@ class WriterLock {
   Descriptor file_;
 };
 
-/// The process that holds the lock of a folder, "process 12 on host a"; empty if none does, or if the file
-/// system does not tell. Nothing is changed.
+/// Returns the process that holds the lock of a folder, "process 12 on host a"; empty if none does, or if the
+/// file system does not report it. Changes nothing.
 std::string writer_of(const std::string& folder);
 
-/// Throws Error(cannot_create) where there is one.
+/// Throws Error(cannot_create) if a process holds the lock.
 void require_no_writer(const std::string& folder);
 
 }  // namespace talus::io

@@ -74,9 +74,9 @@ TEST_F(MistakenPath, a_stopped_run_in_place_of_a_scenario_is_told_with_the_comma
     for (const Words& words : takers_of_scenarios)
       expect_refused(words, path,
                      {"is not a scenario but an incomplete run, now at ",
-                      "go on with it: talus run --resume stopped.h5\n"});
+                      "resume it with: talus run --resume stopped.h5\n"});
   expect_refused({"run", "X", "--resume", "-o", "other.h5"}, "stopped.h5",
-                 {"go on with it: talus run --resume stopped.h5\n"});
+                 {"resume it with: talus run --resume stopped.h5\n"});
   const Outcome info = call({"info", "X"}, "stopped.h5");
   EXPECT_NE(info.out.find("to continue         talus run --resume stopped.h5\n"), std::string::npos)
       << info.out;

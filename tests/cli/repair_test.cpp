@@ -87,7 +87,7 @@ TEST_F(Repair, of_a_file_keeps_its_whole_frames_and_every_command_reads_them) {
   EXPECT_TRUE(has(repair.out, "  kept  4 of 5 frames\n")) << repair.out;
   EXPECT_TRUE(has(repair.out, "  lost  frame 2, at 1.000 deg\n")) << repair.out;
   EXPECT_TRUE(
-      has(repair.out, "  lost  /analysis: is no part of the run; make it again with talus analyze\n"));
+      has(repair.out, "  lost  /analysis: is not part of the run; recompute it with talus analyze\n"));
   EXPECT_EQ(talus({"check", "new.h5"}).exit_code, 0) << talus({"check", "new.h5"}).out;
   EXPECT_TRUE(has(talus({"info", "new.h5"}).out, "frame 2, at 1.000 deg (the run was repaired)"));
   EXPECT_EQ(talus({"analyze", "new.h5"}).exit_code, 0) << talus({"analyze", "new.h5"}).err;

@@ -97,7 +97,7 @@ TEST_F(HostileAverages, of_an_earlier_version_are_refused) {
   const Bytes bytes(good.begin() + static_cast<std::ptrdiff_t>(io::seal_size), good.end());
   const std::optional<std::string> said = refusal(bad(bytes), use);
   ASSERT_TRUE(said);
-  EXPECT_NE(said->find("make it again with: talus ensemble average"), std::string::npos) << *said;
+  EXPECT_NE(said->find("recreate it with: talus ensemble average"), std::string::npos) << *said;
 }
 
 // HDF5 would follow it, and a reader that skips it would miss a variant.
