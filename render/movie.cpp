@@ -85,7 +85,7 @@ pid_t start(const std::vector<std::string>& arguments, int input, int messages) 
   const pid_t program = start_program(arguments, {.in = input, .err = messages});
   if (program < 0 && errno == ENOENT)
     throw Error(ExitCode::unavailable,
-                "ffmpeg, which encodes movies, is not installed: apt-get install ffmpeg, or draw "
+                "ffmpeg is not installed, so no movie can be made: apt-get install ffmpeg, or draw "
                 "single pictures with talus render");
   if (program < 0) throw system_error(ExitCode::unavailable, "start", "ffmpeg", errno);
   return program;

@@ -332,9 +332,9 @@ def check_name(name: str, others: Sequence[str]) -> None:
     parts = name.split("/") if name else []
     if not name.isprintable() or "\ufffd" in name or any(
             part in ("", ".", "..") or len(part.encode()) > LONGEST_NAME for part in parts):
-        raise ValueError("expected a variant whose name is that of a folder in this one")
+        raise ValueError("expected a variant whose name is a folder in this one")
     if (name or "scenario") in [other or "scenario" for other in others]:
-        raise ValueError("expected each name once")
+        raise ValueError("expected unique names")
     if len(others) == MOST_VARIANTS:
         raise ValueError(f"expected at most {MOST_VARIANTS} variants")
 

@@ -376,7 +376,7 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
     if (is_known && !there->origin.bed.empty() && there->origin.bed != variant.origin.bed)
       throw Error(
           ExitCode::bad_data,
-          fmt::format("{} (deposition.file) holds a different bed than when the ensemble in {} began with "
+          fmt::format("{} (deposition.file) holds another bed than when the ensemble in {} began with "
                       "it; undo the change, give the changed bed another name, or the ensemble "
                       "another folder",
                       visible(variant.scenario.deposition.file), folder));

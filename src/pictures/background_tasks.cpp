@@ -57,7 +57,7 @@ void BackgroundTasks::work() {
     } catch (...) {
       failure = std::current_exception();
     }
-    task = nullptr;  // what it holds goes before the lock is taken
+    task = nullptr;  // release the task's resources before the lock is acquired
     lock.lock();
     working_ = false;
     failure_ = failure;

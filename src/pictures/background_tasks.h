@@ -1,5 +1,5 @@
 #pragma once
-/// A thread beside this one that does what it is given, in order.
+/// A thread that executes tasks in order.
 
 #include <condition_variable>
 #include <deque>
@@ -12,23 +12,24 @@ namespace talus::pictures {
 
 class BackgroundTasks {
  public:
-  /// `most_waiting` tasks may wait; so what they hold stays within bounds.
+  /// Starts the thread. At most `most_waiting` tasks may wait, which bounds their memory.
   explicit BackgroundTasks(std::size_t most_waiting);
-  /// Does what is waiting; errors are lost: call finish before.
+  /// Executes the waiting tasks. Errors are lost, so call finish first.
   ~BackgroundTasks();
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 
-  /// Waits while as many are waiting as may. Throws what an earlier task threw; none is done after that.
+  /// Adds a task; blocks while the maximum number is waiting. Throws what an earlier task threw; no further
+  /// task is then executed.
   void post(std::function<void()> task);
 
-  /// Whether there is anything to do now.
+  /// Whether a task is running or waiting.
   bool busy() const;
 
-  /// Forgets those that are waiting.
+  /// Discards the waiting tasks.
   void drop();
 
-  /// Waits until all are done. Throws as post does.
+  /// Waits until all tasks are done. Throws the errors of post.
   void finish();
 
  private:

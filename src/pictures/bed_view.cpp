@@ -72,7 +72,7 @@ render::Disc disc_of(const BedFrame& bed, Index grain) {
 }
 
 double scale_diameters(double width, double diameter) {
-  constexpr double longest = 0.3, shortest = 0.02;  // of the width
+  constexpr double longest = 0.3, shortest = 0.02;  // fractions of the width
   const double share = 10.0 * diameter / width;
   if (share <= longest && share >= shortest) return 10.0;
   const double wanted = (share > longest ? longest : 2.0 * shortest) * width / diameter;

@@ -1,29 +1,30 @@
 #pragma once
-/// The bed as a picture: what is seen of it, with copies across a periodic edge.
+/// The visible part of the bed as a picture, with copies across a periodic edge.
 
 #include "pictures/maps.h"
 #include "render/frame_view.h"
 
 namespace talus::pictures {
 
-/// What is shown, without grains and without furniture.
+/// Returns a view of this extent, without grains and furniture.
 render::FrameView empty_view(const MapExtent& extent);
 
-/// Whether any of it is in what is shown.
+/// Whether any part of a disc or line is within the view.
 bool is_seen(const render::FrameView& view, const render::Disc& disc);
 bool is_seen(const render::FrameView& view, const render::Line& line);
 
-/// Adds a disc or a line, and in a periodic bed its images, where they reach into what is shown.
+/// Add a disc or line and, in a periodic bed, its images that reach into the view.
 void add_disc(render::FrameView& view, const render::Disc& disc, const RunStatics& statics);
 void add_line(render::FrameView& view, const render::Line& line, const RunStatics& statics);
 
-/// A grain without its look; a grain of the floor is hatched.
+/// Returns the disc of a grain without its look; grains of the floor are hatched.
 render::Disc disc_of(const BedFrame& bed, Index grain);
 
-/// The length of a scale bar, in mean diameters: a round one, 10 where that suits a picture so wide (m).
+/// Returns the length of a scale bar in mean diameters: a round number, preferably 10, that suits a picture
+/// of this width (m).
 double scale_diameters(double width, double diameter);
 
-/// Walls and smooth floor, where they are in what is shown, and the scale bar.
+/// Adds the walls and the smooth floor, if they are in the view, and the scale bar.
 void add_surroundings(render::FrameView& view, const BedFrame& bed);
 
 }  // namespace talus::pictures

@@ -13,7 +13,8 @@
 namespace talus::pictures {
 namespace {
 
-/// Told from the orange and blue of the scale, from white, and from each other in a gray print.
+/// These colours differ from the orange and blue of the scale, from white, and from each other in a gray
+/// print.
 constexpr render::Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
@@ -22,7 +23,7 @@ bool gives_numbers(MapKind kind) {
   return changes && is_scaled(kind);
 }
 
-/// " 12.00° minus 5.00°" in a title.
+/// Returns the part of a title that names both tilts, "12.00° minus 5.00°".
 std::string between(const MapFrame& of, const Frame& before) {
   return fmt::format("{:.2f}° minus {:.2f}°", degrees(of.frame.tilt), degrees(before.tilt));
 }
@@ -61,14 +62,14 @@ render::Line line_between(double x0, double y0, double x1, double y1, double hal
           static_cast<float>(y1), static_cast<float>(half_width), colour};
 }
 
-/// Where body b of contact c of `at` is now, seen from its grain a: a vector, m. Of a plane, along the
-/// normal.
+/// Returns the vector, m, from grain a to body b of contact c of `at`, with their current positions; for a
+/// plane, the vector along the normal.
 Vec2 towards(const MapFrame& of, const Frame& at, Index c) {
   const FrameContacts& contacts = at.contacts;
   const Index a = contacts.a[c], b = contacts.b[c];
   if (b >= at.grain_count())
     return {of.statics.radius[a] * contacts.nx[c], of.statics.radius[a] * contacts.ny[c]};
-  // The images that touched then, wherever the edge of the period is between them now.
+  // The images that touched then, even if a periodic edge has come between them since.
   const Index image = contacts.shift[c] + at.image[a] - at.image[b];
   const Index shift = image - of.frame.image[a] + of.frame.image[b];
   const double period = of.statics.periodic ? shift * of.statics.length : 0.0;
@@ -83,8 +84,8 @@ void add_gained(std::vector<render::Line>& lines, const MapFrame& of, Index c) {
       line_between(x, y, x + way.x, y + way.y, gained_half_width * of.statics.mean_diameter, gained_colour));
 }
 
-/// From the centre of each grain to its edge, so that what lies between them stays free, however far they
-/// are apart by now.
+/// Adds lines from the centre of each grain to its edge, so that the space between them stays empty, however
+/// far apart they are.
 void add_lost(std::vector<render::Line>& lines, const MapFrame& of, const Frame& before, Index c) {
   const Index a = before.contacts.a[c], b = before.contacts.b[c];
   const Vec2 way = towards(of, before, c);

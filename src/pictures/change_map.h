@@ -1,26 +1,28 @@
 #pragma once
-/// A frame minus another one of its run, as a map: what has changed of its grains, and which contacts it has
-/// gained and lost.
+/// The difference between two frames of a run as a map: changes of a grain quantity, and contacts gained and
+/// lost.
 
 #include "pictures/layers.h"
 
 namespace talus::pictures {
 
-/// Whose change is shown where these layers are: of the first of them that gives each grain a number; gamma
-/// where they show what follows from it; else the displacement of grains. Maps of motion are a change
-/// already.
+/// Returns the map whose change is shown for these layers: the first one that gives each grain a number;
+/// gamma if they show something derived from it; otherwise the displacement of grains. Maps of motion already
+/// are a change.
 MapKind changing_kind(const MapLayers& layers);
 
-/// Two of them. The first: the changing_kind of the layers of the settings, of each free grain, its value in
-/// the frame minus that in its reference, on a scale about 0 half as long as that of the map, whatever range
-/// the settings have; where that is logarithmic, the logarithm of their ratio, in powers of ten; a grain that
-/// has no value in one of them is an outline. The second: contacts between centres, those gained as whole
-/// lines, those lost as two stubs towards each other from where the two grains are in the frame. Without a
-/// reference nothing has changed. `frame` and its reference are as the maps see them. Throws as make_layer.
+/// Returns two layers. The first shows, for each free grain, the value of changing_kind in the frame minus
+/// that in its reference. Its scale is centred on 0 and half as long as that of the map, whatever range the
+/// settings have. If that scale is logarithmic, the layer shows the logarithm of the ratio, in powers of ten.
+/// A grain without a value in one of the frames is an outline. The second layer shows contacts between
+/// centres: gained ones as complete lines, lost ones as two stubs towards each other at the current positions
+/// of the two grains. Without a reference, nothing has changed. `frame` and its reference are as the maps see
+/// them. Throws the errors of make_layer.
 std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& settings,
                                     const MapExtent& extent);
 
-/// Their map. Throws as make_map, and Error(internal) where the frames have different numbers of grains.
+/// Returns the map of these layers. Throws the errors of make_map, and Error(internal) if the frames have
+/// different numbers of grains.
 render::FrameView make_change_map(const MapFrame& frame, const MapSettings& settings,
                                   const MapExtent& extent);
 

@@ -6,14 +6,14 @@
 namespace talus::pictures {
 namespace {
 
-/// Grains that a cluster has of an earlier one.
+/// The number of grains that a cluster shares with an earlier one.
 struct SharedGrains {
   std::int64_t track = -1;
   Index cluster = -1;
   Index grains = 0;
 };
 
-/// For each cluster and each earlier one that share grains.
+/// Returns an entry for each pair of a cluster and an earlier one that share grains.
 std::vector<SharedGrains> shared_grains(const analysis::Clusters& clusters,
                                         const std::vector<std::int64_t>& track_of_grain) {
   std::vector<std::pair<std::int64_t, Index>> pairs;
@@ -41,13 +41,13 @@ std::string_view palette_name(ClusterPalette palette) {
 }
 
 std::vector<render::Colour> cluster_palette(ClusterPalette palette) {
-  // Vermillion, sky blue and yellow of Okabe and Ito and of Tol, indigo and a purple, with the lightness L*
-  // in steps of 10 or more from each other, from white, and from the gray of small clusters.
+  // Vermillion, sky blue and yellow from Okabe and Ito and from Tol, indigo, and a purple. Their lightness L*
+  // differs by at least 10 from each other, from white, and from the gray of small clusters.
   if (palette == ClusterPalette::contrast)
     return {{196, 82, 0}, {51, 34, 136}, {136, 204, 238}, {140, 36, 104}, {240, 228, 66}};
-  // Of Okabe and Ito (2008) and of Tol's "muted" scheme, those that follow each other far apart. Yellow is
-  // left out, as it is too light; a violet and a brown stand for indigo and wine, on which the black rim of a
-  // cluster that spans could not be seen.
+  // Colours from Okabe and Ito (2008) and from Tol's "muted" scheme; successive ones differ strongly. Yellow
+  // is left out because it is too light. A violet and a brown replace indigo and wine, on which the black rim
+  // of a spanning cluster would be invisible.
   return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {115, 100, 215},
           {153, 153, 51}, {136, 204, 238}, {150, 85, 70},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
 }
@@ -55,12 +55,12 @@ std::vector<render::Colour> cluster_palette(ClusterPalette palette) {
 render::Colour spanning_rim(const render::Colour& fill) {
   constexpr double dark_luma = 78.0;
   return render::luma(fill) < dark_luma ? render::gray(0.25)
-                                        : render::black;  // white would be lost in the ground
+                                        : render::black;  // white would vanish against the background
 }
 
 std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& clusters) {
   std::vector<SharedGrains> shared = shared_grains(clusters, track_of_grain_);
-  // The most grains first; of as many, those of the cluster that was larger.
+  // Pairs with the most grains come first; ties are decided by the size of the earlier cluster.
   std::ranges::sort(shared, [&](const SharedGrains& one, const SharedGrains& other) {
     const auto key = [&](const SharedGrains& pair) {
       return std::tuple(-pair.grains, -tracks_[static_cast<std::size_t>(pair.track)].size, pair.track,
@@ -95,7 +95,7 @@ std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& cluste
     }
     tracks_[static_cast<std::size_t>(colour.track)] = {colour.palette_index, clusters.size[k]};
   }
-  // A cluster that has become small is gray, as the legend says; its colour is kept until it grows again.
+  // A cluster that has become small is gray, as the legend states; its colour is kept until it grows again.
   for (std::size_t k = 0; k < colours.size(); ++k)
     if (clusters.size[k] < smallest_coloured_cluster) colours[k].palette_index = -1;
   track_of_grain_.assign(clusters.label.size(), -1);

@@ -1,5 +1,5 @@
 #pragma once
-/// Colours of clusters of overloaded grains that stay with them from frame to frame.
+/// Colours of clusters of overloaded grains that persist from frame to frame.
 
 #include <array>
 #include <cstdint>
@@ -11,37 +11,37 @@
 
 namespace talus::pictures {
 
-/// Of one cluster of a frame: its identity over the frames, and its place in the largest palette, which
-/// smaller ones repeat; -1 while it is so small that it has no colour yet.
+/// One cluster of a frame: its identity over the frames, and its index in the largest palette (smaller
+/// palettes repeat); -1 while the cluster is too small for a colour.
 struct ClusterColour {
   std::int64_t track = -1;
   int palette_index = -1;
   bool operator==(const ClusterColour&) const = default;
 };
 
-/// Clusters below this size have no colour of their own yet.
+/// Clusters below this size do not have a colour yet.
 inline constexpr Index smallest_coloured_cluster = 10;
 
-/// The colours that clusters can have; all are darker than the grains that are not overloaded.
+/// The colours of clusters; all are darker than grains that are not overloaded.
 enum class ClusterPalette {
-  muted,     ///< twelve, for a screen and a colour print
-  contrast,  ///< five, told apart in any colour blindness and in a gray print
+  muted,     ///< twelve colours, for a screen and a colour print
+  contrast,  ///< five colours, distinguishable with any colour blindness and in a gray print
 };
 inline constexpr std::array cluster_palettes = {ClusterPalette::muted, ClusterPalette::contrast};
-/// "muted", "contrast".
+/// Returns "muted" or "contrast".
 std::string_view palette_name(ClusterPalette palette);
 std::vector<render::Colour> cluster_palette(ClusterPalette palette = ClusterPalette::muted);
 
-/// The rim of a cluster that spans the bed, by its colour: black, or a light gray if that is too dark.
+/// Returns the rim of a spanning cluster of that colour: black, or a light gray if the colour is too dark.
 render::Colour spanning_rim(const render::Colour& fill);
 
-/// Follows clusters through the frames of a run, in their order. A cluster keeps its identity while it grows
-/// or shrinks: that of the earlier cluster of which it has the most grains. So a merger takes the colour of
-/// the larger part, and of a cluster that falls apart the largest piece keeps it. A new one takes the colour
-/// that the fewest grains wear.
+/// Tracks clusters through the frames of a run, in order. A cluster keeps its identity while it grows or
+/// shrinks: it inherits that of the earlier cluster with which it shares the most grains. A merged cluster
+/// therefore takes the colour of the larger part, and the largest fragment of a cluster keeps its colour. A
+/// new cluster takes the colour that the fewest grains have.
 class ClusterColours {
  public:
-  /// The clusters of the next frame; the result in their order.
+  /// Adds the clusters of the next frame, and returns their colours in the same order.
   std::vector<ClusterColour> next(const analysis::Clusters& clusters);
 
  private:
@@ -49,7 +49,7 @@ class ClusterColours {
     int palette_index = -1;
     Index size = 0;
   };
-  std::vector<std::int64_t> track_of_grain_;  ///< of the frame before; -1 for none
+  std::vector<std::int64_t> track_of_grain_;  ///< tracks in the preceding frame; -1 for none
   std::vector<Track> tracks_;
 };
 

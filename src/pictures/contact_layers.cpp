@@ -8,7 +8,7 @@
 namespace talus::pictures {
 namespace {
 
-/// From centre to centre, or to the contact point at a wall.
+/// Returns a line from centre to centre, or to the contact point at a wall.
 render::Line centre_line(const BedFrame& bed, Index contact) {
   const Frame& frame = bed.frame;
   const FrameContacts& contacts = frame.contacts;
@@ -24,7 +24,7 @@ render::Line centre_line(const BedFrame& bed, Index contact) {
   return line;
 }
 
-/// Through the contact point, along the two surfaces: the way they slide.
+/// Returns a line through the contact point in the direction of sliding.
 render::Line sliding_line(const FrameContacts& contacts, Index contact, double length) {
   const double x = 0.5 * length * -contacts.ny[contact];
   const double y = 0.5 * length * contacts.nx[contact];
@@ -45,13 +45,13 @@ render::Swatch line_swatch(const render::Colour& colour, double width, const std
 MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
   const render::Colour strong_colour = over.value_or(render::black);
   render::Colour weak_colour = over.value_or(render::gray(0.4));
-  if (over) weak_colour.alpha = 110;  // so that the grains are seen through it
+  if (over) weak_colour.alpha = 110;  // keeps the grains below visible
   const FrameContacts& contacts = of.frame.contacts;
   const double mean = std::accumulate(contacts.fn.begin(), contacts.fn.end(), 0.0) / contacts.count();
   MapLayer layer;
   layer.title = "Force chains, width by f_n";
   layer.lines.reserve(contacts.fn.size());
-  // The strong network above the weak one.
+  // The strong network is drawn above the weak one.
   for (const bool strong : {false, true})
     for (Index c = 0; c < contacts.count(); ++c) {
       const double force = contacts.fn[c] / mean;

@@ -16,8 +16,8 @@
 namespace talus::pictures {
 namespace {
 
-/// Spacing of the frames, rad: their largest step, as single frames lie between (where the slope fails); 1
-/// degree where there is only one.
+/// Returns the spacing of the frames, rad: their largest step, because single frames lie in between (at
+/// failure); 1 degree if there is only one frame.
 double frame_spacing(const std::vector<double>& tilts) {
   if (tilts.size() < 2) return radians(1.0);
   double spacing = 0.0;
@@ -26,7 +26,8 @@ double frame_spacing(const std::vector<double>& tilts) {
   return spacing;
 }
 
-/// Adds the frames nearest to multiples of `every` degrees of one way up or down, from frame `first` on.
+/// Adds the frames nearest to multiples of `every` degrees on one rise or fall, which begins at frame
+/// `first`.
 void add_every(const std::vector<double>& way, std::size_t first, double every, double spacing,
                FrameChoice& choice) {
   const auto [low, high] = std::ranges::minmax(way);
@@ -38,7 +39,7 @@ void add_every(const std::vector<double>& way, std::size_t first, double every, 
       choice.push_back(first + *frame);
 }
 
-/// The frame of "frame42"; nothing where the entry is something else.
+/// Returns the frame of an entry "frame42"; nothing for another entry.
 std::optional<std::size_t> frame_numbered(const std::vector<double>& tilts, const std::string& entry) {
   constexpr std::string_view word = "frame";
   if (!entry.starts_with(word)) return std::nullopt;
@@ -65,14 +66,14 @@ std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& 
   const auto frame = frame_near(tilts, radians(angle));
   if (!frame)
     throw Error(ExitCode::bad_data,
-                fmt::format("--at {}: the run has no frame there; its {} frames go "
+                fmt::format("--at {}: the run has no frame there; its {} frames run "
                             "from {:.2f} to {:.2f} deg, every {:.3g} deg",
                             entry, tilts.size(), degrees(std::ranges::min(tilts)),
                             degrees(std::ranges::max(tilts)), degrees(frame_spacing(tilts))));
   return *frame;
 }
 
-/// First and last frame of "0-10", or of "7".
+/// Returns the first and last frame of "0-10", or of "7".
 std::pair<std::size_t, std::size_t> range_of(const std::string& entry) {
   std::size_t first = 0, last = 0;
   const char* const end = entry.data() + entry.size();
@@ -82,7 +83,7 @@ std::pair<std::size_t, std::size_t> range_of(const std::string& entry) {
     parsed = std::from_chars(parsed.ptr + 1, end, last);
   if (parsed.ec != std::errc() || parsed.ptr != end || last < first)
     throw Error(ExitCode::usage,
-                fmt::format("--frames {}: expected numbers of frames as in --frames 0-10,20", entry));
+                fmt::format("--frames {}: expected frame numbers such as --frames 0-10,20", entry));
   return {first, last};
 }
 
@@ -125,7 +126,7 @@ FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::s
   for (const std::string& entry : entries) {
     if (entry == "repose" && !std::isfinite(theta_c))
       throw Error(ExitCode::bad_data,
-                  "--at repose: the angle of repose is not known, as the slope has not failed in "
+                  "--at repose: the angle of repose is unknown because the slope has not failed in "
                   "this run; give it with --theta-c DEG");
     choice.push_back(entry == "repose" ? frame_at_repose(tilts, theta_c) : frame_at_angle(tilts, entry));
   }
@@ -191,7 +192,7 @@ int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) 
     if (std::ranges::adjacent_find(names) == names.end()) return decimals;
   }
   throw Error(ExitCode::bad_data,
-              fmt::format("two frames of the run have the same angle, {} deg and on", names.front()));
+              fmt::format("two frames of the run have the same angle, {} deg", names.front()));
 }
 
 }  // namespace talus::pictures

@@ -10,21 +10,21 @@ namespace talus::pictures {
 namespace {
 
 constexpr int dyed_layers = 8;
-constexpr double dyed_column = 10.0;  // D, about
-constexpr double second_shade = 0.7;  // of the channels of every second column
+constexpr double dyed_column = 10.0;  // D, approximate
+constexpr double second_shade = 0.7;  // factor for the channels of every second column
 
 render::Colour shaded(const render::Colour& colour) {
   const auto channel = [](std::uint8_t full) { return static_cast<std::uint8_t>(second_shade * full); };
   return {channel(colour.red), channel(colour.green), channel(colour.blue), colour.alpha};
 }
 
-/// The middle of the layer that a share of the scale lies in, as a share.
+/// Returns the middle, as a fraction of the scale, of the layer in which a fraction lies.
 double layer_share(double share) {
   return (std::clamp(std::floor(share * dyed_layers), 0.0, dyed_layers - 1.0) + 0.5) / dyed_layers;
 }
 
-/// Whether a place lies in a column of the second shade. There are as many of these as of the others, also
-/// around the period.
+/// Whether a position lies in a column of the second shade. The number of columns is even, also around the
+/// period.
 bool in_second_column(double x, double length, double diameter) {
   const double pairs = std::max(1.0, std::round(length / (2.0 * dyed_column * diameter)));
   return static_cast<long>(std::floor(2.0 * pairs * x / length)) % 2 != 0;
@@ -33,7 +33,7 @@ bool in_second_column(double x, double length, double diameter) {
 }  // namespace
 
 MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
-  constexpr double alike = 0.05;  // of D: the range of grains of one size
+  constexpr double alike = 0.05;  // fraction of D: range of sizes that count as equal
   const RunStatics& statics = of.statics;
   std::vector<double> sizes;
   for (Index i = 0; i < statics.free_count; ++i)

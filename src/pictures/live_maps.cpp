@@ -12,10 +12,11 @@
 namespace talus::pictures {
 namespace {
 
-/// Above the bed when it begins to tilt, over its depth: pictures of one size hold all of its later frames.
+/// Space above the bed when it begins to tilt, relative to its depth, so that pictures of one size contain
+/// all later frames.
 constexpr double margin_above = 0.05;
 
-/// Frames that may wait to be drawn.
+/// Largest number of frames that wait to be drawn.
 constexpr std::size_t frames_waiting = 4;
 
 void refuse_pictures(const std::string& folder, const MapPlan& plan) {
@@ -23,13 +24,13 @@ void refuse_pictures(const std::string& folder, const MapPlan& plan) {
     for (const MapSettings& map : plan.maps) {
       if (name.starts_with(layers_name(map.layers) + "_") && name.ends_with(".png"))
         throw Error(ExitCode::cannot_create,
-                    fmt::format("{} holds pictures of the map {} already; choose another folder, or give "
+                    fmt::format("{} already contains pictures of the map {}; choose another folder, or give "
                                 "--overwrite to replace them and the run",
                                 folder, layers_name(map.layers)));
     }
 }
 
-/// The bed when it begins to tilt, with some space above.
+/// Returns the extent of the bed when it begins to tilt, with some space above.
 MapExtent live_extent(const BedFrame& bed) {
   MapExtent extent = bed_extent(bed.statics);
   extend(extent, bed);
@@ -61,7 +62,7 @@ LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool o
 }
 
 LiveMaps::~LiveMaps() {
-  tasks_.drop();  // of a run that ends early: it draws them when it is resumed
+  tasks_.drop();  // a run that ends early draws them when it is resumed
   tasks_.post([this] { renderer_.reset(); });
   tasks_.finish();
 }
@@ -103,7 +104,7 @@ void LiveMaps::draw_or_fail(Frame frame) {
 
 void LiveMaps::fail(ExitCode code, const std::string& message) {
   failure_.emplace(code, message);
-  warn_(message + "; the run goes on, and no more of its maps are drawn");
+  warn_(message + "; the run continues without drawing further maps");
 }
 
 void LiveMaps::draw(Frame frame) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Maps of a run that are drawn while it computes.
+/// Maps of a run, drawn while it is computed.
 
 #include <functional>
 #include <memory>
@@ -13,37 +13,38 @@
 
 namespace talus::pictures {
 
-/// The plan of maps drawn before the slope has failed: with assumed_theta_c where theta_c is needed and not
-/// given, as that of the run comes too late. Throws as plan_maps does.
+/// Returns the plan of maps drawn before the slope has failed. If theta_c is needed and not given, it is
+/// assumed_theta_c, because that of the run is not known in time. Throws the errors of plan_maps.
 MapPlan plan_live_maps(const MapOptions& options);
 
-/// Pictures of all frames of a run, in the order in which they come, drawn in a thread beside the run. A
-/// frame is drawn as it will be read from the file, so that a resumed run draws the same.
+/// Draws all frames of a run, in the order in which they are computed, in a separate thread. A frame is drawn
+/// as it will be read from the file, so that a resumed run draws the same pictures.
 class LiveMaps {
  public:
   using Warn = std::function<void(const std::string&)>;
 
-  /// Makes the folder and the context before anything is computed. A run that is not `resumed` finds no
-  /// pictures of its maps there, unless `overwrite`. `warn` is told of the first failure, from the thread
-  /// that draws. Throws Error(cannot_create), Error(unavailable).
+  /// Creates the folder and the context before anything is computed. If the run is not `resumed`, the folder
+  /// must not contain pictures of its maps, unless `overwrite`. `warn` receives the first failure, in the
+  /// drawing thread. Throws Error(cannot_create), Error(unavailable).
   LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn);
   ~LiveMaps();
 
-  /// The run that is drawn. `path` is its file; `step` its step of tilt, deg, by which names tell frames
-  /// apart.
+  /// Sets the run to be drawn. `path` is its file; `step` is its step of tilt, deg, which determines how
+  /// names distinguish frames.
   void begin(const io::RunHeader& header, const std::string& path, double step, bool has_program);
 
-  /// The frames that an earlier process has stored: colours go on from them, and pictures that are missing
-  /// are drawn. Throws Error(cannot_create) where a picture of another run or other settings has their name.
+  /// Adds the frames that an earlier process has stored: colours continue from them, and missing pictures are
+  /// drawn. Throws Error(cannot_create) if a picture of another run or with other settings has the same name.
   void meet(const io::RunFile& file);
 
-  /// Has a new frame drawn; waits while several are waiting. The first failure ends the drawing, not the run.
+  /// Draws a new frame in the background; blocks while several are waiting. The first failure ends the
+  /// drawing, not the run.
   void add(const Frame& frame);
 
-  /// Whether a picture is being drawn now, or waits for it.
+  /// Whether a picture is being drawn or waiting.
   bool drawing() const { return tasks_.busy(); }
 
-  /// Waits for the last picture. Throws the first failure, once the run is safe.
+  /// Waits for the last picture. Throws the first failure, when the run is already safe.
   void finish();
 
  private:
@@ -53,10 +54,10 @@ class LiveMaps {
 
   std::string folder_;
   bool overwrite_;
-  int decimals_ = 2;  ///< of the angles in names
+  int decimals_ = 2;  ///< decimals of the angles in names
   Warn warn_;
 
-  // Of the thread that draws; others look at them when it has finished.
+  // Owned by the drawing thread; other threads read these when it has finished.
   PictureSeries series_;
   std::unique_ptr<render::Renderer> renderer_;
   std::optional<Frame> before_;

@@ -13,12 +13,12 @@
 namespace talus::pictures {
 namespace {
 
-/// What a map has to do with; one may have several.
+/// Properties of a map, which may have several.
 enum Trait : unsigned {
   none = 0,
   theta_c = 1,  ///< its scale or its threshold is Gamma_c
-  gamma = 2,    ///< shows the gamma of grains, or what follows from it
-  coarse = 4,   ///< an average of a chosen width
+  gamma = 2,    ///< shows the gamma of grains, or a result derived from it
+  coarse = 4,   ///< an average over a chosen width
   earlier = 8,  ///< measured from an earlier frame
   fitted = 16   ///< its range fits the frames that are drawn
 };
@@ -30,12 +30,12 @@ struct MapEntry {
   const analysis::FrameQuantity* quantity = nullptr;
 };
 
-/// In the order in which they are listed. Those with a name alone show a quantity of grains.
+/// Maps in the order in which they are listed. Those with only a name show a quantity of grains.
 constexpr auto listed = std::to_array<MapEntry>({
     {MapKind::gamma, "gamma", "stress ratio of each grain and its neighbours, or of the grain alone", "γ", "",
      theta_c | gamma},
     {MapKind::overloaded, "overloaded", "overloaded grains, gamma >= Gamma_c", "", "", theta_c | gamma},
-    {MapKind::clusters, "clusters", "clusters of overloaded grains, each in a colour of its own", "", "",
+    {MapKind::clusters, "clusters", "clusters of overloaded grains, each in its own colour", "", "",
      theta_c | gamma},
     {MapKind::coarse, "coarse", "stress ratio of the neighbourhood of each grain", "γ_l", "",
      theta_c | coarse},
@@ -69,7 +69,7 @@ unsigned traits_of(const analysis::FrameQuantity& quantity) {
          (scale == analysis::ScaleRule::sizes || scale == analysis::ScaleRule::about_zero ? fitted : none);
 }
 
-/// Those that are listed, then the maps of other quantities of grains.
+/// Returns the listed maps, followed by the maps of other quantities of grains.
 const std::vector<MapEntry>& entries() {
   static const std::vector<MapEntry> all = [] {
     std::vector<MapEntry> found(listed.begin(), listed.end());
@@ -95,11 +95,10 @@ bool has(MapKind kind, Trait trait) { return (entry_of(kind).traits & trait) != 
 MapKind layer_of(std::string_view name, std::string_view whole) {
   const auto found = std::ranges::find(entries(), name, &MapEntry::name);
   if (found != entries().end()) return found->kind;
-  throw Error(
-      ExitCode::usage,
-      fmt::format("map '{}': expected one of {}, or two of them with + between, such as gamma+forces{}",
-                  visible_word(whole), joined(entries(), ", ", &MapEntry::name),
-                  did_you_mean(name, names_of(entries()))));
+  throw Error(ExitCode::usage,
+              fmt::format("map '{}': expected one of {}, or two of them joined by +, such as gamma+forces{}",
+                          visible_word(whole), joined(entries(), ", ", &MapEntry::name),
+                          did_you_mean(name, names_of(entries()))));
 }
 
 }  // namespace
@@ -154,7 +153,7 @@ MapLayers map_layers(std::string_view name) {
   if (layers.size() > 2)
     throw Error(ExitCode::usage, fmt::format("map '{}': at most two can be overlaid", name));
   if (layers.size() == 2 && layers[0] == layers[1])
-    throw Error(ExitCode::usage, fmt::format("map '{}': twice the same map", name));
+    throw Error(ExitCode::usage, fmt::format("map '{}': the same map twice", name));
   return layers;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a user can choose about maps, as plain data.
+/// Options of maps that users can choose, as plain data.
 
 #include <optional>
 #include <string>
@@ -7,26 +7,26 @@
 
 namespace talus::pictures {
 
-/// The words and numbers of the options that `talus render`, `animate`, `panel` and `run --pictures` share.
+/// The values of the options shared by `talus render`, `animate`, `panel` and `run --pictures`.
 struct MapOptions {
   std::vector<std::string> maps;
   int width = 1600;                   ///< px
   std::optional<double> theta_c;      ///< deg
-  std::string colours;                ///< empty: each map its own
+  std::string colours;                ///< empty: the default of each map
   std::string context = "auto";       ///< or osmesa, egl
   std::optional<double> l_min;        ///< D
-  std::optional<double> threshold;    ///< of Gamma_c
+  std::optional<double> threshold;    ///< multiple of Gamma_c
   std::optional<double> length;       ///< D
   std::optional<double> since;        ///< deg
   std::optional<std::string> joined;  ///< contacts or neighbours
   std::vector<double> range;          ///< low, high
   std::vector<double> crop;           ///< x0, y0, x1, y1 in D
-  std::string traces;                 ///< with commas
+  std::string traces;                 ///< separated by commas
   bool turned = false;
   bool transparent = false;
   bool bare = false;
-  bool document = false;          ///< PDF or SVG: for paper, if nothing else is said
-  std::string purpose;            ///< paper, slide or poster; empty: a screen, unless it is printed
+  bool document = false;          ///< PDF or SVG, for paper by default
+  std::string purpose;            ///< paper, slide or poster; empty: a screen, unless `printed`
   std::optional<double> printed;  ///< cm
 };
 

@@ -28,7 +28,7 @@ std::optional<Crop> parse_crop(const std::vector<double>& values) {
   return crop;
 }
 
-/// How wide pictures for a purpose are, and how large their letters.
+/// The width of pictures for a purpose, and the size of their letters.
 struct Purpose {
   std::string name;
   double printed, points;
@@ -46,7 +46,7 @@ void print(MapSettings& settings, const MapOptions& options) {
   settings.points = found->points;
 }
 
-/// What all maps have in common.
+/// Returns the settings shared by all maps.
 MapSettings common_settings(const MapOptions& options) {
   MapSettings settings;
   settings.theta_c = options.theta_c ? radians(*options.theta_c) : not_known;
@@ -71,7 +71,7 @@ MapSettings common_settings(const MapOptions& options) {
   return settings;
 }
 
-/// "displacement, rotation, ...".
+/// Returns the names of maps with a property: "displacement, rotation, ...".
 std::string maps_that(bool (*has)(MapKind)) {
   MapLayers those;
   std::ranges::copy_if(map_kinds(), std::back_inserter(those), has);
@@ -80,27 +80,27 @@ std::string maps_that(bool (*has)(MapKind)) {
 
 bool draws_bar(const MapSettings& map) { return has_bar(map.layers); }
 
-/// Options that would do nothing are errors: whoever wrote them expected something else.
+/// Options without effect are errors, because the user expected something else.
 void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   if (!options.range.empty() && plan.maps.size() > 1)
-    refuse("--range: its unit is that of one map; ask for the maps one by one");
+    refuse("--range: its unit depends on the map; request one map at a time");
   if (!options.range.empty() && !has_bar(plan.maps[0].layers))
     refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
   if (options.length && !any_layer(plan, is_coarse))
-    refuse("--length: it is for the maps " + maps_that(is_coarse));
+    refuse("--length applies only to the maps " + maps_that(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
-    refuse("--since: it is for the maps " + maps_that(needs_reference));
+    refuse("--since applies only to the maps " + maps_that(needs_reference));
   if (options.l_min && !shows_gamma(plan))
-    refuse("--l-min: no map or trace that is asked for goes by gamma of grains");
+    refuse("--l-min: no requested map or trace depends on the gamma of grains");
   if (options.threshold && !needs_theta_c(plan))
-    refuse("--threshold: no map or trace that is asked for goes by Gamma_c");
+    refuse("--threshold: no requested map or trace depends on Gamma_c");
   if (options.joined && !shows(plan, MapKind::clusters) &&
       std::ranges::count(plan.traces, TraceKind::largest_cluster) == 0)
-    refuse("--joined: it is for the map clusters and the trace of the largest one");
+    refuse("--joined applies only to the map clusters and the trace largest_cluster");
   if (options.bare && !options.traces.empty())
-    refuse("--trace and --bare do not go together: traces are furniture");
+    refuse("--trace and --bare cannot be combined: traces are furniture");
   if (options.bare && !options.purpose.empty())
-    refuse("--for and --bare do not go together: a bed alone has no letters");
+    refuse("--for and --bare cannot be combined: a bed alone has no letters");
 }
 
 [[noreturn]] void refuse_colours(std::string_view name) {
@@ -114,15 +114,15 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   }
   for (const ClusterPalette palette : cluster_palettes) names.emplace_back(palette_name(palette));
   refuse(fmt::format(
-      "--colours {}: {}expected one of {}, each also reversed, as gray_r; for clusters {}{}",
+      "--colours {}: {}expected one of {}, each also reversed, such as gray_r; for clusters {}{}",
       visible_word(std::string(name)),
-      is_uneven ? "its lightness rises and falls, so that it shows edges where the values have none; " : "",
+      is_uneven ? "its lightness rises and falls, so that it shows edges that the data do not have; " : "",
       joined(render::colour_maps(), ", ", render::colour_map_name),
       joined(cluster_palettes, " or ", palette_name),
       is_uneven ? std::string() : did_you_mean(std::string(name), names)));
 }
 
-/// The colours of bars and of clusters; one of each at most.
+/// Sets the colours of bars and of clusters, at most one of each.
 void choose_colours(std::string_view words, MapPlan& plan) {
   int bars = 0, palettes = 0;
   for (std::string_view rest = words; !rest.empty();) {
@@ -132,17 +132,17 @@ void choose_colours(std::string_view words, MapPlan& plan) {
     const auto palette = std::ranges::find(cluster_palettes, word, palette_name);
     int& seen = palette == cluster_palettes.end() ? bars : palettes;
     if (++seen > 1)
-      refuse(fmt::format("--colours {}: expected one map of colours for bars, and one for clusters", words));
+      refuse(fmt::format("--colours {}: expected one colour map for bars, and one for clusters", words));
     if (palette != cluster_palettes.end()) {
       if (!shows(plan, MapKind::clusters))
-        refuse(fmt::format("--colours {}: it is for the map clusters", word));
+        refuse(fmt::format("--colours {} applies only to the map clusters", word));
       for (MapSettings& map : plan.maps) map.palette = *palette;
       continue;
     }
     const std::optional<render::ColourMap> colours = render::colour_map(word);
     if (!colours) refuse_colours(word);
     if (std::ranges::none_of(plan.maps, draws_bar))
-      refuse(fmt::format("--colours {}: no map that is asked for has a bar", word));
+      refuse(fmt::format("--colours {}: no requested map has a bar", word));
     for (MapSettings& map : plan.maps)
       if (has_bar(map.layers)) map.colours = colours;
   }
@@ -159,7 +159,7 @@ MapPlan plan_maps(const MapOptions& options) {
     if (!names.insert(name).second) refuse(fmt::format("--map: {} is given twice", name));
   }
   if (plan.maps.empty())
-    refuse("--map is missing; expected one of " + list_of_maps() + "; talus maps shows what they are");
+    refuse("--map is missing; expected one of " + list_of_maps() + "; talus maps describes them");
   if (!options.traces.empty()) plan.traces = trace_kinds(options.traces);
   plan.crop = parse_crop(options.crop);
   if (options.since) plan.since = radians(*options.since);

@@ -1,5 +1,5 @@
 #pragma once
-/// Which maps of a run are drawn, and how: as asked for in words, and checked.
+/// The plan of the maps of a run: checked options.
 
 #include <optional>
 #include <string>
@@ -12,12 +12,12 @@
 
 namespace talus::pictures {
 
-/// A region of the bed in D: the origin is its left end on the floor.
+/// A region of the bed in D; the origin is the left end of the bed on the floor.
 struct Crop {
   double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
 };
 
-/// What is asked for, as far as it can be said without the run: theta_c is NaN where it is that of the run.
+/// The request, as far as it is independent of the run: theta_c is NaN if that of the run is to be used.
 struct MapPlan {
   std::vector<MapSettings> maps;
   std::vector<TraceKind> traces;
@@ -25,19 +25,20 @@ struct MapPlan {
   std::optional<double> since;  ///< rad
   std::optional<render::ContextKind> context;
   int width = 0;  ///< px
-  /// m: of the picture in print; of one for a screen 0.
+  /// Returns the width of the picture in print, m; 0 for a screen.
   double page_width() const { return maps.empty() ? 0.0 : maps[0].printed / 100.0; }
 };
 
-/// Throws Error(usage) where an option names something that does not exist, or two do not go together.
+/// Makes a plan. Throws Error(usage) if an option names something that does not exist, or two exclude each
+/// other.
 MapPlan plan_maps(const MapOptions& options);
 
-/// Of all layers of all maps.
+/// Whether any layer of any map has the property.
 bool any_layer(const MapPlan& plan, bool (*has)(MapKind));
 bool shows(const MapPlan& plan, MapKind kind);
-/// Whether a map or a trace goes by Gamma_c.
+/// Whether a map or a trace depends on Gamma_c.
 bool needs_theta_c(const MapPlan& plan);
-/// Whether a map or a trace goes by the gamma of grains.
+/// Whether a map or a trace depends on the gamma of grains.
 bool shows_gamma(const MapPlan& plan);
 
 }  // namespace talus::pictures

@@ -16,7 +16,7 @@
 namespace talus::pictures {
 namespace {
 
-/// Whether a layer fills the grains, or has lines only.
+/// Whether a layer fills the grains, rather than consisting of lines.
 bool fills_grains(const MapLayers& layers, std::size_t k) {
   return layers[k] != MapKind::forces && layers[k] != MapKind::critical &&
          !(layers[k] == MapKind::displacement && k > 0);
@@ -26,7 +26,7 @@ bool has_bar(const MapLayers& layers, std::size_t k) {
   return fills_grains(layers, k) && is_scaled(layers[k]);
 }
 
-/// What was chosen for the first layer with a bar; nothing for the other.
+/// Returns the user's choice for the first layer with a bar; nothing for the other layer.
 ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
   const bool first = has_bar(settings.layers, k) && (k == 0 || !has_bar(settings.layers, 0));
   return first ? ScaleChoice{settings.colours, settings.range_low, settings.range_high} : ScaleChoice{};
@@ -40,10 +40,10 @@ void check_theta_c(const MapSettings& settings) {
                             degrees(settings.theta_c)));
 }
 
-/// In the looks of the lower layer that has any, else as outlines; those of a second one as smaller discs
-/// within.
+/// Adds grains with the looks of the lower layer that has any, otherwise as outlines; the looks of a second
+/// layer are drawn as smaller discs inside.
 void add_grains(render::FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
-  constexpr float inner_radius = 0.5f;  // of that of the grain
+  constexpr float inner_radius = 0.5f;  // fraction of the grain's radius
   const std::size_t count = bed.frame.x.size();
   view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
   const auto add = [&](Index i, const GrainLook& look, float scale) {
@@ -62,7 +62,7 @@ void add_grains(render::FrameView& view, const BedFrame& bed, std::span<const st
     add_disc(view, disc_of(bed, i), bed.statics);
 }
 
-/// What a bar measures, and in which unit, as it is told of one grain.
+/// Sets the symbol and unit of a bar, which are shown with the value of a grain.
 void name_reading(MapKind kind, const MapFrame& of, render::Bar& bar) {
   const MapReading reading = map_reading(kind, of.statics);
   bar.symbol = reading.symbol;
@@ -72,7 +72,7 @@ void name_reading(MapKind kind, const MapFrame& of, render::Bar& bar) {
   if (bar.unit.starts_with(' ')) bar.unit.erase(0, 1);
 }
 
-/// "Overloaded grains, p_o = 0.300; force chains".
+/// Returns "Overloaded grains, p_o = 0.300; force chains".
 std::string joint_title(std::span<const MapLayer> layers) {
   std::string title = layers[0].title;
   for (const MapLayer& layer : layers.subspan(1)) {
@@ -101,7 +101,7 @@ render::Bar measuring(render::Bar bar, std::vector<double> values) {
 
 namespace {
 
-/// The layer without borders of its lines; `spacing` of arrows, m.
+/// Returns the layer without borders of its lines; `spacing` of arrows, m.
 MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spacing, std::size_t k) {
   const ScaleChoice choice = choice_of(settings, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
@@ -152,7 +152,7 @@ void add_borders(std::vector<render::Line>& lines, double border) {
 }
 
 MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
-  constexpr double arrows_across = 60.0;  // at most, to tell one from the other
+  constexpr double arrows_across = 60.0;  // upper limit that keeps arrows distinguishable
   const double spacing = (extent.x_max - extent.x_min) / arrows_across, diameter = of.statics.mean_diameter;
   MapLayer layer = bare_layer(of, settings, spacing, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
@@ -235,7 +235,8 @@ render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings
   view.furniture = settings.furniture;
   view.transparent = settings.transparent;
   if (settings.printed > 0.0) print_letters(view, settings.printed, settings.points);
-  // Also in a frame in which no cluster has a colour yet: all of a movie have as many channels.
+  // Set even if no cluster in this frame has a colour yet, because all frames of a movie need the same number
+  // of channels.
   view.coloured = shows(settings.layers, MapKind::clusters) || shows(settings.layers, MapKind::rigid);
   view.tilt = frame.frame.tilt;
   if (settings.turned) {

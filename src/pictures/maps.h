@@ -1,5 +1,5 @@
 #pragma once
-/// Maps of the bed: from a frame of a run to what the renderer draws.
+/// Maps of the bed: they convert a frame of a run to the input of the renderer.
 
 #include <array>
 #include <map>
@@ -18,15 +18,15 @@
 
 namespace talus::pictures {
 
-/// Ends of a scale.
+/// The ends of a scale.
 struct ScaleRange {
   double low = 0.0, high = 1.0;
   bool operator==(const ScaleRange&) const = default;
 };
 
-/// Ranges that fit what maps of motion (fits_frames) show in the frames that are drawn (MotionSample in
-/// motion.h). Two of each, as the units differ: in all, and per degree of tilt; velocities have the first.
-/// None where nothing moved.
+/// Ranges that fit the values of maps of motion (fits_frames) in the frames that are drawn (see MotionSample
+/// in motion.h). There are two for each map: of the total motion, and of the motion per degree of tilt;
+/// velocities have only the first. Empty if nothing moved.
 struct MotionRanges {
   std::map<MapKind, std::array<std::optional<ScaleRange>, 2>> fitting;
 
@@ -37,80 +37,82 @@ struct MotionRanges {
   bool operator==(const MotionRanges&) const = default;
 };
 
-/// What lies within them: the shares of grains below the ends of a logarithmic scale, as that of displacement
-/// is, and that of grains which have less than the ends of one with a sign, as that of rotation.
+/// Quantiles that define these ranges: the fractions of grains below the ends of a logarithmic scale, such as
+/// that of displacement; and the fraction of grains within the ends of a signed scale, such as that of
+/// rotation.
 inline constexpr struct { double low, high; } size_shares = {0.05, 0.99};
 inline constexpr double signed_share = 0.95;
 
-/// The range of a map of motion (fits_frames) if no other fits or is chosen: from the creep of a bed at rest
-/// to an avalanche.
+/// Returns the range of a map of motion (fits_frames) if no other is fitted or chosen: from the creep of a
+/// bed at rest to an avalanche.
 ScaleRange fixed_motion_range(MapKind kind, bool per_degree);
 
-/// deg: by which maps are scaled while the slope has not failed and nothing else is asked for.
+/// deg: the scale of maps while the slope has not failed, unless another is requested.
 inline constexpr double assumed_theta_c = 20.0;
 
-/// How the maps of a run are drawn; the same for all of its frames.
+/// The settings of the maps of a run, the same for all of its frames.
 struct MapSettings : OverloadRule {
   MapLayers layers;                          ///< one map, or two: the second is drawn over the first
-  std::optional<render::ColourMap> colours;  ///< of the first layer that has a bar; without a value: its own
+  std::optional<render::ColourMap> colours;  ///< colours of the first layer with a bar; not set: its default
   ClusterPalette palette = ClusterPalette::muted;
-  std::optional<double> range_low;  ///< of the bar of that layer, in the unit of its title
+  std::optional<double> range_low;  ///< range of the bar of that layer, in the unit of its title
   std::optional<double> range_high;
-  MotionRanges motion;           ///< of maps of motion where no range is chosen
-  bool theta_c_assumed = false;  ///< the caption says so
-  double length = 10.0;          ///< D: what coarse maps (is_coarse) average over, a diameter
-  bool turned = false;           ///< to its slope, instead of the bed's own frame
-  double tilt_max = 0.0;         ///< rad, of all frames that are to have the size of this one
+  MotionRanges motion;           ///< ranges of maps of motion if no range is chosen
+  bool theta_c_assumed = false;  ///< stated in the caption
+  double length = 10.0;          ///< D: diameter over which coarse maps (is_coarse) average
+  bool turned = false;           ///< drawn at its slope, instead of in the frame of the bed
+  double tilt_max = 0.0;         ///< rad, maximum over all frames that are to have the same size
   bool furniture = true;
   bool transparent = false;
-  double printed = 0.0;  ///< cm, how wide the picture is printed or projected; 0: it is for a screen
-  double points = 8.0;   ///< size of its letters there
+  double printed = 0.0;  ///< cm, width of the picture in print or projection; 0: for a screen
+  double points = 8.0;   ///< size of its letters at that width
   bool operator==(const MapSettings&) const = default;
 };
 
-/// What the maps of one run show of the bed, so that all of them have the same size. m, frame of the bed.
+/// The part of the bed that the maps of a run show, so that all have the same size. m, frame of the bed.
 struct MapExtent {
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
   bool operator==(const MapExtent&) const = default;
 };
 
-/// The bed from end to end (x), and in y from the lowest to the highest grain of these frames: begin with
-/// bed_extent, and extend by each frame.
+/// Return and enlarge an extent: the bed from end to end (x), and in y from the lowest to the highest grain
+/// of these frames. Begin with bed_extent, and extend it by each frame.
 MapExtent bed_extent(const RunStatics& statics);
 void extend(MapExtent& extent, const BedFrame& bed);
-/// The same by the lowest and the highest grain of other frames.
+/// Extends an extent by the lowest and the highest grain of other frames.
 void extend(MapExtent& extent, const MapExtent& other);
 
-/// Whose gamma a map shows, for its title: "l = 3 D", or "single grains" where l_min is 0.
+/// Returns the neighbourhood of gamma for the title of a map: "l = 3 D", or "single grains" if l_min is 0.
 std::string reading_text(const OverloadRule& rule);
 
-/// A frame of mapped_frame, with the l_min of the map, and what maps need beside it.
+/// A frame of mapped_frame, with the l_min of the map, and additional input of maps.
 struct MapFrame : BedFrame {
-  /// For maps of motion: the frame that they are measured from, null where there is none yet
-  /// (nothing has moved); and whether the map says what moved in a degree of tilt, or in all;
-  /// always the latter where there was no tilt between them, as in a flow.
+  /// For maps of motion: the frame from which they are measured, null if there is none yet (nothing has
+  /// moved); and whether they show motion per degree of tilt or total motion. The latter is always shown if
+  /// the tilt did not change between the frames, as in a flow.
   const Frame* reference = nullptr;
   bool per_degree = true;
-  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has met all earlier frames. Where there
-  /// are none, colours follow those of the last frame that `tracker` has met; null: it has met none.
+  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has seen all earlier frames. If empty,
+  /// colours follow those of the last frame that `tracker` has seen; null: it has seen none.
   std::span<const ClusterColour> cluster_colours = {};
   const ClusterColours* tracker = nullptr;
-  /// For `dyed`: where grains were when the tilt began, m; one without is where it is now.
+  /// For `dyed`: positions of grains when the tilt began, m; grains without one are at their current
+  /// position.
   std::span<const Vec2> dyed_at = {};
 };
 
-/// The outlines of the grains of a frame, without furniture.
+/// Returns the outlines of the grains of a frame, without furniture.
 render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
 
-/// A map of a frame, with its furniture but no traces. Throws Error(bad_data) where a layer is scaled by
-/// theta_c, and that is not between 2 and 89 deg; Error(usage) where a range or `length` cannot be.
+/// Returns a map of a frame, with its furniture but without traces. Throws Error(bad_data) if a layer is
+/// scaled by theta_c and theta_c is not between 2 and 89 deg; Error(usage) if a range or `length` is invalid.
 render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
 
-/// Sets the letters of a view that is printed so wide (cm): of so many points, and of no less than 7/8 of
-/// that.
+/// Sets the letters of a view that is printed at this width (cm) to this size in points, and to at least 7/8
+/// of it.
 void print_letters(render::FrameView& view, double width, double points);
 
-/// Whether a map has a bar: whether `colours` and `range_low`, `range_high` change anything.
+/// Whether a map has a bar, to which `colours`, `range_low` and `range_high` apply.
 bool has_bar(const MapLayers& layers);
 
 /// Stress ratio below which a grain is white in the map of gamma (paper, Fig. 10).

@@ -11,16 +11,16 @@
 namespace talus::pictures {
 namespace {
 
-/// To two digits, as bars and legends print it.
+/// Rounds to two digits, as printed in bars and legends.
 double rounded(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return std::round(value / unit) * unit;
 }
 
-/// Nothing where nothing has moved. The lowest grains hardly move at all: a scale does not follow them down
-/// for more than five decades; and it is one also where all move alike.
+/// Returns nothing if nothing has moved. The lowest grains hardly move, so the scale covers at most five
+/// decades; it is a valid range even if all move alike.
 std::optional<ScaleRange> size_range(const LogHistogram& moved) {
-  constexpr double most = 1e5, least = 2.0;  // of the upper end over the lower one
+  constexpr double most = 1e5, least = 2.0;  // ratio of the upper end to the lower one
   const double high = moved.quantile(size_shares.high);
   if (!(high > 0.0)) return std::nullopt;
   const double low = std::clamp(moved.quantile(size_shares.low), high / most, high / least);
@@ -38,7 +38,7 @@ std::optional<ScaleRange> signed_range(const LogHistogram& turned) {
 MotionSpan motion_span(const MapFrame& of) {
   const double begin = of.reference != nullptr ? of.reference->tilt : of.frame.tilt;
   const double tilted = degrees(of.frame.tilt - begin);
-  // Where the bed flows after failure it is not tilted any more: there is nothing to divide by.
+  // During the flow after failure the bed is not tilted, so there is nothing to divide by.
   const bool moved = of.reference != nullptr && of.reference->step != of.frame.step;
   if (of.per_degree && (tilted > 0.0 || !moved))
     return {true, tilted > 0.0 ? tilted : 1.0, " per degree of tilt", " per degree"};
@@ -62,7 +62,7 @@ double LogHistogram::quantile(double share) const {
 }
 
 MotionSample::MotionSample(const MapLayers& maps, const MapSettings& settings) : settings_(settings) {
-  constexpr double smallest_temperature = 1e-18;  // as the square of the smallest speed
+  constexpr double smallest_temperature = 1e-18;  // square of the smallest speed
   for (const MapKind kind : maps) {
     const LogHistogram none =
         kind == MapKind::temperature ? LogHistogram(smallest_temperature) : LogHistogram();

@@ -1,5 +1,5 @@
 #pragma once
-/// What happened between two frames, of each grain, and the ranges of scales that fit that.
+/// Motion of each grain between two frames, and the ranges of scales that fit it.
 
 #include <array>
 #include <cstdint>
@@ -11,22 +11,23 @@
 
 namespace talus::pictures {
 
-/// What motion is measured over.
+/// The interval over which motion is measured.
 struct MotionSpan {
   bool per_degree = false;
-  double degrees = 1.0;  ///< what it is divided by
-  std::string title;     ///< " since 5.00°"
-  std::string unit;      ///< " per degree"
+  double degrees = 1.0;  ///< divisor
+  std::string title;     ///< for example " since 5.00°"
+  std::string unit;      ///< for example " per degree"
 };
 MotionSpan motion_span(const MapFrame& of);
 
-/// Numbers of values >= 0 in narrow classes: quantiles of any number of values in little memory.
+/// Counts of non-negative values in narrow classes, which give quantiles of any number of values in little
+/// memory.
 class LogHistogram {
  public:
-  /// Values below `smallest` count as 0.
+  /// Makes an empty histogram; values below `smallest` count as 0.
   explicit LogHistogram(double smallest = 1e-9) : smallest_(smallest) {}
   void add(double value);
-  /// The value that `share` of those added lie below, 2.4 % too large at most.
+  /// Returns the value below which a fraction `share` of the values lies, at most 2.4 % too large.
   double quantile(double share) const;
 
  private:
@@ -36,18 +37,18 @@ class LogHistogram {
   std::int64_t total_ = 0;
 };
 
-/// Meets the frames that are drawn, and finds the ranges that fit them.
+/// Collects the frames that are drawn, and finds the ranges that fit them.
 class MotionSample {
  public:
-  /// For these maps of motion (fits_frames), drawn with these settings.
+  /// Makes an empty sample for these maps of motion (fits_frames), drawn with these settings.
   explicit MotionSample(const MapLayers& maps, const MapSettings& settings = {});
-  /// A frame with its reference; one without adds velocities alone.
+  /// Adds a frame with its reference; one without a reference adds only velocities.
   void add(const MapFrame& of);
   MotionRanges ranges() const;
 
  private:
   MapSettings settings_;
-  std::map<MapKind, std::array<LogHistogram, 2>> sizes_;  ///< in all, and per degree
+  std::map<MapKind, std::array<LogHistogram, 2>> sizes_;  ///< total, and per degree
 };
 
 }  // namespace talus::pictures

@@ -11,7 +11,7 @@
 namespace talus::pictures {
 namespace {
 
-/// All free grains; or, where `spacing` is more than D, that with the smallest id in each square of that
+/// Returns all free grains or, if `spacing` exceeds D, the one with the smallest id in each square of that
 /// side.
 std::vector<Index> evenly_spread(const MapFrame& of, double spacing) {
   std::vector<Index> grains;
@@ -33,13 +33,13 @@ void add_arrow(std::vector<render::Line>& lines, double x, double y, Vec2 along,
   };
   const double tip_x = x + along.x, tip_y = y + along.y;
   line(x, y, tip_x, tip_y);
-  constexpr double back = 0.35, aside = 0.2;  // of its length
+  constexpr double back = 0.35, aside = 0.2;  // fractions of its length
   line(tip_x, tip_y, tip_x - back * along.x - aside * along.y, tip_y - back * along.y + aside * along.x);
   line(tip_x, tip_y, tip_x - back * along.x + aside * along.y, tip_y - back * along.y - aside * along.x);
 }
 
-/// What arrows of a displacement are longer by: 1, 2 or 5 times a power of ten, with which one of `high` has
-/// at most the length `longest`.
+/// Returns the factor by which displacements are magnified: 1, 2 or 5 times a power of ten, such that `high`
+/// becomes at most `longest` long.
 double magnification(double high, double longest) {
   const double exact = longest / high;
   const double decade = std::pow(10.0, std::floor(std::log10(exact)));
@@ -48,8 +48,8 @@ double magnification(double high, double longest) {
   return decade;
 }
 
-/// D, per degree where the span is: 99 % of the displacements of all that is drawn are smaller, or, where it
-/// is not known what else is, of this frame.
+/// Returns a displacement, in D, per degree if the span is, that exceeds 99 % of those in the frames that are
+/// drawn or, if these are unknown, in this frame.
 double largest_displacement(const MapFrame& of, const MotionRanges& motion, const MotionSpan& span) {
   if (const auto range = motion.of(MapKind::displacement, span.per_degree)) return range->high;
   MotionSample sample({MapKind::displacement});

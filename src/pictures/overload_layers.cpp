@@ -9,16 +9,16 @@
 namespace talus::pictures {
 namespace {
 
-/// Of clusters that have no colour of their own.
+/// Shade of clusters that have no colour.
 constexpr double uncoloured_shade = 0.4;
 
-/// "Γ_c", "2Γ_c".
+/// Returns "Γ_c" or "2Γ_c".
 std::string threshold_symbol(const MapSettings& settings) {
   const double factor = settings.threshold_factor;
   return factor == 1.0 ? "Γ_c" : fmt::format("{:.6g}Γ_c", factor);
 }
 
-/// "Γ_c = sin θ_c = 0.34", "2Γ_c = 0.69".
+/// Returns "Γ_c = sin θ_c = 0.34" or "2Γ_c = 0.69".
 std::string threshold_text(const MapSettings& settings) {
   return fmt::format("{} = {}{:.2f}", threshold_symbol(settings),
                      settings.threshold_factor == 1.0 ? "sin θ_c = " : "", threshold_of(settings));
@@ -28,7 +28,7 @@ render::Swatch disc_swatch(const render::Colour& fill, const render::Colour& rim
   return {render::Swatch::Kind::disc, fill, rim, 0.0, label};
 }
 
-/// A colour for each cluster.
+/// Returns a colour for each cluster.
 std::vector<render::Colour> colours_of(std::span<const ClusterColour> cluster_colours,
                                        ClusterPalette chosen) {
   const std::vector<render::Colour> palette = cluster_palette(chosen);
@@ -48,7 +48,7 @@ std::string clusters_title(const analysis::Clusters& clusters, const MapSettings
                      clusters.count() == 1 ? " cluster" : " clusters", reading, share);
 }
 
-/// What marks the clusters that span.
+/// Returns the legend of the marks of spanning clusters.
 std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning,
                                               std::span<const render::Colour> colours, bool periodic) {
   const std::string across = periodic ? "spans the period" : "spans wall to wall";
@@ -66,8 +66,8 @@ std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning
   return swatches;
 }
 
-/// Of each free grain: black with gamma >= threshold, else white; `over_grains`: as a mark in a grain that
-/// another layer fills.
+/// Returns the look of each free grain: black if gamma >= threshold, otherwise white; with `over_grains`, a
+/// mark in a grain that another layer fills.
 std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains) {
   std::vector<GrainLook> looks;
   for (Index i = 0; i < bed.statics.free_count; ++i) {

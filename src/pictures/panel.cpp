@@ -13,7 +13,7 @@ namespace {
 
 using Rows = std::vector<std::vector<render::FrameView>>;
 
-/// The parts of a text that commas separate, and a text of some of them.
+/// Splits a text at commas, and joins parts again.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
   for (std::size_t start = 0; start < text.size();) {
@@ -28,7 +28,7 @@ std::string text_of(const std::vector<std::string>& parts) {
   return joined(parts, ", ", [](const std::string& part) { return part; });
 }
 
-/// Takes the parts that all texts begin with out of them.
+/// Removes and returns the parts with which all texts begin.
 std::string take_beginning(const std::vector<std::string*>& texts) {
   std::vector<std::string> common = parts_of(*texts.front());
   for (const std::string* text : texts) {
@@ -43,7 +43,8 @@ std::string take_beginning(const std::vector<std::string*>& texts) {
   return text_of(common);
 }
 
-/// Takes what follows the first part out of the captions: the angle of repose, which is that of the run.
+/// Removes from the captions, and returns, everything after the first part: the angle of repose, which is the
+/// same for the run.
 std::string take_rest(Rows& maps) {
   std::string rest;
   for (std::vector<render::FrameView>& row : maps)
@@ -55,7 +56,7 @@ std::string take_rest(Rows& maps) {
   return rest;
 }
 
-/// Texts without a bed.
+/// Returns a view with texts and without a bed.
 render::FrameView heading(const render::FrameView& like, const std::string& title,
                           const std::string& caption) {
   render::FrameView view;
@@ -67,7 +68,7 @@ render::FrameView heading(const render::FrameView& like, const std::string& titl
   return view;
 }
 
-/// "(a)", "(b)", ..., "(z)", "(aa)", ...
+/// Returns "(a)", "(b)", ..., "(z)", "(aa)", ...
 std::string letter(std::size_t k) {
   constexpr std::size_t letters = 26;
   std::string text;
@@ -76,7 +77,7 @@ std::string letter(std::size_t k) {
   return "(" + text + ")";
 }
 
-/// Whether all that legends say is in others as well.
+/// Whether every entry of these legends also appears in the others.
 bool are_in(const std::vector<render::Legend>& these, const std::vector<render::Legend>& others) {
   const auto is_in = [&others](const auto& one, auto render::Legend::*parts, const auto& same) {
     return std::ranges::any_of(others, [&](const render::Legend& legend) {
@@ -87,7 +88,7 @@ bool are_in(const std::vector<render::Legend>& these, const std::vector<render::
     return x.title == y.title && x.low == y.low && x.high == y.high && x.colours == y.colours;
   };
   const auto same_swatch = [](const render::Swatch& x, const render::Swatch& y) {
-    return x.label == y.label;  // the colour of a cluster that spans is that of one of them
+    return x.label == y.label;  // a spanning cluster has the colour of one of them
   };
   return std::ranges::all_of(these, [&](const render::Legend& legend) {
     return std::ranges::all_of(
@@ -98,8 +99,9 @@ bool are_in(const std::vector<render::Legend>& these, const std::vector<render::
   });
 }
 
-/// A legend below the last angle only, unless that of another one says something else, and once for maps that
-/// have the same; the scale bar below the last map; the angle at the first map of each.
+/// Reduces repeated furniture. A legend appears only below the last angle, unless that of another angle
+/// differs, and once for maps with equal legends; the scale bar appears below the last map; the angle appears
+/// at the first map of each row.
 void share_furniture(Rows& maps) {
   for (std::vector<render::FrameView>& row : maps) {
     const bool last = &row == &maps.back();
@@ -125,7 +127,7 @@ Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
   return rows;
 }
 
-/// So many angles beside each other, the last row filled up with nothing.
+/// Places this many angles next to each other, and fills up the last row with empty views.
 Rows grouped(const Rows& maps, std::size_t beside) {
   Rows rows;
   for (std::size_t k = 0; k < maps.size(); ++k) {
@@ -194,7 +196,7 @@ render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width,
   for (std::size_t beside = 2; beside <= maps.size() && best.height > highest; ++beside) try {
       render::Sheet sheet = render::sheet_of_rows(panel_rows(maps, title, beside), width, font);
       if (sheet.height < best.height) best = std::move(sheet);
-    } catch (const Error&) {  // texts have no room
+    } catch (const Error&) {  // the texts do not fit
       break;
     }
   if (best.height > render::largest_side)

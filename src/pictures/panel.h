@@ -1,5 +1,5 @@
 #pragma once
-/// A bed at several angles in one picture, a column for each map, as in the paper's Figs. 10 and 13.
+/// A bed at several angles in one picture, with a column for each map, as in the paper's Figs. 10 and 13.
 
 #include <string>
 #include <vector>
@@ -10,30 +10,31 @@
 namespace talus::pictures {
 
 struct PanelAsked {
-  std::vector<std::string> at;  ///< as in frames_at
-  std::string title;            ///< above all; empty: none
+  std::vector<std::string> at;  ///< angles for frames_at
+  std::string title;            ///< title above everything; empty: none
   std::string output;           ///< FILE.png, FILE.pdf or FILE.svg
   bool overwrite = false;
 };
 
-/// Draws the frames nearest to the angles, a row for each, on a sheet as wide as the plan says. Returns how
-/// many there are, and whether the file was there before. Throws as frames_at, panel_sheet and is_drawn do.
+/// Draws the frames nearest to the angles, one row each, on a sheet of the width in the plan. Returns the
+/// number of angles, and whether the file already existed. Throws the errors of frames_at, panel_sheet and
+/// is_drawn.
 struct PanelDrawn {
   std::size_t angles = 0;
   bool there_before = false;
 };
 PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked);
 
-/// The rows of a panel from its maps (a row for each angle, at least one, all of the same length), with so
-/// many angles beside each other: what all angles say in the title of a map and what all captions say stands
-/// once above them, with `title` over it; legends that are the same, and the scale bar, stand once below.
-/// Maps have letters (a), (b), ... if there are several. Those without furniture stay without.
+/// Returns the rows of a panel from its maps (at least one row, one for each angle, all of the same length).
+/// The last argument is the number of angles next to each other. Text that is common to all titles of a map,
+/// and to all captions, appears once above them, with `title` over it. Equal legends, and the scale bar,
+/// appear once below. Several maps have letters (a), (b), ... . Maps without furniture remain without it.
 std::vector<std::vector<render::FrameView>> panel_rows(std::vector<std::vector<render::FrameView>> maps,
                                                        const std::string& title, std::size_t beside = 1);
 
-/// A panel as a sheet, with a row for each angle; if it would be higher than `highest` (px), with more angles
-/// beside each other, as far as it gets lower and all texts have room. Throws as lay_out does, and
-/// Error(usage) if the sheet is higher than largest_side.
+/// Returns a panel as a sheet, with a row for each angle. If it would be higher than `highest` (px), more
+/// angles are placed next to each other, as long as this reduces the height and all texts fit. Throws the
+/// errors of lay_out, and Error(usage) if the sheet is higher than largest_side.
 render::Sheet panel_sheet(const std::vector<std::vector<render::FrameView>>& maps, const std::string& title,
                           int width, int highest, const render::Font& font);
 

@@ -18,12 +18,12 @@
 namespace talus::pictures {
 namespace {
 
-/// Pictures that may wait to be written: of 16 megapixels in colour each takes 48 MB.
+/// Largest number of pictures that wait to be written; one of 16 megapixels in colour takes 48 MB.
 constexpr std::size_t pictures_waiting = 2;
 
-/// "gamma_012.00.png" for frame k of the tilt, "gamma_flow_002.3500s.png" for one of the flow after failure,
-/// with the time since the last frame of the tilt; of a run with a programme, which comes to an angle several
-/// times, "gamma_00042_012.00.png" with the number of the frame: names sort by time.
+/// Returns "gamma_012.00.png" for frame k of the tilt, and "gamma_flow_002.3500s.png" for one of the flow
+/// after failure, with the time since the last frame of the tilt. A run with a programme, which reaches an
+/// angle several times, has "gamma_00042_012.00.png", with the number of the frame. Names sort by time.
 std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals,
                          const std::string& ending) {
   const FrameInstant &instant = series.met.instants[k], &highest = series.met.instants[series.met.highest];
@@ -72,16 +72,15 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
   const MapPlan& plan = run.series.plan;
   const render::Font font = render::embedded_font();
   std::optional<render::Renderer> renderer;
-  BackgroundTasks writer(pictures_waiting);  // while one is encoded and written, the next is drawn
+  BackgroundTasks writer(pictures_waiting);  // encodes and writes one picture while the next is drawn
   for (std::size_t done = 0; done < files.size(); ++done) {
     const PictureFile& file = files[done];
     if (watch.stopped()) {
       writer.finish();
       throw Error(
           ExitCode::stopped,
-          fmt::format(
-              "stopped after {} of {} pictures; repeat the command, and those that are there are kept", done,
-              files.size()));
+          fmt::format("stopped after {} of {} pictures; repeat the command, which keeps those that exist",
+                      done, files.size()));
     }
     render::Sheet sheet = render::sheet_of(picture(run, file.frame, file.map), plan.width, font);
     if (!renderer && !render::is_document(file.path)) renderer.emplace(render::make_context(plan.context));

@@ -17,8 +17,8 @@ namespace {
 constexpr const char* key_word = "talus:key";
 constexpr const char* request_word = "talus:request";
 
-/// The run file, as seen from the folder of the picture: both may move together. A run that is under way has
-/// the name that it will have.
+/// Returns the path of the run file relative to the folder of the picture, because both may move together. A
+/// run under way has its final name.
 std::string seen_from(const std::filesystem::path& picture, std::filesystem::path run) {
   namespace fs = std::filesystem;
   if (!run.has_filename()) run = run.parent_path();  // RUN.h5.run/
@@ -48,7 +48,7 @@ std::string PictureKey::text() const { return hash_text(hasher_.value()); }
 
 namespace {
 
-/// Which run it is: its scenario, seed, when it began and with which version; and the version that draws.
+/// Adds the identity of the run: its scenario, seed, start time and version; and the version that draws.
 void add_run(PictureKey& key, const io::RunHeader& header) {
   key.add("talus", version_text());
   key.add("scenario", header.scenario_resolved);
@@ -122,7 +122,7 @@ std::string picture_source(const PictureSeries& series, std::size_t k, std::size
 
 std::string picture_source(const std::string& run, const std::string& shown) {
   std::string source = fmt::format("{}, {}", std::filesystem::path(run).filename().string(), shown);
-  for (char& c : source)  // texts of pictures are ASCII, and those of documents end at these
+  for (char& c : source)  // texts of pictures are ASCII, and those of documents end at these characters
     if (c < ' ' || c > '~' || c == ';' || c == '<' || c == '(' || c == ')' || c == '\\') c = '?';
   return source;
 }
@@ -145,7 +145,7 @@ bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite
   throw Error(
       ExitCode::cannot_create,
       path +
-          " exists, and is not the picture that is asked for (of another run file, with other "
+          " exists and is not the requested picture (it is of another run file, with other "
           "options, or not drawn by Talus); give --overwrite to replace it, or choose another output");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture says of itself, and what tells whether one that exists is the one that would be drawn.
+/// Metadata of pictures, which show whether an existing picture is the one that would be drawn.
 
 #include <span>
 #include <string>
@@ -17,43 +17,43 @@ class PictureKey {
   void add(const std::string& name, const std::string& value);
   void add(const std::string& name, double value);
   void add(const std::string& name, const std::vector<double>& values);
-  /// 16 hexadecimal digits.
+  /// Returns 16 hexadecimal digits.
   std::string text() const;
 
  private:
   Hasher hasher_;
 };
 
-/// A hash of all that map `map` of frame k depends on: the run (its scenario, seed, when it began and with
-/// which version), the frame, the settings, and the version that draws.
+/// Returns a hash of everything that determines map `map` of frame k: the run (its scenario, seed, start time
+/// and version), the frame, the settings, and the version that draws.
 std::string picture_key(const PictureSeries& series, std::size_t k, std::size_t map);
 
-/// A hash of what a command asks of a run for one picture, whatever that run holds: the command with what it
-/// says of frames, the options of these maps, and where the run file lies, as seen from the picture. Where a
-/// picture has the name and the request of the one to be drawn but another key, the run was made again, or
-/// has gone on, or Talus is another version.
+/// Returns a hash of the request of a command for one picture, independent of the contents of the run: the
+/// command with its choice of frames, the options of these maps, and the path of the run file relative to the
+/// picture. If an existing picture has the same name and request but another key, the run was recomputed or
+/// continued, or the version of Talus is different.
 std::string picture_request(const std::string& command, const PictureSeries& series,
                             std::span<const MapSettings> maps, const std::string& picture);
 
-/// What a picture says of itself in its texts.
+/// The metadata that identify a picture.
 struct PictureMarks {
-  std::string key;      ///< picture_key, or what a picture of several maps makes of theirs
+  std::string key;      ///< picture_key, or a combination of the keys of several maps
   std::string request;  ///< picture_request
   std::string source;   ///< picture_source
 };
 
-/// "v_1.h5, frame at 12.000 deg, gamma+forces": the file of a run and what is shown of it, in ASCII.
+/// Returns "v_1.h5, frame at 12.000 deg, gamma+forces": the file of a run and what is shown of it, in ASCII.
 std::string picture_source(const PictureSeries& series, std::size_t k, std::size_t map);
 std::string picture_source(const std::string& run, const std::string& shown);
 
-/// "12.000"; tilt in rad.
+/// Returns "12.000"; tilt in rad.
 std::string tilt_text(double tilt);
 
-/// The texts of a PNG: its marks, and what made it.
+/// Returns the texts of a PNG: its marks, and the program that made it.
 render::PictureTexts picture_texts(const PictureMarks& marks);
 
-/// Whether the file is a picture with this key. One with this request and another key is out of date, and to
-/// be replaced. Throws Error(cannot_create) where it is anything else, unless `overwrite`.
+/// Whether the file is a picture with this key. One with this request and another key is out of date, and is
+/// to be replaced. Throws Error(cannot_create) for any other file, unless `overwrite`.
 bool is_drawn(const std::string& path, const PictureMarks& marks, bool overwrite);
 
 }  // namespace talus::pictures

@@ -15,7 +15,7 @@
 namespace talus::pictures {
 namespace {
 
-/// "0.50,1.25": a place in the bed (m) in mean diameters.
+/// Returns "0.50,1.25": a position in the bed (m) in mean diameters.
 std::string place_text(double x, double y, double diameter) {
   return fmt::format("{:.2f},{:.2f}", x / diameter, y / diameter);
 }
@@ -25,11 +25,11 @@ void take_theta_c(PictureSeries& series, const std::optional<double>& measured) 
     if (!std::isfinite(map.theta_c) && measured) map.theta_c = *measured;
   if (std::isfinite(series.plan.maps[0].theta_c) || !needs_theta_c(series.plan)) return;
   throw Error(ExitCode::bad_data, series.path +
-                                      ": the slope has not failed in this run, and what is asked for is "
+                                      ": the slope has not failed in this run, but the requested picture is "
                                       "scaled by the angle of repose; give it with --theta-c DEG");
 }
 
-/// The frame of --since; none where the frame before is meant.
+/// Returns the frame of --since; none if motion is measured from the preceding frame.
 std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std::optional<double> since) {
   if (!since) return std::nullopt;
   const auto [lowest, highest] = std::ranges::minmax(tilts);
@@ -38,11 +38,11 @@ std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std
   if (*since > highest + 0.5 * spacing)
     throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {:.2f} deg",
                                                 degrees(*since), degrees(highest)));
-  const std::optional<std::size_t> first = frame_near(tilts, *since);  // the first time that it was there
+  const std::optional<std::size_t> first = frame_near(tilts, *since);  // the first time at that tilt
   return first ? first : nearest_frame(tilts, *since);
 }
 
-/// Where a trace has a frame, or a row, once the first frame was met.
+/// Returns the position of a frame or row on the axis of a trace, once the first frame was added.
 double place_of(const PictureSeries& series, double tilt, double time) {
   return series.has_program ? time - series.met.instants.front().time : tilt;
 }
@@ -86,13 +86,13 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
     throw Error(
         ExitCode::usage,
         fmt::format(
-            "--crop {:.6g},{:.6g},{:.6g},{:.6g} leaves the bed, which goes from {} to {} in mean diameters",
+            "--crop {:.6g},{:.6g},{:.6g},{:.6g} leaves the bed, which extends from {} to {} mean diameters",
             crop.x0, crop.y0, crop.x1, crop.y1, place_text(bed.x_min, bed.y_min, diameter),
             place_text(bed.x_max, bed.y_max, diameter)));
   return asked;
 }
 
-/// With a programme only the run knows which frame is the last one of the tilt.
+/// Adds an instant. Only a run with a programme knows its last frame of the tilt.
 void add_instant(PictureSeries& series, const Frame& frame) {
   MetFrames& met = series.met;
   if (met.instants.empty() || series.has_program || frame.tilt > met.instants[met.highest].tilt)
@@ -144,7 +144,7 @@ render::FrameView picture(const PictureSeries& series, std::size_t k, const Fram
   const MetFrames& met = series.met;
   MapFrame of{{frame, series.run.statics}, reference, !series.since};
   const OverloadRule& rule = settings;
-  if (met.rule == rule) {  // colours of another rule are of other clusters
+  if (met.rule == rule) {  // colours by another rule belong to other clusters
     of.tracker = &met.tracker;
     if (k < met.cluster_colours.size() && met.instants[k].step == frame.step)
       of.cluster_colours = met.cluster_colours[k];

@@ -14,7 +14,7 @@ namespace talus::pictures {
 
 namespace {
 
-/// The fastest that the tilt changes from one frame to the next, rad/s; 1 deg/s where it never does.
+/// Returns the largest rate of tilt between successive frames, rad/s; 1 deg/s if the tilt never changes.
 double fastest_rate(const std::vector<FrameInstant>& instants) {
   double fastest = 0.0;
   for (std::size_t k = 1; k < instants.size(); ++k)
@@ -23,9 +23,9 @@ double fastest_rate(const std::vector<FrameInstant>& instants) {
   return fastest > 0.0 ? fastest : radians(1.0);
 }
 
-/// When each frame of a run is, in rad: its tilt; and after failure, the tilt that would have been reached
-/// had it gone on rising. With a programme, the tilt that would have been reached had it always risen at its
-/// fastest.
+/// Returns the movie clock of each frame, rad: its tilt and, after failure, the tilt that would have been
+/// reached had it continued to rise. With a programme, it is the tilt that would have been reached had it
+/// always risen at its fastest.
 std::vector<double> clock_tilts(const PictureSeries& series) {
   if (series.has_program) {
     std::vector<double> clock;
@@ -43,8 +43,8 @@ std::vector<double> clock_tilts(const PictureSeries& series) {
   return clock;
 }
 
-/// The maps of a frame beside each other. Of several, the first has the angle, the last the scale bar, and
-/// the curves stand once, in a view of their own.
+/// Returns the maps of a frame next to each other. With several maps, the first has the angle and the last
+/// the scale bar; the curves appear once, in a separate view.
 std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, bool curves_apart) {
   std::vector<render::FrameView> views;
   for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
@@ -63,14 +63,14 @@ std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, boo
   return views;
 }
 
-/// What all frames of a movie have in common.
+/// The format shared by all frames of a movie.
 struct MovieFormat {
   render::Arrangement arrangement;
   bool curves_apart = false;
   bool coloured = false;
 };
 
-/// Captions and legends of some frames are longer than those of others, and one of them may have colour.
+/// Computed from all frames, because captions and legends differ in length, and some frames may have colour.
 MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, int height,
                           const render::Font& font) {
   MovieFormat format;
@@ -81,7 +81,7 @@ MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, 
         pictures.emplace_back(movie_views(run, frame.frame, format.curves_apart));
     for (render::FrameView& view : views) {
       format.coloured = format.coloured || render::pixel_format(view) == render::PixelFormat::colour;
-      // The layout needs no more of it.
+      // The layout needs only the furniture.
       view.discs = {};
       view.lines = {};
       for (render::Trace& trace : view.traces) trace.x = trace.y = {};
@@ -120,8 +120,8 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
     return frames;
   }
 
-  // The movie frame from which on a frame of the run may be seen; a little early, so that round-off in an
-  // angle does not cost it a frame.
+  // Returns the first movie frame that may show a frame of the run; slightly early, so that round-off in an
+  // angle does not delay it by one frame.
   const auto first_seen = [&](const MovieFrame& frame) {
     constexpr double early = 1e-6;
     const double seconds = degrees(clock[frame.frame] - clock[frames.front().frame]) / *timing.speed;
@@ -137,7 +137,7 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
 
 MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch) {
   const std::vector<MovieFrame> frames = movie_frames(clock_tilts(run.series), asked.timing);
-  FrameChoice shown;  // one range for all, each of which counts once however long it is shown
+  FrameChoice shown;  // each counts once for the common range, however long it is shown
   MovieDrawn drawn;
   for (const MovieFrame& frame : frames) {
     shown.push_back(frame.frame);
@@ -149,10 +149,10 @@ MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch
   try {
     make_movie(run, frames, asked, watch);
   } catch (const Error&) {
-    if (!watch.stopped()) throw;  // Ctrl-C ends ffmpeg too: that is no error of the movie
+    if (!watch.stopped()) throw;  // Ctrl-C also ends ffmpeg, which is not an error of the movie
   }
   if (watch.stopped())
-    throw Error(ExitCode::stopped, "stopped; the movie was not finished, and nothing of it is kept");
+    throw Error(ExitCode::stopped, "stopped; the movie was not finished and has been discarded");
   return drawn;
 }
 

@@ -11,10 +11,10 @@ namespace talus::pictures {
 namespace {
 
 constexpr double lightest_rim = 0.45;  // shade of gray
-constexpr double rim_darkness = 0.6;   // of the channels of a colour
-constexpr double dark_luma = 60.0;     // below it a darker rim cannot be seen
-constexpr double rim_lightness = 0.2;  // of a dark colour: the share of white in its rim
-constexpr int most_steps = 5;          // between ticks of a bar
+constexpr double rim_darkness = 0.6;   // factor for the channels of a colour
+constexpr double dark_luma = 60.0;     // with a lower luma, a darker rim would be invisible
+constexpr double rim_lightness = 0.2;  // share of white in the rim of a dark colour
+constexpr int most_steps = 5;          // maximum between ticks of a bar
 
 std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
 
@@ -22,11 +22,11 @@ std::uint8_t lightened(std::uint8_t channel) {
   return static_cast<std::uint8_t>(std::lerp(static_cast<double>(channel), 255.0, rim_lightness));
 }
 
-/// These multiples of the powers of ten between the ends; of many decades, every second, third, ... power.
-/// All are written as powers if one of them has to be.
+/// Returns ticks at these multiples of powers of ten between the ends; over many decades, at every second,
+/// third, ... power. If one label has to be a power, all are.
 std::vector<render::BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
   constexpr int most_decades = 10;
-  constexpr double hair = 1e-9;  // so that rounding loses no tick at an end
+  constexpr double hair = 1e-9;  // tolerance that keeps ticks at the ends
   std::vector<double> values;
   const auto first = static_cast<int>(std::floor(std::log10(scale.low)));
   const auto last = static_cast<int>(std::ceil(std::log10(scale.high)));
@@ -67,9 +67,9 @@ Scale chosen(Scale scale, const ScaleChoice& choice) {
   scale.high = choice.high.value_or(scale.high);
   const std::string range = fmt::format("range {:.6g} to {:.6g}: expected ", scale.low, scale.high);
   if (!(std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high))
-    throw Error(ExitCode::usage, range + "an end above the beginning");
+    throw Error(ExitCode::usage, range + "an upper end above the lower one");
   if (scale.logarithmic && !(scale.low > 0.0))
-    throw Error(ExitCode::usage, range + "a beginning above 0, as the scale is logarithmic");
+    throw Error(ExitCode::usage, range + "a positive lower end, because the scale is logarithmic");
   return scale;
 }
 
@@ -101,7 +101,7 @@ render::Bar bar_of(const Scale& scale, const std::string& title) {
   constexpr std::size_t few = 3;
   std::vector<render::BarTick> ticks =
       scale.logarithmic ? decades(scale, {1.0}) : std::vector<render::BarTick>();
-  // Over few decades their halves and fifths are wanted too, and within one round numbers say more.
+  // A few decades also need halves and fifths; within one decade, round numbers are clearer.
   if (scale.logarithmic && ticks.size() < few) ticks = decades(scale, {1.0, 2.0, 5.0});
   if (ticks.size() < few) ticks = round_shares(scale);
   return {

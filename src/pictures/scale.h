@@ -1,5 +1,5 @@
 #pragma once
-/// From a value to the look of a grain, and the bar that says so.
+/// Maps values to the looks of grains, and makes the matching bar.
 
 #include <optional>
 #include <span>
@@ -11,49 +11,50 @@
 
 namespace talus::pictures {
 
-/// How a grain is drawn by a layer.
+/// The look of a grain in a layer.
 struct GrainLook {
   render::Colour fill = render::white;
   render::Colour rim = render::black;
-  bool marked = true;  ///< false: the layer has nothing to say of it, and marks nothing over another layer
+  bool marked = true;  ///< false: the layer has no value for the grain and draws no mark over another layer
 };
 
-/// The rim of a grain: darker than its fill, and never lighter than a gray that shows a white grain on white;
-/// of a dark colour, on which no darker one is seen, lighter. Black has a black one.
+/// Returns the rim of a grain: darker than its fill, and at least as dark as the gray that makes a white
+/// grain visible on white. A dark colour has a lighter rim, because a darker one would be invisible; black
+/// has a black rim.
 render::Colour rim_of(const render::Colour& fill);
 
-/// A grain that only shows where it is.
+/// Returns the look of a grain that only shows its position.
 GrainLook outline_look();
 
-/// Values from low to high, in colours.
+/// A range of values and its colours.
 struct Scale {
   render::ColourMap colours = render::ColourMap::gray;
   double low = 0.0;
   double high = 1.0;
-  bool logarithmic = false;  ///< then 0 < low
+  bool logarithmic = false;  ///< requires low > 0
 };
 
-/// What users chose of the scale of a layer.
+/// The user's choices for the scale of a layer.
 struct ScaleChoice {
   std::optional<render::ColourMap> colours;
   std::optional<double> low, high;
 };
 
-/// A scale with what was chosen instead of its own. Throws Error(usage) where that leaves no range.
+/// Returns a scale with the user's choices applied. Throws Error(usage) if no range remains.
 Scale chosen(Scale scale, const ScaleChoice& choice);
 
-/// Where a value is between the ends, not clamped: 0 at low, 1 at high.
+/// Returns the position of a value between the ends, not clamped: 0 at low, 1 at high.
 double share_of(const Scale& scale, double value);
 
-/// A value in the colours of its scale, beyond its ends as at them. NaN, of a grain that has no value, looks
-/// as the lower end and is not marked.
+/// Returns the look of a value, clamped to the ends of its scale. NaN, for a grain without a value, looks
+/// like the lower end and is not marked.
 GrainLook look_of(const Scale& scale, double value);
 std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> values);
 
-/// The same in colours of a scale none of which is white; a grain that has no value is.
+/// Returns looks on a scale that does not contain white; grains without a value are white.
 std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values);
 
-/// The bar, with round numbers, or decades, as ticks.
+/// Returns the bar, with round numbers or decades as ticks.
 render::Bar bar_of(const Scale& scale, const std::string& title);
 
 }  // namespace talus::pictures

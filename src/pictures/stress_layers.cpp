@@ -11,14 +11,14 @@
 namespace talus::pictures {
 namespace {
 
-/// Where grains are black, over Gamma_c. Of gamma as in the paper's Fig. 10; neighbourhoods average much of
-/// it away, and are to differ in shade about Gamma_c.
+/// Values over Gamma_c at which grains are black. For gamma as in the paper's Fig. 10; lower for
+/// neighbourhoods, whose averages vary less and must differ in shade about Gamma_c.
 constexpr double black_gamma = 2.0, black_coarse = 1.5;
 
-/// With ticks at the ends and at Gamma_c.
+/// Returns a bar with ticks at the ends and at Gamma_c.
 render::Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::string& title,
                              const std::string& end) {
-  constexpr double clear_of_ends = 0.2;  // of the bar, for the labels
+  constexpr double clear_of_ends = 0.2;  // fraction of the bar, for the labels
   render::Bar bar{
       title, render::colour_ramp(scale.colours), {{0.0, number_label(scale.low)}}, scale.low, scale.high};
   const double share = share_of(scale, gamma_c);

@@ -19,7 +19,7 @@ render::Swatch grain_swatch(const GrainLook& look, const std::string& label) {
 }  // namespace
 
 MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
-  constexpr double most = 6.0;  // of equal disks
+  constexpr double most = 6.0;  // maximum for equal disks
   const FrameContacts& contacts = of.frame.contacts;
   const std::vector<Index> counts =
       stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);

@@ -7,7 +7,7 @@
 namespace talus::pictures {
 namespace {
 
-/// "⁻¹²".
+/// Returns an exponent such as "⁻¹²".
 std::string superscript(int exponent) {
   static constexpr const char* digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   std::string text = exponent < 0 ? "⁻" : "";
@@ -15,7 +15,7 @@ std::string superscript(int exponent) {
   return text;
 }
 
-/// A number times a power of ten, "2·10⁻⁵", with a factor that has been printed.
+/// Returns a number times a power of ten, "2·10⁻⁵", from a formatted factor.
 std::string times_power(const std::string& factor, int exponent) {
   return (factor == "1" ? "10" : factor + "·10") + superscript(exponent);
 }
@@ -51,11 +51,11 @@ double round_step(double width, int most) {
 
 std::vector<RoundTick> round_ticks(double low, double high, int most) {
   const double step = round_step(high - low, most);
-  // A hair, so that rounding loses no tick at an end.
+  // The tolerance keeps ticks at the ends despite rounding.
   const auto first = static_cast<long>(std::ceil(low / step - 1e-6));
   const auto last = static_cast<long>(std::floor(high / step + 1e-6));
   const int decimals = std::max(0, -decade_of(step));
-  // Numbers of seven digits, or of so many zeros behind the point, are read as powers of ten.
+  // Numbers of seven digits, or with three or more zeros after the point, are written as powers of ten.
   constexpr double smallest = 1e-3, largest = 1e6;
   const double size = std::max(std::fabs(low), std::fabs(high));
   const bool powers = size >= largest || size < smallest;

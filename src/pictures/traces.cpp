@@ -53,8 +53,8 @@ std::vector<render::AxisTick> axis_ticks(double low, double high, int most) {
   return ticks;
 }
 
-/// Of the finite values; widened by `margin` on either side where they are all the same, and 0 to 1 where
-/// there are none.
+/// Returns the range of the finite values; widened by `margin` on either side if they are all equal, and 0 to
+/// 1 if there are none.
 ScaleRange range_of(std::span<const double> values, double margin) {
   ScaleRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values)
@@ -64,7 +64,7 @@ ScaleRange range_of(std::span<const double> values, double margin) {
   return range;
 }
 
-/// To whole steps of its ticks.
+/// Extends a range to whole steps of its ticks.
 ScaleRange rounded(const ScaleRange& range, int most) {
   const double step = round_step(range.high - range.low, most);
   return {step * std::floor(range.low / step + 1e-9), step * std::ceil(range.high / step - 1e-9)};
@@ -86,7 +86,7 @@ std::vector<TraceKind> trace_kinds(std::string_view name) {
     const auto end = rest.find_first_of(",+");
     const TraceKind kind = kind_of(rest.substr(0, end));
     if (std::ranges::find(chosen, kind) != chosen.end())
-      throw Error(ExitCode::usage, fmt::format("trace '{}': twice the same trace", name));
+      throw Error(ExitCode::usage, fmt::format("trace '{}': the same trace twice", name));
     chosen.push_back(kind);
     if (end == std::string_view::npos) return chosen;
     rest.remove_prefix(end + 1);

@@ -1,4 +1,4 @@
-/// Maps that are a quantity of grains and its rule of scale.
+/// Maps of a quantity of grains, drawn by the rule in its table row.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 const analysis::FrameQuantity& quantity_of(MapKind kind) {
   const analysis::FrameQuantity* quantity = shown_quantity(kind);
-  if (quantity == nullptr) throw Error(ExitCode::internal, "a map that is no number of each grain");
+  if (quantity == nullptr) throw Error(ExitCode::internal, "a map that shows no number for each grain");
   return *quantity;
 }
 
@@ -32,7 +32,7 @@ Scale scale_of(MapKind kind, const MapFrame& of, const MapSettings& settings, bo
           range.low, range.high, rule == analysis::ScaleRule::sizes};
 }
 
-/// ", 5 to 99 % of grains" if the range is one that fits; empty if it is fixed or chosen.
+/// Returns ", 5 to 99 % of grains" if the range is fitted; empty if it is fixed or chosen.
 std::string fitted_text(MapKind kind, const MotionRanges& motion, bool per_degree,
                         const ScaleChoice& choice) {
   if (choice.low || !fits_frames(kind) || !motion.of(kind, per_degree)) return "";

@@ -489,7 +489,7 @@ TEST(Ensemble, does_not_end_well_because_a_failure_does_not_tell_its_code) {
     write_file(folder, "e/seed-1.failed", text);
     const Outcome outcome = run_talus(ensemble_of("e", "1"), folder.path());
     EXPECT_EQ(outcome.exit_code, 65) << text;
-    EXPECT_NE(outcome.err.find("e/seed-1.failed is not as talus writes it"), std::string::npos)
+    EXPECT_NE(outcome.err.find("e/seed-1.failed is not in the form that talus writes"), std::string::npos)
         << outcome.err;
   }
 }
