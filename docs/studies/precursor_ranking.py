@@ -8,7 +8,7 @@
 
 The beds are the members of an ensemble.h5 (its first variant), or runs with a stored analysis, tilted from 0 to failure.
 The table of the ranking is written as CSV, the figure as PNG, PDF or SVG, and without -o the table is printed as
-Markdown; each can be made from a table that was written before. docs/past_the_paper.md describes the method and its
+Markdown; each can also be made from an existing table. docs/studies/announcing-failure.md describes the method and its
 result.
 
 It needs Debian's python3-numpy; python3-h5py (and python3-xxhash, for runs) to read beds; python3-matplotlib to draw."""
@@ -44,7 +44,7 @@ MIN_DEVIATION = 0.01
 
 @dataclass
 class Beds:
-    """What is known of several slopes that have failed, by the names of docs/analysis.md."""
+    """Measures of several slopes that have failed, under the names of docs/analysis.md."""
 
     theta_c: np.ndarray  #: deg, of each bed
     gamma_c: np.ndarray  #: threshold of overload of each bed
@@ -152,10 +152,10 @@ def change(near, far):
 
 def squared_errors(*measures):
     """Squared error of the distance that is estimated for each bed (row) at each of DISTANCES (column) from one or two
-    measures of the same shape; NaN where there is no estimate.
+    measures of the same shape; NaN without an estimate.
 
-    The observer knows all other beds (leave-one-out) and takes their measures at each distance for normally distributed,
-    with their means and their covariance over the beds. All distances are equally likely beforehand. The estimate is the
+    The observer knows all other beds (leave-one-out) and assumes that their measures at each distance are
+    normally distributed, with the means and the covariance over the beds. All distances are equally likely beforehand. The estimate is the
     mean of the distance once the measure is known (Bayes), which has the least mean square error. A measure that says
     nothing thus has the standard deviation of the distances themselves."""
     values = np.stack(measures)
@@ -264,7 +264,7 @@ def read_table(path):
 
 
 def markdown(rows):
-    """The table of docs/past_the_paper.md; a star marks measures at a threshold that follows from theta_c."""
+    """The table of docs/studies/announcing-failure.md; a star marks measures at a threshold that follows from theta_c."""
     lines = ["| rank | measure | change at 1, 2, 3 deg | error, deg | at 1, 2, 3 deg | with the tilt, deg | adds |",
              "|--:|---|---|--:|---|--:|--:|"]
     for row in rows:
