@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes as text.
+/// Encoding of bytes as text.
 
 #include <cstddef>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace talus {
 
-/// RFC 4648, with padding.
+/// Encodes bytes in Base64 (RFC 4648), with padding.
 std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace talus

@@ -40,25 +40,25 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-/// What the child is to become: all that needs memory is made before the fork.
+/// Everything that the child needs, prepared before the fork because it must not allocate.
 struct Start {
-  const char* file;  ///< as PATH finds it
+  const char* file;  ///< name that PATH finds
   std::vector<char*> words, variables;
   ProgramStreams streams;
   const char* folder;
-  int end_signal;  ///< that it gets when this process ends
+  int end_signal;  ///< signal that it receives when this process ends
   bool own_group;
   pid_t parent;
 };
 
 void give(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from, stream); }
 
-/// Between fork and exec: only calls that are safe there. Returns where it fails.
+/// Runs between fork and exec, with calls that are safe there. Returns only if it fails.
 void become(const Start& start) {
   prctl(PR_SET_PDEATHSIG, start.end_signal);
-  if (::getppid() != start.parent) _exit(1);  // it has ended already
+  if (::getppid() != start.parent) _exit(1);  // the parent has ended already
   if (start.own_group) ::setpgid(0, 0);
-  std::signal(SIGXFSZ, SIG_DFL);  // what may not write all does not end well
+  std::signal(SIGXFSZ, SIG_DFL);  // a program that exceeds the file size limit must fail
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -69,7 +69,7 @@ void become(const Start& start) {
   if (::chdir(start.folder) == 0) ::execvpe(start.file, start.words.data(), start.variables.data());
 }
 
-/// Returns once the program has begun, or -1.
+/// Starts the program; returns its process id once it runs, or -1.
 pid_t run(const Start& start) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) return -1;

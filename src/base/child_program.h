@@ -1,5 +1,5 @@
 #pragma once
-/// Other programs that this one starts.
+/// Programs started by this one.
 
 #include <sys/types.h>
 
@@ -9,32 +9,32 @@
 
 namespace talus {
 
-/// Descriptors of its standard streams; one that is negative is /dev/null.
+/// Descriptors of the standard streams of a program; a negative one is /dev/null.
 struct ProgramStreams {
   int in = -1, out = -1, err = -1;
 };
 
-/// What a program sees of the environment.
+/// Environment of a program.
 enum class ProgramEnvironment {
-  clean,  ///< where programs, libraries and temporary files are: what it writes depends on no locale or home
-  whole,  ///< all of it: the program acts for the user, with the settings of the user
+  clean,  ///< paths of programs, libraries and temporary files only, so that output depends on no locale or
+          ///< home
+  whole,  ///< entire environment, for a program that acts for the user
 };
 
-/// Starts words[0], as PATH finds it, with the other words as its arguments, in a folder. It ends when this
-/// process ends, however that is (SIGKILL). Returns its process, or -1 with the reason in errno where it
-/// cannot be started.
+/// Starts words[0], found by PATH, with the other words as its arguments, in a folder. The program is killed
+/// (SIGKILL) when this process ends for any reason. Returns its process id, or -1 with the reason in errno if
+/// it cannot be started.
 pid_t start_program(const std::vector<std::string>& words, const ProgramStreams& streams,
                     const std::string& folder = ".",
                     ProgramEnvironment environment = ProgramEnvironment::clean);
 
-/// Starts another process of this very program, even where its file has been replaced since, with these
-/// arguments. It is asked to end (SIGTERM) when this process ends, so that it can commit what it computes,
-/// and is in a group of its own, so that Ctrl-C reaches it through this process alone. Returns as
-/// start_program.
+/// Starts another process of this program with these arguments, even if its file has been replaced meanwhile.
+/// The process receives SIGTERM when this one ends, so that it can commit its results. It is in a separate
+/// process group, so that Ctrl-C reaches it through this process only. Returns as start_program.
 pid_t start_this_program(const std::vector<std::string>& arguments, const ProgramStreams& streams);
 
-/// Waits until it has ended and returns its status (waitpid). `meanwhile` is called ten times a second, or
-/// may be empty; where it throws, the program is ended.
+/// Waits until a program has ended and returns its status (waitpid). `meanwhile` is called ten times a
+/// second, unless it is empty; if it throws, the program is killed.
 int wait_for_program(pid_t program, const std::function<void()>& meanwhile);
 
 }  // namespace talus

@@ -1,5 +1,5 @@
 #pragma once
-/// Errors by cause. Each cause has an exit code of the command line (docs/errors.md).
+/// Errors by cause. Each cause has an exit code (docs/errors.md).
 
 #include <stdexcept>
 #include <string>
@@ -20,8 +20,8 @@ enum class ExitCode : int {
   stopped = 75,        ///< stopped on request, which is not an error; the run can be resumed
 };
 
-/// An error with a message for the user. The message says what was found, where, what was expected, and
-/// what to do; it carries no "error:" prefix and no trailing newline.
+/// An error with a message for the user. The message says what was found and where, what was expected, and
+/// what to do, without the prefix "error:" and without a trailing newline.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
@@ -31,18 +31,18 @@ class Error : public std::runtime_error {
   ExitCode code_;
 };
 
-/// Errors at places of a file: each line of the message is complete, `file:line:column: error: ...`, and is
-/// shown as it is.
+/// Errors at positions in a file. Each line of the message is complete, `file:line:column: error: ...`, and
+/// is printed unchanged.
 class LocatedError : public Error {
  public:
   using Error::Error;
 };
 
-/// An Error with the given code and the message `path: cannot action: reason of errno`.
+/// Returns an Error with the given code and the message `path: cannot action: reason of errno`.
 Error system_error(ExitCode code, const std::string& action, const std::string& path, int errno_value);
 
-/// The same for a file or folder that cannot be created: io_error if the disk is full or fails, otherwise
-/// cannot_create.
+/// Returns the Error for a file or folder that cannot be created, with the code io_error if the disk is full
+/// or fails, otherwise cannot_create.
 Error creation_error(const std::string& action, const std::string& path, int errno_value);
 
 }  // namespace talus

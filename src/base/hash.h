@@ -1,5 +1,5 @@
 #pragma once
-/// 64-bit hashes of states and files (XXH3, the same on every platform of one byte order).
+/// 64-bit hashes of states and files (XXH3, equal on all platforms of the same byte order).
 
 #include <cstdint>
 #include <span>
@@ -24,7 +24,7 @@ class Hasher {
   requires std::is_arithmetic_v<T>
   void add(T value) { add_bytes(&value, sizeof value); }
 
-  /// The number of elements is hashed too, so that moving elements between two arrays changes the hash.
+  /// Adds an array and its number of elements, so that moving elements between two arrays changes the hash.
   template <typename Container>
   void add_array(const Container& values) {
     add<std::uint64_t>(values.size());
@@ -39,10 +39,10 @@ class Hasher {
 
 std::uint64_t hash_bytes(std::span<const std::byte> bytes);
 
-/// 16 lower-case hexadecimal digits.
+/// Returns a hash as 16 lower-case hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
 
-/// The hash of such a text; 0 for another one.
+/// Returns the hash of a text made by hash_text; 0 for any other text.
 std::uint64_t parse_hash(const std::string& text);
 
 }  // namespace talus

@@ -28,8 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Others may make and remove a file of the same name while one is being made. Where it never is what was
-/// opened, as on a file system that numbers its files anew at each look, this is where to give up.
+/// Number of attempts to create a file before giving up. Other processes may create and remove a file of the
+/// same name meanwhile. On a file system that renumbers its files at each access, the name never matches the
+/// open file.
 constexpr int attempts = 100;
 
 [[noreturn]] void give_up(const std::string& path) {
@@ -40,14 +41,15 @@ constexpr int attempts = 100;
                   path, attempts));
 }
 
-/// The error of the first lock that the file system refused.
+/// Error of the first lock that the file system refused; 0: none.
 std::atomic<int>& lock_problem() {
   static std::atomic<int> error = 0;
   return error;
 }
 
-/// False if others hold the file in a way that does not allow this lock. Where the file system refuses it for
-/// any other reason than a disk that is full or fails, it has no locks, and the file is used without one.
+/// Locks a file; returns false if other processes hold a lock that excludes this one. If the file system
+/// refuses the lock for any reason except a full or failing disk, it has no locks, and the file is used
+/// without one.
 bool lock(const Descriptor& file, int operation, const std::string& path) {
   while (::flock(file.get(), operation) != 0) {
     if (errno == EWOULDBLOCK) return false;
@@ -62,33 +64,33 @@ bool lock(const Descriptor& file, int operation, const std::string& path) {
   return true;
 }
 
-/// False if another process writes the file. Who clears it away shares its lock, and has done so in a moment:
-/// that is waited for.
+/// Acquires the lock for writing; returns false if another process writes the file. A process that removes
+/// the file shares its lock for a moment, so this function waits for it.
 bool take_lock(const Descriptor& file, const std::string& path) {
   return lock(file, LOCK_EX | LOCK_NB, path) ||
          (lock(file, LOCK_SH | LOCK_NB, path) && lock(file, LOCK_EX, path));
 }
 
-/// Whether a file or folder was left under a name by a process that was killed: no link, no device.
+/// Whether a path is of the given kind (file or folder) itself, and not a link to one.
 bool is_left(const std::string& path, mode_t kind) {
   struct stat status {};
   return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind;
 }
 
-/// The same, if it belongs to this user.
+/// Whether a path is of the given kind and belongs to this user.
 bool is_ours(const std::string& path, mode_t kind) {
   struct stat status {};
   return is_left(path, kind) && ::lstat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid();
 }
 
-/// What is there stays: Talus has not made it.
+/// Throws the error for an existing item that Talus has not created. The item is left in place.
 [[noreturn]] void refuse_foreign(const std::string& path, const char* expected) {
   throw Error(ExitCode::cannot_create,
-              path + " is in the way: Talus needs this name for a moment, for " + expected +
-                  ", and has not made what is there; remove it, or choose another output");
+              path + " is in the way: Talus needs this name for " + expected +
+                  ", and did not create the existing one; remove it, or choose another output");
 }
 
-/// Opens what has this name without following a link, and without waiting for the other end of a FIFO.
+/// Opens a path without following a link, and without waiting for the other end of a FIFO.
 Descriptor open_found(const std::string& path, int flags) {
   return Descriptor(::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
 }
@@ -119,7 +121,7 @@ std::string take_lock_problem() {
 
 namespace {
 
-/// A file, or a folder, of which this process holds the lock.
+/// Creates a file or folder and acquires its lock.
 std::optional<Descriptor> create(const std::string& path, bool is_folder) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
     Descriptor made(is_folder ? -1 : ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -127,7 +129,7 @@ std::optional<Descriptor> create(const std::string& path, bool is_folder) {
     if (!is_new && errno != EEXIST)
       throw creation_error(is_folder ? "create the folder" : "create", path, errno);
     if (!is_new && !is_left(path, is_folder ? S_IFDIR : S_IFREG)) {
-      if (errno == ENOENT) continue;  // removed at this very moment
+      if (errno == ENOENT) continue;  // removed meanwhile
       refuse_foreign(path, is_folder ? "a temporary folder" : "a temporary file");
     }
     Descriptor file =
@@ -167,21 +169,21 @@ void while_locked(const std::string& path, const std::function<void()>& work) {
 
 namespace {
 
-/// NAME of NAME.talus.part; empty where a name is no such one.
+/// Returns NAME of NAME.talus.part; empty for any other name.
 std::string name_before_ending(const std::string& name) {
   const bool is_temporary = name.ends_with(temporary_ending);
   return is_temporary ? name.substr(0, name.size() - std::string_view(temporary_ending).size()) : "";
 }
 
-/// A folder called NAME.talus.part, without a dot in NAME, is that of a figure where all that it holds are
-/// files called NAME and something more. Others stay as they are.
+/// Removes a folder NAME.talus.part, without a dot in NAME, if it is that of a figure: the names of all files
+/// in it begin with NAME. Other folders are left in place.
 void remove_figure_folder(const std::string& path) {
   const std::string name = name_before_ending(fs::path(path).filename().string());
   if (name.find('.') != std::string::npos) return;
   std::error_code unknown;
   const std::vector<std::string> files = names_in(path, unknown);
   const auto is_of_figure = [&](const std::string& file) {
-    const std::string own = (fs::path(path) / file).string();  // a link leads into memory
+    const std::string own = (fs::path(path) / file).string();  // links point to files in memory
     return file.starts_with(name) && (is_ours(own, S_IFREG) || is_ours(own, S_IFLNK));
   };
   if (!std::ranges::all_of(files, is_of_figure)) return;
@@ -189,9 +191,9 @@ void remove_figure_folder(const std::string& path) {
   ::rmdir(path.c_str());
 }
 
-/// While the lock is shared nobody can take a file for writing, and while it is held by its writer it cannot
-/// be shared. Who is about to lock a file that it has just made finds the lock shared, waits for it, sees
-/// that the name is gone, and makes the file again (create_locked).
+/// Removes a leftover whose lock is free. A shared lock excludes writers, and a lock held by a writer cannot
+/// be shared. A process about to lock a file that it has just created finds the lock shared, waits, finds
+/// that the name no longer exists, and creates another file (create_locked).
 void clear(const std::string& path) {
   const bool is_file = is_ours(path, S_IFREG);
   if (!is_file && !is_ours(path, S_IFDIR)) return;
@@ -203,8 +205,8 @@ void clear(const std::string& path) {
     remove_figure_folder(path);
 }
 
-/// Whether other machines may write to the file system of a folder, to which the locks of this one need not
-/// reach (statfs(2), and what the file systems themselves say).
+/// Whether other machines may write to the file system of a folder, so that locks of this machine need not be
+/// visible to them. The numbers are those of statfs(2) and of the file systems' headers.
 bool is_shared_with_other_machines(const std::string& folder) {
   struct statfs system {};
   if (::statfs(folder.c_str(), &system) != 0) return true;
@@ -230,7 +232,7 @@ void clear_leftovers(const std::string& folder) {
   std::vector<std::string> names = names_in(folder, unknown);
   std::erase_if(names, [](const std::string& name) { return name_before_ending(name).empty(); });
   if (names.empty() || is_shared_with_other_machines(folder)) return;
-  // One process at a time: of two that share a lock one could remove what a third has made since.
+  // One process at a time: of two processes that share a lock, one could remove a file made by a third since.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (place.get() < 0 || ::flock(place.get(), LOCK_EX | LOCK_NB) != 0) return;
   for (const std::string& name : names) clear((fs::path(folder) / name).string());

@@ -9,46 +9,46 @@
 
 namespace talus {
 
-/// Creates an empty file, open for reading and writing, and takes its lock (flock), which dies with the
-/// descriptor or its process. A file of this name that nobody holds was left by a process that was killed: it
-/// is removed, and whoever still has it open does not reach the new one; so it may be with one that
-/// clear_leftovers is about to remove, which is waited for. No value if another process
-/// holds the file; throws creation_error if it cannot be created, and Error(cannot_create) where a link, a
-/// folder or a device has the name, which stays.
+/// Creates an empty file, open for reading and writing, and acquires its lock (flock), which ends with the
+/// descriptor or its process. An existing file of this name whose lock is free was left by a killed process:
+/// it is removed, and a process that still has it open does not reach the new file. If clear_leftovers is
+/// about to remove it, this function waits. Returns no value if another process holds the file. Throws
+/// creation_error if the file cannot be created, and Error(cannot_create) if a link, a folder or a device has
+/// the name, which is left in place.
 ///
-/// Some file systems have no locks (NFS without lockd, Lustre without flock), and on some the locks of other
-/// machines are not seen. There a file that is found is taken from whoever made it, who finds out by
+/// Some file systems have no locks (NFS without lockd, Lustre without flock), and some do not show the locks
+/// of other machines. On these an existing file is taken over from its creator, which detects this by
 /// is_named.
 std::optional<Descriptor> create_locked(const std::string& path);
 
-/// Does the work while this process holds such a file, which others who call this with the same path wait
-/// for. The file is removed at the end, also if the work throws.
+/// Calls `work` while this process holds a locked file. Other callers with the same path wait. The file is
+/// removed afterwards, even if the work throws.
 void while_locked(const std::string& path, const std::function<void()>& work);
 
-/// The same of an empty folder, which is open for reading. One that was left is removed with all that is in
-/// it.
+/// Creates and locks an empty folder, open for reading, as create_locked does a file. A folder left by a
+/// killed process is removed with its contents.
 std::optional<Descriptor> create_locked_folder(const std::string& path);
 
-/// What temporary files and folders are called, after the name of what they become.
+/// Ending of the names of temporary files and folders, after the final name.
 inline constexpr const char* temporary_ending = ".talus.part";
 
-/// Removes from a folder what killed processes of Talus left there, of whatever command and output: files
-/// called `*.talus.part`, and the folders of that name in which figures are made, with the files in them that
-/// are called as they are. Only what belongs to this user, and what no process holds the lock of; all else
-/// stays, and so does what cannot be removed, and everything on network file systems, where a writer of
-/// another machine may hold a lock that is not seen here. Never throws for the sake of a leftover. Others may
-/// make, write and clear away files of the same names at the same time.
+/// Removes from a folder the leftovers of killed Talus processes of any command: files called `*.talus.part`,
+/// and folders of that name in which figures are made, if all files in them begin with the name of the
+/// folder. Removes only items that belong to this user and that no process has locked. Keeps items that
+/// cannot be removed, and everything on network file systems, because a writer on another machine may hold a
+/// lock that is not visible here. Does not throw because of a leftover. Other processes may create, write and
+/// remove files of the same names simultaneously.
 void clear_leftovers(const std::string& folder);
 
-/// Whether `path` names the open file rather than another one, a link, or none.
+/// Whether `path` names the open file, and not another file, a link, or nothing.
 bool is_named(const std::string& path, const Descriptor& file);
 
-/// Whether a process holds the lock of a file; false if there is no such file. No value if the file system
-/// does not tell, since it has no locks.
+/// Whether a process holds the lock of a file; false if the file does not exist, no value if the file system
+/// has no locks.
 std::optional<bool> is_locked(const std::string& path);
 
-/// Why a file could not be locked that this process writes all the same; told once, and empty if there was
-/// none. Files are locked at any depth, and only commands print.
+/// Returns the reason why a file that this process writes could not be locked. It is returned once; empty
+/// otherwise. Files are locked deep inside the program, but only commands print.
 std::string take_lock_problem();
 
 }  // namespace talus

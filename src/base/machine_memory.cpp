@@ -28,7 +28,7 @@ double of_shell() {
   return limited ? static_cast<double>(limit.rlim_cur) : unlimited;
 }
 
-/// The least of the limits of a group and those above it. A file that holds no number ("max") is no limit.
+/// Returns the smallest limit of a group and its parents. A file without a number ("max") is no limit.
 double least_limit(const fs::path& root, fs::path group, const char* file) {
   double least = unlimited;
   for (;; group = group.parent_path()) {
@@ -38,7 +38,8 @@ double least_limit(const fs::path& root, fs::path group, const char* file) {
   }
 }
 
-/// Lines "0::/group" (version 2) and "5:memory:/group" (version 1).
+/// Returns the limit of the control groups, from lines "0::/group" (version 2) and "5:memory:/group"
+/// (version 1).
 double of_groups() {
   double least = unlimited;
   std::ifstream groups("/proc/self/cgroup");

@@ -1,10 +1,10 @@
 #pragma once
-/// How much memory there is.
+/// The memory available to this process.
 
 namespace talus {
 
-/// Bytes that this process can have: memory and swap of the machine, or less where a control group (cgroup)
-/// or a limit of the shell (ulimit -v) allows less.
+/// Returns the bytes that this process can use: memory and swap of the machine, or the smaller limit of a
+/// control group (cgroup) or of the shell (ulimit -v).
 double machine_memory();
 
 }  // namespace talus

@@ -16,8 +16,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-/// Whether the one is meant by the other. Of short names little is left after two slips: the first letter has
-/// to be.
+/// Whether a written word probably means a name. Of a short name little remains after two errors, so the
+/// first letter must be right.
 bool is_near(const std::string& written, const std::string& name, std::size_t distance) {
   const bool begins = written.size() >= 3 && name.starts_with(written);
   const bool goes_on = name.size() >= 4 && written.starts_with(name);

@@ -1,5 +1,5 @@
 #pragma once
-/// "Did you mean": the name that a word was meant to be.
+/// Suggestions for a mistyped name.
 
 #include <string>
 #include <string_view>
@@ -7,18 +7,18 @@
 
 namespace talus {
 
-/// The least number of insertions, deletions and replacements of single characters that turn `a` into `b`
-/// (Levenshtein).
+/// Returns the smallest number of insertions, deletions and replacements of single characters that turn `a`
+/// into `b` (Levenshtein).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The one of some names that a word was meant to be, regardless of case: a slip of the hand away, its
-/// beginning, or the name and more. Empty where there is none.
+/// Returns the name that a word was probably meant to be, regardless of case: a name that differs by a typing
+/// error, begins with the word, or is its beginning. Empty if no name qualifies.
 std::string nearest_word(std::string_view written, const std::vector<std::string>& names);
 
-/// The end of a message about a word that is none of these names: "; did you mean 'gamma'?", or nothing.
+/// Returns the end of a message about an unknown word, such as "; did you mean 'gamma'?", or nothing.
 std::string did_you_mean(std::string_view written, const std::vector<std::string>& names);
 
-/// The names of a table of entries that have a name.
+/// Returns the names of entries that have a member `name`.
 template <typename Entries>
 std::vector<std::string> names_of(const Entries& entries) {
   std::vector<std::string> names;

@@ -30,7 +30,7 @@ bool is_same(const struct stat& file, const std::string& path) {
   return ::stat(path.c_str(), &other) == 0 && other.st_dev == file.st_dev && other.st_ino == file.st_ino;
 }
 
-/// Whether a file is one of the inputs, or lies in one.
+/// Whether a file is one of the inputs, or is in one of them.
 bool is_input(const struct stat& file, const std::string& target, const OutputRule& rule) {
   struct stat folder {};
   const bool has_folder = ::stat(parent_folder(target).c_str(), &folder) == 0;
@@ -43,8 +43,8 @@ bool is_input(const struct stat& file, const std::string& target, const OutputRu
   throw Error(ExitCode::cannot_create, path + reason);
 }
 
-/// Where a path leads that is a link. /dev/stdout and its like lead to what a shell has opened, which is not
-/// to be replaced.
+/// Returns the target of a link. Throws for /dev/stdout and the like, which lead to files opened by a shell:
+/// these must not be replaced.
 std::string end_of_link(const std::string& path) {
   std::error_code error;
   const fs::path next = fs::read_symlink(path, error), folder = fs::canonical(parent_folder(path), error);
@@ -57,7 +57,8 @@ std::string end_of_link(const std::string& path) {
   return target.string();
 }
 
-/// Renaming needs no permission of the file that is replaced: the user has protected it all the same.
+/// Describes the write protection of a file; empty if it has none. Renaming does not require permission to
+/// write the replaced file, but the user has protected it.
 std::string write_protection(const std::string& target, const struct stat& file) {
   if ((file.st_mode & 0222) != 0 && ::access(target.c_str(), W_OK) == 0) return {};
   return fmt::format("is write-protected (mode {:04o})", file.st_mode & 07777);
@@ -80,8 +81,8 @@ std::string output_target(const std::string& path, const OutputRule& rule) {
   if (is_input(file, target, rule))
     throw Error(rule.overwrite ? ExitCode::usage : ExitCode::cannot_create,
                 path +
-                    " is read by this command, and is not replaced by what it makes of it; choose another "
-                    "output with -o");
+                    " is read by this command and cannot be its output as well; choose another output "
+                    "with -o");
   if (!rule.overwrite) refuse(path, " exists; give --overwrite to replace it, or another -o");
   if (const std::string reason = write_protection(target, file); !reason.empty())
     refuse(path, " " + reason + "; chmod u+w makes it writable, or choose another output with -o");
@@ -112,7 +113,7 @@ void sync(const Descriptor& file, const std::string& path) {
     if (errno != EINTR) throw system_error(ExitCode::io_error, "make durable (fsync)", path, errno);
 }
 
-/// Mode and owner of the file that is replaced. A user may not give files away: then the owner is the user.
+/// Copies mode and owner of the file that is replaced. If the user may not change the owner, it is the user.
 void inherit(const Descriptor& file, const std::string& target, const std::string& path) {
   struct stat before {};
   if (::stat(target.c_str(), &before) != 0) return;
@@ -148,10 +149,11 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 void OutputFile::flush() {
   sync(file_, path_);
   struct stat file {};
-  if (::fstat(file_.get(), &file) != 0) throw system_error(ExitCode::io_error, "look at", path_, errno);
+  if (::fstat(file_.get(), &file) != 0)
+    throw system_error(ExitCode::io_error, "read the size of", path_, errno);
   if (const auto size = static_cast<std::uint64_t>(file.st_size); size != written_)
     throw Error(ExitCode::io_error,
-                fmt::format("{}: has {} bytes on the disk after {} were written", path_, size, written_));
+                fmt::format("{}: has {} bytes on the disk, but {} were written", path_, size, written_));
 }
 
 void OutputFile::commit() {
@@ -175,7 +177,7 @@ void copy(const Descriptor& from, const std::string& name, OutputFile& to) {
 }  // namespace
 
 MemoryFile::MemoryFile(const std::string& name) : name_(name), file_(::memfd_create("talus", MFD_CLOEXEC)) {
-  if (file_.get() < 0) throw system_error(ExitCode::io_error, "make a file in memory for", name, errno);
+  if (file_.get() < 0) throw system_error(ExitCode::io_error, "create a file in memory for", name, errno);
 }
 
 std::string MemoryFile::path() const { return fmt::format("/proc/{}/fd/{}", ::getpid(), file_.get()); }
@@ -227,7 +229,7 @@ void give_name(const std::string& made, const std::string& path) {
 
 namespace {
 
-/// Each folder that is made keeps its name when the power goes.
+/// Creates a folder and its parents, and makes their names durable.
 void make_with_parents(const std::string& folder) {
   std::error_code unknown;
   if (fs::is_directory(folder, unknown)) return;

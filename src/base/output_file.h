@@ -1,5 +1,5 @@
 #pragma once
-/// Output files that appear whole or not at all, and the rule of what they may replace.
+/// Output files that appear complete or not at all, and the rule for the files that they may replace.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,46 +11,47 @@
 
 namespace talus {
 
-/// What an output may replace.
+/// Rule for the files that an output may replace.
 struct OutputRule {
-  bool overwrite = true;                 ///< a file that exists
+  bool overwrite = true;                 ///< whether an existing file may be replaced
   std::vector<std::string> inputs = {};  ///< files and folders that are read, and never replaced
 };
 
-/// The file that an output called `path` makes or replaces: `path` itself, or the file that it is a link to.
-/// This is the only place that decides what may be replaced. Throws Error(cannot_create) where `path` is
-/// anything but a regular file (a folder, a device, a FIFO, a socket, a link that leads nowhere), a file that
-/// is write-protected or a file that may not be overwritten, and Error(usage) where it could be, but is one
-/// of the inputs, or a file in one of them, under whatever name.
+/// Returns the file that an output called `path` creates or replaces: `path` itself, or the target of a link.
+/// No other function decides what may be replaced. Throws Error(cannot_create) if `path` exists and is not a
+/// regular file (a folder, a device, a FIFO, a socket, a broken link), is write-protected, or may not be
+/// overwritten. Throws Error(usage) if it may be overwritten but is one of the inputs, or a file in one of
+/// them, under any name.
 std::string output_target(const std::string& path, const OutputRule& rule = {});
 
-/// Why a file that exists cannot be replaced: it is write-protected, or no file can be made in its folder.
-/// Empty where neither is so. A file that nobody may write is protected from the superuser too, whom the
-/// system would let write it.
+/// Returns why an existing file cannot be replaced: it is write-protected, or no file can be created in its
+/// folder. Empty if it can be replaced. A file without any write permission is also protected from the
+/// superuser, whom the system would permit to write it.
 std::string protection_of(const std::string& path);
 
-/// A file under the temporary name `TARGET.talus.part` beside its target, which gets its final name by commit
-/// and vanishes otherwise. A temporary file that a kill left is replaced when the same file is written again.
+/// A file under the temporary name `TARGET.talus.part` next to its target. commit() gives it its final name;
+/// otherwise it is removed. A temporary file left by a killed process is replaced when the same file is
+/// written again.
 class OutputFile {
  public:
-  /// Throws as output_target does, creation_error, and Error(cannot_create) where another process writes the
-  /// same file.
+  /// Throws the errors of output_target, creation_error, and Error(cannot_create) if another process writes
+  /// the same file.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& temporary_path() const { return temporary_path_; }
-  /// The path that is written, to which a link leads.
+  /// Returns the path that is written, after following a link.
   const std::string& target() const { return target_; }
   /// Throws Error(io_error).
   void write(std::span<const std::byte> bytes);
   void write(std::span<const std::uint8_t> bytes) { write(std::as_bytes(bytes)); }
-  /// Makes durable what was written, and sees that it is there. May be called before commit, which does it in
-  /// any case. Throws Error(io_error).
+  /// Makes the written bytes durable (fsync) and verifies their number. commit() calls this function too.
+  /// Throws Error(io_error).
   void flush();
-  /// Gives the file its name. A file that it replaces hands on its mode and, as far as the system allows, its
-  /// owner. Throws Error(io_error) and Error(cannot_create).
+  /// Gives the file its final name. It inherits the mode and, as far as the system permits, the owner of a
+  /// file that it replaces. Throws Error(io_error) and Error(cannot_create).
   void commit();
 
  private:
@@ -58,21 +59,21 @@ class OutputFile {
   std::string target_;
   std::string temporary_path_;
   Descriptor file_;
-  std::uint64_t written_ = 0;  ///< bytes, by write
+  std::uint64_t written_ = 0;  ///< number of bytes passed to write()
   bool committed_ = false;
 };
 
-/// A file in memory for another program to write, which may end well even if a disk is full: what it has
-/// written here is whole if it ended well, and then goes through an OutputFile.
+/// A file in memory for another program to write. Some programs report success even if a disk is full; in
+/// memory, success means that the output is complete. It is then copied to an OutputFile.
 class MemoryFile {
  public:
-  /// `name` is what messages call it. Throws Error(io_error).
+  /// Creates the file; `name` appears in messages. Throws Error(io_error).
   explicit MemoryFile(const std::string& name);
-  /// The path by which other processes of this user open it while it lives.
+  /// Returns the path by which other processes of this user can open the file while this object exists.
   std::string path() const;
-  /// Throws Error(io_error) if nothing was written, and as OutputFile::write.
+  /// Copies the contents. Throws Error(io_error) if nothing was written, and the errors of OutputFile::write.
   void copy_to(OutputFile& file) const;
-  /// The same as bytes. Throws as copy_to.
+  /// Returns the contents. Throws Error(io_error) if nothing was written.
   std::vector<std::uint8_t> bytes() const;
 
  private:
@@ -80,21 +81,21 @@ class MemoryFile {
   Descriptor file_;
 };
 
-/// Gives a file that another program made at `made`, which is whole, the name `path`, as OutputFile::commit
-/// does, on another file system too. Throws as OutputFile does.
+/// Gives a complete file `made` by another program the name `path`, as OutputFile::commit does, even on
+/// another file system. Throws the errors of OutputFile.
 void give_name(const std::string& made, const std::string& path);
 
-/// The folder that holds `path`, "." for a bare name.
+/// Returns the folder that contains `path`; "." for a bare name.
 std::string parent_folder(const std::string& path);
 
-/// Makes durable that a file or folder has this name, or has it no longer. Throws Error(io_error).
+/// Makes the creation or removal of this name durable (fsync of its folder). Throws Error(io_error).
 void sync_name(const std::string& path);
 
-/// Makes a folder with its parents where it is missing, and removes from it what killed processes have left
-/// (clear_leftovers). Throws Error(cannot_create), also where files cannot be made in it.
+/// Creates a folder and its parents if missing, and removes leftovers of killed processes from it
+/// (clear_leftovers). Throws Error(cannot_create), also if no files can be created in it.
 void prepare_folder(const std::string& folder);
 
-/// Makes the folder that is to hold `path` where it is missing, or clears it, as prepare_folder does.
+/// Creates the folder that will contain `path` if missing, and removes leftovers, as prepare_folder does.
 void prepare_folder_of(const std::string& path);
 
 }  // namespace talus

@@ -21,7 +21,7 @@ std::string absolute_path(const std::string& path) {
 
 std::string resolved_path(const std::string& path) {
   std::error_code error;
-  // Absolute first: that of a relative path of which nothing exists yet would stay relative.
+  // Absolute first, because weakly_canonical leaves a relative path relative if none of it exists.
   const std::string whole = absolute_path(path);
   const fs::path resolved = fs::weakly_canonical(whole, error);
   return error ? fs::path(whole).lexically_normal().string() : resolved.string();

@@ -1,6 +1,6 @@
 #pragma once
-/// Questions about paths. None throws what std::filesystem would: a loop of links, a name that is too long or
-/// a folder that nobody may enter is an answer, or an Error with a message.
+/// Queries of paths. None of them throws exceptions of std::filesystem: a loop of links, a name that is too
+/// long or a folder without permission gives a result, or an Error with a message.
 
 #include <string>
 #include <system_error>
@@ -8,19 +8,19 @@
 
 namespace talus {
 
-/// Whether a path leads to something; false where that cannot be told.
+/// Whether a path exists; false if that cannot be determined.
 bool is_there(const std::string& path);
 
-/// The path from the root, without following links; the path itself where there is no working folder.
+/// Returns the path from the root, without following links; the path itself if the working folder is missing.
 std::string absolute_path(const std::string& path);
 
-/// absolute_path without links, dots and doubled slashes: of two names of one file it is the same. What does
-/// not exist or cannot be followed stays as it is.
+/// Returns the absolute path without links, dots and doubled slashes, which is equal for all names of a file.
+/// Parts that do not exist or cannot be followed are kept.
 std::string resolved_path(const std::string& path);
 
-/// The names in a folder, in no order; none where `error` says why it cannot be read.
+/// Returns the names in a folder, in no order; none, with the reason in `error`, if it cannot be read.
 std::vector<std::string> names_in(const std::string& folder, std::error_code& error);
-/// Throws Error(io_error).
+/// Returns the names in a folder. Throws Error(io_error) if it cannot be read.
 std::vector<std::string> names_in(const std::string& folder);
 
 }  // namespace talus

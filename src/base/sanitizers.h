@@ -1,5 +1,5 @@
 #pragma once
-/// Which sanitizer the program is built with; it changes limits of memory and what signals do.
+/// The sanitizers with which the program is built. They change memory limits and the effect of signals.
 
 namespace talus {
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Texts that are made in several places.
+/// Functions that compose texts.
 
 #include <fmt/core.h>
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace talus {
 
-/// The items one after the other, or what `text_of` makes of each, with `between` between them.
+/// Concatenates the items, or text_of(item) of each, with `between` between them.
 template <typename Items, typename TextOf = std::identity>
 std::string joined(const Items& items, std::string_view between, const TextOf& text_of = {}) {
   std::string text;
@@ -19,14 +19,14 @@ std::string joined(const Items& items, std::string_view between, const TextOf& t
   return text;
 }
 
-/// A field of CSV in quotes (RFC 4180), for texts that may hold commas.
+/// Returns a CSV field in quotes (RFC 4180), for texts that may contain commas.
 std::string csv_quoted(const std::string& text);
 
-/// A text between the tags of XML, SVG or HTML: <, > and & as entities.
+/// Escapes a text for XML, SVG or HTML: <, > and & become entities.
 std::string xml_text(std::string_view text);
 
-/// A word as a shell reads it: in quotes where it has to be, and as $'...' of bash with \xNN for bytes that
-/// are no text or that a terminal obeys.
+/// Quotes a word for a shell if necessary, as $'...' of bash with \xNN if it contains bytes that are not text
+/// or that control a terminal.
 std::string shell_quoted(const std::string& word);
 
 }  // namespace talus

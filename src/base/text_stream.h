@@ -6,8 +6,8 @@
 
 namespace talus {
 
-/// A stream over a text that throws when memory is missing. Other streams only set a bit, as if the text had
-/// ended.
+/// Returns a stream over a text that throws if memory is missing. Other streams only set a bit, as if the
+/// text had ended.
 inline std::istringstream text_stream(const std::string& text) {
   std::istringstream stream(text);
   stream.exceptions(std::ios::badbit);

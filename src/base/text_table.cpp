@@ -10,13 +10,13 @@
 namespace talus {
 namespace {
 
-/// Characters of UTF-8 text.
+/// Returns the number of characters of a UTF-8 text.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// The width of each column, `least` where all texts are narrower.
+/// Returns the width of each column, at least `least`.
 std::vector<std::size_t> widths_of(const TextTable& table, std::size_t least) {
   std::vector<std::size_t> widths;
   for (const TextColumn& column : table.columns)
@@ -36,7 +36,7 @@ std::string trimmed(std::string line) {
   return line.append("\n");
 }
 
-/// A line of aligned text; `text_of(k)` is that of column k.
+/// Returns a line of aligned text; `text_of(k)` is the text of column k.
 template <typename TextOf>
 std::string line_of(const TextTable& table, const std::vector<std::size_t>& widths, std::size_t indent,
                     const TextOf& text_of) {
@@ -50,7 +50,7 @@ std::string line_of(const TextTable& table, const std::vector<std::size_t>& widt
   return trimmed(line);
 }
 
-/// The groups, each from the left edge of its first column on.
+/// Returns the line of groups, each at the left edge of its first column.
 std::string group_line(const TextTable& table, const std::vector<std::size_t>& widths, std::size_t indent) {
   std::string line;
   std::size_t place = indent;

@@ -1,5 +1,5 @@
 #pragma once
-/// A table of words and numbers as text: aligned, CSV, Markdown. Reports print it as HTML
+/// A table of words and numbers as aligned text, CSV or Markdown. Reports print it as HTML
 /// (studies/report_document.h).
 
 #include <string>
@@ -8,42 +8,43 @@
 
 namespace talus {
 
-/// How a cell is marked in HTML.
+/// Highlighting of a cell in HTML.
 enum class Tone { plain, good, bad, muted };
 
 struct TextCell {
   std::string text;
-  std::string note = {};  ///< a second line, smaller; HTML alone has it
+  std::string note = {};  ///< second, smaller line; in HTML only
   Tone tone = Tone::plain;
 };
 
 struct TextColumn {
   std::string title;
-  bool numbers = false;    ///< aligned to the right
-  std::string unit = {};   ///< below the title of aligned text
-  std::string group = {};  ///< above this column and those that follow without one, in aligned text
+  bool numbers = false;    ///< whether to align to the right
+  std::string unit = {};   ///< unit below the title, in aligned text
+  std::string group = {};  ///< heading above this and the following columns without one, in aligned text
 };
 
-/// Rows may have fewer cells than there are columns, and the last column may be without a title.
+/// A table. Rows may have fewer cells than the table has columns, and the last column may have no title.
 struct TextTable {
   std::vector<TextColumn> columns;
   std::vector<std::vector<TextCell>> rows;
 };
 
-/// A number by a format of libfmt, such as "{:.3f}"; "-" for NaN.
+/// Formats a number with a format of libfmt, such as "{:.3f}"; "-" for NaN.
 std::string number_cell(std::string_view format, double value);
 
-/// Columns as wide as their widest cell, two blanks apart, after `indent` blanks; a bar before each group.
+/// Returns aligned text: columns as wide as their widest cell, two blanks apart, after `indent` blanks, with
+/// a bar before each group.
 std::string aligned_text(const TextTable& table, std::size_t indent = 0);
 
-/// One line for the titles, unless they were printed before, and one for each row. Texts that may hold commas
-/// must be quoted (csv_quoted).
+/// Returns CSV: a line of titles, if requested, and one line for each row. Texts that may contain commas must
+/// be quoted (csv_quoted).
 std::string csv_text(const TextTable& table, bool titles = true);
 
-/// Columns one below the other. Texts of a user must be escaped (markdown_escaped).
+/// Returns a Markdown table with aligned columns. Texts of a user must be escaped (markdown_escaped).
 std::string markdown_text(const TextTable& table);
 
-/// A text in a line of Markdown in which it is no HTML, no link and no column of its own.
+/// Escapes a text for a cell of a Markdown table, so that it contains no HTML, link or column separator.
 std::string markdown_escaped(std::string_view text);
 
 }  // namespace talus

@@ -3,8 +3,8 @@
 namespace talus {
 namespace {
 
-/// Waits until the value differs from `old`: a spin of some tens of microseconds for tasks that end at
-/// nearly the same time, then the thread sleeps in the kernel.
+/// Waits until the value differs from `old`: spins for some tens of microseconds, because tasks end at nearly
+/// the same time, and then sleeps in the kernel.
 void wait_while_equal(const std::atomic<unsigned>& value, unsigned old, int spins) {
   for (int spin = 0; spin < spins; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
@@ -15,7 +15,7 @@ void wait_while_equal(const std::atomic<unsigned>& value, unsigned old, int spin
   value.wait(old, std::memory_order_acquire);
 }
 
-/// Spinning pays only where every member has a processor of its own.
+/// Returns the number of spins. Spinning pays only if every member has its own processor.
 int spins_for(int size) { return size <= static_cast<int>(std::thread::hardware_concurrency()) ? 2000 : 0; }
 
 }  // namespace
@@ -24,7 +24,7 @@ ThreadTeam::ThreadTeam(int size) : size_(size), spins_(spins_for(size)) {
   threads_.reserve(static_cast<std::size_t>(size));
   try {
     for (int member = 1; member < size; ++member) threads_.emplace_back([this, member] { work(member); });
-  } catch (...) {  // the system gives no more: those that are there must not outlive the team
+  } catch (...) {  // no more threads: those already started must not outlive the team
     dismiss();
     throw;
   }

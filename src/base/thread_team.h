@@ -1,5 +1,5 @@
 #pragma once
-/// A few threads that work through short tasks together.
+/// A few threads that process short tasks together.
 
 #include <atomic>
 #include <thread>
@@ -8,11 +8,11 @@
 
 namespace talus {
 
-/// The calling thread and size - 1 others. Made for tasks of some tens of microseconds: members wait for
-/// each other by spinning for a moment, then sleeping. Running a task allocates nothing.
+/// A team of the calling thread and size - 1 others, for tasks of some tens of microseconds. Members wait for
+/// each other by spinning for a moment, and then sleeping. Running a task allocates nothing.
 class ThreadTeam {
  public:
-  /// Throws std::system_error where the system gives no more threads.
+  /// Throws std::system_error if the system provides no more threads.
   explicit ThreadTeam(int size);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -30,7 +30,7 @@ class ThreadTeam {
     start();
   }
 
-  /// To be called by every member from within a task: none goes on before all have come.
+  /// Waits until all members have called this function. Every member must call it from within a task.
   void wait_for_all();
 
  private:
@@ -49,13 +49,14 @@ class ThreadTeam {
   std::vector<std::thread> threads_;
 };
 
-/// The part of 0 ... count - 1 that a member takes: [part_begin(member), part_begin(member + 1)).
+/// Returns the first item of a member; its part of 0 ... count - 1 is
+/// [part_begin(member), part_begin(member + 1)).
 inline int part_begin(int count, int member, int size) {
   return static_cast<int>(static_cast<long long>(count) * member / size);
 }
 
 /// Calls what(first, last) for parts that together are 0 ... count - 1: on each member of the team for its
-/// own, or once where there is none. `what` must not throw.
+/// own part, or once without a team. `what` must not throw.
 template <class Do>
 void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
   if (team == nullptr) return what(std::size_t{0}, count);
@@ -66,8 +67,8 @@ void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
   });
 }
 
-/// Does two things that do not depend on each other: on two members of the team at once, or one after the
-/// other where there are none. They must not throw.
+/// Calls two independent functions, simultaneously on two members of the team, or one after the other without
+/// a team. They must not throw.
 template <class First, class Second>
 void do_both(ThreadTeam* team, const First& first, const Second& second) {
   if (team == nullptr || team->size() == 1) {

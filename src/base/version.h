@@ -1,6 +1,6 @@
 #pragma once
-/// The version of the program and how it was built. The values are in a source of their own, written by
-/// CMake, so that a commit recompiles nothing else.
+/// The version of the program and its build. CMake writes the values into a separate source, so that a commit
+/// recompiles nothing else.
 
 #include <string>
 
@@ -8,13 +8,13 @@ namespace talus {
 
 extern const char* const version;  ///< such as "0.1.0"
 extern const char* const
-    git_hash;  ///< of the commit, with "-dirty" if the tree differed; "unknown" without git
+    git_hash;  ///< hash of the commit, with "-dirty" if the tree differed; "unknown" without git
 extern const char* const compiler;     ///< name and version
-extern const char* const build_flags;  ///< that affect arithmetic and optimisation
+extern const char* const build_flags;  ///< flags that affect arithmetic and optimisation
 
-/// "0.1.0 (1234567890ab)".
+/// Returns a text such as "0.1.0 (1234567890ab)".
 std::string version_and_commit();
-/// "talus 0.1.0 (1234567890ab)".
+/// Returns a text such as "talus 0.1.0 (1234567890ab)".
 std::string version_text();
 
 }  // namespace talus

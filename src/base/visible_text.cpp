@@ -29,7 +29,7 @@ std::size_t character_length(std::string_view text) {
   if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
   for (const char c : text.substr(1, length - 1))
     if ((byte(c) & 0xc0) != 0x80) return 0;
-  // Longer than need be, one half of a pair of UTF-16, or beyond Unicode.
+  // Rejects overlong forms, surrogates of UTF-16, and codes beyond Unicode.
   constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
   const std::uint32_t code = code_of(text.substr(0, length));
   return code < least[length] || (code >= 0xd800 && code < 0xe000) || code > 0x10ffff ? 0 : length;
@@ -43,7 +43,7 @@ bool is_control(std::string_view character) {
 
 namespace {
 
-/// Moves the first character of a text to what is shown: as it is where `is_shown` says so of it.
+/// Moves the first character of a text to `shown`, unchanged if `is_shown` accepts it, else escaped.
 template <typename Rule>
 void move_first(std::string_view& text, std::string& shown, const Rule& is_shown) {
   const std::size_t length = character_length(text);

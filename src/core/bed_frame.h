@@ -1,17 +1,17 @@
 #pragma once
-/// A frame of a bed, which says little without what does not change during the run.
+/// A frame of a bed together with the constants of its run.
 
 #include "core/snapshot.h"
 
 namespace talus {
 
-/// Both travel as one; it holds neither.
+/// References to a frame and to the constants of its run; owns neither.
 struct BedFrame {
   const Frame& frame;
   const RunStatics& statics;
 };
 
-/// How far grain i has moved since an earlier frame, across a periodic edge where it went through one, m.
+/// Returns the displacement of grain i since an earlier frame, m, continued across a periodic edge.
 inline Vec2 displacement(const BedFrame& bed, const Frame& before, Index i) {
   const double periods = bed.statics.periodic ? bed.frame.image[i] - before.image[i] : 0;
   return {bed.frame.x[i] - before.x[i] + periods * bed.statics.length, bed.frame.y[i] - before.y[i]};

@@ -1,5 +1,5 @@
 #pragma once
-/// What surrounds the grains: a periodic direction, planes.
+/// The boundary of the grains: a periodic direction, and planes.
 
 #include <cmath>
 #include <vector>
@@ -12,17 +12,17 @@ namespace talus {
 struct Plane {
   Vec2 normal;          ///< unit, into the free space
   double offset = 0.0;  ///< m
-  bool wall = true;     ///< a side wall, with the friction of walls; else a smooth floor, with that of grains
+  bool wall = true;     ///< side wall, with the friction of walls; else a smooth floor, with that of grains
 };
 
-/// In contact records, plane k has the body id grains.count() + k.
+/// The boundary of a bed. In contact records, plane k has the body id grains.count() + k.
 struct Boundary {
-  bool periodic = false;  ///< along x, with period `length`
+  bool periodic = false;  ///< periodic along x, with period `length`
   double length = 0.0;    ///< m: period, or distance between the side walls
   std::vector<Plane> planes;
 };
 
-/// From one place along the bed to another, m; the shortest way around a periodic one.
+/// Returns the offset from one position along the bed to another, m; in a periodic bed the shorter one.
 inline double offset_along(const Boundary& boundary, double from, double to) {
   const double offset = to - from;
   return boundary.periodic ? std::remainder(offset, boundary.length) : offset;

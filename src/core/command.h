@@ -1,6 +1,6 @@
 #pragma once
-/// What a user does to a run while it goes on. A run follows from its scenario and its commands: replaying
-/// both gives the same bits.
+/// Commands that a user gives during a run. A run follows from its scenario and its commands: replaying both
+/// gives the same bits.
 
 #include <array>
 #include <cstdint>
@@ -11,12 +11,12 @@
 namespace talus {
 
 enum class CommandKind : std::int8_t {
-  push = 0,  ///< adds (x, y), m/s, to the velocity of the free grain `grain`
-  drop = 1,  ///< lifts `grain` (a count) grains from the free surface, those farthest from x (m) along the
-             ///< bed, and lets them fall at x, from y (m) above the free surface there
+  push = 0,       ///< adds (x, y), m/s, to the velocity of the free grain `grain`
+  drop = 1,       ///< lifts a number `grain` of grains from the free surface, those farthest from x (m) along
+                  ///< the bed, and lets them fall at x from y (m) above the free surface there
   friction = 2,   ///< sets the friction between grains, and between grains and floor, to x
-  tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s; the time step stays
-  drag = 4,       ///< from the next step on a spring pulls the centre of the free grain `grain` to (x, y), m
+  tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s; the time step does not change
+  drag = 4,       ///< attaches a spring that pulls the centre of the free grain `grain` to (x, y), m
   release = 5,    ///< ends the drag
 };
 inline constexpr std::int8_t command_kind_count = 6;
@@ -24,7 +24,7 @@ inline constexpr std::array<std::string_view, command_kind_count> command_kind_n
     "push", "drop", "friction", "tilt_rate", "drag", "release"};
 
 struct Command {
-  std::int64_t step = 0;  ///< steps taken before it is applied: it acts from the next step on
+  std::int64_t step = 0;  ///< number of steps before the command; it acts from the next step on
   CommandKind kind = CommandKind::push;
   Index grain = -1;
   double x = 0.0, y = 0.0;

@@ -30,11 +30,10 @@ const std::array<SeriesField, observable_count> observable_fields = {{
     {"kinetic_energy", "J/m",
      "translational and rotational kinetic energy of the free grains, per metre of thickness"},
     {"rms_velocity", "m/s", "root mean square velocity of the free grains, rim velocity included"},
-    {"largest_overlap", "m",
-     "largest overlap of two bodies at the midpoint of the step; 0 where nothing overlaps"},
+    {"largest_overlap", "m", "largest overlap of two bodies at the midpoint of the step; 0 without overlaps"},
     {"residual", "1", "largest natural-map residual eta of the steps since the last row"},
     {"at_rest", "1",
-     "1 where the rms velocity stayed below deposition.rest_velocity g h for the last 50 steps, else 0"},
+     "1 if the rms velocity stayed below deposition.rest_velocity g h for the last 50 steps, else 0"},
 }};
 
 const std::array<SeriesField, step_field_count> step_fields = {{

@@ -1,6 +1,6 @@
 #pragma once
-/// The scalar series of a run: their names, units and meanings in one place, so that the file, the help
-/// and the documentation cannot disagree.
+/// The scalar series of a run: names, units and meanings in one place, so that file, help and documentation
+/// agree.
 
 #include <array>
 #include <cstddef>
@@ -40,7 +40,7 @@ enum class Observable : std::size_t {
 inline constexpr std::size_t observable_count = static_cast<std::size_t>(Observable::count);
 extern const std::array<SeriesField, observable_count> observable_fields;
 
-/// Scalars of each single step, deposition included: how well it was solved.
+/// Scalars of each step, deposition included: the quality of its solution.
 enum class StepField : std::size_t {
   step,
   phase,

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run records: frames for maps and analysis, series of observables and of steps.
+/// Data that a run records: frames for maps and analysis, series of observables and of steps.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,8 @@
 
 namespace talus {
 
-/// The contacts of a frame: those that carry force, in the order of their keys. Conventions of Contacts.
+/// The contacts of a frame: those that carry force, in the order of their keys, with the conventions of
+/// Contacts.
 struct FrameContacts {
   std::vector<Index> a, b;
   std::vector<std::int8_t> shift;
@@ -24,7 +25,7 @@ struct FrameContacts {
   std::vector<double> px, py;  ///< contact point, m
   std::vector<double> fn, ft;  ///< force on b, N (per metre of thickness)
   std::vector<ContactStatus> status;
-  std::vector<double> moment{};  ///< on b, N m (per metre of thickness); empty where none resists rolling
+  std::vector<double> moment{};  ///< N m on b (per metre of thickness); empty if no contact resists rolling
 
   Index count() const { return static_cast<Index>(a.size()); }
 };
@@ -39,13 +40,13 @@ struct Frame {
   std::vector<Index> image;
   std::vector<Tensor2>
       internal_moment;        ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
-  std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN where a grain carries nothing
+  std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN for a grain that carries no load
   FrameContacts contacts;
 
   Index grain_count() const { return static_cast<Index>(x.size()); }
 };
 
-/// What does not change during a run.
+/// Constants of a run.
 struct RunStatics {
   Index free_count = 0;
   std::vector<double> radius;  ///< m, all grains
@@ -55,24 +56,24 @@ struct RunStatics {
   double depth = 0.0;          ///< m: nominal depth of the bed
   double mean_diameter = 0.0;  ///< m
   double gravity = 0.0;        ///< m/s^2
-  double friction = 0.0;       ///< between grains
-  double wall_friction = 0.0;  ///< with the side walls
+  double friction = 0.0;       ///< coefficient between grains
+  double wall_friction = 0.0;  ///< coefficient with the side walls
 };
 
-/// Whether contact c of a frame is one with a side wall: a plane with a normal along the bed.
+/// Whether contact c of a frame is with a side wall, a plane with a normal along the bed.
 bool is_with_wall(const Frame& frame, Index c);
-/// mu of contact c of a frame, as the scenario has it.
+/// Returns mu of contact c of a frame, as given by the scenario.
 double friction_of_contact(const RunStatics& statics, const Frame& frame, Index c);
 
-/// The statics of a frame with `count` grains, floor included, of a bed that is being poured: the free grains
-/// with the highest ids have not arrived yet.
+/// Returns the constants of a frame with `count` grains, floor included, of a bed that is being poured: the
+/// free grains with the highest ids have not arrived yet.
 RunStatics arrived_statics(const RunStatics& all, Index count);
 
-/// Named facts about a run, in writing order: provenance, timing, results.
+/// Named facts about a run, in the order in which they are written: provenance, timing, results.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 using Figures = std::vector<std::pair<std::string, double>>;
 
-/// The value of that name, if there is one.
+/// Returns the value of this name, or no value.
 template <typename Value>
 std::optional<Value> find_value(const std::vector<std::pair<std::string, Value>>& named,
                                 std::string_view name) {

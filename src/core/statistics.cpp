@@ -20,7 +20,7 @@ std::vector<double> numbers_among(std::span<const double> values) {
   return numbers;
 }
 
-/// Of values in ascending order, at least one.
+/// Returns a quantile of at least one value, in ascending order.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -28,7 +28,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[below] + (place - std::floor(place)) * (sorted[below + 1] - sorted[below]);
 }
 
-/// The means of all draws, ascending.
+/// Returns the means of all draws, ascending.
 std::vector<double> means_of_draws(const std::vector<double>& numbers, const Resamples& resamples) {
   std::vector<double> means;
   for (auto pick = resamples.drawn.begin(); pick != resamples.drawn.end();) {
@@ -119,7 +119,7 @@ Statistics paired_difference(std::span<const double> values, std::span<const dou
       largest = std::max({largest, std::abs(values[k]), std::abs(baseline[k])});
   }
   Statistics result = statistics_of(differences);
-  constexpr double round_off = 1e-13;  // of one subtraction, with room for the sum
+  constexpr double round_off = 1e-13;  // relative error of a subtraction, with a margin for the sum
   if (result.deviation <= round_off * largest) result.deviation = result.error = 0.0;
   return result;
 }

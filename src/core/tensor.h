@@ -1,5 +1,5 @@
 #pragma once
-/// Vectors and tensors of the plane as matrices of Eigen, to compute with them as one writes them:
+/// Vectors and tensors of the plane as Eigen matrices, for expressions such as
 /// matrix(M) += r * f.transpose().
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@ namespace talus {
 
 using Vector2 = Eigen::Vector2d;
 
-/// A tensor as a matrix on the same four numbers.
+/// Matrix view of the four numbers of a tensor.
 using Matrix2 = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
 static_assert(sizeof(Tensor2) == sizeof(Matrix2));
 inline Eigen::Map<Matrix2> matrix(Tensor2& tensor) { return Eigen::Map<Matrix2>(&tensor.xx); }

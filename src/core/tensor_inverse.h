@@ -1,6 +1,6 @@
 #pragma once
-/// Determinants and inverses of matrices of Eigen, which take longer to compile than the rest of
-/// core/tensor.h.
+/// Determinants and inverses of Eigen matrices. They take longer to compile than core/tensor.h, and are
+/// therefore separate.
 
 #include <Eigen/LU>
 

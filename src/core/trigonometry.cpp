@@ -5,8 +5,8 @@
 namespace talus {
 namespace {
 
-/// Taylor series of sin(x)/x or cos(x) in x^2, summed from the smallest term: `first` is the index of the
-/// first factor in the denominators, 2 for the sine (2*3, 4*5, ...) and 1 for the cosine (1*2, 3*4, ...).
+/// Returns the Taylor series of sin(x)/x or cos(x) in x^2, summed from the smallest term. `first` is the
+/// first factor in the denominators: 2 for the sine (2*3, 4*5, ...) and 1 for the cosine (1*2, 3*4, ...).
 double alternating_series(double square, int first) {
   constexpr int terms = 13;  // the 13th term at pi/2 is below 1e-18
   double sum = 1.0;
@@ -25,7 +25,7 @@ double sine(double angle) { return angle * alternating_series(angle * angle, 2);
 double cosine(double angle) { return alternating_series(angle * angle, 1); }
 
 double arctangent(double slope) {
-  constexpr int halvings = 3;  // to an angle of at most pi/16
+  constexpr int halvings = 3;  // reduce the angle to at most pi/16
   constexpr int terms = 12;    // slope^(2 k) / (2 k + 1) is then below 1e-18 for k = 12
   for (int k = 0; k < halvings; ++k) slope /= 1.0 + std::sqrt(1.0 + slope * slope);
   const double square = slope * slope;

@@ -6,10 +6,10 @@
 
 namespace talus {
 
-/// A grain, a body or a contact in an array. Ids are stable: they never change during a run.
+/// Index of a grain, a body or a contact in an array. Ids of grains never change during a run.
 using Index = std::int32_t;
 
-/// Where there is no value: NaN.
+/// NaN, for a missing value.
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A vector in the plane, in the frame of the bed: x along the bed (downslope when the tilt is positive),
@@ -19,8 +19,8 @@ struct Vec2 {
   double y = 0.0;
 };
 
-/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij. Computed with as a
-/// matrix (core/tensor.h).
+/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij. core/tensor.h
+/// gives its matrix view.
 struct Tensor2 {
   double xx = 0.0;
   double xy = 0.0;

@@ -11,25 +11,26 @@
 namespace talus::solver {
 namespace {
 
-// P0 is renewed after so many sweeps at the latest, as velocities in single precision gather their rounding
-// errors sweep by sweep; without a guess sooner at first, as || P || grows from nothing.
+// P0 is renewed at least after this many sweeps, because the velocities in single precision accumulate
+// rounding errors. Without a guess it is renewed sooner at first, because || P || grows from zero.
 constexpr int sweeps_to_renewal = 128;
 constexpr int first_renewal_cold = 16;
-// The residual is looked at when its estimate is so many times the tolerance; when that was too early, the
-// next time is judged by how the two compared. Where the guess is so near a solution already, the bed is
-// quiet, and a solve goes a little below the tolerance, so that the next steps find theirs solved.
+// The residual is computed when its estimate falls below `hopeful` times the tolerance. If that is too early,
+// the ratio of the two and the factor `cautious` set the estimate at which it is computed next. If the guess
+// is within `near_solution` tolerances of a solution, the bed is quiet, and the solve aims at `ahead` times
+// the tolerance, so that the next steps are often solved already.
 constexpr double hopeful = 1.1;
 constexpr double cautious = 0.85;
 constexpr double near_solution = 10.0;
 constexpr double ahead = 0.8;
-// With a guess, what is left is smooth: the momentum begins near its largest.
+// With a guess, the remaining error is smooth, so the momentum starts near its largest value.
 constexpr double first_theta_warm = 0.1;
-// It begins so at the first renewal after so many sweeps, too, and again each time that they have doubled:
-// begun anew more often it would not last long enough for a tall column.
+// The momentum also restarts with this theta at the first renewal after this many sweeps, and each time that
+// their number has doubled. More frequent restarts would not give it the time that a tall column needs.
 constexpr int sweeps_of_momentum = 128;
-// A few contacts that open and slide in turn, round and round, keep some steps from ending, most often where
-// grains hit the bed. The mean over a round is near a solution: after so many sweeps P0 is renewed more
-// often, and becomes the mean of its last values where that has the smaller residual.
+// In some steps, mostly when grains hit the bed, a few contacts alternate between opening and sliding in a
+// limit cycle. The mean over a cycle is near a solution. After `sweeps_to_means` sweeps, P0 is therefore
+// renewed more often, and is replaced by the mean of its last values if that has the smaller residual.
 constexpr int sweeps_to_means = 512;
 constexpr int sweeps_between_averaged = 16;
 constexpr int averaged_values = 4;
@@ -40,13 +41,13 @@ Momentum warm_momentum() {
   return momentum;
 }
 
-/// What one member of the team works on, and all members together wait for.
+/// The work of one member of the team in a solve.
 struct TeamMember {
   const ContactProblem& problem;
   ContactSolution& solution;
   AcceleratedWorkspace& w;
   Linearisation& at;
-  ThreadTeam* team;  ///< null: alone
+  ThreadTeam* team;  ///< null: single thread
   int member, size;
   Index first_block, last_block, first_body, last_body;
   Sweeper sweeper;
@@ -75,14 +76,14 @@ struct TeamMember {
     if (team) team->wait_for_all();
   }
 
-  /// P0 becomes the guess; returns its residual.
+  /// Sets P0 to the guess; returns its residual.
   ExactResidual begin() {
     const ExactResidual of_guess = look_at(solution);
     if (member == 0) at.are_loaded = true;
     return of_guess;
   }
 
-  /// P0 becomes these impulses; returns their residual.
+  /// Sets P0 to these impulses; returns their residual.
   ExactResidual look_at(const ContactSolution& impulses) {
     load_contacts(problem, impulses, first_block, last_block, at);
     wait_for_all();
@@ -97,14 +98,14 @@ struct TeamMember {
     return exact_residual(at);
   }
 
-  /// False where memory is missing: all members see it, and return.
+  /// Chooses and loads the contacts to sweep. Returns false if memory is missing; all members then return.
   bool begin_sweeps() {
     choose_swept(problem, first_block, last_block, at);
     return load_sweeps();
   }
 
-  /// Lets the first member do what allocates. The others wait: an exception that passed them by would leave
-  /// them waiting for ever. False where it failed.
+  /// Lets the first member do work that allocates, while the others wait. Its exceptions are stored, because
+  /// the others would otherwise wait for ever. Returns false if it failed.
   template <typename Do>
   bool by_first(const Do& what) {
     if (member == 0) try {
@@ -117,7 +118,7 @@ struct TeamMember {
     return !w.failure;
   }
 
-  /// False where memory is missing.
+  /// Orders the contacts to be swept. Returns false if memory is missing.
   bool order_contacts() {
     find_parts(problem, at.moves, at.swept, member, size, at.order);
     wait_for_all();
@@ -145,7 +146,7 @@ struct TeamMember {
     return true;
   }
 
-  /// P0 becomes the present P; returns its residual.
+  /// Sets P0 to the present P; returns its residual.
   ExactResidual renew() {
     absorb_increments(problem, first_block, last_block, at);
     absorb_velocities(first_own_row(), last_own_row(), at);
@@ -155,8 +156,8 @@ struct TeamMember {
 
   void average(int count) { average_impulses(problem, first_block, last_block, at, count, w.mean); }
 
-  /// P0 becomes the mean of its last values, with its residual, where that is less than `now`. Returns
-  /// whether.
+  /// Replaces P0 by the mean of its last values if that has a smaller residual than `now`, and updates `now`.
+  /// Returns whether P0 was replaced.
   bool take_mean(ExactResidual& now) {
     unload_impulses(problem, first_block, last_block, at, solution);
     const ExactResidual of_mean = look_at(w.mean);
@@ -170,17 +171,16 @@ struct TeamMember {
     wait_for_all();
   }
 
-  /// The solution becomes P0.
+  /// Copies P0 and its velocities to the solution.
   void unload() {
     unload_impulses(problem, first_block, last_block, at, solution);
     unload_velocities(problem, first_body, last_body, at, solution);
   }
 };
 
-/// The part of the work of one member of the team. Each keeps a momentum of its own, and all come to the same
-/// decisions and return the same outcome. || p_new - y || / || P || of a sweep stands in for the residual
-/// between renewals: it costs nothing, and tells when a look at the residual itself is worth its price. Only
-/// that decides.
+/// Does the work of one member of the team. Each member keeps its own momentum; all make the same decisions
+/// and return the same outcome. Between renewals || p_new - y || / || P || of a sweep, which costs nothing,
+/// estimates the residual and shows when to compute it. Only the residual itself ends a solve.
 AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iterations) {
   AcceleratedOutcome outcome;
   ExactResidual at = member.begin();
@@ -229,17 +229,18 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   }
 }
 
-/// The team for a problem, of no more threads than find work; null where that is one. What has been learnt of
-/// teams stays: while a bed is poured, the number of those who find work goes up and down.
+/// Returns the team for a problem, with at most as many threads as it can use; null if that is one. The
+/// measured costs of teams are kept, because the number of useful threads rises and falls while a bed is
+/// poured.
 ThreadTeam* team_for(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
   const int useful = std::clamp(most_members(problem), 1, threads);
-  if (useful == 1) return nullptr;  // a team that is there may be wanted again by the next solve
+  if (useful == 1) return nullptr;  // an existing team is kept for later solves
   if (!w.team || w.team->size() != useful) w.team = std::make_unique<ThreadTeam>(useful);
   return w.team.get();
 }
 
-/// What a solve costs beside its iterations, in iterations: some 35 ns for each contact, to 2 ns of an
-/// iteration.
+/// Cost of a solve apart from its iterations, in iterations: about 35 ns per contact, compared with 2 ns for
+/// an iteration.
 constexpr int iterations_for_the_rest = 17;
 
 }  // namespace

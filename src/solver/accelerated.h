@@ -1,6 +1,6 @@
 #pragma once
-/// The accelerated solver: Gauss-Seidel sweeps with Nesterov's momentum (T16), in groups of contacts that
-/// share no body, so that a sweep vectorises and runs on any number of threads with the same bits.
+/// The accelerated solver: Gauss-Seidel sweeps with Nesterov's momentum (T16). Contacts are swept in groups
+/// that share no body, so that a sweep vectorises and gives the same bits on any number of threads.
 
 #include <exception>
 #include <memory>
@@ -13,26 +13,26 @@
 
 namespace talus::solver {
 
-/// Arrays and threads kept between solves; no state that a result depends on.
+/// Arrays and threads kept between solves. No result depends on them.
 struct AcceleratedWorkspace {
   Linearisation linearisation;
-  std::vector<SweepSums> sums;  ///< sums_of_part for each part of a sweep
-  ContactSolution mean;         ///< of the last values of P0; without velocities
+  std::vector<SweepSums> sums;  ///< sums_of_part entries for each part of a sweep
+  ContactSolution mean;         ///< mean of the last values of P0, without velocities
   std::unique_ptr<ThreadTeam> team;
-  TeamChoice choice;           ///< between the team and its first member alone
-  std::exception_ptr failure;  ///< what ended the work of a member, for the caller of the team
+  TeamChoice choice;           ///< choice between the team and its first member alone
+  std::exception_ptr failure;  ///< exception of a member, rethrown by the caller of the team
 };
 
 struct AcceleratedOutcome {
-  int iterations = 0;  ///< over all contacts
+  int iterations = 0;  ///< iterations over all contacts
   Residual residual;
 };
 
-/// The team that would solve this problem at present; null where one thread does.
+/// Returns the team that would solve this problem at present; null if one thread would.
 ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace);
 
-/// Solves until the natural-map residual is at most `tolerance` or `max_iterations` are spent.
-/// Contacts must be sorted by their first body. `solution` as in solve(). `threads` >= 1.
+/// Solves until the natural-map residual is at most `tolerance` or `max_iterations` have been made. Contacts
+/// must be sorted by their first body. `solution` is as in solve(), and `threads` >= 1.
 AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double tolerance, int max_iterations,
                                      int threads, AcceleratedWorkspace& workspace, ContactSolution& solution);
 

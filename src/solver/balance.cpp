@@ -7,7 +7,7 @@
 namespace talus::solver {
 namespace {
 
-/// The problem without demands of velocities; contacts that are open stay so.
+/// Returns the problem without demanded velocities; open contacts stay open.
 ContactProblem without_demands(ContactProblem problem) {
   for (double& cn : problem.cn) cn = std::max(cn, 0.0);
   std::ranges::fill(problem.ct, 0.0);
@@ -20,7 +20,7 @@ std::vector<DelassusDiagonal> diagonals(const ContactProblem& problem) {
   return w;
 }
 
-/// The largest eigenvalue of D^-1 W from below, by power iteration; D is the diagonal of W.
+/// Estimates the largest eigenvalue of D^-1 W from below by power iteration; D is the diagonal of W.
 double largest_eigenvalue(ContactProblem problem, const std::vector<DelassusDiagonal>& w,
                           ContactSolution vector) {
   constexpr int iterations = 60;
@@ -45,7 +45,8 @@ double largest_eigenvalue(ContactProblem problem, const std::vector<DelassusDiag
   return norm;
 }
 
-/// The point of the cone |P_t| <= mu P_n nearest to (pn, pt), where tangential lengths count `stretch` times.
+/// Replaces (pn, pt) by the nearest point of the cone |P_t| <= mu P_n, with tangential lengths multiplied by
+/// `stretch`.
 void project(double mu, double stretch, double& pn, double& pt) {
   const double slope = mu * stretch, side = std::fabs(pt) * stretch;
   if (side <= slope * pn) return;
@@ -54,7 +55,7 @@ void project(double mu, double stretch, double& pn, double& pt) {
   pt = std::copysign(mu * pn, pt);
 }
 
-/// One step down the gradient from `at`, whose velocities are set, into the cones; `next` gets impulses only.
+/// Makes one projected gradient step from `at`, whose velocities must be set; `next` receives impulses only.
 void descend(const ContactProblem& problem, const std::vector<DelassusDiagonal>& w, double step,
              const ContactSolution& at, ContactSolution& next) {
   for (std::size_t c = 0; c < w.size(); ++c) {
@@ -67,8 +68,7 @@ void descend(const ContactProblem& problem, const std::vector<DelassusDiagonal>&
   }
 }
 
-/// Whether the step from `at` to `next` turns against the way from `last` to `next`: momentum that goes
-/// uphill.
+/// Whether the momentum points uphill: the step from `at` to `next` opposes the move from `last` to `next`.
 bool uphill(const std::vector<DelassusDiagonal>& w, const ContactSolution& last, const ContactSolution& at,
             const ContactSolution& next) {
   double product = 0.0;
@@ -78,8 +78,8 @@ bool uphill(const std::vector<DelassusDiagonal>& w, const ContactSolution& last,
   return product > 0.0;
 }
 
-/// The measure of residual.h with the step of above: what one exact step of each contact would change.
-/// `scratch` is memory to work in.
+/// Returns the residual of residual.h for the projected gradient step of length 1. `scratch` is working
+/// memory.
 Residual residual_of(const ContactProblem& problem, const std::vector<DelassusDiagonal>& w,
                      const ContactSolution& solution, ContactSolution& scratch) {
   descend(problem, w, 1.0, solution, scratch);

@@ -11,28 +11,30 @@ struct Impulse {
   double tangential = 0.0;
 };
 
-/// The nearest impulse that the contact law admits: P_n >= 0, |P_t| <= mu P_n. The cone is cut along the
-/// tangent, as Coulomb's law has it, not projected on orthogonally: that would be an associated law with
-/// dilating sliding.
+/// Returns the nearest impulse that the contact law admits: P_n >= 0, |P_t| <= mu P_n. P_t is cut off at the
+/// bound, following Coulomb's law. An orthogonal projection on the cone would be an associated law, with
+/// dilatant sliding.
 inline Impulse admissible(double pn, double pt, double mu) {
   const double normal = pn > 0.0 ? pn : 0.0;
   const double bound = mu * normal;
   return {normal, std::min(std::max(pt, -bound), bound)};
 }
 
-/// The impulse that solves one contact exactly, all others held (T13), from the present impulse and relative
-/// velocity; w_n and w_t are the inverse of the Delassus diagonal, kg.
+/// Returns the impulse that solves one contact exactly with all others held fixed (T13), from the present
+/// impulse and relative velocity; w_n and w_t are the inverse of the Delassus diagonal, kg.
 inline Impulse solve_contact(double pn, double pt, double un, double ut, double w_n, double w_t, double mu) {
   return admissible(pn - un * w_n, pt - ut * w_t, mu);
 }
 
-/// The nearest rolling impulse that a contact with the normal impulse `pn` >= 0 admits: |P_r| <= mu_r P_n.
+/// Returns the nearest rolling impulse that a contact with normal impulse `pn` >= 0 admits: |P_r| <= mu_r
+/// P_n.
 inline double admissible_rolling(double pr, double mu_r, double pn) {
   const double bound = mu_r * pn;
   return std::min(std::max(pr, -bound), bound);
 }
 
-/// The rolling impulse that solves its condition (T40), all other impulses held; w_r is 1 / W_rr, kg.
+/// Returns the rolling impulse that solves its condition (T40) with all other impulses held fixed; w_r is
+/// 1 / W_rr, kg.
 inline double solve_rolling(double pr, double ur, double w_r, double mu_r, double pn) {
   return admissible_rolling(pr - ur * w_r, mu_r, pn);
 }

@@ -12,7 +12,7 @@ void push(const ContactProblem& problem, ContactSolution& solution, Index body, 
   solution.omega[body] += problem.inverse_inertia[body] * torque;
 }
 
-/// The rolling impulse of a contact, for the velocities that its forces leave (T40).
+/// Solves the rolling impulse of a contact for the velocities that result from its forces (T40).
 void solve_rolling_of(const ContactProblem& problem, Index c, ContactSolution& solution) {
   const double pr =
       solve_rolling(solution.pr[c], rolling_velocity(problem, solution, c),

@@ -8,23 +8,22 @@
 namespace talus::solver {
 namespace {
 
-// How far a contact goes towards its solution. The modes that limit the momentum are tangential, grains that
-// turn like gears, and noise that sweeps leave behind is least with short steps along the tangent
-// (docs/solver.md).
+// Under-relaxation of a contact. The modes that limit the momentum are tangential, grains that turn like
+// gears, and sweeps leave the least noise with small tangential updates (docs/solver.md).
 constexpr double normal_relaxation = 0.85;
 constexpr double tangential_relaxation = 0.5;
-// A contact without an impulse is swept where its bodies separate by less than they move and this, in
-// velocity units.
+// A contact without an impulse is swept if its bodies separate more slowly than the sum of their speeds and
+// this, in velocity units.
 constexpr double may_close = 0.2;
-// Where so large a share would be swept, all are: their order can stay from step to step.
+// If more than this share would be swept, all are, so that the order can stay the same from step to step.
 constexpr double nearly_all = 0.85;
 
-// What sweeps walk through stays in the caches up to about this size: 120 000 contacts.
+// Size of the data of a sweep up to which they stay in the caches: 120 000 contacts.
 constexpr std::size_t cached_bytes = std::size_t{8} << 20;
 
 constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Row));
 
-/// Where the eight values of a field of its group have that of a contact.
+/// Position of a contact: its group, and its lane in the fields of that group.
 struct Slot {
   std::size_t group, lane;
 };
@@ -33,7 +32,7 @@ Slot slot_of(const Linearisation& w, std::size_t c) {
   return {slot / lane_count, slot % lane_count};
 }
 
-/// Makes the impulses of contacts first ... last - 1 admissible, and turns them into the axes of the bed.
+/// Makes the impulses of contacts first ... last - 1 admissible, and rotates them into the axes of the bed.
 void admit_impulses(const ContactProblem& problem, std::size_t first, std::size_t last, Linearisation& w) {
   double *const pn = w.pn.data(), *const pt = w.pt.data();
   const double* const mu = problem.mu.data();
@@ -48,21 +47,21 @@ void admit_impulses(const ContactProblem& problem, std::size_t first, std::size_
     force[c] = {pn[c] * nx[c] - pt[c] * ny[c], pn[c] * ny[c] + pt[c] * nx[c], pt[c], 0.0};
 }
 
-/// The rolling impulse of a contact; its normal impulse is set before.
+/// Sets the rolling impulse of a contact, made admissible. Its normal impulse must be set before.
 void set_rolling(const ContactProblem& problem, std::size_t c, double pr, Linearisation& w) {
   w.rolling.pr[c] = admissible_rolling(pr, problem.rolling_friction[c], w.pn[c]);
   w.exact_force[c].turn = w.rolling.length[c] * w.rolling.pr[c];
 }
 
-/// The inverse diagonals of contacts first ... last - 1: first what is inverted, then in a loop that
-/// vectorises the inverses.
+/// Computes the inverse diagonals of contacts first ... last - 1. The diagonals come first, so that the loop
+/// of the inverses vectorises.
 void load_diagonals(const ContactProblem& problem, std::size_t first, std::size_t last, Linearisation& w) {
   for (std::size_t c = first; c < last; ++c) {
     const DelassusDiagonal diagonal = delassus_diagonal(problem, static_cast<Index>(c));
     w.wn[c] = diagonal.normal;
     w.wt[c] = diagonal.tangential;
   }
-  // Between two bodies that cannot move nothing happens, whatever the impulse.
+  // An impulse between two bodies that cannot move has no effect.
   for (double* const inverse : {w.wn.data(), w.wt.data()})
     for (std::size_t c = first; c < last; ++c) inverse[c] = inverse[c] > 0.0 ? 1.0 / inverse[c] : 0.0;
 }
@@ -80,15 +79,15 @@ RollingUnits rolling_units(const Linearisation& w) {
   return {w.rolling.unit_length, 1.0 / w.impulse_unit, 1.0 / w.velocity_unit, w.mobility_unit};
 }
 
-/// Contacts of a block in single precision: all at once, so that the compiler makes several of each
-/// operation; then they go to their lanes.
+/// Contacts of a block in single precision, before they are copied to their lanes. Computing them together
+/// lets the compiler vectorise the loops.
 struct BlockOfContacts {
   float nx[contacts_per_block], ny[contacts_per_block];
   float un[contacts_per_block], ut[contacts_per_block];
   float least[contacts_per_block], below[contacts_per_block], above[contacts_per_block];
 };
 
-/// Local frames, relative velocities at P0, and what is left until the contacts open or slide.
+/// Computes local frames, relative velocities at P0, and the increments at which contacts open or slide.
 void linearise(const ContactProblem& problem, std::size_t first, std::size_t last, const Linearisation& w,
                BlockOfContacts& block) {
   const InverseUnits units = inverse_units(w);
@@ -106,7 +105,7 @@ void linearise(const ContactProblem& problem, std::size_t first, std::size_t las
   }
 }
 
-/// What follows from contacts and bodies, and stays as long as they do.
+/// Loads the data of a contact that depend on contacts and bodies only.
 void load_lane(const ContactProblem& problem, std::size_t c, double per_mobility, Linearisation& w) {
   const auto [g, k] = slot_of(w, c);
   ContactGroup& group = w.contacts[g];
@@ -124,12 +123,12 @@ void load_lane(const ContactProblem& problem, std::size_t c, double per_mobility
   group.b[k] = static_cast<std::uint32_t>(w.order.row_b[c]) * row_bytes;
 }
 
-/// The contacts of a block: [block_begin(block), block_begin(block + 1)).
+/// Returns the first contact of a block.
 std::size_t block_begin(const ContactProblem& problem, Index block) {
   return static_cast<std::size_t>(std::min(problem.contact_count(), block * contacts_per_block));
 }
 
-/// Does something for each contact of some blocks that is swept.
+/// Calls `what` for each swept contact of blocks first_block ... last_block - 1.
 template <typename Do>
 void for_each_swept(const ContactProblem& problem, Index first_block, Index last_block,
                     const Linearisation& w, const Do& what) {
@@ -138,7 +137,7 @@ void for_each_swept(const ContactProblem& problem, Index first_block, Index last
     if (w.swept[c]) what(c);
 }
 
-/// Brings the contacts of a block that are swept to their lanes.
+/// Copies the swept contacts of a block to their lanes.
 void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, Linearisation& w) {
   ContactGroup* const groups = w.contacts.data();
   for (std::size_t k = 0; k < last - first; ++k) {
@@ -155,11 +154,11 @@ void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, L
   }
 }
 
-/// Makes room for the groups of the order. What was there is overwritten where there is a contact.
+/// Sizes the groups for the order. Lanes with a contact are overwritten later.
 void size_groups(Linearisation& w) {
   const auto groups = static_cast<std::size_t>(w.order.group_count());
   const auto size = [groups](auto& field) {
-    // How well groups are filled differs from step to step: some room, so that steady steps allocate nothing.
+    // The number of groups varies from step to step; the spare room avoids allocations in steady steps.
     if (field.capacity() < groups) field.reserve(groups + groups / 4);
     field.resize(groups);
   };
@@ -176,7 +175,7 @@ void size_groups(Linearisation& w) {
   size(w.rolling.last_move);
 }
 
-/// Lanes without a contact, of a group of a part, get rows that do not move.
+/// Clears a group of a part, and gives its lanes rows that do not move.
 void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
   w.contacts[g] = {};
   w.increment[g] = w.last_move[g] = {};
@@ -191,7 +190,7 @@ void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
   }
 }
 
-/// The few groups that are not full.
+/// Clears the few groups that are not full.
 void clear_groups(Index bodies, Linearisation& w) {
   constexpr Index full = lane_count * groups_abreast;
   for (Index part = 0; part < w.order.part_count(); ++part) {
@@ -305,7 +304,7 @@ void absorb_increments(const ContactProblem& problem, Index first_block, Index l
     w.pt[c] += unit * static_cast<double>(increment.t[k]);
     increment.n[k] = increment.t[k] = 0.0F;
   });
-  // The others have no impulse, and keep none.
+  // Contacts that are not swept have no impulse, and this leaves them unchanged.
   admit_impulses(problem, block_begin(problem, first_block), block_begin(problem, last_block), w);
   if (!problem.resists_rolling()) return;
   for_each_swept(problem, first_block, last_block, w, [&](std::size_t c) {

@@ -1,8 +1,8 @@
 #pragma once
-/// The two precisions of the accelerated solver. Impulses P0, velocities and the residual are double; the
-/// sweeps look for an increment p = P - P0 in single precision, at half the bytes and twice the lanes. P0
-/// is moved to P0 + p now and then, so nothing is lost to single precision, whatever the tolerance.
-/// (Mixed-precision iterative refinement, Wilkinson 1963.)
+/// The two precisions of the accelerated solver. The impulses P0, the velocities and the residual are in
+/// double precision. The sweeps search for an increment p = P - P0 in single precision, with half the bytes
+/// and twice the lanes. P0 is replaced by P0 + p from time to time, so that any tolerance can be reached
+/// (mixed-precision iterative refinement, Wilkinson 1963).
 
 #include <cstdint>
 #include <vector>
@@ -16,106 +16,108 @@
 
 namespace talus::solver {
 
-/// Contacts are shared out in blocks of this many; the sums of a block do not depend on who computes them.
+/// Number of contacts in a block. Blocks are distributed to the members of a team; their sums do not depend
+/// on the member that computes them.
 inline constexpr Index contacts_per_block = 512;
 
 struct BlockSums {
   ResidualSums residual;
-  Index pressed = 0;  ///< contacts that are not swept and whose bodies approach each other
+  Index pressed = 0;  ///< number of contacts that are not swept and whose bodies approach each other
 };
 
 /// Arrays kept between solves.
 struct Linearisation {
   // Double precision, at P0, in the order of the problem.
   std::vector<double> pn, pt, un, ut, wn, wt;
-  std::vector<ExactRow> exact_force;  ///< of one contact more than there are, without an impulse
+  std::vector<ExactRow> exact_force;  ///< impulses of the contacts, and one more entry of zero
   std::vector<ExactRow> exact_velocity;
   std::vector<BlockSums> sums;
-  /// Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1. All its contacts c are listed in
-  /// entries first_side[i] ... first_side[i + 1] - 1 of sides: as 2 c where it is the second body, then, from
-  /// first_own_side[i] on, as 2 c + 1 where it is the first, and up to a multiple of sides_at_once the
-  /// contact after the last.
+  /// Contacts of the bodies. Body i is the first body of contacts first_a[i] ... first_a[i + 1] - 1. All its
+  /// contacts c are listed in entries first_side[i] ... first_side[i + 1] - 1 of `sides`: first as 2 c if it
+  /// is the second body, then, from first_own_side[i] on, as 2 c + 1 if it is the first. The list is padded
+  /// to a multiple of sides_at_once with the contact after the last.
   std::vector<Index> first_a, first_side, first_own_side, next_side;
   std::vector<std::uint32_t> sides;
-  std::vector<std::uint8_t> moves;  ///< whether anything moves the body
+  std::vector<std::uint8_t> moves;  ///< whether the body can move
   std::vector<std::uint8_t> swept;  ///< whether the contact takes part in the sweeps
 
   // Single precision, in the order of the sweep.
   SweepOrder order;
   std::vector<ContactGroup> contacts;
-  std::vector<UnlikeGroup> unlike;  ///< empty where contacts are alike
+  std::vector<UnlikeGroup> unlike;  ///< empty if contacts are alike
   std::vector<ImpulseGroup> increment, last_move;
   std::vector<Row> velocity, before;
 
-  RollingContacts rolling;  ///< empty where no contact resists rolling
+  RollingContacts rolling;  ///< empty if no contact resists rolling
 
-  // What was computed for the contacts and bodies of the last problem is good for this one where they are the
-  // same, as in most steps of a quiet bed.
-  ContactProblem linked;                    ///< without velocities, normals and c
-  std::vector<std::uint8_t> ordered_swept;  ///< what the order was made for; empty: none
-  bool are_new = true;                      ///< contacts or bodies are not those of the last problem
-  bool are_loaded = false;     ///< what follows from contacts and bodies is there; not after a failure
-  bool have_new_order = true;  ///< nothing that was loaded into groups can stay
-  /// Units of the single precision: impulse (N s), and velocity (m/s) that it gives a mean body.
+  // Data computed for the contacts and bodies of the last problem remain valid if these are the same, as in
+  // most steps of a quiet bed.
+  ContactProblem linked;                    ///< last problem, without velocities, normals and c
+  std::vector<std::uint8_t> ordered_swept;  ///< `swept` for which the order was made; empty: no order
+  bool are_new = true;      ///< whether contacts or bodies differ from those of the last problem
+  bool are_loaded = false;  ///< whether the data of contacts and bodies are complete; false after a failure
+  bool have_new_order = true;  ///< whether all groups must be loaded again
+  /// Units of the single precision: impulse (N s), and the velocity (m/s) that it gives a mean body.
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
-  Index moving = 0;  ///< bodies with a mass
-  /// All contacts have the same friction, and all bodies are disks in single precision: r^2 / I is 2 / m, or
-  /// both vanish.
+  Index moving = 0;  ///< number of bodies with a finite mass
+  /// Whether all contacts have the same friction, and all bodies are disks in single precision: r^2 / I is
+  /// 2 / m, or both vanish.
   bool are_alike = false;
 };
 
-/// Sizes the arrays, links bodies to their contacts, and chooses the units. The team helps, if there is one.
+/// Sizes the arrays, links bodies to their contacts, and chooses the units. `team` may be null.
 void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team, Linearisation& w);
 
-// What follows is shared out, but for the begin and the end of an order: each member of a team takes some
-// blocks of contacts or some bodies, and waits for the others before the next part.
+// The following functions are distributed to the members of a team, except the beginning and the end of an
+// order: each member processes some blocks of contacts or some bodies, and waits for the others before the
+// next function.
 
-/// P0 becomes these impulses, made admissible.
+/// Sets P0 to these impulses, made admissible.
 void load_contacts(const ContactProblem& problem, const ContactSolution& impulses, Index first_block,
                    Index last_block, Linearisation& w);
 void sum_exact_velocities(const ContactProblem& problem, const SweepKernels& kernels, Index first, Index last,
                           Linearisation& w);
-/// Relative velocities at P0 and sums of blocks.
+/// Computes the relative velocities at P0 and the sums of the blocks.
 void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
                       Index last_block, Linearisation& w);
 
-/// The natural-map residual at P0, as natural_map_residual has it.
+/// The natural-map residual at P0, as defined by natural_map_residual.
 struct ExactResidual {
   Residual residual;
-  double norm = 0.0;  ///< || P0 ||, or || P' || where P0 vanishes, in impulse units
-  bool cold = true;   ///< P0 vanishes
-  Index pressed = 0;  ///< as in BlockSums
+  double norm = 0.0;  ///< || P0 ||, or || P' || if P0 vanishes, in impulse units
+  bool cold = true;   ///< whether P0 vanishes
+  Index pressed = 0;  ///< see BlockSums
 };
 ExactResidual exact_residual(const Linearisation& w);
 
 /// Chooses the contacts to sweep at first: those with an impulse, and those that may close while the
-/// velocities change. Where another one would, it shows: it is pressed.
+/// velocities change. Any other contact that would close is counted as pressed.
 void choose_swept(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
-/// Adds the pressed contacts.
+/// Adds the pressed contacts to those that are swept.
 void add_pressed(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
-/// The contacts to be swept are put in their order, unless they are: then there is no new order, and nothing
-/// to go on with but to load groups. One member begins this for all, and ends it.
+/// Begins a new order of the contacts to be swept, unless the last one still applies; then only groups need
+/// to be loaded (have_new_order is false). One member begins and ends an order for all.
 void begin_order_of_contacts(const ContactProblem& problem, int size, Linearisation& w);
 void end_order_of_contacts(const ContactProblem& problem, Linearisation& w);
-/// Loads what is swept, around P0, without increments.
+/// Loads the swept contacts, linearised at P0, with zero increments.
 void load_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 void clear_rows(Index first, Index last, Linearisation& w);
 
-// P0 moves to P0 + p in five parts: increments and velocities are absorbed, then velocities summed and
-// contacts looked at as above, then linearised. The momentum stays what it was.
+// P0 is replaced by P0 + p in five parts: increments and velocities are absorbed, velocities are summed,
+// contacts evaluated as above, and groups linearised. The momentum does not change.
 
 void absorb_increments(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 void absorb_velocities(Index first, Index last, Linearisation& w);
 void linearise_groups(const ContactProblem& problem, Index first_block, Index last_block, Linearisation& w);
 
-/// Takes P0 into the mean of its last values, as the count-th of them. mean.pn, pt, and pr have their sizes.
+/// Adds P0 to the mean of its last values, as the count-th of them. mean.pn, pt and pr must have their sizes.
 void average_impulses(const ContactProblem& problem, Index first_block, Index last_block,
                       const Linearisation& w, int count, ContactSolution& mean);
 
-/// P0.
+/// Copies P0 to the solution.
 void unload_impulses(const ContactProblem& problem, Index first_block, Index last_block,
                      const Linearisation& w, ContactSolution& solution);
-/// Its velocities.
+/// Copies the velocities at P0 to the solution.
 void unload_velocities(const ContactProblem& problem, Index first, Index last, const Linearisation& w,
                        ContactSolution& solution);
 

@@ -6,10 +6,10 @@
 namespace talus::solver {
 namespace {
 
-/// Below this share of the diagonal the coupling within a block is round-off.
+/// Share of the diagonal below which the coupling within a block is round-off.
 constexpr double coupling_round_off = 1e-13;
 
-/// Sliding with P_t = sign mu P_n; whether that is a solution.
+/// Computes sliding with P_t = sign mu P_n; returns whether that is a solution.
 bool slides(const LocalContact& contact, RelativeVelocity b, double sign, Impulse& p) {
   const DelassusBlock& w = contact.w;
   const double softness = w.nn + sign * contact.mu * w.nt;

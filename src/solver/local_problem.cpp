@@ -13,8 +13,9 @@ void add(DelassusBlock& block, const MatrixEntry& entry) {
   place += entry.value;
 }
 
-/// Adds what the push of contact d on one of its bodies does to contact c at the same body. `sign` is that of
-/// the body in c times that in d: -1 where it is the first body of one and the second of the other.
+/// Adds to `block` the effect of an impulse of contact d on contact c through a body that they share. `sign`
+/// is the product of the signs of the body in both contacts: -1 if it is the first body of one and the second
+/// of the other.
 void add_through_body(const ContactProblem& problem, Index c, Index d, Index body, double sign,
                       DelassusBlock& block) {
   const double mobility = sign * problem.inverse_mass[body];
@@ -35,7 +36,7 @@ DelassusBlock delassus_block(const ContactProblem& problem, Index c, Index d) {
   return block;
 }
 
-/// The contacts of each body that can move: through one that cannot, contacts do not feel each other.
+/// Lists the contacts of each body that can move. A body that cannot move does not couple its contacts.
 std::vector<std::vector<Index>> contacts_of_bodies(const ContactProblem& problem) {
   std::vector<std::vector<Index>> contacts(static_cast<std::size_t>(problem.body_count()));
   for (Index c = 0; c < problem.contact_count(); ++c)
@@ -61,7 +62,7 @@ LocalProblem local_problem(std::vector<MatrixEntry> entries, std::vector<Relativ
   local.diagonal.resize(local.mu.size());
   const Index contacts = local.contact_count();
   for (Index c = 0; c < contacts; ++c)
-    entries.push_back({2 * c, 2 * c, 0.0});  // a diagonal block in each row
+    entries.push_back({2 * c, 2 * c, 0.0});  // ensures a diagonal block in each row
   std::ranges::stable_sort(
       entries, {}, [](const MatrixEntry& entry) { return std::pair(entry.row / 2, entry.column / 2); });
   std::size_t next = 0;

@@ -1,4 +1,4 @@
-// What is the same for all of a solve: which contacts a body has, and the units of the single precision.
+// Data that are constant during a solve: the contacts of each body, and the units of the single precision.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 namespace talus::solver {
 namespace {
 
-/// Brings what is known up to what is now; returns whether it was so before.
+/// Copies `now` to `known` if they differ; returns whether they were equal.
 template <typename Value>
 bool follow(const Value& now, Value& known) {
   if (now == known) return true;
@@ -32,8 +32,8 @@ bool follow_bodies(const ContactProblem& now, ContactProblem& known) {
   return std::ranges::find(same, false) == std::end(same);
 }
 
-/// How many contacts each body has as a, in first_a[i + 1], and as b, in first_own_side[i]; and whether
-/// anything moves it. Each member of the team sees to some of the bodies, and looks at all contacts.
+/// Counts the contacts of each body i as a, in first_a[i + 1], and as b, in first_own_side[i], and sets
+/// whether it can move. Each member of the team processes some of the bodies, and reads all contacts.
 void count_contacts(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
   share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
@@ -45,7 +45,7 @@ void count_contacts(const ContactProblem& problem, ThreadTeam* team, Linearisati
   });
 }
 
-/// Where the contacts of each body begin, from how many it has.
+/// Computes the beginning of the contacts of each body from the numbers of contacts.
 void place_contacts(Linearisation& w) {
   for (std::size_t i = 0; i < w.moves.size(); ++i) {
     const Index sides = w.first_own_side[i] + w.first_a[i + 1];
@@ -55,7 +55,8 @@ void place_contacts(Linearisation& w) {
   }
 }
 
-/// Each member of the team sees to some of the bodies, and looks at all contacts.
+/// Lists the contacts of each body. Each member of the team processes some of the bodies, and reads all
+/// contacts.
 void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
   const auto none = 2 * static_cast<std::uint32_t>(problem.a.size());
   share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
@@ -72,7 +73,7 @@ void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& 
   });
 }
 
-/// The contacts of each body: as a they are consecutive, as b they are listed.
+/// Links each body to its contacts, unless contacts and bodies are those of the last problem.
 void link(const ContactProblem& problem, bool were_loaded, ThreadTeam* team, Linearisation& w) {
   const auto bodies = static_cast<std::size_t>(problem.body_count());
   const bool same_contacts = follow_contacts(problem, w.linked);
@@ -90,10 +91,10 @@ void link(const ContactProblem& problem, bool were_loaded, ThreadTeam* team, Lin
   list_sides(problem, team, w);
 }
 
-/// In four strands: one would wait for each addition.
+/// Returns the sum of squares, in four strands, because a single one would wait for each addition.
 double sum_of_squares(const std::vector<double>& values) {
   std::array<double, 4> strand{};
-  const std::size_t fours = values.size() / 4;  // counted before, so that the loop vectorises
+  const std::size_t fours = values.size() / 4;  // computed before the loop, so that it vectorises
   for (std::size_t i = 0; i < fours; ++i)
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < 4; ++k) strand[k] += values[4 * i + k] * values[4 * i + k];
@@ -101,7 +102,7 @@ double sum_of_squares(const std::vector<double>& values) {
   return (strand[0] + strand[1]) + (strand[2] + strand[3]);
 }
 
-/// The mean body of those that move.
+/// Computes the number of moving bodies and their mean mobility.
 void take_mean_body(const ContactProblem& problem, Linearisation& w) {
   double inverse_mass = 0.0;
   w.moving = 0;
@@ -117,7 +118,7 @@ bool have_same_friction(const ContactProblem& problem) {
   return count == 0 || std::ranges::count(problem.mu, problem.mu.front()) == count;
 }
 
-/// Whether single precision knows all bodies for disks.
+/// Whether all bodies are disks in single precision.
 bool are_disks(const ContactProblem& problem, double mobility_unit) {
   const double unit = 1.0 / mobility_unit;
   Index others = 0;
@@ -127,8 +128,8 @@ bool are_disks(const ContactProblem& problem, double mobility_unit) {
   return others == 0;
 }
 
-/// Units in which neither impulses nor velocities are large: single precision has room below one, to 1e-38,
-/// not above.
+/// Chooses units in which neither impulses nor velocities are large, because increments become small: single
+/// precision reaches down to 1e-38.
 void choose_units(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
                   Linearisation& w) {
   bool same_friction = false, all_disks = false;
@@ -163,7 +164,7 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, T
 
 void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
              Linearisation& w) {
-  const bool were_loaded = std::exchange(w.are_loaded, false);  // not while memory may be missing
+  const bool were_loaded = std::exchange(w.are_loaded, false);  // false while an allocation may fail
   const auto contacts = static_cast<std::size_t>(problem.contact_count());
   w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
   w.exact_force.resize(contacts + 1);

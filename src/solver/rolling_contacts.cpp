@@ -5,7 +5,7 @@
 namespace talus::solver {
 namespace {
 
-// How far a rolling impulse goes towards its solution: as far as a tangential one.
+// Under-relaxation of the rolling impulse.
 constexpr double rolling_relaxation = 0.6;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// What the accelerated solver keeps of contacts that resist rolling, beside the Linearisation of their
+/// Data of the accelerated solver for contacts that resist rolling, in addition to the Linearisation of their
 /// forces (solver/linearisation.h): the rolling impulse P_r in both precisions.
 
 #include <vector>
@@ -15,34 +15,35 @@ struct RollingContacts {
   // Single precision, in the order of the sweep.
   std::vector<RollingGroup> groups;
   std::vector<RollingImpulses> increment, last_move;
-  double unit_length = 1.0;  ///< m: the turn of a row is omega times this
+  double unit_length = 1.0;  ///< m; the turn of a row is omega times this length
 
   bool are_there() const { return !pr.empty(); }
 };
 
-/// The unit of lengths, and the units of a Linearisation, the first two inverse.
+/// The unit of length, and the units of a Linearisation (impulse and velocity as inverses).
 struct RollingUnits {
   double length, per_impulse, per_velocity, mobility;
 };
 
-/// Sizes the arrays of the contacts, and chooses the unit of lengths.
+/// Sizes the arrays of the contacts, and chooses the unit of length.
 void size_rolling(const ContactProblem& problem, RollingContacts& w);
 
-/// What contact c keeps as long as contacts and bodies stay the same.
+/// Computes the data of contact c that depend on contacts and bodies only.
 void load_rolling(const ContactProblem& problem, std::size_t c, RollingContacts& w);
 
-/// Loads what the groups of an order keep: its mobilities.
+/// Loads the data of contact c that depend on contacts and bodies only into its group: mobilities and
+/// lengths.
 void load_rolling_group(const ContactProblem& problem, std::size_t c, Index slot, const RollingUnits& units,
                         RollingContacts& w);
-/// No increment, no momentum.
+/// Sets the increment and the last move of a slot to zero.
 void start_rolling(Index slot, RollingContacts& w);
-/// Relative velocity at P0, and what is left until the contact rolls.
+/// Loads the relative velocity of contact c at P0, and the increments at which it begins to roll.
 void linearise_rolling(const ContactProblem& problem, std::size_t c, Index slot, double pn,
                        const RollingUnits& units, RollingContacts& w);
-/// P0_r + p_r; the increment becomes zero.
+/// Returns P0_r + p_r and sets the increment to zero.
 double take_rolling_increment(std::size_t c, Index slot, double impulse_unit, RollingContacts& w);
 
-/// Adds the fields of these contacts to those that the residual is computed from.
+/// Adds the fields of these contacts to those from which the residual is computed.
 void take_rolling(const ContactProblem& problem, RollingContacts& w, LookArrays& arrays);
 
 }  // namespace talus::solver

@@ -5,7 +5,8 @@
 namespace talus::solver {
 namespace {
 
-/// The residual costs as much as a sweep, so it is looked at now and then.
+/// Sweeps until the residual reaches the tolerance; returns the number of sweeps. The residual costs as much
+/// as a sweep, so it is computed after every tenth sweep only.
 int solve_gauss_seidel(const ContactProblem& problem, const SolverSettings& settings,
                        ContactSolution& solution) {
   constexpr int sweeps_between_checks = 10;
@@ -18,7 +19,7 @@ int solve_gauss_seidel(const ContactProblem& problem, const SolverSettings& sett
     gauss_seidel_sweep(problem, solution);
     ++sweeps;
   }
-  velocities_from_impulses(problem, solution);  // free of the round-off of many sweeps
+  velocities_from_impulses(problem, solution);  // removes the round-off of many sweeps
   return sweeps;
 }
 

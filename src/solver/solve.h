@@ -1,5 +1,5 @@
 #pragma once
-/// All solvers behind one call.
+/// One call for all solvers.
 
 #include "solver/accelerated.h"
 #include "solver/problem.h"
@@ -15,29 +15,30 @@ enum class SolverKind {
 struct SolverSettings {
   SolverKind kind = SolverKind::accelerated;
   double tolerance = 1e-6;    ///< natural-map residual eta to reach
-  int max_iterations = 5000;  ///< over all contacts, at most
-  int threads = 1;            ///< of the accelerated solver; the result does not depend on it
+  int max_iterations = 5000;  ///< limit of iterations over all contacts
+  int threads = 1;            ///< threads of the accelerated solver; the result does not depend on them
 };
 
-/// How a solve ended. Not reaching the tolerance is a result, not an error.
+/// Outcome of a solve. A missed tolerance is a result, not an error.
 struct SolverReport {
-  int iterations = 0;  ///< over all contacts
+  int iterations = 0;  ///< iterations over all contacts
   Residual residual;
   bool converged = false;
 };
 
-/// Memory that a solver keeps between steps so that a steady step allocates nothing. The result
-/// of a solve does not depend on what was solved before.
+/// Memory that a solver keeps between steps so that a steady step allocates nothing. The result of a solve
+/// does not depend on earlier solves.
 struct SolverWorkspace {
   AcceleratedWorkspace accelerated;
 };
 
-/// The team that would solve this problem at present; null where one thread does, or the solver has none.
+/// Returns the team that would solve this problem at present; null if one thread would, or if the solver has
+/// no team.
 ThreadTeam* team_at_hand(const ContactProblem& problem, const SolverSettings& settings,
                          SolverWorkspace& workspace);
 
 /// Solves the problem, (T7) with (T9) and (T10), from the first guess in `solution` to the tolerance, and
-/// judges the result by natural_map_residual. The same bits for the same problem and guess.
+/// judges the result by natural_map_residual. The same problem and guess give the same bits.
 SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,
                    ContactSolution& solution);
 

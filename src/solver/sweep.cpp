@@ -7,17 +7,17 @@
 namespace talus::solver {
 namespace {
 
-// From so many domains on, some 250 000 contacts, a wave pays: smaller beds stay in the last cache.
+// Smallest number of domains (about 250 000 contacts) for a wave; smaller beds stay in the last cache.
 constexpr Index domains_for_wave = 64;
-// A wave begins in a place for each member of a team. Between two of them it takes so many domains for each
-// sweep.
+// A wave starts at one place for each member of a team; between two places, each sweep needs this many
+// domains.
 constexpr Index domains_for_each = 4;
 
 void wait_for_all(const Sweeper& sweeper) {
   if (sweeper.team) sweeper.team->wait_for_all();
 }
 
-/// Where the sums of the parts of a sweep begin.
+/// Returns the index of the first sum of a sweep.
 Index first_sum(const Sweeper& sweeper, Index sweep) {
   return (sweeper.turn * most_sweeps_in_a_row + sweep) * sweeper.at.order.part_count();
 }
@@ -34,8 +34,8 @@ void extrapolate(const Sweeper& sweeper, SweepOrder::Rows rows, float beta) {
   sweeper.kernels.bodies(body_arrays(sweeper.at), rows.first, rows.last, beta);
 }
 
-/// Asks for rows that another member may have changed: to wait for one after the other would take a tenth of
-/// a sweep.
+/// Prefetches rows that another member may have changed. Waiting for them one by one would take a tenth of a
+/// sweep.
 void fetch(const Sweeper& sweeper, SweepOrder::Rows rows) {
   constexpr Index rows_of_line = 64 / sizeof(Row);
   if (sweeper.team == nullptr || rows.first == rows.last) return;
@@ -44,8 +44,8 @@ void fetch(const Sweeper& sweeper, SweepOrder::Rows rows) {
   __builtin_prefetch(velocity + rows.last - 1);  // a row need not begin where a line does
 }
 
-/// An even domain with the contacts that bodies of its two neighbours have with it. These bodies meet no
-/// other part of their phase, so this part extrapolates them, and no member waits for another one in between.
+/// Sweeps an even domain and its contacts with bodies of the two neighbouring domains. No other part of the
+/// phase uses these bodies, so this part extrapolates them, and no member waits for another in between.
 void sweep_even_domain(const Sweeper& sweeper, Index domain, std::span<const float> beta, std::size_t sweep) {
   const SweepOrder& order = sweeper.at.order;
   const Index domains = order.domain_count();
@@ -67,10 +67,10 @@ void sweep_odd_domain(const Sweeper& sweeper, Index domain, std::span<const floa
   sweep_part(sweeper, order.part_of(domain), beta, sweep);
 }
 
-/// The part of a domain in a sweep, whose halves are the even domains and the odd ones. A domain needs what
-/// its two neighbours did in the half before. Bodies of an even domain are extrapolated just before it is
-/// swept; those of an odd one meet its neighbours first, so they are extrapolated for the next sweep as soon
-/// as it has been swept.
+/// Sweeps a domain in one half of a sweep; the halves are the even and the odd domains. A domain needs the
+/// results of its two neighbours in the half before. Bodies of an even domain are extrapolated just before
+/// it is swept. Bodies of an odd domain are used by its neighbours first, so they are extrapolated for the
+/// next sweep as soon as the domain has been swept.
 void sweep_domain(const Sweeper& sweeper, Index place, Index half, std::span<const float> beta) {
   const Index domains = sweeper.at.order.domain_count(), domain = (place % domains + domains) % domains;
   const auto sweep = static_cast<std::size_t>(half / 2);
@@ -127,13 +127,13 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta) {
   for (Index domain = left + 1; domain < right; domain += 2)
     extrapolate(sweeper, sweeper.at.order.rows_of_domain(domain), beta[0]);
   wait_for_all(sweeper);
-  // A front has a domain in each half, front - half. Those in the halves up to (front - left) / 2 need none
-  // of the domains of others.
+  // A front covers one domain in each half, front - half. Those in the halves up to (front - left) / 2 need
+  // no domain of other members.
   for (Index front = left; front < right; front += 2)
     for (Index half = 0; half < std::min(halves, (front - left) / 2 + 1); ++half)
       sweep_domain(sweeper, front - half, half, beta);
   wait_for_all(sweeper);
-  // The others need what the members on both sides of the left end have done.
+  // The others need the results of the members on both sides of the left end.
   for (Index front = left; front < left + 2 * (halves - 1); front += 2)
     for (Index half = (front - left) / 2 + 1; half < halves; ++half)
       sweep_domain(sweeper, front - half, half, beta);

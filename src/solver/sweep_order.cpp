@@ -11,16 +11,16 @@ namespace talus::solver {
 namespace {
 
 constexpr Index lanes = lane_count * groups_abreast;
-constexpr Index of_two_domains = -1;  // in place of the part of a contact, before that is known
+constexpr Index of_two_domains = -1;  // part of a contact between two domains, until it is determined
 
 struct Domains {
   Index count;
   bool by_columns;
 };
 
-/// Few, so that waves run through the bed in one sweep; so many that a phase has work for several threads. A
-/// domain has two columns or more, so that contacts join no domains but neighbours; domains of consecutive
-/// bodies become too thin for that where they are many.
+/// Chooses the domains: few, so that changes travel through the bed in one sweep, but enough to give several
+/// threads work in a phase. A domain has at least two columns, so that contacts join neighbouring domains
+/// only; a large number of domains of consecutive bodies would be too thin for that.
 Domains domains_of(const ContactProblem& problem) {
   constexpr Index contacts_for_four = 1000, contacts_for_a_pair = 8000;
   constexpr Index least = 4, most_of_bodies = 64;
@@ -32,21 +32,22 @@ Domains domains_of(const ContactProblem& problem) {
   return {std::clamp(2 * (contacts / contacts_for_a_pair), least, most), by_columns};
 }
 
-/// The domain of what begins after so many of the contacts, given that of what came before it:
-/// contacts_before domains / contacts, found without dividing, since contacts_before never falls.
+/// Returns the domain of the body or column that begins after `contacts_before` contacts, given that of its
+/// predecessor: contacts_before domains / contacts, found without division because contacts_before never
+/// falls.
 Index domain_after(long long contacts_before, long long contacts, Index domains, Index domain) {
   while (domain < domains - 1 && contacts_before * domains >= (domain + 1) * contacts) ++domain;
   return domain;
 }
 
-/// Domains of consecutive bodies.
+/// Assigns consecutive bodies to domains.
 void share_bodies(const std::vector<Index>& first_a, long long contacts, Index domains, SweepOrder& order) {
   Index domain = 0;
   for (std::size_t i = 0; i < order.domain.size(); ++i)
     order.domain[i] = domain = domain_after(first_a[i], contacts, domains, domain);
 }
 
-/// Domains of consecutive columns.
+/// Assigns consecutive columns to domains.
 void share_columns(const ContactProblem& problem, const std::vector<Index>& first_a, Index domains,
                    SweepOrder& order) {
   const std::vector<Index>& column = problem.column;
@@ -63,13 +64,13 @@ void share_columns(const ContactProblem& problem, const std::vector<Index>& firs
   for (std::size_t i = 0; i < column.size(); ++i) order.domain[i] = order.domain_of_column[column[i]];
 }
 
-/// Whether domains are next to each other.
+/// Whether two domains are neighbours.
 bool are_neighbours(Index a, Index b, const SweepOrder& order) {
   const Index apart = std::abs(a - b);
   return apart == 1 || (order.by_columns && apart == order.domain_count() - 1);
 }
 
-/// The domains of the two bodies of a contact. A body that does not move is in that of the other.
+/// The domains of the two bodies of a contact. A body that does not move belongs to that of the other.
 struct TwoDomains {
   Index a, b;
 };
@@ -79,23 +80,24 @@ TwoDomains two_domains(const ContactProblem& problem, const std::vector<std::uin
   return {order.domain[moves[a] ? a : b], order.domain[moves[b] ? b : a]};
 }
 
-/// The part of a contact between two domains, of which earlier contacts have not left it another one.
+/// Returns the part of a contact between two domains: that of the even domain, if the body in the odd domain
+/// has no contact with its other even neighbour yet; else the remaining part.
 Index part_between(const ContactProblem& problem, std::size_t c, TwoDomains in, SweepOrder& order) {
   const Index left = order.domain_count();
   if (!are_neighbours(in.a, in.b, order)) return left;
-  // A body of an odd domain meets one even neighbour only, in its phase.
+  // A body of an odd domain may be used by one even neighbour only in the first phase.
   const Index even = in.a % 2 == 0 ? in.a : in.b;
   Index& owner = order.owner[in.a % 2 == 0 ? problem.b[c] : problem.a[c]];
   if (owner < 0) owner = even;
   return owner == even ? order.part_of(even) : left;
 }
 
-/// Gives the bodies rows by domain and run, those of a run in the order of the bodies: what one member of a
-/// team changes is together, and what two change in turn is apart from the rest.
+/// Assigns rows to the bodies by domain and run, within a run in the order of the bodies. Rows changed by one
+/// member of a team are thus adjacent, and rows changed by two members are separate from the rest.
 void place_rows(SweepOrder& order) {
   const auto run_of = [&order](std::size_t i) {
     const Index domain = order.domain[i], owner = order.owner[i];
-    // Where neither body of a contact moves, one of an even domain may have an owner, too: its own domain.
+    // If neither body of a contact moves, one in an even domain may have an owner too: its own domain.
     const auto run = owner < 0 || domain % 2 == 0 ? SweepOrder::meets_none
                      : owner == domain - 1        ? SweepOrder::meets_before
                                                   : SweepOrder::meets_after;
@@ -104,11 +106,11 @@ void place_rows(SweepOrder& order) {
   order.first_row.assign(static_cast<std::size_t>(SweepOrder::runs * order.domain_count()) + 1, 0);
   for (std::size_t i = 0; i < order.row.size(); ++i) ++order.first_row[run_of(i)];
   std::partial_sum(order.first_row.begin(), order.first_row.end(),
-                   order.first_row.begin());  // where they end
+                   order.first_row.begin());  // ends of the runs
   for (std::size_t i = order.row.size(); i-- > 0;) order.row[i] = --order.first_row[run_of(i)];
 }
 
-/// The first place from `place` on that has room; one that has none points to a later one.
+/// Returns the first place from `place` on that has room; a full place points to a later one.
 Index first_with_room(std::vector<Index>& room, Index place) {
   Index end = place;
   while (room[end] != end) end = room[end];
@@ -120,8 +122,7 @@ Index first_with_room(std::vector<Index>& room, Index place) {
   return end;
 }
 
-/// Gives each part as many places for groups side by side as it has contacts, and one more, which stays
-/// empty.
+/// Reserves for each part one place per contact, and one more, which remains empty.
 void make_places(std::size_t contacts, Index parts, SweepOrder& order) {
   order.first_place.assign(static_cast<std::size_t>(parts) + 1, 0);
   for (Index part = 0; part < parts; ++part) {
@@ -153,7 +154,7 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
     share_bodies(first_a, problem.contact_count(), domains, order);
   order.phase_begin = {0, (domains + 1) / 2, domains, domains + 1};
   order.owner.assign(bodies, -1);
-  // Places are counted from the first of a part: a body that the part has not met waits for none.
+  // Places count from the first of a part, so 0 is right for a body without a contact in the part yet.
   for (auto& next : order.next_place) next.assign(bodies, 0);
   order.row_count = SweepOrder::still_row(problem.body_count(), domains + 1, 0, 0);
 }
@@ -199,7 +200,7 @@ void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>&
     const Index lane = order.fill[place];
     order.slot[c] = (place - first) * lanes + lane;
     if (++order.fill[place] == lanes) order.room[place] = place + 1;
-    // A body that does not move may be met by several parts of a phase.
+    // A body that does not move may have contacts in several parts of a phase.
     if (moves[a]) next[a] = place - first + 1;
     if (moves[b]) next[b] = place - first + 1;
     order.row_a[c] = moves[a] ? order.row[a] : SweepOrder::still_row(bodies, part, 0, lane % lane_count);
@@ -209,7 +210,7 @@ void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>&
 
 void end_order(SweepOrder& order) {
   const auto parts = static_cast<Index>(order.first_place.size()) - 1;
-  // The places that stay empty, the last ones of each part, are left out.
+  // The empty places, the last ones of each part, are removed.
   order.part_begin.assign(1, 0);
   for (Index part = 0; part < parts; ++part) {
     const auto begin = order.fill.begin() + order.first_place[part];

@@ -1,5 +1,5 @@
 #pragma once
-/// In which order a sweep visits the contacts, and which of them it may visit at the same time.
+/// The order in which a sweep visits the contacts, and the contacts that it may visit simultaneously.
 
 #include <array>
 #include <vector>
@@ -9,88 +9,90 @@
 
 namespace talus::solver {
 
-/// Contacts are swept in their order, from the first body to the last, as far as that matters: a contact
-/// comes after all earlier ones that share a body with it. So that this can be done eight contacts at a time
-/// and by several threads,
-///   - bodies are cut into domains with about as many contacts each: of consecutive columns in large beds
-///     (ContactProblem), else of consecutive bodies;
+/// Order of a sweep. Contacts are swept from the first body to the last, in the sense that a contact follows
+/// all earlier contacts that share a body with it. To sweep eight contacts at a time and with several
+/// threads,
+///   - bodies are divided into domains with about equal numbers of contacts: of consecutive columns in large
+///     beds (ContactProblem), else of consecutive bodies;
 ///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
-///     domains; what is left, which as a rule is nothing where domains are of columns. The parts of a phase
-///     share no body that moves, so they can be swept at once;
-///   - within a part, contacts go in groups of eight, a few groups side by side, that share no body that
-///     moves; each contact goes in the first group that has room.
-/// All of this follows from the problem alone, so that the bits of a result do not depend on threads.
+///     domains; the remaining contacts, usually none if domains consist of columns. The parts of a phase
+///     share no body that moves, so they can be swept simultaneously;
+///   - within a part, contacts form groups of eight, a few of them interleaved, that share no body that
+///   moves;
+///     each contact belongs to the first group that has room.
+/// The order follows from the problem alone, so that the bits of a result do not depend on the threads.
 struct SweepOrder {
   static constexpr int phases = 3;
   static constexpr Index most_domains = 256, most_parts = most_domains + 1;
-  std::vector<Index> slot;          ///< of a contact: lane_count * group + lane
-  std::vector<Index> row_a, row_b;  ///< rows of its bodies
-  /// The bodies of a domain have rows next to each other, in three runs: of an odd domain those that meet the
-  /// even domain before it in its phase, those that meet neither of the two next to it, and those that meet
-  /// the one after it; of an even domain the run in the middle has all. Run k of domain d begins in row
+  std::vector<Index> slot;          ///< slot of each contact: lane_count * group + lane
+  std::vector<Index> row_a, row_b;  ///< rows of the bodies of each contact
+  /// Runs of rows. The bodies of a domain have consecutive rows, in three runs. In an odd domain these are
+  /// the bodies in contact with the even domain before it, with neither neighbour, and with the even domain
+  /// after it; in an even domain the middle run contains all bodies. Run k of domain d begins in row
   /// first_row[runs * d + k].
   static constexpr Index runs = 3;
   enum Run : Index { meets_before, meets_none, meets_after };
   std::vector<Index> first_row;
-  std::vector<Index> part_begin;  ///< the groups of part k: part_begin[k] ... part_begin[k + 1] - 1
-  std::array<Index, phases + 1> phase_begin{};  ///< the parts of a phase
-  Index row_count = 0;                          ///< bodies, and rows that do not move
+  std::vector<Index> part_begin;                ///< groups of part k: part_begin[k] ... part_begin[k + 1] - 1
+  std::array<Index, phases + 1> phase_begin{};  ///< parts of each phase, likewise
+  Index row_count = 0;                          ///< number of rows: those of bodies, and fixed ones
 
-  /// The row of the first or second body in a lane of a part, where that does not move: one row for all would
-  /// make each group wait for the one before.
+  /// Returns the row of the first or second body in a lane of a part if that body does not move. A single row
+  /// for all of them would make each group wait for the one before.
   static Index still_row(Index bodies, Index part, Index side, Index lane) {
     return bodies + (2 * part + side) * lane_count + lane;
   }
   Index domain_count() const { return phase_begin[2]; }
-  /// Even domains come first.
+  /// Returns the part of domain d; even domains come first.
   Index part_of(Index d) const { return d / 2 + (d % 2 == 0 ? 0 : phase_begin[1]); }
   struct Rows {
-    Index first, last;  ///< first ... last - 1
+    Index first, last;  ///< range first ... last - 1
   };
   Rows rows_of_run(Index d, Run run) const {
     return {first_row[runs * d + run], first_row[runs * d + run + 1]};
   }
   Rows rows_of_domain(Index d) const { return {first_row[runs * d], first_row[runs * (d + 1)]}; }
-  /// Whether each domain shares contacts with the ones next to it only, the last one with the first.
+  /// Whether each domain shares contacts only with its two neighbours, the last domain with the first.
   bool is_ring() const { return by_columns && part_begin[phase_begin[2]] == group_count(); }
   Index part_count() const { return static_cast<Index>(part_begin.size()) - 1; }
   Index group_count() const { return part_begin.back(); }
 
-  bool by_columns = false;  ///< domains are of columns
+  bool by_columns = false;  ///< whether domains consist of columns
 
-  // Memory to work in: places are groups side by side before those that stay empty are left out.
+  // Working memory. A place is a set of interleaved groups, before empty ones are removed.
   std::vector<Index> domain, row, part, owner, first_place, room, contacts_of_column, domain_of_column;
-  std::vector<std::array<Index, most_parts>> shares;  ///< contacts of each part that a member has found
+  std::vector<std::array<Index, most_parts>> shares;  ///< number of contacts of each part, by member
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;
 };
 
 // Contacts with swept[c] != 0 are ordered; the others have no slot. All members of a team find parts, order
-// them, and place slots; one begins, opens, and ends. After each of these the others wait.
+// them, and place slots; one member begins, opens and ends the order. The members wait for each other after
+// each function.
 
-/// Shares the bodies out to domains, for a team of this size. `first_a[i]` is the number of contacts whose
-/// first body is before body i. Contacts must be sorted by their first body.
+/// Assigns the bodies to domains, for a team of this size. `first_a[i]` is the number of contacts whose first
+/// body is before body i. Contacts must be sorted by their first body.
 void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a, int size,
                  SweepOrder& order);
-/// Finds the part of each contact between bodies of the same domain, of those that are the member's. moves[i]
-/// is 0 for a body that nothing moves.
+/// Finds the part of each contact between bodies of the same domain, among the contacts of this member.
+/// moves[i] is 0 for a body that cannot move.
 void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
-/// Finds the parts of the other contacts, gives the bodies their rows, and each part as many places as it can
-/// need.
+/// Finds the parts of the other contacts, assigns rows to the bodies, and reserves for each part the number
+/// of places that it can need.
 void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, SweepOrder& order);
-/// Puts the contacts of a member's parts, in their order, into the first place with room after all that share
-/// a body with them, and gives them slots, counted from the first place of their part.
+/// Assigns the contacts of a member's parts, in their order, to the first place with room after all contacts
+/// that share a body with them, and computes their slots, counted from the first place of their part.
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                  const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order);
-/// Puts the parts one after another.
+/// Concatenates the parts, without their empty places.
 void end_order(SweepOrder& order);
-/// Counts the slots of contacts first ... last - 1 from the first group of all.
+/// Changes the slots of contacts first ... last - 1 so that they count from the first group of the order.
 void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std::size_t last,
                  SweepOrder& order);
 
-/// How many members of a team find work in each phase of a sweep.
+/// Returns the number of members of a team that have work in each phase of a sweep.
 int most_members(const ContactProblem& problem);
 
 }  // namespace talus::solver

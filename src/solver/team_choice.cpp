@@ -6,14 +6,13 @@ namespace talus::solver {
 namespace {
 
 constexpr double window = 0.02;  // s, several slices of the scheduler
-// Windows from a trial to the next: few, as long as trials change something, and twice as many each time that
-// they do not.
+// Windows between two trials: few if the last trial paid, and doubled after each trial that did not.
 constexpr int least_patience = 8;
 constexpr int most_patience = 256;
-// A trial that seems to pay goes on for so long (s), as a team may have all processors for one window by
-// luck.
+// Length (s) of a trial that seems to pay, because a team may have all processors for one window by chance.
 constexpr double trial = 4.0 * window;
-// Of a window in the usual cost: a single one may be slow by chance, and what is on trial seem to pay.
+// Weight of a window in the usual cost. It is small because a single window may be slow by chance, and a
+// trial would then seem to pay.
 constexpr double share_of_window = 0.25;
 
 }  // namespace
@@ -40,7 +39,7 @@ void TeamChoice::decide(double cost) {
     return;
   }
   usual_cost_ = usual_cost_ == 0.0 ? cost : (1.0 - share_of_window) * usual_cost_ + share_of_window * cost;
-  // A team that is faster than one thread has ever been needs no trial.
+  // A team faster than the fastest window of a single thread needs no trial.
   if (++settled_ <= patience_ || (in_team_ && least_alone_ > 0.0 && cost < least_alone_)) return;
   on_trial_ = true;
   turn();

@@ -1,18 +1,18 @@
 #pragma once
-/// Whether a team of threads is worth its waiting.
+/// The choice between a team of threads and a single thread.
 
 namespace talus::solver {
 
-/// Where other processes want the processors too, the members of a team wait for each other more than they
-/// help. This measures what work costs in the team and alone, and tells which is the faster at present; it
-/// begins with the team. For results that do not depend on it.
+/// Decides whether a team or a single thread is faster at present, from the measured cost of work in both. If
+/// other processes need the processors, the members of a team wait for each other more than they help. Starts
+/// with the team. Results must not depend on the choice.
 class TeamChoice {
  public:
-  /// How to do what comes next.
+  /// Whether the next work should be done by the team.
   bool in_team() const { return in_team_; }
 
-  /// Tells how long something took, s of wall time, that was done as in_team() said, and how much work it
-  /// was, in any unit of which a certain number takes a certain time.
+  /// Records the wall time, s, of work that was done as in_team() said, and its amount in any unit
+  /// proportional to time.
   void add(double seconds, double work);
 
  private:
@@ -21,11 +21,11 @@ class TeamChoice {
 
   bool in_team_ = true;
   bool on_trial_ = false;
-  double seconds_ = 0.0, work_ = 0.0;  ///< of the window under way
-  double usual_cost_ = 0.0;            ///< s for a unit of work, of late windows; none on trial
-  double least_alone_ = 0.0;           ///< the least that work has cost alone; 0: never tried
+  double seconds_ = 0.0, work_ = 0.0;  ///< time and work of the present window
+  double usual_cost_ = 0.0;            ///< s per unit of work in recent windows, trials excluded
+  double least_alone_ = 0.0;           ///< smallest cost of a single thread; 0: never tried
   int settled_ = 0;                    ///< windows since the last trial
-  int patience_ = 0;                   ///< windows from a trial to the next
+  int patience_ = 0;                   ///< windows between two trials
 };
 
 }  // namespace talus::solver
