@@ -6,13 +6,13 @@
 namespace talus::contact {
 namespace {
 
-/// Local frames (T3) of some candidates: the normal, from a to b, and the gap; the tangent is the normal
+/// Local frames (T3) of some candidates: the normal from a to b, and the gap. The tangent is the normal
 /// turned by +90 degrees.
 struct LocalFrames {
   static constexpr std::size_t most = 256;
-  double dx[most], dy[most];  ///< of grains, from a to b
+  double dx[most], dy[most];  ///< vector from the centre of a to that of b, for grains
   double nx[most], ny[most], gap[most];
-  double room[most];  ///< above 0 where the gap is below the margin
+  double room[most];  ///< positive if the gap is below the margin
 };
 
 void take_distances(const NeighbourList& list, const Grains& grains, double length, std::size_t first,
@@ -23,13 +23,13 @@ void take_distances(const NeighbourList& list, const Grains& grains, double leng
   const std::int8_t* const shift = list.pairs.shift.data() + first;
   const Index last = grains.count() - 1;
   for (std::size_t k = 0; k < count; ++k) {
-    const Index a = as[k], b = std::min(bs[k], last);  // what a plane gets is not used
+    const Index a = as[k], b = std::min(bs[k], last);  // the result for a plane is not used
     frames.dx[k] = x[b] + offset[shift[k] + 1] - x[a];
     frames.dy[k] = y[b] - y[a];
   }
 }
 
-/// All at once, so that the compiler makes several of each of the slow operations.
+/// Computes the frames of pairs of grains together, so that the compiler vectorises the slow operations.
 void frame_grains(const double* contact_distances, double margin, std::size_t count, LocalFrames& frames) {
   for (std::size_t k = 0; k < count; ++k) {
     const double dx = frames.dx[k], dy = frames.dy[k], contact_distance = contact_distances[k];
@@ -60,14 +60,14 @@ void frame_planes(const NeighbourList& list, const Grains& grains, const Boundar
   }
 }
 
-/// Writes the candidates whose gap is below the margin from `written` on, and returns where they end. Each
-/// candidate is written and then kept or not, without a branch: most are near, and the branch would be
+/// Writes the candidates whose gap is below the margin from `written` on, and returns their end. Each
+/// candidate is written and then kept or overwritten, without a branch, because a branch would be
 /// unpredictable.
 std::size_t keep_near(const NeighbourList& list, const LocalFrames& frames, std::size_t first,
                       std::size_t count, std::size_t written, Contacts& contacts) {
   const Index *const as = list.pairs.a.data() + first, *const bs = list.pairs.b.data() + first;
   const std::int8_t* const shifts = list.pairs.shift.data() + first;
-  // Copies: what is written could otherwise be the pointers themselves, for all the compiler knows.
+  // Copies, because the compiler must otherwise assume that the stores below change the pointers.
   Index *const a = contacts.a.data(), *const b = contacts.b.data();
   double *const nx = contacts.nx.data(), *const ny = contacts.ny.data(), *const gap = contacts.gap.data();
   std::int8_t* const shift = contacts.shift.data();
@@ -83,7 +83,7 @@ std::size_t keep_near(const NeighbourList& list, const LocalFrames& frames, std:
   return written;
 }
 
-/// Writes what is near of candidates first ... last - 1 from place `first` on; returns where it ends.
+/// Writes the near pairs among candidates first ... last - 1 from position `first` on; returns their end.
 std::size_t write_near(const NeighbourList& list, const Grains& grains, const Boundary& boundary,
                        double margin, std::size_t first, std::size_t last, Contacts& contacts) {
   std::size_t written = first;
@@ -99,7 +99,7 @@ std::size_t write_near(const NeighbourList& list, const Grains& grains, const Bo
   return written;
 }
 
-/// Moves what is in places first ... last - 1 down to `to` and on; returns where it ends.
+/// Moves contacts first ... last - 1 to positions from `to` on; returns their end.
 std::size_t move_down(std::size_t first, std::size_t last, std::size_t to, Contacts& contacts) {
   const auto move = [=](auto& field) {
     std::copy(field.begin() + static_cast<std::ptrdiff_t>(first),

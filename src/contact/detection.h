@@ -8,8 +8,8 @@
 namespace talus::contact {
 
 /// Writes all pairs with a gap below `margin` (m) at the present positions, sorted by key, with normals and
-/// gaps; recall_forces sets their forces. The conventions are those of Contacts. Two coincident centres get
-/// the normal (0, 1). Shared out to the team, if there is one; the result is the same.
+/// gaps in the conventions of Contacts; recall_forces sets their forces. Two coincident centres get the
+/// normal (0, 1). A team, if given, does the work together; the result is the same.
 void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& boundary, double margin,
                      Contacts& contacts, ThreadTeam* team = nullptr);
 

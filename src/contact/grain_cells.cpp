@@ -6,7 +6,8 @@
 namespace talus::contact {
 namespace {
 
-/// A position that is not a number has a cell too: the step goes on to find it and to report it.
+/// Limits a cell index to [0, count). A position of NaN gets cell 0, so that the step can detect and report
+/// it.
 Index clamped(double cell, Index count) {
   return cell > 0.0 ? static_cast<Index>(std::min(cell, static_cast<double>(count - 1))) : 0;
 }
@@ -19,7 +20,7 @@ Index row_of(const GrainCells& cells, double y) { return clamped((y - cells.y0) 
 void make_grid(const Grains& grains, const Boundary& boundary, double cell, GrainCells& cells) {
   const auto [x_min, x_max] = std::minmax_element(grains.x.begin(), grains.x.end());
   const auto [y_min, y_max] = std::minmax_element(grains.y.begin(), grains.y.end());
-  // At most a few cells per grain, however far a grain has flown.
+  // Limits the grid to a few cells per grain, however far a grain has flown.
   const double limit = std::max(16.0, 4.0 * grains.count());
   cells.periodic = boundary.periodic;
   cells.length = boundary.length;
@@ -35,7 +36,7 @@ void make_grid(const Grains& grains, const Boundary& boundary, double cell, Grai
   cells.cell_y = height / cells.rows;
 }
 
-/// Adds the grains of adjacent cells of one row, seen through a periodic shift.
+/// Adds the grains in adjacent cells of one row, displaced by a periodic shift.
 void search_row(const GrainCells& cells, const Grains& grains, Index first_cell, Index last_cell, int shift,
                 NeighbourSearch& search) {
   const Index least = search.least;
@@ -49,7 +50,7 @@ void search_row(const GrainCells& cells, const Grains& grains, Index first_cell,
     const double dx = cells.x[k] + offset - x;
     const double dy = cells.y[k] - y;
     const double limit = reach + cells.radius[k] + search.range;
-    // Written in any case and then kept or not: a branch would be unpredictable here.
+    // Written always and then kept or overwritten, because a branch would be unpredictable here.
     *end = packed(b, shift);
     end += static_cast<int>(b >= least) & static_cast<int>(dx * dx + dy * dy < limit * limit);
   }
@@ -58,7 +59,7 @@ void search_row(const GrainCells& cells, const Grains& grains, Index first_cell,
 
 }  // namespace
 
-// A counting sort.
+// Counting sort.
 void sort_into_cells(const Grains& grains, const Boundary& boundary, double cell, GrainCells& cells) {
   make_grid(grains, boundary, cell, cells);
   const auto count = static_cast<std::size_t>(cells.columns) * cells.rows;

@@ -5,12 +5,13 @@
 namespace talus::contact {
 namespace {
 
-/// Whether the pair of contact c of one list comes before that of contact d of the other.
+/// Whether the pair of contact c of one list precedes that of contact d of the other.
 bool before(const Contacts& one, Index c, const Contacts& other, Index d) {
   return one.a[c] < other.a[d] || (one.a[c] == other.a[d] && one.b[c] < other.b[d]);
 }
 
-/// The number of consecutive contacts, from c to the last and from d on, that belong to the same pairs.
+/// Returns the number of consecutive contacts, from c to the last and from d on, that belong to the same
+/// pairs.
 Index persisting(const Contacts& contacts, Index c, Index last, const Contacts& previous, Index d) {
   const Index longest = std::min(last - c, previous.count() - d);
   Index run = 0;
@@ -27,13 +28,13 @@ void copy_forces(const Contacts& previous, Index d, Index run, Contacts& contact
   if constexpr (moments) std::copy_n(previous.moment.begin() + d, run, contacts.moment.begin() + c);
 }
 
-/// The first contact from c on that does not belong to the pair of the one before it.
+/// Returns the first contact from c on whose pair differs from that of the contact before it.
 Index begin_of_pair(const Contacts& contacts, Index c) {
   while (0 < c && c < contacts.count() && !before(contacts, c - 1, contacts, c)) ++c;
   return c;
 }
 
-/// The first contact in `previous` that does not come before contact c of the other list.
+/// Returns the first contact in `previous` that does not precede contact c of the other list.
 Index first_not_before(const Contacts& previous, const Contacts& contacts, Index c) {
   Index first = 0, last = previous.count();
   while (first < last) {
@@ -46,7 +47,7 @@ Index first_not_before(const Contacts& previous, const Contacts& contacts, Index
   return first;
 }
 
-/// Contacts c ... count - 1, of whole pairs.
+/// Recalls the forces of contacts c ... count - 1, which must be complete pairs.
 template <bool moments>
 void recall(const Contacts& previous, Contacts& contacts, Index c, Index count) {
   const Index old_count = previous.count();

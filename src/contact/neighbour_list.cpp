@@ -9,15 +9,15 @@
 namespace talus::contact {
 namespace {
 
-// Parts of the skin. A grain that has moved `farthest` since its pairs were listed has them listed anew; then
-// those that have moved `far` are taken along.
+// Displacements in units of the skin. When a grain has moved by `farthest` since its pairs were listed, the
+// pairs of all grains that have moved by `far` are listed again.
 constexpr double farthest = 0.5;
 constexpr double far = 0.25;
 
 bool is_within(const NeighbourList& list, const Grains& grains, std::size_t i, double distance) {
   const double dx = grains.x[i] - list.x[i];
   const double dy = grains.y[i] - list.y[i];
-  // A grain that wrapped around the periodic edge seems to have moved far, and its shifts are stale too.
+  // A grain that wrapped around the periodic edge appears to have moved far, and its shifts are outdated too.
   return dx * dx + dy * dy <= distance * distance;
 }
 
@@ -46,8 +46,8 @@ void sort_neighbours(std::int64_t* first, std::int64_t* end) {
   }
 }
 
-/// Writes the neighbours of grains first ... last - 1 one after another, and tells where those of each grain
-/// begin, counted from the first of these grains. Returns where the last ones end.
+/// Writes the neighbours of grains first ... last - 1 one after another, and the beginning of those of each
+/// grain, counted from the first of these grains. Returns the end of the last ones.
 std::size_t find_neighbours(NeighbourList& list, const Grains& grains, const Boundary& boundary, double range,
                             std::size_t first, std::size_t last, std::vector<std::int64_t>& found) {
   const std::size_t most = most_neighbours(grains, boundary);
@@ -66,7 +66,7 @@ std::size_t find_neighbours(NeighbourList& list, const Grains& grains, const Bou
   return end;
 }
 
-/// Puts the neighbours of grains first ... last - 1 into the list. `place` is that of the first one.
+/// Copies the neighbours of grains first ... last - 1 into the list, from position `place` on.
 void list_neighbours(NeighbourList& list, const Grains& grains, std::size_t first, std::size_t last,
                      const std::vector<std::int64_t>& found, std::size_t place) {
   const std::int64_t* neighbour = found.data();
@@ -76,13 +76,13 @@ void list_neighbours(NeighbourList& list, const Grains& grains, std::size_t firs
     }
 }
 
-/// Finds all pairs up to a gap of `range`, each member of a team those of its grains.
+/// Finds all pairs up to a gap of `range`. Each member of a team finds those of its grains.
 void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& boundary, double range,
                 ThreadTeam* team) {
   const auto count = static_cast<std::size_t>(grains.free_count);
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [count, parts](std::size_t part) { return count * part / parts; };
-  // Room for all that was ever listed, so that nothing is allocated where a team comes and goes.
+  // Reserves room for the longest list so far, so that nothing is allocated if the size of the team varies.
   const std::size_t room = list.pairs.a.capacity() + most_neighbours(grains, boundary);
   if (list.found.size() < parts) list.found.resize(parts);
   for (auto& found : list.found)
@@ -113,16 +113,17 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   });
 }
 
-/// Makes cells in which pairs up to a gap of `range` can be found.
+/// Sorts the grains into cells in which pairs up to a gap of `range` can be found.
 void prepare_search(const Grains& grains, const Boundary& boundary, double range, NeighbourList& list) {
   const double largest = *std::max_element(grains.radius.begin(), grains.radius.end());
   sort_into_cells(grains, boundary, 2.0 * largest + range, list.cells);
 }
 
-/// The pairs of so many grains are listed anew; where more have moved, the whole list is.
+/// Returns the largest number of grains whose pairs are listed again; if more have moved, the entire list is
+/// built.
 std::size_t most_renewed(const Grains& grains) { return grains.x.size() / 8; }
 
-/// So that renewals allocate nothing, as a rule.
+/// Reserves memory, so that renewals usually allocate nothing.
 void make_room_for_renewals(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
   const std::size_t pairs = list.pairs.count();
   list.moved.reserve(most_renewed(grains) + 1);
@@ -133,10 +134,10 @@ void make_room_for_renewals(NeighbourList& list, const Grains& grains, const Bou
 
 void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
              ThreadTeam* team) {
-  list.x.clear();  // holds no pair of any grain, should memory be missing
+  list.x.clear();  // marks the list as empty, in case an allocation fails
   list.pairs.resize(0);
   if (grains.count() == 0) return;
-  // Doubling the skin halves how often grains reach its half, and adds 5 % of candidates.
+  // Doubling the skin would halve the frequency of updates, and add 5 % of candidates.
   list.skin = 0.2 * *std::max_element(grains.radius.begin(), grains.radius.end());
   list.reach = reach;
   const double range = list.reach + list.skin;
@@ -149,12 +150,12 @@ void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary
   ++list.rebuilds;
 }
 
-/// Free grains that have arrived come behind those that there were: bodies behind them have other numbers
-/// now, and they themselves were nowhere.
+/// Inserts arrived free grains after the existing ones: the numbers of bodies after them increase, and their
+/// former positions are NaN.
 void let_in_arrivals(NeighbourList& list, const Grains& grains) {
   const Index first = list.free_count, arrived = grains.free_count - first;
   if (arrived == 0) return;
-  for (auto* field : {&list.x, &list.y})  // both, or none of them, should memory be missing
+  for (auto* field : {&list.x, &list.y})  // reserves for both first, in case an allocation fails
     if (field->capacity() < grains.x.size()) field->reserve(2 * grains.x.size());
   for (auto* field : {&list.x, &list.y})
     field->insert(field->begin() + first, static_cast<std::size_t>(arrived),
@@ -164,16 +165,16 @@ void let_in_arrivals(NeighbourList& list, const Grains& grains) {
   list.free_count = grains.free_count;
 }
 
-/// Whether the list is that of these grains, but for some that have arrived since, and as wide as it should
-/// be, but not so wide that it holds many pairs in vain.
+/// Whether the list belongs to these grains, except some that have arrived since, and is wide enough, but not
+/// so wide that it contains many useless pairs.
 bool fits(const NeighbourList& list, const Grains& grains, double reach) {
   const auto arrived = static_cast<std::ptrdiff_t>(grains.x.size() - list.x.size());
   return !list.x.empty() && arrived >= 0 && arrived == grains.free_count - list.free_count &&
          reach <= list.reach && list.reach + list.skin <= 1.5 * (reach + list.skin);
 }
 
-/// Finds the grains whose pairs have to be listed anew, and with them those that soon would. False where they
-/// are too many for that to pay.
+/// Finds the grains whose pairs must be listed again, and those whose pairs soon would be. Returns false if
+/// they are too many for this to pay.
 bool find_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
   const std::size_t most = most_renewed(grains);
   list.has_moved.assign(grains.x.size() + boundary.planes.size(), 0);
@@ -187,8 +188,8 @@ bool find_moved(NeighbourList& list, const Grains& grains, const Boundary& bound
   return true;
 }
 
-/// The pairs of the grains that have moved, sorted by key. The other grain of a pair may be `far` from where
-/// it was when its own were listed, and go as far as it may to the other side.
+/// Lists the pairs of the grains that have moved, sorted by key. The range allows for the other grain of a
+/// pair: it may be `far` from its listed position, and then move by `farthest` in the opposite direction.
 void search_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
   const double range = list.reach + (farthest + far + farthest) * list.skin;
   prepare_search(grains, boundary, range, list);
@@ -204,7 +205,7 @@ void search_moved(NeighbourList& list, const Grains& grains, const Boundary& bou
       const std::int8_t shift = shift_of(*neighbour);
       if (other > grain)
         list.renewed.emplace_back(grain, other, shift);
-      else if (!list.has_moved[other])  // else it has found this one, or is the grain itself
+      else if (!list.has_moved[other])  // otherwise the other grain lists this pair, or is the grain itself
         list.renewed.emplace_back(other, grain, static_cast<std::int8_t>(-shift));
     }
   }
@@ -223,7 +224,7 @@ void append(const CandidatePairs& from, std::size_t first, std::size_t last, Can
   add(from.contact_distance, to.contact_distance);
 }
 
-/// The list without the pairs of the grains that have moved, and with those that were found.
+/// Replaces the pairs of the grains that have moved by those that were found.
 void merge_renewed(NeighbourList& list, const Grains& grains) {
   const CandidatePairs& old = list.pairs;
   CandidatePairs& next = list.next;

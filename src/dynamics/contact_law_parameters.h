@@ -1,17 +1,17 @@
 #pragma once
-/// The parameters of the contact law.
+/// Parameters of the contact law.
 
 namespace talus::dynamics {
 
 struct ContactLawParameters {
-  double friction = 0.5;                ///< mu between grains, and with the floor
+  double friction = 0.5;                ///< mu between grains, and between grains and floor
   double wall_friction = 0.5;           ///< mu with the side walls
-  double rolling_friction = 0.0;        ///< mu_r between grains, and with the floor; walls have none
+  double rolling_friction = 0.0;        ///< mu_r between grains, and between grains and floor; 0 at walls
   double restitution = 0.0;             ///< e_n: U_n+ = -e_n U_n- (Newton)
-  double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a contact that sticks
-  double allowed_overlap = 0.0;         ///< m: overlaps up to this stay as they are
-  double overlap_correction = 0.05;     ///< share of what an overlap is above the allowed, taken back in each
-                                        ///< step, or less (T11)
+  double tangential_restitution = 0.0;  ///< e_t: U_t+ = -e_t U_t- of a sticking contact
+  double allowed_overlap = 0.0;         ///< m; smaller overlaps are not corrected
+  double overlap_correction = 0.05;  ///< largest share of the excess of an overlap over the allowed one that
+                                     ///< is removed in a step (T11)
 };
 
 }  // namespace talus::dynamics

@@ -36,7 +36,7 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) cons
   const double highest = std::min(from, bottom_of(rows_ + 1));
   for (Index row = std::min(row_of(highest), rows_ - 1); row >= 0; --row) {
     visit_rows(row, row, x - reach, x + reach, meet);
-    if (touch.height >= bottom_of(row) + reach) break;  // no disc of a lower row can hold a grain as high
+    if (touch.height >= bottom_of(row) + reach) break;  // no disc of a lower row can stop a grain this high
   }
   return touch;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Discs by where they are, so that a grain that falls or rolls among them meets only those near it.
+/// Discs sorted by position, so that a falling or rolling grain is compared only with nearby ones.
 
 #include <algorithm>
 #include <cmath>
@@ -16,18 +16,20 @@ struct PlacedDisc {
   double x = 0.0, y = 0.0, radius = 0.0;
 };
 
-/// Discs in square cells as wide as the largest of them. A periodic bed is longer than four cells.
+/// A grid of discs in square cells as wide as the largest disc. A periodic bed must be longer than four
+/// cells.
 class DiscGrid {
  public:
   static constexpr Index none = -1;
 
-  /// What a falling grain touches first.
+  /// First contact of a falling grain.
   struct Touch {
-    double height = -std::numeric_limits<double>::infinity();  ///< m, of the centre of the grain
-    Index disc = none;                                         ///< none: the plane floor
+    double height = -std::numeric_limits<double>::infinity();  ///< m, height of the centre of the grain
+    Index disc = none;  ///< disc that is touched; none: the plane floor
   };
 
-  /// `largest`: the largest diameter of a disc, m. No disc has its centre lower than one diameter below 0.
+  /// Creates a grid for discs with diameters up to `largest`, m. No centre may be more than `largest` below
+  /// 0.
   DiscGrid(const Boundary& boundary, double largest);
 
   void add(const PlacedDisc& disc);
@@ -35,15 +37,16 @@ class DiscGrid {
   const Boundary& boundary() const { return boundary_; }
   double largest_radius() const { return 0.5 * height_; }
 
-  /// From one x to another, the shorter way round in a periodic bed, m.
+  /// Returns the distance from one x to another, m; in a periodic bed the shorter one.
   double separation(double from, double to) const {
     return boundary_.periodic ? std::remainder(to - from, boundary_.length) : to - from;
   }
 
-  /// What a grain that falls along x from the height `from` touches first, of the discs with a lower centre.
+  /// Returns the first contact of a grain that falls along x from the height `from`, with discs whose centres
+  /// are lower.
   Touch first_touch(double x, double radius, double from) const;
 
-  /// Calls visit(disc) for each disc with its centre in a rectangle, and for some that lie near it.
+  /// Calls visit(disc) for each disc with its centre in a rectangle, and for some discs near it.
   template <typename Visit>
   void visit(Vec2 low, Vec2 high, Visit visit) const {
     visit_rows(std::max<Index>(0, row_of(low.y)), std::min(row_of(high.y), rows_ - 1), low.x, high.x, visit);
@@ -74,7 +77,7 @@ class DiscGrid {
   }
 
   Boundary boundary_;
-  double height_ = 0.0, width_ = 0.0;  ///< of a cell, m
+  double height_ = 0.0, width_ = 0.0;  ///< size of a cell, m
   Index columns_ = 1, rows_ = 0;
   std::vector<PlacedDisc> discs_;
   std::vector<std::vector<Index>> cells_;

@@ -6,7 +6,7 @@
 namespace talus::dynamics {
 namespace {
 
-/// Contacts first ... last - 1: what one of those who form a problem together sees to.
+/// Contacts first ... last - 1, the part of one member of a team.
 struct Part {
   std::size_t first, last;
 };
@@ -20,7 +20,7 @@ void fill(std::vector<double>& values, Part part, double value) {
   std::fill(values.data() + part.first, values.data() + part.last, value);
 }
 
-/// With room for the planes, which never move.
+/// Sizes the arrays of bodies, including the planes, which never move.
 void size_bodies(const World& world, solver::ContactProblem& problem) {
   const auto grains = static_cast<std::size_t>(world.grains.count());
   for (auto* field : {&problem.vx, &problem.vy, &problem.omega, &problem.inverse_mass,
@@ -30,7 +30,7 @@ void size_bodies(const World& world, solver::ContactProblem& problem) {
   }
 }
 
-/// Free velocities, and what the diagonal of the Delassus operator is made of (T8).
+/// Copies the grains: free velocities, and the masses, inertias and radii of the Delassus operator (T8).
 void take_grains(const World& world, double h, solver::ContactProblem& problem) {
   const Grains& grains = world.grains;
   const Part all{0, static_cast<std::size_t>(grains.count())};
@@ -49,7 +49,7 @@ void take_grains(const World& world, double h, solver::ContactProblem& problem) 
   copy(grains.radius, all, problem.lever);
 }
 
-/// How many columns a bed with so many contacts has.
+/// Returns the number of columns of a bed with this number of contacts.
 Index columns_of(const World& world, Index contacts) {
   constexpr Index contacts_for_columns = 24'000;
   constexpr double width_of_column = 4.0;  // in diameters of the largest grain
@@ -70,7 +70,7 @@ void take_columns(const World& world, solver::ContactProblem& problem) {
   const std::vector<double>& x = world.grains.x;
   const double last = problem.columns - 1.0, columns_per_metre = problem.columns / world.boundary.length;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    // A position that is not a number has a column too: the step goes on to find it and to report it.
+    // A position of NaN gets column 0, so that the step can detect and report it.
     const double at = x[i] * columns_per_metre;
     problem.column[i] = at > 0.0 ? static_cast<Index>(std::min(at, last)) : 0;
   }
@@ -78,7 +78,7 @@ void take_columns(const World& world, solver::ContactProblem& problem) {
             0);  // planes
 }
 
-/// Not by assignments, which would allocate for each contact more than ever before.
+/// Sizes the arrays of contacts. Assignments would allocate each time that the number of contacts grows.
 void size_contacts(const Contacts& contacts, const ContactLawParameters& law,
                    solver::ContactProblem& problem) {
   const std::size_t count = contacts.a.size();
@@ -94,7 +94,7 @@ void take_local_frames(const Contacts& contacts, Part part, solver::ContactProbl
   copy(contacts.ny, part, problem.ny);
 }
 
-/// Relative velocity at contact c before the step.
+/// Returns the relative velocity at contact c before the step.
 solver::RelativeVelocity velocity_before(const Grains& grains, const Contacts& contacts, Index c) {
   const Index a = contacts.a[c];
   const Index b = contacts.b[c];
@@ -111,7 +111,8 @@ double free_normal_velocity(const solver::ContactProblem& problem, Index c) {
   return (problem.vx[b] - problem.vx[a]) * problem.nx[c] + (problem.vy[b] - problem.vy[a]) * problem.ny[c];
 }
 
-/// The error of an impulse that the tolerance of a solve allows: so much of the rms of the remembered ones.
+/// Returns the error of an impulse that the tolerance of a solve allows: the tolerance times the rms of the
+/// remembered impulses.
 double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
   double sum = 0.0;
   Index bearing = 0;
@@ -123,15 +124,15 @@ double impulse_of_noise(const Contacts& contacts, double h, double tolerance) {
   return bearing > 0 ? tolerance * h * std::sqrt(sum / bearing) : 0.0;
 }
 
-/// (T11). A gap or an overlap of a contact that bears load is an error of the solver. To take all of them
-/// back at once would ask closed loops of contacts for velocities that no motion of rigid bodies has: forces
-/// would drift along self-stresses, and the solve would not end. So they are taken back no faster than they
-/// arise.
+/// Sets c_n by (T11). A gap or an overlap of a contact that bears load is an error of the solver. Correcting
+/// all of them at once would demand velocities of closed loops of contacts that no motion of rigid bodies
+/// has: forces would drift along self-stresses, and the solve would not converge. They are therefore
+/// corrected no faster than they arise.
 void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& law, double h, double noise,
                         Part part, solver::ContactProblem& problem) {
   const double allowed = law.allowed_overlap, share = law.overlap_correction;
-  // What exceeds these is more than noise. Gaps are seldom noise: they also open where grains move past each
-  // other.
+  // Larger gaps and overlaps are not noise. The limit of gaps is small, because gaps also open when grains
+  // move past each other.
   const double gap_of_noise = 0.05 * allowed, overlap_of_noise = 10.0 * allowed;
   for (std::size_t c = part.first; c < part.last; ++c) {
     const double gap = contacts.gap[c], overlap = -gap;
@@ -149,7 +150,7 @@ void set_gap_velocities(const Contacts& contacts, const ContactLawParameters& la
   }
 }
 
-/// (T12)
+/// Applies restitution (T12).
 void set_restitution(const World& world, const Contacts& contacts, const ContactLawParameters& law, double h,
                      solver::ContactProblem& problem) {
   for (Index c = 0; c < contacts.count(); ++c) {
@@ -174,7 +175,7 @@ void set_friction(const World& world, const Contacts& contacts, const ContactLaw
     if (touches_wall(world, contacts, c)) problem.mu[c] = law.wall_friction;
 }
 
-/// Side walls do not resist rolling.
+/// Sets mu_r. Side walls do not resist rolling.
 void set_rolling_friction(const World& world, const Contacts& contacts, const ContactLawParameters& law,
                           Part part, solver::ContactProblem& problem) {
   if (law.rolling_friction == 0.0) return;

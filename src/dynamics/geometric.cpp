@@ -6,7 +6,7 @@
 namespace talus::dynamics {
 namespace {
 
-/// Floor and walls, of which the floor's grains are in the grid.
+/// Returns a grid with the floor's grains and the boundary.
 DiscGrid grid_of(const World& floor, double largest) {
   DiscGrid grid(floor.boundary, largest);
   for (Index i = 0; i < floor.grains.count(); ++i)

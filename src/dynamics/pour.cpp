@@ -7,20 +7,21 @@
 namespace talus::dynamics {
 namespace {
 
-/// Of the disks of `grains`, the height at which one that falls along x touches first, m; -infinity: none.
+/// Returns the height, m, at which a disk that falls along x first touches one of `grains`; -infinity if
+/// none.
 double first_touch(const Grains& grains, const Boundary& boundary, double x, double radius) {
   double height = -std::numeric_limits<double>::infinity();
   const double half = boundary.periodic ? 0.5 * boundary.length : std::numeric_limits<double>::infinity();
   for (Index i = 0; i < grains.count(); ++i) {
     double dx = std::fabs(grains.x[i] - x);
-    if (dx > half) dx = boundary.length - dx;  // the shorter way round
+    if (dx > half) dx = boundary.length - dx;  // across the periodic edge
     const double distance = radius + grains.radius[i];
     if (dx < distance) height = std::max(height, grains.y[i] + std::sqrt(distance * distance - dx * dx));
   }
   return height;
 }
 
-/// The same of the floor, if that is a plane.
+/// Returns the height at which a disk first touches the floor, if that is a plane.
 double first_touch(const std::vector<Plane>& planes, double radius) {
   double height = -std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes)
@@ -28,7 +29,7 @@ double first_touch(const std::vector<Plane>& planes, double radius) {
   return height;
 }
 
-/// Puts free grains behind those that there are, before the floor's.
+/// Inserts free grains after the existing ones, before those of the floor.
 void insert_free_grains(const Grains& arrived, Grains& grains) {
   const Index first = grains.free_count;
   const auto insert = [first](auto& to, const auto& from) {
@@ -75,7 +76,7 @@ void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double 
   Grains arrived;
   for (Index i = first; i < due; ++i) {
     const auto [radius, x] = arrivals[static_cast<std::size_t>(i)];
-    // Those that arrive together meet each other too.
+    // Grains that arrive together can touch each other too.
     const double touch = std::max({first_touch(world.boundary.planes, radius),
                                    first_touch(world.grains, world.boundary, x, radius),
                                    first_touch(arrived, world.boundary, x, radius)});
@@ -83,7 +84,7 @@ void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double 
     arrived.vy[grain] = -rule.speed;
   }
   insert_free_grains(arrived, world.grains);
-  for (Index& body : world.contacts.b)  // a is a free grain always
+  for (Index& body : world.contacts.b)  // a is always a free grain
     if (body >= first) body += arrived.count();
 }
 

@@ -9,11 +9,11 @@
 namespace talus::dynamics {
 namespace {
 
-constexpr int rounds = 2000;  // of contacts that are found anew
+constexpr int rounds = 2000;  // each with another detection of contacts
 constexpr int sweeps_in_a_round = 10;
-constexpr double margin_over_radius = 0.05;  // how near grains are that may come to overlap in a round
+constexpr double margin_over_radius = 0.05;  // gap of pairs that may begin to overlap in a round
 
-/// One round: moves grains by the overlaps as they change, and returns the deepest one that it began with.
+/// Makes one round: moves grains by their overlaps, and returns the deepest overlap before the round.
 double push_overlaps(World& world, const Contacts& contacts, double allowed, std::vector<Vec2>& moved) {
   if (contacts.gap.empty()) return 0.0;
   const double deepest = -std::ranges::min(contacts.gap);
@@ -38,7 +38,8 @@ double push_overlaps(World& world, const Contacts& contacts, double allowed, std
     grains.y[i] += way[k].y;
     const double length = world.boundary.length;
     if (world.boundary.periodic) grains.x[i] -= length * std::floor(grains.x[i] / length);
-    if (world.boundary.periodic && grains.x[i] >= length) grains.x[i] = 0.0;  // rounded up from below 0
+    if (world.boundary.periodic && grains.x[i] >= length)
+      grains.x[i] = 0.0;  // a value just below 0 was rounded up to the period
   }
   return deepest;
 }

@@ -7,29 +7,30 @@
 namespace talus::dynamics {
 namespace {
 
-constexpr int most_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains takes some hundreds
+constexpr int most_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains needs some hundreds
 
-/// A grain on a disc. Its centre moves on a circle about that of the disc, from `direction` down to the
-/// equator. All positions are relative to that centre: they are as exact far from the origin as near it.
+/// A grain rolling on a disc. Its centre moves on a circle about that of the disc, from `direction` down to
+/// the equator. Positions are relative to the centre of the disc, so that they are equally precise
+/// everywhere.
 struct Roll {
   Index on = DiscGrid::none;
-  double reach = 0.0;  ///< m, radius of the circle: those of disc and grain
+  double reach = 0.0;  ///< m, radius of the circle, the sum of the radii of disc and grain
   Vec2 direction;      ///< unit, from the centre of the disc to that of the grain
-  double side = 1.0;   ///< of the disc on which the grain rolls down: 1 right, -1 left
+  double side = 1.0;   ///< side of the disc on which the grain rolls down: 1 right, -1 left
 };
 
-/// Where on its circle the rolling grain meets something.
+/// Point of its circle at which the rolling grain touches another body.
 struct Stop {
   Vec2 direction;
-  Index disc = DiscGrid::none;  ///< none: a wall or the plane floor
-  bool holds = true;            ///< from the other side; else the grain rolls on over the disc
+  Index disc = DiscGrid::none;  ///< disc that is touched; none: a wall or the plane floor
+  bool holds = true;            ///< whether the body stops the grain; else the grain continues over the disc
 };
 
 double component(double other) { return std::sqrt(std::max(0.0, (1.0 - other) * (1.0 + other))); }
 
 double square(Vec2 v) { return v.x * v.x + v.y * v.y; }
 
-/// Whether a rolling grain gets to `first` before `second`, or both are the same.
+/// Whether a rolling grain reaches `first` before `second`, or both are equal.
 bool is_before(Vec2 first, Vec2 second, double side) {
   return side * (first.x * second.y - first.y * second.x) <= 0.0;
 }
@@ -41,19 +42,19 @@ class Path {
   Vec2 end() {
     for (int move = 0; move < most_moves; ++move)
       if (const std::optional<Vec2> place = roll_ ? go_on_rolling() : fall()) return *place;
-    throw Error(ExitCode::internal, "a grain that is set down rolls without end");
+    throw Error(ExitCode::internal, "the position of rest of a grain was not found");
   }
 
  private:
   double reach(Index disc) const { return grain_.radius + bed_[disc].radius; }
 
-  /// The centre of the grain, in a direction from that of a disc.
+  /// Returns the centre of the grain in a direction from that of a disc.
   Vec2 place(Index disc, Vec2 direction) const {
     double x = bed_[disc].x + reach(disc) * direction.x;
     const Boundary& boundary = bed_.boundary();
     if (boundary.periodic) {
       x -= boundary.length * std::floor(x / boundary.length);
-      if (x >= boundary.length) x = 0.0;  // the step back from just below 0 rounds up to the period
+      if (x >= boundary.length) x = 0.0;  // a value just below 0 was rounded up to the period
     }
     return {x, bed_[disc].y + reach(disc) * direction.y};
   }
@@ -111,8 +112,8 @@ class Path {
     return first;
   }
 
-  /// The circles on which the centre stays in touch with both discs cross where it is at cos(alpha) along the
-  /// line between them: it gets there on the side it comes from.
+  /// Returns the stop of the grain at another disc. The circles on which its centre touches each of the discs
+  /// intersect at the angle alpha to the line between their centres, on the side from which the grain comes.
   std::optional<Stop> stop_at_disc(const Roll& roll, Index disc) const {
     const Vec2 to_disc = from_to(roll.on, disc);
     const double distance = std::sqrt(square(to_disc)), other = reach(disc);
@@ -133,8 +134,8 @@ class Path {
            is_before(roll.direction, direction, roll.side);
   }
 
-  /// Whether the grain touches a disc already, towards which it rolls: it should have stopped where they
-  /// meet, and has gone past by round-off, which grows to its root where circles graze.
+  /// Whether the grain already touches a disc towards which it rolls: it has passed the point of contact by
+  /// round-off, which is magnified to its square root if the circles are nearly tangent.
   static bool is_touching(const Roll& roll, Vec2 to_disc, Vec2 meeting) {
     constexpr double round_off = 1e-5;
     const Vec2 here = roll.direction;
@@ -159,9 +160,9 @@ class Path {
 
   const DiscGrid& bed_;
   const FallingGrain& grain_;
-  double x_;                                                 ///< m, where the grain falls
-  double height_ = std::numeric_limits<double>::infinity();  ///< m, from where
-  std::optional<Roll> roll_;                                 ///< none while it falls
+  double x_;                                                 ///< m, position at which the grain falls
+  double height_ = std::numeric_limits<double>::infinity();  ///< m, height from which it falls
+  std::optional<Roll> roll_;                                 ///< empty while it falls
 };
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace talus::dynamics {
 namespace {
 
-/// Adds the wall time between its calls to the stages.
+/// Adds the wall time between its calls to the stages of a step.
 class StageClock {
  public:
   explicit StageClock(StageSeconds& seconds) : seconds_(seconds), last_(Clock::now()) {}
@@ -38,7 +38,7 @@ void advance(std::vector<double>& position, const std::vector<double>& velocity,
   for (std::size_t i = first; i < last; ++i) position[i] += duration * velocity[i];
 }
 
-/// Whether all x are in [0, length), as they are in nearly every step.
+/// Whether all x are in [0, length), which is true in nearly every step.
 bool are_wrapped(const Grains& grains, double length, std::size_t first, std::size_t last) {
   std::int64_t within = 0;  // as wide as a double, so that the comparisons vectorise
   for (std::size_t i = first; i < last; ++i)
@@ -46,7 +46,7 @@ bool are_wrapped(const Grains& grains, double length, std::size_t first, std::si
   return within == static_cast<std::int64_t>(last - first);
 }
 
-/// Brings x back to [0, length).
+/// Wraps x into [0, length).
 void wrap(Grains& grains, double length) {
   for (Index i = 0; i < grains.free_count; ++i) {
     while (grains.x[i] < 0.0) {
@@ -60,7 +60,7 @@ void wrap(Grains& grains, double length) {
   }
 }
 
-/// Moves some free grains along their present velocities, (T2) and (T17). Returns whether x is still in
+/// Moves some free grains along their present velocities, (T2) and (T17). Returns whether all x are still in
 /// [0, length) of a periodic bed.
 bool advance_positions(Grains& grains, const Boundary& boundary, double duration, std::size_t first,
                        std::size_t last) {
@@ -70,8 +70,8 @@ bool advance_positions(Grains& grains, const Boundary& boundary, double duration
   return !boundary.periodic || are_wrapped(grains, boundary.length, first, last);
 }
 
-/// Where a grain has passed the periodic edge since `image` was taken, its contacts see each other from
-/// there: b touches a from x_b + shift L.
+/// Updates the shifts of contacts, by which b touches a from x_b + shift L, for grains that have passed the
+/// periodic edge since `image` was recorded.
 void follow_images(const Grains& grains, const std::vector<Index>& image, Contacts& contacts) {
   const auto passed = [&grains, &image](Index i) { return grains.image[i] - image[i]; };
   for (Index c = 0; c < contacts.count(); ++c)
@@ -80,7 +80,7 @@ void follow_images(const Grains& grains, const std::vector<Index>& image, Contac
           static_cast<std::int8_t>(contacts.shift[c] + passed(contacts.b[c]) - passed(contacts.a[c]));
 }
 
-/// Of some free grains; the others never move.
+/// Copies the positions of some free grains; the others never move.
 void copy_positions(const Grains& from, std::size_t first, std::size_t last, Grains& to) {
   const auto copy = [first, last](const auto& values, auto& copies) {
     std::copy(values.data() + first, values.data() + last, copies.data() + first);
@@ -93,7 +93,7 @@ void copy_positions(const Grains& from, std::size_t first, std::size_t last, Gra
 
 std::size_t free_grains(const World& world) { return static_cast<std::size_t>(world.grains.free_count); }
 
-/// To the midpoint (T2). `before` gets where the free grains were.
+/// Moves the grains to the midpoint (T2) and stores their positions in `before`.
 void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
   const std::size_t count = free_grains(world);
   for (auto* field : {&before.x, &before.y, &before.angle}) field->resize(count);
@@ -106,8 +106,8 @@ void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
   if (!within) wrap(world.grains, world.boundary.length);
 }
 
-/// From the midpoint to the end of the step (T17), along the velocities of the solution. `image` is memory to
-/// work in.
+/// Moves the grains from the midpoint to the end of the step (T17), along the velocities of the solution.
+/// `image` is working memory.
 void end_motion(const solver::ContactSolution& solution, World& world, double h, ThreadTeam* team,
                 std::vector<Index>& image) {
   Grains& grains = world.grains;
@@ -124,7 +124,8 @@ void end_motion(const solver::ContactSolution& solution, World& world, double h,
   follow_images(grains, image, world.contacts);
 }
 
-/// The largest of some values, not less than 0, in four strands: one would wait for each comparison.
+/// Returns the largest of some values, at least 0, in four strands, because a single one would wait for each
+/// comparison.
 template <typename Value>
 double largest(std::size_t first, std::size_t last, const Value& value) {
   std::array<double, 4> strand{};
@@ -158,7 +159,7 @@ double largest_overlap(const Contacts& contacts) {
                  [&contacts](std::size_t c) { return -contacts.gap[c]; });
 }
 
-/// The first guess of the solve: the forces that persist from the last step, times h (T18).
+/// Computes the first guess of the solve: the forces that persist from the last step, times h (T18).
 void guess_impulses(const Contacts& contacts, double h, const solver::ContactProblem& problem,
                     ThreadTeam* team, solver::ContactSolution& solution) {
   const auto count = static_cast<std::size_t>(contacts.count());
@@ -175,7 +176,7 @@ void guess_impulses(const Contacts& contacts, double h, const solver::ContactPro
     solution.pr[c] = contacts.moment[c] * h / solver::rolling_length(problem, static_cast<Index>(c));
 }
 
-/// As mean forces over the step, so that a change of h keeps the memory (T18).
+/// Stores the impulses as mean forces over the step, so that the memory remains valid if h changes (T18).
 void store_impulses(const solver::ContactProblem& problem, const solver::ContactSolution& solution, double h,
                     ThreadTeam* team, Contacts& contacts) {
   share_out(team, solution.pn.size(), [&](std::size_t first, std::size_t last) {
@@ -205,7 +206,8 @@ bool finite(const solver::ContactSolution& solution, ThreadTeam* team) {
   return all;
 }
 
-/// `least` times the smallest power of two that makes it `value` or more; `value` where there is none.
+/// Returns `least` times the smallest power of two that gives at least `value`; `value` itself if their ratio
+/// is not finite.
 double doubled_until(double least, double value) {
   const double ratio = value / least;
   if (!std::isfinite(ratio)) return value;
@@ -214,10 +216,10 @@ double doubled_until(double least, double value) {
   return std::ldexp(least, mantissa > 0.5 ? exponent : exponent - 1);
 }
 
-/// The gap up to which pairs are listed, m. Two grains can approach by twice the largest velocity, to which
-/// gravity adds g h within the step. A gap that followed the fastest grain would let other pairs in and out
-/// in nearly every step, and each new list of contacts has to be linked and ordered anew; so it changes by
-/// doubling only.
+/// Returns the gap up to which pairs are contacts, m. Two grains can approach each other at twice the largest
+/// velocity, to which gravity adds g h within the step. The gap changes by doubling only, because one that
+/// follows the fastest grain would add and remove pairs in nearly every step, and each change of the list of
+/// contacts requires linking and ordering it again.
 double detection_margin(const World& world, const StepSettings& settings, ThreadTeam* team) {
   const double approach =
       2.0 * settings.h * (largest_velocity(world.grains, team) + world.gravity * settings.h);

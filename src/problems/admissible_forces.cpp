@@ -16,12 +16,12 @@
 namespace talus::problems {
 namespace {
 
-/// Exponentially distributed with mean 1, by comparisons of uniform numbers alone (von Neumann 1951): the
-/// same bits everywhere, which a logarithm of the library would not promise.
+/// Returns a number exponentially distributed with mean 1, by comparisons of uniform numbers (von Neumann
+/// 1951). Unlike a library's logarithm, this gives the same bits on every platform.
 double exponential(Random& random) {
   for (double whole = 0.0;; whole += 1.0) {
     const double first = random.uniform();
-    bool odd = true;  // length of the descending run
+    bool odd = true;  // whether the length of the descending run is odd
     double last = first;
     for (double next = random.uniform(); next < last; next = random.uniform()) {
       last = next;
@@ -31,7 +31,7 @@ double exponential(Random& random) {
   }
 }
 
-/// By which a start takes what a contact remembers.
+/// Returns the factor by which a start multiplies the remembered force of a contact.
 double factor_of_memory(ForceStart start, Random& random) {
   switch (start) {
     case ForceStart::stored:
@@ -58,7 +58,7 @@ double mean_normal_impulse(const solver::ContactSolution& solution) {
   return carrying > 0 ? sum / carrying : 0.0;
 }
 
-/// The problem with its contacts in another order: contact c of the result is contact order[c].
+/// Returns the problem with its contacts in another order: contact c of the result is contact order[c].
 solver::ContactProblem reordered(const solver::ContactProblem& problem,
                                  const std::vector<std::size_t>& order) {
   solver::ContactProblem result = problem;
@@ -114,7 +114,7 @@ solver::SolverReport search_on(const solver::ContactProblem& problem, ForceMetho
   return solve_shuffled(problem, settings, random, workspace, solution);
 }
 
-/// Free grains with a velocity above `limit`, m/s.
+/// Returns the number of free grains with a velocity above `limit`, m/s.
 Index count_faster(const solver::ContactSolution& solution, Index free_count, double limit) {
   Index count = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i) {
@@ -141,7 +141,7 @@ std::vector<ForceQuantity> quantities_of(const analysis::AnalysisParameters& par
   return quantities;
 }
 
-/// Measures frames one after the other.
+/// Measures the quantities of frames.
 class Measurement {
  public:
   Measurement(const RunStatics& statics, const analysis::AnalysisParameters& parameters, double theta_c)
@@ -155,7 +155,7 @@ class Measurement {
                   "the slope has not failed, so Gamma_c is not known; give it with --set gamma_c=0.3");
   }
 
-  /// In the order of quantities_of.
+  /// Returns the values of a frame in the order of quantities_of.
   std::vector<double> of(Frame frame) const {
     const analysis::FrameRecord record = analysis::analyse_frame(
         {analysis::with_analysed_gamma(std::move(frame), statics_, parameters_), statics_}, parameters_,
@@ -170,7 +170,7 @@ class Measurement {
  private:
   const RunStatics& statics_;
   const analysis::AnalysisParameters& parameters_;
-  analysis::Analysis analysis_;  ///< of no frames: thresholds and the cut
+  analysis::Analysis analysis_;  ///< thresholds and cut of l_c, without frames
 };
 
 ForceSpread spread_of(std::size_t quantity, const std::vector<ForceSet>& sets) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Contact problems as files that other solvers read and write: local problems of FCLIB, the Friction Contact
-/// Library, in two dimensions (docs/problem_files.md).
+/// Contact problems in files that other solvers read and write: two-dimensional local problems of FCLIB, the
+/// Friction Contact Library (docs/problem_files.md).
 
 #include <map>
 #include <string>
@@ -11,35 +11,35 @@
 
 namespace talus::problems {
 
-/// What a problem file holds. Vectors of unknowns are (n, t) of contact 0, (n, t) of contact 1, ...
+/// Contents of a problem file. Vectors of unknowns are (n, t) of contact 0, (n, t) of contact 1, ...
 struct FclibProblem {
   std::string title;
 
-  std::vector<Index> row, column;  ///< of the entries of W
-  std::vector<double> value;       ///< of the entries of W, 1/kg
+  std::vector<Index> row, column;  ///< position of each entry of W
+  std::vector<double> value;       ///< value of each entry of W, 1/kg
   std::vector<double> q;           ///< m/s
   std::vector<double> mu;
-  std::vector<double> guess_r;  ///< N s; empty where the file has no guess
+  std::vector<double> guess_r;  ///< N s; empty if the file has no guess
 
-  /// Data sets of Talus' own by their paths, /talus/...; empty in files of other programs.
+  /// Data sets specific to Talus by their paths, /talus/...; empty in files of other programs.
   std::map<std::string, std::vector<double>> reals;
   std::map<std::string, std::vector<Index>> integers;
 };
 
-/// Writes a problem with its guess and what belongs to it; entries of W are sorted by row. The file appears
-/// whole or not at all. `guess_u` is W guess_r + q.
+/// Writes a problem with its guess and additional data sets; entries of W are sorted by row. The file appears
+/// complete or not at all. `guess_u` is W guess_r + q.
 void write_fclib(const std::string& path, const FclibProblem& problem, const std::vector<double>& guess_u);
 
-/// Reads and checks a problem of any program. Throws Error(missing_input) where the file cannot be opened,
-/// and Error(bad_data), naming the data set, where it is no problem in two dimensions, or is not whole,
-/// finite and of sizes that fit.
+/// Reads and checks a problem of any program. Throws Error(missing_input) if the file cannot be opened, and
+/// Error(bad_data), naming the data set, if it is not a two-dimensional problem, is incomplete or not finite,
+/// or has inconsistent sizes.
 FclibProblem read_fclib(const std::string& path);
 
-/// The problem in the arrays of a file called `path`; throws as read_fclib does.
+/// Returns the problem in the arrays of a file called `path`. Throws the errors of read_fclib.
 FclibProblem checked_problem(const std::string& path, const io::Parcels& found);
 
-/// Writes a copy of the problem file `from` to `to`, with r and u as its /solution, in place of one that it
-/// has. `to` appears whole or not at all, and may be `from`.
+/// Writes a copy of the problem file `from` to `to`, with r and u as its /solution, replacing an existing
+/// one. `to` appears complete or not at all, and may be `from`.
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u);
 

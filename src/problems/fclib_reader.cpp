@@ -12,15 +12,16 @@
 namespace talus::problems {
 namespace {
 
-/// A problem file of any program, as far as it is known to be one of numbers.
+/// The numerical data sets of a problem file of any program, with checks.
 class FclibFile {
  public:
   FclibFile(std::string path, const io::Parcels& found) : path_(std::move(path)), found_(found) {}
 
-  /// Whether a group or data set is there.
+  /// Whether a group or data set exists.
   bool has(const std::string& path) const { return found_.contains(path); }
 
-  /// All values of a data set of numbers, whatever its shape.
+  /// Returns all values of a numerical data set of any shape. Throws Error(bad_data) if it is missing or not
+  /// finite.
   template <typename T>
   std::vector<T> read(const std::string& path) const {
     const auto found = found_.find(path);
@@ -32,7 +33,7 @@ class FclibFile {
     return values;
   }
 
-  /// The same, of a size that is known; `why` says whose size it is.
+  /// Returns the values of a data set of a known size; `why` explains the size in messages.
   template <typename T>
   std::vector<T> read(const std::string& path, std::size_t size, const std::string& why) const {
     std::vector<T> values = read<T>(path);
@@ -41,7 +42,7 @@ class FclibFile {
     return values;
   }
 
-  Index read_integer(const std::string& path) const { return read<Index>(path, 1, "a single one")[0]; }
+  Index read_integer(const std::string& path) const { return read<Index>(path, 1, "a scalar")[0]; }
 
   [[noreturn]] void refuse(const std::string& path, const std::string& problem) const {
     throw Error(ExitCode::bad_data, fmt::format("{}: data set {} {}", path_, path, problem));
@@ -52,7 +53,7 @@ class FclibFile {
   const io::Parcels& found_;
 };
 
-/// The groups and data sets that a problem is read from, as far as they are there.
+/// Returns the existing groups and data sets from which a problem is read.
 io::Parcels arrays_in(io::hdf5::Reader reader) {
   io::Parcels found;
   for (const char* group : {"/fclib_local", "/fclib_local/V", "/fclib_local/R", "/talus", "/talus/run"})
@@ -90,10 +91,10 @@ void check_index(const FclibFile& file, const std::string& path, const std::vect
       file.refuse(path, fmt::format("holds {} at index {}, expected 0 to {}", values[k], k, end - 1));
 }
 
-/// Lines of compressed rows or columns: the line of each entry.
+/// Returns the line (row or column) of each entry of compressed rows or columns.
 std::vector<Index> line_of_entries(const FclibFile& file, std::size_t lines, std::size_t entries) {
   const std::string path = "/fclib_local/W/p";
-  const auto begin = file.read<Index>(path, lines + 1, "the rows of W and one");
+  const auto begin = file.read<Index>(path, lines + 1, "one more than the rows of W");
   if (begin[0] != 0 || static_cast<std::size_t>(begin[lines]) != entries)
     file.refuse(path, fmt::format("goes from {} to {}, expected 0 to {}, the entries of W", begin[0],
                                   begin[lines], entries));
@@ -134,7 +135,8 @@ void read_matrix(const FclibFile& file, FclibProblem& problem) {
   problem.column = std::move(outer);
 }
 
-/// W must not answer a push with a pull.
+/// Checks that the diagonal of W is not negative: an impulse must not cause a velocity in the opposite
+/// direction.
 void check_diagonal(const FclibFile& file, const FclibProblem& problem) {
   for (std::size_t k = 0; k < problem.value.size(); ++k)
     if (problem.row[k] == problem.column[k] && problem.value[k] < 0.0)
@@ -167,10 +169,10 @@ void read_additions(const FclibFile& file, FclibProblem& problem) {
   const std::size_t bodies = file.read<double>("/talus/bodies/vx").size();
   for (const io::DataSetField& field : fclib_schema()) {
     if (!field.path.starts_with("/talus/")) continue;
-    if (field.path.starts_with("/talus/run/") && !file.has("/talus/run")) continue;  // of an older Talus
-    if (field.path == "/talus/bodies/column" && !file.has(field.path)) continue;     // of a small bed
+    if (field.path.starts_with("/talus/run/") && !file.has("/talus/run")) continue;  // older file
+    if (field.path == "/talus/bodies/column" && !file.has(field.path)) continue;     // small bed
     const std::size_t size = expected_size(field, problem, bodies);
-    const std::string why = field.shape == "1"   ? "a single one"
+    const std::string why = field.shape == "1"   ? "a scalar"
                             : field.shape == "B" ? "one for each body of /talus/bodies/vx"
                                                  : "one for each contact of /fclib_local/vectors/mu";
     if (field.type == io::ElementType::int32) {

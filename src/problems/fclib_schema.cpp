@@ -14,7 +14,7 @@ std::vector<io::DataSetField> make_schema() {
       {"/fclib_local/W/m", int32, "1", "1", "rows of W, two for each contact: normal, tangent"},
       {"/fclib_local/W/n", int32, "1", "1", "columns of W, as many as rows"},
       {"/fclib_local/W/nz", int32, "1", "1",
-       "form of W: -2 compressed rows, as Talus writes it; -1 compressed columns; 0 or more: so many "
+       "form of W: -2 compressed rows, as Talus writes it; -1 compressed columns; 0 or more: the number of "
        "triplets"},
       {"/fclib_local/W/p", int32, "U+1", "1",
        "entries of row k are p[k] ... p[k+1] - 1; the same of columns in compressed columns; column of each "
@@ -25,9 +25,9 @@ std::vector<io::DataSetField> make_schema() {
        "relative velocity (n, t) of each contact without impulses, gap / h and restitution included: u = W r "
        "+ q"},
       {"/fclib_local/vectors/mu", float64, "C", "1", "coefficient of friction of each contact"},
-      {"/fclib_local/info/title", text, "", "1", "where the problem comes from"},
+      {"/fclib_local/info/title", text, "", "1", "origin of the problem"},
       {"/fclib_local/info/description", text, "", "1", "conventions, in words"},
-      {"/fclib_local/info/math_info", text, "", "1", "what is known of W"},
+      {"/fclib_local/info/math_info", text, "", "1", "properties of W"},
       {"/guesses/number_of_guesses", int32, "1", "1", "number of first guesses: 1"},
       {"/guesses/1/r", float64, "U", "N s", "impulses of the step before, (n, t) of each contact"},
       {"/guesses/1/u", float64, "U", "m/s", "their relative velocities, W r + q"},
@@ -44,7 +44,7 @@ std::vector<io::DataSetField> make_schema() {
       {"/talus/bodies/column", int32, "B", "1",
        "column of a large bed that the body is in, from one end to the other"},
       {"/talus/contacts/a", int32, "C", "1", "first body; ascending"},
-      {"/talus/contacts/b", int32, "C", "1", "second body, the one that impulses act on"},
+      {"/talus/contacts/b", int32, "C", "1", "second body, on which the impulses act"},
       {"/talus/contacts/nx", float64, "C", "1", "unit normal along the bed, from a to b"},
       {"/talus/contacts/ny", float64, "C", "1", "unit normal away from the floor"},
       {"/talus/contacts/cn", float64, "C", "m/s",

@@ -1,6 +1,6 @@
 #pragma once
-/// The data sets of a problem file, in one table: those of FCLIB and those of Talus beside them. Files are
-/// written and checked from it, and docs/problem_files.md is compared with it by a test.
+/// The data sets of a problem file in one table: those of FCLIB, and those added by Talus. Files are written
+/// and checked by this table, and a test compares docs/problem_files.md with it.
 
 #include <string>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace talus::problems {
 
-/// Letters of the shapes: B bodies, C contacts, U = 2 C unknowns, E entries of W.
+/// Returns the table. The letters of the shapes are B bodies, C contacts, U = 2 C unknowns, E entries of W.
 const std::vector<io::DataSetField>& fclib_schema();
 
-/// The row of a data set. Throws Error(internal) where the table has none.
+/// Returns the row of a data set. Throws Error(internal) if the table does not contain it.
 const io::DataSetField& fclib_field(const std::string& path);
 
 }  // namespace talus::problems

@@ -9,7 +9,7 @@
 namespace talus::problems {
 namespace {
 
-/// An array of the size that it has.
+/// Writes an array with its actual size.
 template <typename T>
 void write(io::hdf5::Writer& writer, const std::string& path, const std::vector<T>& values) {
   io::DataSetField field = fclib_field(path);
@@ -25,7 +25,7 @@ void write(io::hdf5::Writer& writer, const std::string& path, const std::string&
   writer.write_text(fclib_field(path), text + '\0');  // for programs in C
 }
 
-/// Where each row begins among entries sorted by row.
+/// Returns the beginning of each row among entries sorted by row.
 std::vector<Index> row_begins(const std::vector<Index>& row, std::size_t rows) {
   std::vector<Index> begin(rows + 1, 0);
   for (const Index r : row) ++begin[static_cast<std::size_t>(r) + 1];
@@ -70,7 +70,7 @@ void write_fclib(const std::string& path, const FclibProblem& problem, const std
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u) {
   const std::vector<std::byte> bytes = io::read_file(from);
-  const auto with_solution = [&] {  // HDF5 may fail on a file of another program: not in this process
+  const auto with_solution = [&] {  // in a child process, because HDF5 may crash on a file of another program
     io::hdf5::Writer file({}, 0, bytes, from);
     file.remove("/solution");
     write(file, "/solution/r", r);

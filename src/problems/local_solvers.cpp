@@ -13,12 +13,12 @@ struct LocalSums {
   double change = 0.0;   ///< || P_new - Y ||^2
   double impulse = 0.0;  ///< || P_new ||^2
   double ascent =
-      0.0;  ///< (Y - P_new) . D (P_new - P), D the diagonal of W: > 0 where momentum points uphill
+      0.0;  ///< (Y - P_new) . D (P_new - P), D the diagonal of W; positive if the momentum points uphill
 
   double relative_change() const { return impulse > 0.0 ? std::sqrt(change / impulse) : 0.0; }
 };
 
-/// One sweep over all contacts in their order, each solved exactly for the impulses of the moment: turns Y
+/// Makes one sweep over all contacts in their order, each solved exactly for the current impulses; turns Y
 /// into P_new. `p` is P.
 LocalSums sweep(const solver::LocalProblem& problem, const std::vector<solver::LocalContact>& contacts,
                 const std::vector<solver::Impulse>& p, std::vector<solver::Impulse>& y) {
@@ -39,7 +39,7 @@ LocalSums sweep(const solver::LocalProblem& problem, const std::vector<solver::L
   return sums;
 }
 
-/// P becomes P_new, which Y holds, and Y becomes P_new + beta (P_new - P).
+/// Replaces P by P_new, which is in Y, and Y by P_new + beta (P_new - P).
 void extrapolate(double beta, std::vector<solver::Impulse>& p, std::vector<solver::Impulse>& y) {
   for (std::size_t c = 0; c < p.size(); ++c) {
     const solver::Impulse before = p[c];
@@ -64,7 +64,7 @@ solver::SolverReport solve(const solver::LocalProblem& problem, const solver::So
   solver::Momentum momentum;
   solver::SolverReport report;
   report.residual = look_at(problem, solution);
-  // The residual costs as much as a sweep, so it is looked at now and then.
+  // The residual costs as much as a sweep, so it is not computed after each of them.
   while (report.residual.eta > settings.tolerance && report.iterations < settings.max_iterations) {
     const int next_look = std::min(settings.max_iterations, report.iterations + 5 + report.iterations / 16);
     for (; report.iterations < next_look; ++report.iterations) {

@@ -53,7 +53,7 @@ constexpr const char* first_body = "/talus/contacts/a";
 constexpr const char* second_body = "/talus/contacts/b";
 constexpr const char* column = "/talus/bodies/column";
 
-/// (n, t) of contact 0, (n, t) of contact 1, ...
+/// Returns the components as (n, t) of contact 0, (n, t) of contact 1, ...
 template <typename Pair>
 std::vector<double> flat(const std::vector<Pair>& pairs) {
   std::vector<double> values;
@@ -69,7 +69,7 @@ std::vector<Pair> pairs(const std::vector<double>& values) {
   return result;
 }
 
-/// The entries of W by rows.
+/// Writes the entries of W by rows.
 void put_matrix(const solver::LocalProblem& local, FclibProblem& file) {
   for (Index row = 0; row < 2 * local.contact_count(); ++row) {
     const Index c = row / 2;
@@ -91,7 +91,7 @@ solver::LocalProblem local_problem_of(const FclibProblem& file) {
   return solver::local_problem(std::move(entries), pairs<solver::RelativeVelocity>(file.q), file.mu);
 }
 
-/// What solvers rely on beyond sizes and ranges.
+/// Checks conditions on which solvers rely, beyond sizes and ranges.
 void check_bodies(const std::string& path, const solver::ContactProblem& problem) {
   const auto refuse = [&path](const char* set, Index k, const char* what) {
     throw Error(ExitCode::bad_data, fmt::format("{}: data set {} {}, at index {}", path, set, what, k));
@@ -106,7 +106,7 @@ void check_bodies(const std::string& path, const solver::ContactProblem& problem
   }
 }
 
-/// None in files that were written before they told it.
+/// Returns the tolerance of the run; no value if the file does not contain it.
 std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibProblem& file) {
   if (!file.reals.contains(tolerance_fields[0].path)) return std::nullopt;
   StepTolerance tolerance;
@@ -118,7 +118,7 @@ std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibPr
   for (const double asked : {tolerance.asked, tolerance.at_rest})
     if (!(asked > 0.0))
       throw Error(ExitCode::bad_data,
-                  fmt::format("{}: a tolerance in /talus/run is 0: no solve reaches that", path));
+                  fmt::format("{}: a tolerance in /talus/run is 0, but must be positive", path));
   return tolerance;
 }
 

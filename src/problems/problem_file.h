@@ -1,5 +1,5 @@
 #pragma once
-/// Contact problems to and from problem files (docs/problem_files.md).
+/// Reading and writing of contact problems in problem files (docs/problem_files.md).
 
 #include <optional>
 #include <string>
@@ -11,22 +11,22 @@ namespace talus::problems {
 
 struct FclibProblem;
 
-/// What a problem file holds: W, q and mu, and where Talus wrote it, the step they belong to.
+/// Contents of a problem file: W, q and mu, and, if Talus wrote it, the step to which they belong.
 struct StoredProblem {
   solver::LocalProblem local;
-  std::vector<solver::Impulse> guess;  ///< zero where the file has none
-  std::optional<StepProblem> step;     ///< as it was written, bit for bit; velocities of its guess included
+  std::vector<solver::Impulse> guess;  ///< zero if the file has none
+  std::optional<StepProblem> step;     ///< step as written, bit for bit, with the velocities of its guess
 };
 
-/// `title` says where the problem comes from.
+/// Writes the problem of a step; `title` states its origin.
 void write_problem(const std::string& path, const StepProblem& step, const std::string& title);
 
-/// The problem in a file called `path`. Throws Error(bad_data) where its bodies cannot be.
+/// Converts the contents of a file called `path`. Throws Error(bad_data) if its bodies are invalid.
 StoredProblem stored_problem(const std::string& path, const FclibProblem& file);
-/// Throws as read_fclib and stored_problem do.
+/// Reads a problem file. Throws the errors of read_fclib and stored_problem.
 StoredProblem read_problem(const std::string& path);
 
-/// A copy of the problem file `from` with the solution in it.
+/// Writes a copy of the problem file `from` with the solution to `to`.
 void write_solution(const std::string& from, const std::string& to, const solver::LocalSolution& solution);
 
 }  // namespace talus::problems

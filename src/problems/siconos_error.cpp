@@ -19,7 +19,7 @@ struct Sums {
   }
 };
 
-/// The nearest point of the cone |P_t| <= mu P_n.
+/// Returns the nearest point of the cone |P_t| <= mu P_n.
 solver::Impulse nearest_in_cone(double pn, double pt, double mu) {
   const double tangential = std::fabs(pt);
   if (mu * tangential <= -pn) return {};

@@ -17,8 +17,8 @@
 namespace talus::problems {
 namespace {
 
-/// Gap below which two bodies of a frame may touch: what rounding to single precision does to the distance of
-/// two points in the box.
+/// Returns the gap below which two bodies of a frame may touch: the error of a distance in the box due to
+/// rounding to single precision.
 double gap_resolution(const World& world) {
   double farthest = world.boundary.length;
   for (const double y : world.grains.y) farthest = std::max(farthest, std::fabs(y));
@@ -36,10 +36,10 @@ double weight(const World& world) {
   return mass * world.gravity;
 }
 
-/// What the commands of a run have made of its scenario by a step.
+/// Settings in effect at a step, after the commands of the run.
 struct InForce {
   double friction = 0.0;
-  std::optional<double> tilt_rate;  ///< rad/s, where it was changed
+  std::optional<double> tilt_rate;  ///< rad/s, if it was changed
   std::optional<session::Drag> drag;
 };
 InForce in_force(const io::RunFile& run, const scenario::Scenario& scenario, std::int64_t step) {
@@ -49,16 +49,16 @@ InForce in_force(const io::RunFile& run, const scenario::Scenario& scenario, std
   return now;
 }
 
-/// Steps taken before the first one of the tilt.
+/// Returns the number of steps before the first one of the tilt.
 std::int64_t first_step(const io::RunFile& run) {
   if (!run.header().branch) return run.frame(0).step;
   const io::Checkpoint& start = run.header().branch->start;
   return start.world.step - find_value(start.integers, "tilt_steps").value_or(0);
 }
 
-/// Of the step after a frame. Where no command has changed the rate it is a whole number of steps of the
-/// tilt, as in a run; with a programme that of the number of the step. The first frame is that before the
-/// first step of the tilt.
+/// Returns the tilt of the step after a frame. With a programme it follows from the number of the step;
+/// otherwise, unless a command has changed the rate, it is an integer multiple of the step of the tilt, as in
+/// a run. The first frame is the one before the first step of the tilt.
 double next_tilt(const io::RunFile& run, const World& world, const scenario::Scenario& scenario,
                  const InForce& now) {
   const double tilt = world.tilt;
@@ -68,8 +68,8 @@ double next_tilt(const io::RunFile& run, const World& world, const scenario::Sce
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }
 
-/// The problem of the next step of a world, whose grains are moved to the midpoint; `contacts` become its
-/// contacts with what is remembered.
+/// Forms the problem of the next step of a world and moves its grains to the midpoint. `contacts` receives
+/// its contacts with the remembered forces.
 StepProblem form_step(World& world, const dynamics::StepSettings& settings, double closed_below,
                       double mean_diameter, Contacts& contacts) {
   if (settings.law.rolling_friction > 0.0)
@@ -95,7 +95,7 @@ StepProblem form_step(World& world, const dynamics::StepSettings& settings, doub
   return step;
 }
 
-/// What the run asks of the next step of a world.
+/// Returns the tolerance that the run requires of the next step of a world.
 StepTolerance tolerance_of(const World& world, const scenario::Scenario& scenario) {
   const dynamics::StepSettings settings = session::step_settings(scenario, world);
   return {rms_velocity(world.grains) / (world.gravity * settings.h), settings.solver.tolerance,
@@ -108,7 +108,7 @@ struct FrameStart {
   dynamics::StepSettings settings;
   StepTolerance tolerance;
   double mean_diameter = 0.0;  ///< m
-  double closed_below = 0.0;   ///< m; 0 where positions are not rounded
+  double closed_below = 0.0;   ///< m, gap below which contacts are closed; 0 if positions are not rounded
   double next_tilt = 0.0;      ///< rad
 };
 FrameStart start_at_frame(const io::RunFile& run, std::size_t k) {

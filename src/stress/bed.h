@@ -1,5 +1,5 @@
 #pragma once
-/// Scalars of the whole bed.
+/// Scalars of the entire bed.
 
 #include <span>
 #include <vector>
@@ -10,21 +10,22 @@
 
 namespace talus::stress {
 
-/// Area of the free grains, m^2.
+/// Returns the area of the free grains, m^2.
 double solid_area(const Grains& grains);
 
-/// Height of the centre of mass of the free grains above y = 0, m.
+/// Returns the height of the centre of mass of the free grains above y = 0, m.
 double centre_of_mass_height(const Grains& grains);
 
-/// How a contact is loaded, from the forces it carries. Sliding means |f_t| = mu f_n within `tolerance` f_n.
+/// Returns the status of a contact with given forces. Sliding means |f_t| = mu f_n within `tolerance` f_n.
 ContactStatus contact_status(double fn, double ft, double friction, double tolerance = 1e-6);
 
-/// For each of the first `free_count` grains, in how many contacts with force it is. A contact between bodies
-/// a[c] and b[c] carries the normal force fn[c].
+/// Returns the number of force-carrying contacts of each of the first `free_count` grains. A contact between
+/// bodies a[c] and b[c] carries the normal force fn[c].
 std::vector<Index> loaded_contacts(std::span<const Index> a, std::span<const Index> b,
                                    std::span<const double> fn, Index free_count);
 
-/// Coordination number z: mean number of contacts with force of the grains that have any; 0 where none has.
+/// Returns the coordination number z: mean number of force-carrying contacts of the grains that have any; 0
+/// if no grain has any.
 double coordination_number(std::span<const Index> loaded_contacts);
 double coordination_number(const Grains& grains, const Contacts& contacts);
 

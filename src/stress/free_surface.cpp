@@ -14,11 +14,11 @@ struct Disk {
   double x, y, radius;
   bool operator==(const Disk&) const = default;
 
-  /// Half the width of its part above y = 0, m; not positive if there is none.
+  /// Returns half the width of the part above y = 0, m; 0 if no part is above.
   double half_width() const {
     return y >= 0.0 ? radius : std::sqrt(std::max(0.0, radius * radius - y * y)) * (radius > -y ? 1.0 : 0.0);
   }
-  /// Height of its upper side; that of its sides beyond them.
+  /// Returns the height of the upper side; outside the disk, the height of its centre.
   double height_at(double place) const {
     const double offset = place - x;
     return y + std::sqrt(std::max(0.0, radius * radius - offset * offset));
@@ -27,8 +27,8 @@ struct Disk {
 
 Disk disk_of(const SurfaceArc& arc) { return {arc.x, arc.y, arc.radius}; }
 
-/// Heights that the free surface reaches at least, in equal cells: nearly all disks of a bed lie below them
-/// and need not be merged.
+/// Lower bounds of the free surface in equal cells. Nearly all disks of a bed lie below them, and need not be
+/// merged.
 class LowestHeights {
  public:
   LowestHeights(double length, double width)
@@ -36,7 +36,7 @@ class LowestHeights {
         width_(length / static_cast<double>(heights_.size())),
         per_width_(1.0 / width_) {}
 
-  /// Whether a disk may be seen from above.
+  /// Whether a disk may be part of the free surface.
   bool may_show(const Disk& disk) const {
     const double half = disk.half_width(), top = disk.y + disk.radius;
     for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k)
@@ -45,7 +45,7 @@ class LowestHeights {
     return false;
   }
 
-  /// Counts a disk in: an upper side is lowest at an end of a cell that it covers.
+  /// Includes a disk. In a cell that it covers, its upper side is lowest at one of the ends.
   void add(const Disk& disk) {
     const double half = disk.half_width();
     for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k)
@@ -64,7 +64,8 @@ class LowestHeights {
   double width_, per_width_;
 };
 
-/// The disks that may be seen from above, and their images, each at least in part between 0 and the length.
+/// Returns the disks and periodic images that may be part of the free surface, each at least partly between 0
+/// and the length.
 std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
   const double length = boundary.length;
   double sum = 0.0;
@@ -78,11 +79,11 @@ std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
     lowest.add(disk);
     disks.push_back(disk);
   };
-  // The last grains first: they are at the surface.
+  // The last grains come first, because they are usually at the surface.
   for (Index i = grains.free_count - 1; i >= 0; --i) {
     const Disk disk{grains.x[i], grains.y[i], grains.radius[i]};
     if (!boundary.periodic || (disk.radius <= disk.x && disk.x <= length - disk.radius)) {
-      add(disk);  // it has no image in sight
+      add(disk);  // no image of this disk reaches into the bed
       continue;
     }
     const double first = std::ceil(-(disk.x + disk.radius) / length);
@@ -113,7 +114,7 @@ Surface surface_of(const Disk& disk, double length) {
   return surface;
 }
 
-/// Where two circles cross, in ascending order; NaN if they do not.
+/// Returns the x of the two intersections of circles, in ascending order; NaN without intersections.
 std::array<double, 2> crossings(const Disk& a, const Disk& b) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   const double along = (a.radius * a.radius - b.radius * b.radius + square) / (2.0 * square);
@@ -122,7 +123,7 @@ std::array<double, 2> crossings(const Disk& a, const Disk& b) {
   return {middle - half, middle + half};
 }
 
-/// The higher one of two surfaces.
+/// Returns the upper envelope of two surfaces.
 Surface merged(const Surface& a, const Surface& b) {
   Surface surface;
   double begin = 0.0;
@@ -155,12 +156,13 @@ Surface surface_of(std::span<const Disk> disks, double length) {
   return merged(surface_of(disks.first(half), length), surface_of(disks.subspan(half), length));
 }
 
-/// Integrals of the height h of a surface between two places, about a third one: of h, and of (x - about) h.
+/// Integrals of h and of (x - about) h, with h the height of a surface.
 struct Integrals {
   double area = 0.0, moment = 0.0;
 };
 
-/// From the centre of a disk to u: of sqrt(r^2 - u^2), and of u sqrt(r^2 - u^2) but for a constant.
+/// Returns the integrals of sqrt(r^2 - u^2) and, up to a constant, of u sqrt(r^2 - u^2), from the centre of a
+/// disk to u.
 Integrals primitive(double u, double radius) {
   const double root = std::sqrt(std::max(0.0, radius * radius - u * u));
   const double angle = root > 0.0 ? arctangent(u / root) : u < 0.0 ? -0.5 * pi : 0.5 * pi;
@@ -210,7 +212,7 @@ double bed_volume(const Grains& grains, const Boundary& boundary) {
 double surface_inclination(const Grains& grains, const Boundary& boundary) {
   const double length = boundary.length;
   if (boundary.periodic || !(length > 0.0)) return 0.0;
-  // About the middle of the bed, so that the integral of the distances is zero.
+  // The moment is about the middle of the bed, so that the integral of the distances is zero.
   const double moment =
       integrals(free_surface(grains, boundary), 0.25 * length, 0.75 * length, 0.5 * length).moment;
   return arctangent(moment / (length * length * length / 96.0));

@@ -1,5 +1,5 @@
 #pragma once
-/// The free surface of a bed: the upper envelope of its free grains as seen from above, in closed form.
+/// The free surface of a bed: the upper envelope of its free grains, in closed form.
 
 #include <vector>
 
@@ -7,30 +7,31 @@
 
 namespace talus::stress {
 
-/// A piece of the free surface, from the end of the piece before it to its own: the upper side of a disk, or,
-/// with radius 0, the plane y = 0 of the tops of the floor grains.
+/// A piece of the free surface, from the end of the previous piece to its own end: the upper side of a disk,
+/// or, with radius 0, the plane y = 0 of the tops of the floor grains.
 struct SurfaceArc {
   double end = 0.0;         ///< m along the bed
-  double x = 0.0, y = 0.0;  ///< m, centre of the disk; that of its image in a periodic bed
+  double x = 0.0, y = 0.0;  ///< m, centre of the disk or of its periodic image
   double radius = 0.0;      ///< m
 };
 
-/// The free surface from x = 0 to the length of the bed, exact to rounding: disks may overlap, in a periodic
-/// bed their images count, and what lies below y = 0 does not. Empty for a bed without length.
+/// Returns the free surface from x = 0 to the length of the bed, exact to rounding. Disks may overlap;
+/// periodic images are included, and parts below y = 0 are not. Empty for a bed without length.
 std::vector<SurfaceArc> free_surface(const Grains& grains, const Boundary& boundary);
 
-/// Height of a free surface above y = 0, m, at a place along the bed; that of its nearest end outside.
+/// Returns the height of a free surface above y = 0, m, at a position along the bed; outside, that of the
+/// nearest end.
 double height_of(const std::vector<SurfaceArc>& surface, double place);
 
-/// Area below a part of a free surface and above y = 0, m^2.
+/// Returns the area below a part of a free surface and above y = 0, m^2.
 double area_below(const std::vector<SurfaceArc>& surface, double from, double to);
 
-/// Area below the free surface and above y = 0, m^2: the volume V of a bed in two dimensions.
+/// Returns the area below the free surface and above y = 0, m^2, the volume V of a bed in two dimensions.
 double bed_volume(const Grains& grains, const Boundary& boundary);
 
-/// Slope of the free surface against the floor, rad, positive where it rises along x: of the least-squares
-/// line through the middle half of the bed, L/4 ... 3 L/4, away from the walls. 0 in a periodic bed, whose
-/// surface ends at the height at which it begins.
+/// Returns the slope of the free surface relative to the floor, rad, positive if it rises along x: that of
+/// the least-squares line through the middle half of the bed, L/4 ... 3 L/4, away from the walls. 0 in a
+/// periodic bed, whose surface has the same height at both ends.
 double surface_inclination(const Grains& grains, const Boundary& boundary);
 
 }  // namespace talus::stress

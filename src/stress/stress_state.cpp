@@ -13,7 +13,7 @@ StressState stress_state(const Tensor2& tensor) {
   state.mean = m.trace();                                                    // (T21)
   state.deviator = deviator.norm();                                          // (T21)
   state.ratio = state.mean > 0.0 ? state.deviator / state.mean : not_known;  // (T22)
-  // For display only: never enters the dynamics.
+  // The axis is for display only, and never enters the dynamics.
   state.axis = 0.5 * std::atan2(deviator.y(), deviator.x());
   return state;
 }

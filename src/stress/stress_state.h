@@ -5,11 +5,11 @@
 
 namespace talus::stress {
 
-/// The state of a symmetric tensor, from the symmetric part of the one given.
+/// Stress state of the symmetric part of a tensor.
 struct StressState {
   double mean = 0.0;      ///< P = s1 + s2 (the paper's convention: no factor 1/2)
   double deviator = 0.0;  ///< Q = s1 - s2 >= 0
-  double ratio = 0.0;     ///< Gamma = Q/P; NaN where P <= 0, as in a grain that carries nothing
+  double ratio = 0.0;     ///< Gamma = Q/P; NaN if P <= 0, as in a grain that carries no load
   double axis = 0.0;      ///< angle of the major principal direction to x, rad, in (-pi/2, pi/2]
 };
 
