@@ -15,11 +15,13 @@ import statistics
 import sys
 from pathlib import Path
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT / "docs/data"
 sys.path.insert(0, str(ROOT / "python"))
 
-MARK = re.compile(r"(?P<number>-?\d[\d ]*(?:\.\d+)?(?:e-?\d+)?(?: ± \d[\d.]*)?)<!--=(?P<name>\S+) (?P<format>\S+)-->")
+MARK = re.compile(r"(?P<number>-?\d[\d ]*(?:\.\d+)?(?:e[-+]?\d+)?(?: ± \d[\d.]*)?)<!--=(?P<name>\S+) (?P<format>\S+)-->")
 ANY_MARK = re.compile(r"<!--=.*?-->", re.DOTALL)
 
 #: Groups of beds in docs/data/beds.csv whose first member is a run of the first pages.
@@ -130,7 +132,10 @@ class Values:
             return errors if statistic == "errors" else r
         if "--" in quantity:
             quantity, other = quantity.split("--")
-            ours, theirs = (summary(self.beds.values(SHORT.get(each, each), quantity).values()) for each in (group, other))
+            each = [self.beds.values(SHORT.get(name, name), quantity) for name in (group, other)]
+            if statistic.isdigit():
+                return each[0][int(statistic)] - each[1][int(statistic)]
+            ours, theirs = (summary(values.values()) for values in each)
             difference, error = ours["mean"] - theirs["mean"], math.hypot(ours["error"], theirs["error"])
             return difference / error if statistic == "errors" else (difference, error)
         values = self.beds.values(group, quantity)
@@ -144,8 +149,7 @@ class Values:
 
         with talus.open(self.folder / f"runs/{name}.h5", units="D") as run:
             if name == "paper":
-                unconverged = run["results/unconverged_steps"] + run["results/unconverged_steps_deposition"]
-                return {"steps": len(run.steps["step"]), "unconverged": int(unconverged), "theta_c": run.theta_c}
+                return self.of_paper_run(run)
             observed = run.observables["tilt"] <= run.theta_c
             strain = 100 * run.observables["volume_strain"][observed]
             values = {"theta_c": run.theta_c, "gamma_c": math.sin(math.radians(run.theta_c)), "shrinks": -strain.min(),
@@ -154,6 +158,19 @@ class Values:
                 overloaded = run.analysis["overloaded/fraction"][:, 0]
                 return values | {"p_o_flat": overloaded[0], "p_o_repose": overloaded[run.frame_at("repose").index]}
         return values | {"earlier": self["demo.theta_c"] - values["theta_c"]}
+
+    @staticmethod
+    def of_paper_run(run):
+        """Steps, those that missed their tolerance, and sigma_T/sigma_N over tan(theta) from 3 deg to theta_c, at rest and in all rows."""
+        rows = run.observables
+        known = (rows["tilt"] >= 3) & (rows["tilt"] <= run.theta_c)
+        deviation = abs(rows["sigma_t_over_n"][known] / np.tan(np.radians(rows["tilt"][known])) - 1)
+        rest = rows["at_rest"][known] > 0
+        deposition, tilt = (int(run[f"results/unconverged_steps{each}"]) for each in ("_deposition", ""))
+        return {"steps": len(run.steps["step"]), "unconverged": deposition + tilt, "unconverged_deposition": deposition,
+                "unconverged_tilt": tilt, "theta_c": run.theta_c, "rest_deviation": 100 * deviation[rest].max(), "rest_rows": int(rest.sum()),
+                "deviation": 100 * np.quantile(deviation, 0.99), "rows": len(deviation),
+                "overlap": rows["largest_overlap"][rows["tilt"] <= run.theta_c].max()}
 
 
 def text_of(value, form):

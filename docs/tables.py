@@ -76,6 +76,14 @@ def time_steps(beds):
     return of_groups(beds, STEPS, "time step", FLAT + ANGLES + OVERLOAD[1:2] + TRANSITION)
 
 
+def missed_steps(beds):
+    """Steps that miss their tolerance, in each bed."""
+    groups = [("the paper's bed, 8000 grains", "paper-pbc"), *((label, group) for label, group in [("poured, 4000 grains", "pour-6"), *PREPARATIONS[-2:]]),
+              ("between walls, L = 100 D", "paper-wbc-100"), ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
+    columns = [("missed in the deposition of a bed", "unconverged_deposition", 1), ("missed in its tilt", "unconverged_tilt", 1)]
+    return of_groups(beds, groups, "bed", columns)
+
+
 #: What the paper gives, the quantity, its unit's digits and factor.
 FIFTY = [("theta_c, deg", "19 to 21, all beds", "theta_c", 2), ("first slide, deg", "", "first_slide", 2),
          ("theta_d by the jump of l_c max, deg", "15", "lc_jump", 2), ("theta_d by percolation, deg", "15", "percolation", 2),
@@ -116,6 +124,18 @@ def readings(beds):
         cells.append(with_error([value for seed, value in beds.values("paper-pbc", column).items() if seed in seeds], digits))
         rows.append(cells)
     return markdown(["quantity", "paper", "grain, Gamma_c", "grain, 2 Gamma_c", "with first neighbours, Gamma_c"], rows)
+
+
+def reading_numbers(_):
+    """Means over the beds of readings.csv: grain.p_o@0, grain-2.lc_mean@15, ..."""
+    found = {}
+    for row in rows_of("readings.csv"):
+        for column, text in row.items():
+            if column not in ("reading", "seed"):
+                key = f"{'grain' if row['reading'] == 'grain' else 'grain-2'}.{column.split(' (')[0]}"
+                found.setdefault(key, []).append(number(text))
+    return {key: statistics.mean(value for value in values if not math.isnan(value)) if not all(map(math.isnan, values)) else math.nan
+            for key, values in found.items()}
 
 
 # ---- Walls.
@@ -285,6 +305,15 @@ def forces(_):
     return markdown(["deg", "bed", "n", *heads], rows)
 
 
+def force_numbers(_):
+    """Standard deviation of p_o over other admissible forces, as p_o@0.min, .mean and .max over the beds."""
+    found = {}
+    for row in rows_of("forces.csv"):
+        if row["quantity"] == "p_o" and row["deviation"]:
+            found.setdefault(f"p_o@{float(row['tilt (deg)']):g}", []).append(number(row["deviation"]))
+    return {f"{key}.{name}": f(values) for key, values in found.items() for name, f in (("min", min), ("mean", statistics.mean), ("max", max))}
+
+
 # ---- Tolerances.
 
 
@@ -324,8 +353,8 @@ def measured(beds, *groups):
 
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
-          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
+          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "missed-steps": missed_steps, "fifty": fifty, "readings": readings, "walls": walls,
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
-REPORTS = {"walls": wall_numbers}
+REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers}

@@ -138,8 +138,8 @@ TEST(ViewPage, commands_and_options_exist) {
 }
 
 TEST(ForcesPage, commands_and_options_exist) {
-  ASSERT_GT(commands("docs/admissible_forces.md").size(), 1u);
-  EXPECT_GT(check_page("docs/admissible_forces.md", {"forces_command"}), 3);
+  ASSERT_GT(commands("docs/studies/admissible-forces.md").size(), 1u);
+  EXPECT_GT(check_page("docs/studies/admissible-forces.md", {"forces_command"}), 3);
 }
 
 TEST(ExportPage, commands_and_options_exist) {
