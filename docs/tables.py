@@ -260,10 +260,27 @@ def announcing(_, shown=20):
     rows = []
     for row in rows_of("precursor-ranking.csv")[:shown]:
         gain = number(row["gain"]) / number(row["gain_error"]) if number(row["gain_error"]) else math.nan
-        contrast = ", ".join("–" if row[f"contrast_{k}"] == "NaN" else f"{number(row[f'contrast_{k}']):+.1f}" for k in (1, 2, 3))
+        changes = [number(row[f"contrast_{k}"]) for k in (1, 2, 3)]
+        contrast = ", ".join("–" if math.isnan(change) else f"{change:+.1f}" for change in changes)
         rows.append([row["rank"], f"`{row['measure']}`", contrast, f"{number(row['error']):.2f} ± {number(row['error_error']):.2f}",
                      f"{number(row['with_tilt']):.2f} ± {number(row['with_tilt_error']):.2f}", "" if math.isnan(gain) else f"{gain:+.1f}"])
     return markdown(["rank", "measure", "change at 1, 2, 3 deg", "error, deg", "with the tilt, deg", "adds"], rows, text_columns=3)
+
+
+def ranking_numbers(_):
+    """Errors of the distance to failure, what each quantity adds to the tilt in standard errors, and changes over the deviation: error.NAME
+    (with its standard error), adds.NAME, change.NAME.1, rank.NAME; own.error.NAME and own.adds.NAME at Gamma_c of each bed; most, the
+    largest of all adds."""
+    found = {}
+    for prefix, table in (("", "precursor-ranking.csv"), ("own.", "precursor-ranking-own.csv")):
+        for row in rows_of(table):
+            name, values = row["measure"], {key: number(text) for key, text in row.items() if key != "measure"}
+            found[f"{prefix}error.{name}"] = (values["error"], values["error_error"])
+            found[f"{prefix}adds.{name}"] = values["gain"] / values["gain_error"] if values["gain_error"] else math.nan
+            found[f"{prefix}rank.{name}"] = values["rank"]
+            found |= {f"{prefix}change.{name}.{k}": values[f"contrast_{k}"] for k in (1, 2, 3)}
+    adds = [value for key, value in found.items() if key.startswith("adds.") and not math.isnan(value)]
+    return found | {"most": max(adds), "count": len([key for key in found if key.startswith("error.")]) - 1}
 
 
 # ---- Cycles.
@@ -357,4 +374,4 @@ TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparati
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
-REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers}
+REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers}
