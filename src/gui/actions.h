@@ -1,6 +1,6 @@
 #pragma once
-/// Actions that keys, buttons and the mouse carry out. None is silent: each is seen in the picture, or the
-/// line at the bottom says what it did, or why it could not.
+/// Actions of keys, buttons and the mouse. Each has a visible effect, or the line at the bottom says what it
+/// did or why it could not.
 
 #include "gui/widgets.h"
 
@@ -8,48 +8,48 @@ namespace talus::gui {
 
 /// Writes the line at the bottom.
 void say(Gui& gui, std::string text);
-/// Says that a replay does no such thing, and how a run that does begins with it.
+/// Reports that a replay does not support an action, and how to start a run that does.
 void refuse_in_replay(Gui& gui, const char* what);
 
-// What is shown.
+// Picture.
 
-/// Goes to a place of the run.
+/// Goes to a landmark of the run.
 void go_to_landmark(Gui& gui, view::Landmark landmark);
 /// Zooms by a factor about a place (m), which keeps its position in the picture.
 void zoom_about(Gui& gui, double factor, double x, double y);
-/// Moves the picture, m, which then follows no grain.
+/// Moves the picture (m), and stops following a grain.
 void move_picture(Gui& gui, double dx, double dy);
 void show_whole_bed(Gui& gui);
-/// Keeps the selected grain in the middle of the picture, which shows no more than its surroundings, or ends
-/// that.
+/// Starts or stops keeping the selected grain, with its surroundings, in the middle of the picture.
 void toggle_following(Gui& gui);
-/// Shows the run that the panel names in the second view.
+/// Shows the run named in the panel in the second view.
 void show_run_beside(Gui& gui);
 
-// The run.
+// Run.
 
 void toggle_playing(Gui& gui);
-/// Advances a run that is computed by that many steps, a replay by that many frames, also backwards: through
-/// the frames recorded so far of a run that is computed, after the last of which it is followed again.
+/// Advances a live run by `count` steps, or a replay by `count` frames, which may be negative. In a live run,
+/// stepping back goes through the frames recorded so far; stepping forward beyond the last of them follows
+/// the run again.
 void advance(Gui& gui, int count);
-/// Computes until the bed rests and the tilt begins.
+/// Computes until the bed has come to rest and the tilt begins.
 void deposit(Gui& gui);
-/// Computes until the tilt that is offered.
+/// Computes until the tilt entered by the user.
 void run_to_tilt(Gui& gui);
-/// Offers a tilt to run to that is still to come, once the run has passed the one that was offered.
+/// Suggests a later tilt to run to, once the run has passed the suggested one.
 void offer_tilt_ahead(view::ViewModel& model);
-/// Sends a command to the run; the reason of a refusal becomes the message.
+/// Sends a command to the run; the reason of a rejection becomes the message.
 void send(Gui& gui, const Command& command);
-/// Begins the run of a scenario anew, with the seed given.
+/// Restarts the run of a scenario with the given seed.
 void reset(Gui& gui);
-/// Saves a run that is computed: by a checkpoint if it is recorded, otherwise by writing all of it to the
-/// file named under files, in which it is recorded from then on.
+/// Saves a live run: by a checkpoint if it is recorded; otherwise by writing it from its beginning to the
+/// file named in the panel of files, in which it is then recorded.
 void save_state(Gui& gui);
 void push_selected(Gui& gui);
 void drop_here(Gui& gui);
-/// The replay goes on from the frame shown.
+/// Continues the replay from the frame shown.
 void branch_here(Gui& gui);
-/// The run goes back before its last command.
+/// Returns the run to the state before its last command.
 void go_back(Gui& gui);
 
 }  // namespace talus::gui

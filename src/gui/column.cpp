@@ -1,4 +1,4 @@
-/// The column on the left: groups of widgets that are folded and unfolded.
+/// Left column: foldable groups of widgets.
 
 #include <algorithm>
 #include <fmt/core.h>
@@ -10,22 +10,22 @@
 namespace talus::gui {
 namespace {
 
-/// A group, and the key that unfolds it and brings it into sight.
+/// Group of widgets, with the key that unfolds it and scrolls to it.
 struct Group {
   const char* name;
   void (*draw)(Gui&);
   char key;
-  bool unfolded;  ///< at first, where there is room
+  bool unfolded;  ///< initial state, if there is room
 };
 
 constexpr Group groups[] = {{"run", draw_run_panel, 'R', true},     {"map", draw_map_panel, 'M', true},
                             {"act", draw_action_panel, 'A', false}, {"select", draw_select_panel, 'S', false},
                             {"files", draw_file_panel, 'F', false}, {"grain", draw_inspector, 'G', false}};
 
-/// A lower column has one unfolded group at a time.
+/// Column height below which only one group is unfolded at a time.
 constexpr float room_for_several = 40.0f;  // em
 
-/// The heading of a group with its key; true while it is unfolded.
+/// Draws the heading of a group with its key; returns whether the group is unfolded.
 bool draw_heading(Gui& gui, const Group& group) {
   ImGui::PushStyleColor(ImGuiCol_Header, packed(gui.colours.raised));
   const bool unfolded = ImGui::CollapsingHeader(group.name);
@@ -38,7 +38,7 @@ bool draw_heading(Gui& gui, const Group& group) {
   return unfolded;
 }
 
-/// Scrolls as little as shows all from top to bottom, or else the top.
+/// Scrolls as little as possible to show everything from top to bottom, or else the top.
 void bring_into_sight(float top, float bottom) {
   const float from = ImGui::GetScrollY(), room = ImGui::GetWindowHeight();
   if (top < from)
@@ -56,7 +56,7 @@ void draw_group(Gui& gui, const Group& group, bool several) {
     ImGui::SetNextItemOpen(group.unfolded && (several || group.draw == draw_run_panel), ImGuiCond_Once);
   const float top = ImGui::GetCursorPosY();
   const bool unfolded = draw_heading(gui, group);
-  // A click on a heading is as its key, one picture later: what is folded and scrolled then is told once.
+  // A click on a heading acts as its key does, one picture later, so that only one place folds and scrolls.
   if (unfolded && ImGui::IsItemToggledOpen()) gui.model.state.panel_asked = group.name;
   if (!unfolded) return;
   group.draw(gui);

@@ -18,8 +18,8 @@ DrawDataPainter::DrawDataPainter(const render::Gl& gl) : gl_(gl) {
 
 DrawDataPainter::~DrawDataPainter() { render::delete_batch(gl_, batch_); }
 
-/// Indices are resolved here: widgets have tens of thousands of corners, and the renderer needs no index
-/// buffers.
+/// Resolves the indices here: widgets have tens of thousands of vertices, and the renderer then needs no
+/// index buffers.
 void DrawDataPainter::upload(const ImDrawData& data) {
   corners_.clear();
   corners_.reserve(static_cast<std::size_t>(data.TotalIdxCount));
@@ -60,7 +60,8 @@ void DrawDataPainter::draw(const ImDrawData& data, const Surface& surface) {
   gl_.ClearColor(ground.x, ground.y, ground.z, 1.0f);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // the shader multiplies by alpha, as all of the renderer's
+  gl_.BlendFunc(GL_ONE,
+                GL_ONE_MINUS_SRC_ALPHA);  // the shader multiplies by alpha, like all shaders of the renderer
   gl_.Enable(GL_SCISSOR_TEST);
   upload(data);
   gl_.Uniform4f(gl_.GetUniformLocation(batch_.program, "frame"), data.DisplayPos.x, data.DisplayPos.y,

@@ -1,6 +1,6 @@
 #pragma once
-/// Draws what Dear ImGui has laid out, with the renderer's own OpenGL functions, in a window and without one.
-/// (The backends that come with ImGui load libGL, which breaks contexts in memory.)
+/// Draws the output of Dear ImGui with the renderer's OpenGL functions, with or without a window. (The
+/// backends of ImGui load libGL, which breaks contexts in memory.)
 
 #include <imgui.h>
 
@@ -11,16 +11,15 @@
 
 namespace talus::gui {
 
-/// The surface that is drawn on.
+/// Surface to draw on.
 struct Surface {
-  GLuint framebuffer = 0;     ///< 0: the window
-  int width = 0, height = 0;  ///< px
-  bool top_row_first =
-      false;  ///< row 0 is the top of the picture, as images have it; windows have it at the bottom
+  GLuint framebuffer = 0;      ///< 0: the window
+  int width = 0, height = 0;   ///< px
+  bool top_row_first = false;  ///< whether row 0 is the top, as in images; in windows it is the bottom
 };
 
-/// Owns its objects in the current context. Coordinates and textures are those of ImGui: the id of a texture
-/// is its number, its row 0 is the top, its alpha is straight.
+/// Owns its OpenGL objects in the current context. Coordinates and textures follow ImGui: a texture's id is
+/// its number, its row 0 is the top, and alpha is not premultiplied.
 class DrawDataPainter {
  public:
   explicit DrawDataPainter(const render::Gl& gl);
@@ -28,8 +27,8 @@ class DrawDataPainter {
   DrawDataPainter(const DrawDataPainter&) = delete;
   DrawDataPainter& operator=(const DrawDataPainter&) = delete;
 
-  /// On a ground of the colour of windows, so that those that fill the surface need none of their own:
-  /// without a GPU a layer over all of it takes some 5 ms. Callbacks of draw lists are not called.
+  /// Draws on a background in the colour of windows, so that windows that fill the surface need none: without
+  /// a GPU a full-size layer takes about 5 ms. Callbacks of draw lists are not called.
   void draw(const ImDrawData& data, const Surface& surface);
 
  private:
@@ -38,10 +37,10 @@ class DrawDataPainter {
 
   const render::Gl& gl_;
   render::Batch batch_;
-  std::vector<ImDrawVert> corners_;  ///< of all triangles; kept to save allocations
+  std::vector<ImDrawVert> corners_;  ///< vertices of all triangles; kept between calls to save allocations
 };
 
-/// A texture with one channel, shown as gray (pictures) or as white with that alpha (fonts).
+/// Interpretation of a texture with one channel: gray (pictures), or white with that alpha (fonts).
 enum class OneChannel { gray, alpha };
 void widen(const render::Gl& gl, GLuint texture, OneChannel meaning);
 

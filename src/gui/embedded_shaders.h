@@ -1,5 +1,5 @@
 #pragma once
-/// The shaders of the widgets, built into the binary.
+/// Shaders of the widgets, embedded in the binary.
 
 #include <span>
 

@@ -9,7 +9,7 @@
 namespace talus::gui {
 namespace {
 
-/// First and last code points of blocks, ended by 0. ImGui reads them until the atlas is gone.
+/// First and last code points of each block, terminated by 0. ImGui reads them as long as the atlas exists.
 constexpr ImWchar glyph_blocks[] = {0x0020, 0x007E,  // ASCII
                                     0x00A0, 0x00FF,  // Latin-1
                                     0x0391, 0x03C9,  // Greek
@@ -30,7 +30,7 @@ void add_embedded_font(ImFontAtlas& atlas, float scale) {
   ImFontConfig config;
   config.FontDataOwnedByAtlas = false;
   config.OversampleH = 2;
-  // Not const in the interface, but only read.
+  // The interface takes a non-const pointer, but only reads.
   void* bytes = const_cast<unsigned char*>(embedded::font.data());
   for (const float size : type_scale)
     atlas.AddFontFromMemoryTTF(bytes, static_cast<int>(embedded::font.size()), std::round(size * scale),

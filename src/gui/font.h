@@ -1,19 +1,19 @@
 #pragma once
-/// The font of the widgets, which is that of the pictures, in the sizes of the type scale.
+/// Font of the widgets, identical to that of the pictures, in the sizes of the type scale.
 
 #include <imgui.h>
 
 namespace talus::gui {
 
-/// The sizes of the type scale (theme.h), in the order of the fonts of the atlas.
+/// Sizes of the type scale (theme.h), in the order of the atlas's fonts.
 enum class TextSize { body, small, heading };
 
-/// Adds the embedded font to an atlas in all sizes, each times `scale` in whole pixels, and bakes them. It
-/// has ASCII, Latin-1, Greek, super- and subscripts, arrows, mathematical signs and simple shapes: everything
-/// that texts of pictures use, and more.
+/// Adds the embedded font to an atlas in all sizes, each multiplied by `scale` and rounded to whole pixels,
+/// and bakes them. It covers ASCII, Latin-1, Greek, super- and subscripts, arrows, mathematical signs and
+/// simple shapes, which includes all characters of pictures.
 void add_embedded_font(ImFontAtlas& atlas, float scale);
 
-/// Texts of that size as long as it lives.
+/// Sets the text size during its lifetime.
 class TextOfSize {
  public:
   explicit TextOfSize(TextSize size) { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[static_cast<int>(size)]); }

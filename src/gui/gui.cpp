@@ -12,15 +12,15 @@ namespace {
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-/// Where the parts of the window are.
+/// Sizes of the parts of the window.
 struct Places {
-  float left = 0.0f;    ///< width of the panels on the left; 0: not shown
-  float right = 0.0f;   ///< of the inspector
+  float left = 0.0f;    ///< width of the left column; 0: hidden
+  float right = 0.0f;   ///< width of the inspector
   float bottom = 0.0f;  ///< height of the plots
 };
 
-/// The plots get what the map does not need, unless somebody has moved the border between them; none if there
-/// is no room for both.
+/// Returns the height that the map does not need, or the height set by the user with the border between map
+/// and plots; 0 if there is no room for both.
 float height_of_plots(view::ViewModel& model, float width, float height, float em) {
   const float least = 12.0f * em;
   const auto map_height = [&](float picture) {
@@ -45,7 +45,7 @@ Places lay_out_window(view::ViewModel& model, const ImVec2& size, float em) {
   return places;
 }
 
-/// The border between the map and the plots, which can be moved.
+/// Draws the movable border between the map and the plots.
 void draw_border(Gui& gui, float top, float height) {
   const ImVec2 corner = ImGui::GetWindowPos();
   const float width = ImGui::GetWindowWidth(), half = 0.3f * gui.em;
@@ -62,7 +62,7 @@ void draw_border(Gui& gui, float top, float height) {
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) gui.model.state.picture_share = 0.0f;
 }
 
-/// A part of the window at a place.
+/// Draws a part of the window at a place.
 template <typename Draw>
 void part(const char* name, const ImVec2& place, const ImVec2& size, ImGuiWindowFlags flags,
           const Draw& draw) {
@@ -75,7 +75,7 @@ void part(const char* name, const ImVec2& place, const ImVec2& size, ImGuiWindow
   ImGui::End();
 }
 
-/// An announcement stays until it is clicked, which shows the last frame before failure.
+/// Draws the message. An announcement stays until it is clicked, which shows the last frame before failure.
 void draw_message(Gui& gui) {
   view::ViewState& state = gui.model.state;
   if (!state.announcement.empty()) {
@@ -109,7 +109,7 @@ GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vecto
   offer_tilt_ahead(model);
   handle_keys(gui);
   const ImVec2 size = ImGui::GetIO().DisplaySize;
-  const float line = 1.9f * gui.em;  // the message at the bottom
+  const float line = 1.9f * gui.em;  // height of the message line
   const float time_line = size.y >= 30.0f * gui.em ? 3.9f * gui.em : 0.0f;
   const float height = size.y - line - time_line;
   if (time_line == 0.0f && std::exchange(model.state.bookmark_asked, false))

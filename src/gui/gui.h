@@ -1,6 +1,6 @@
 #pragma once
-/// The widgets of `talus view`: Dear ImGui draws them, and the view model knows what they show. Only this
-/// folder includes imgui.h.
+/// Widgets of `talus view`, drawn by Dear ImGui, with the view model as their data. Only this folder includes
+/// imgui.h.
 
 #include <functional>
 #include <optional>
@@ -11,29 +11,29 @@
 
 namespace talus::gui {
 
-/// The place of a widget in the last picture, px of the window, so that tests and scripts can
-/// click on it.
+/// Place of a widget in the last picture, px of the window. Tests and scripts use it to click on widgets.
 struct WidgetPlace {
   std::string name;  ///< "play", "map", "group map"
   float x0 = 0.0f, y0 = 0.0f, x1 = 0.0f, y1 = 0.0f;
 };
 
-/// How the map widget gets its picture: draws the view into a texture of that width and returns its id for
-/// ImGui. Each of the pictures that are shown at once has its own texture: 0, and 1 for the second view.
+/// Function that renders a picture for the map widget: draws the view into a texture of that width and
+/// returns its id for ImGui. Each picture shown has its own texture: 0 for the first view, and 1 for the
+/// second.
 using DrawMap = std::function<void*(const render::FrameView& view, int width, std::size_t texture)>;
 
-/// Requests of the widgets to the program around them.
+/// Requests from the widgets to the surrounding program.
 struct GuiRequests {
   bool quit = false;
-  std::string open_path;                  ///< a run or scenario to open instead
-  std::optional<std::size_t> open_frame;  ///< of that run, to be shown first
-  std::string save_png_path;              ///< write what is shown
-  std::string behind_path;                ///< a run or an ensemble to draw behind the curves
-  std::string plots_folder;               ///< write the plots shown there, as figures with their data
+  std::string open_path;                  ///< run or scenario to open instead
+  std::optional<std::size_t> open_frame;  ///< frame of that run to show first
+  std::string save_png_path;              ///< file for the picture shown
+  std::string behind_path;                ///< run or ensemble to draw behind the curves
+  std::string plots_folder;               ///< folder for the plots shown, as figures with their data
 };
 
-/// One picture of the whole window, between ImGui::NewFrame and ImGui::Render. Fills `places` with the places
-/// of the widgets.
+/// Draws one picture of the entire window; call between ImGui::NewFrame and ImGui::Render. Fills `places`
+/// with the places of the widgets.
 GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places);
 
 }  // namespace talus::gui

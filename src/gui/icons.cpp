@@ -6,7 +6,7 @@
 namespace talus::gui {
 namespace {
 
-/// A triangle that points to the right (1) or to the left (-1) of its middle.
+/// Adds a triangle that points to the right (1) or to the left (-1).
 void add_triangle(ImDrawList& list, const ImVec2& middle, float half, float side, ImU32 ink) {
   const ImVec2 tip{middle.x + 0.9f * side * half, middle.y};
   const float back = middle.x - 0.9f * side * half;

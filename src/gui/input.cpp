@@ -10,7 +10,7 @@ struct NamedKey {
   int key;
 };
 
-/// Keys by which ImGui itself moves about and edits.
+/// Keys that ImGui uses for navigation and editing.
 constexpr std::array<NamedKey, 22> named_keys = {{{ImGuiKey_Tab, key_tab},
                                                   {ImGuiKey_LeftArrow, key_left},
                                                   {ImGuiKey_RightArrow, key_right},
@@ -34,7 +34,8 @@ constexpr std::array<NamedKey, 22> named_keys = {{{ImGuiKey_Tab, key_tab},
                                                   {ImGuiKey_Y, 'Y'},
                                                   {ImGuiKey_Z, 'Z'}}};
 
-/// Whether `key` is the left or right one of a pair: in GLFW's numbers the right one comes four later.
+/// Returns whether `key` is the left or right key of a pair; in GLFW the code of the right key is larger by
+/// 4.
 bool is_modifier(int key, int left) { return key == left || key == left + 4; }
 
 void set_key(ImGuiIO& io, int key, bool down) {
@@ -74,7 +75,8 @@ void name_keys(ImGuiIO& io) {
 }
 
 void InputQueue::hand_over(ImGuiIO& io) {
-  bool pressed = false;  // a button or key has changed: only the character that belongs to it may follow
+  bool pressed =
+      false;  // after a button or key has changed, only its own character may follow in this picture
   while (!events_.empty()) {
     const InputEvent& event = events_.front();
     if (pressed && event.kind != InputEvent::Kind::character) break;

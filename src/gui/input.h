@@ -1,5 +1,5 @@
 #pragma once
-/// Mouse and keys on their way to Dear ImGui, with and without a window.
+/// Passes mouse and keyboard input to Dear ImGui, with or without a window.
 
 #include <imgui.h>
 
@@ -7,8 +7,8 @@
 
 namespace talus::gui {
 
-/// Numbers of keys, as GLFW has them: printable keys are their ASCII code, letters as capitals. They are the
-/// indices of io.KeysDown.
+/// Key codes of GLFW: printable keys have their ASCII code, letters as capitals. They are the indices of
+/// io.KeysDown.
 enum KeyCode : int {
   key_space = 32,
   key_escape = 256,
@@ -34,30 +34,30 @@ enum KeyCode : int {
   key_right_super = 347,
 };
 
-/// An action of the user.
+/// One input event.
 struct InputEvent {
   enum class Kind { position, button, wheel, key, character };
   Kind kind = Kind::position;
-  float x = 0.0f, y = 0.0f;  ///< position: px; wheel: steps
-  int code = 0;              ///< button 0 left, 1 right, 2 middle; key; or Unicode character
-  bool down = false;         ///< button, key
+  float x = 0.0f, y = 0.0f;  ///< position in px; wheel in steps
+  int code = 0;              ///< button (0 left, 1 right, 2 middle), key, or Unicode character
+  bool down = false;         ///< for buttons and keys
 };
 
-/// Hands events over so that none is lost: a button or key that is pressed and released between two pictures
-/// is down in one of them.
+/// Delivers events without loss: a button or key that is pressed and released between two pictures is down in
+/// one of them.
 class InputQueue {
  public:
   void add(const InputEvent& event) { events_.push_back(event); }
-  /// Whether events wait for another picture.
+  /// Returns whether events remain for a later picture.
   bool waiting() const { return !events_.empty(); }
-  /// Hands over what one picture can take; to be called before ImGui::NewFrame.
+  /// Delivers the events of one picture; call before ImGui::NewFrame.
   void hand_over(ImGuiIO& io);
 
  private:
   std::deque<InputEvent> events_;
 };
 
-/// Tells a new ImGui context the meaning of our key numbers.
+/// Registers the key codes in a new ImGui context.
 void name_keys(ImGuiIO& io);
 
 }  // namespace talus::gui

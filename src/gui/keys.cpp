@@ -11,26 +11,26 @@
 namespace talus::gui {
 namespace {
 
-/// A line of the list of keys, and what its keys do.
+/// Line of the list of keys, with the action of its keys.
 struct Key {
-  const char* name;  ///< as the list has it
+  const char* name;  ///< text in the list
   const char* what;
-  ImWchar codes[9];  ///< characters, or numbers of KeyCode from 256 on; 0: no more
+  ImWchar codes[9];  ///< characters, or values of KeyCode from 256 on; terminated by 0
   void (*act)(Gui& gui, ImWchar code);
 };
 
-/// Turns something that is shown on or off, and says which.
+/// Shows or hides an element, and reports which.
 void toggle(Gui& gui, bool& shown, const std::string& on, const std::string& off) {
   shown = !shown;
   say(gui, shown ? on : off);
 }
 
-/// Of a selected grain only: what is drawn once there is one.
+/// Returns the text for an element drawn only at a selected grain, which says so if none is selected.
 std::string of_selected(const Gui& gui, const std::string& what) {
   return what + (gui.model.state.selected ? "." : ", once a grain is selected.");
 }
 
-/// Changes a number of the map by a step within its limits, and says what it is now.
+/// Changes a number of the map by a step within its limits, and reports the new value.
 void change_number(Gui& gui, double& value, double step, double low, double high, const char* what,
                    const char* unit) {
   value = std::clamp(value + step, low, high);
@@ -65,7 +65,8 @@ void next_overlay(Gui& gui, ImWchar) {
   say_map(gui);
 }
 
-/// The bar's own, then each colour map; of clusters without a bar the next palette.
+/// Cycles through the bar's own colours and all colour maps; for clusters without a bar, through the
+/// palettes.
 void next_colours(Gui& gui, ImWchar) {
   pictures::MapSettings& map = gui.model.state.map;
   if (pictures::shows(map.layers, pictures::MapKind::clusters) && !pictures::has_bar(map.layers)) {
@@ -120,7 +121,7 @@ void go_by_key(Gui& gui, ImWchar key) {
                                    : view::Landmark::theta_c);
 }
 
-/// Selects the next grain. Escape ends what is least missed: the list of keys, else what is selected.
+/// Selects the next grain. Escape closes the list of keys or, if it is closed, clears the selection.
 void select_by_key(Gui& gui, ImWchar key) {
   view::ViewState& state = gui.model.state;
   const bool selected =
@@ -128,7 +129,7 @@ void select_by_key(Gui& gui, ImWchar key) {
   if (key == 'n')
     gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
   else if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup))
-    return;  // it closes itself
+    return;  // the list closes itself
   else if (state.show_help)
     state.show_help = false;
   else if (selected)
@@ -137,7 +138,7 @@ void select_by_key(Gui& gui, ImWchar key) {
     say(gui, "Nothing is selected.");
 }
 
-/// The speed of a replay times a factor; of a run that is computed the next pace.
+/// Multiplies the speed of a replay by a factor; in a live run, selects the next pace.
 void change_speed(Gui& gui, double factor) {
   constexpr double fastest_replay = 20.0;  // deg/s
   view::ViewModel& model = gui.model;
@@ -164,7 +165,7 @@ void toggle_trails(Gui& gui) {
                          count == 1 ? "" : "s"));
 }
 
-/// Shows or hides the second view; another map where it would be the first view again.
+/// Shows or hides the second view; chooses another map for it if it would equal the first view.
 void toggle_second_view(Gui& gui) {
   view::ViewState& state = gui.model.state;
   view::BesideState& beside = state.beside;
@@ -177,7 +178,7 @@ void toggle_second_view(Gui& gui) {
                          : pictures::MapKind::displacement};
 }
 
-/// The second view shows what has changed from the frame shown on.
+/// Shows in the second view what changes from the frame shown on.
 void show_change_since_here(Gui& gui) {
   view::BesideState& beside = gui.model.state.beside;
   beside.shown = true;
@@ -186,7 +187,7 @@ void show_change_since_here(Gui& gui) {
       fmt::format("The second view shows what has changed since {:.2f}°.", degrees(*beside.minus));
 }
 
-/// All keys, in the order of the list; docs/view.md is compared with it by a test.
+/// All keys in the order of the list. A test compares docs/view.md with it.
 constexpr Key all_keys[] = {
     {"space", "play, pause", {' '}, [](Gui& gui, ImWchar) { toggle_playing(gui); }},
     {"right, left",

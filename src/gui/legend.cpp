@@ -14,22 +14,23 @@ float text_width(const std::string& text) {
   return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
 }
 
-// In em.
+// Lengths in em.
 constexpr float bar_length = 12.0f, shortest_bar = 5.0f;
 constexpr float text_line = 1.2f;
-constexpr float below_bar = 2.4f;  ///< from its top to the lower edge of its labels, with some space
+constexpr float below_bar = 2.4f;  ///< distance from its top to the lower edge of its labels, with some space
 constexpr float swatch_text = 1.9f, after_text = 1.0f;
 
-/// A bar or a swatch and where it lies, px from the corner of the legend.
+/// Bar or swatch with its place, px from the corner of the legend.
 struct LegendItem {
   const render::Bar* bar = nullptr;
   const render::Swatch* swatch = nullptr;
-  std::vector<std::string> lines;  ///< of its title, or its label
+  std::vector<std::string> lines;  ///< lines of its title or its label
   float x = 0.0f, y = 0.0f, width = 0.0f, height = 0.0f;
   float bar_left = 0.0f, bar_top = 0.0f, bar_length = 0.0f;
 };
 
-/// Half of the first label of a bar may lie left of it, and half of the last one right of it.
+/// Returns by how much the first label of a bar extends to the left of it, or the last one to the right: half
+/// its width.
 float half_label(const render::Bar& bar, bool first, float em) {
   if (bar.ticks.empty()) return 0.0f;
   const render::BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();
@@ -37,7 +38,7 @@ float half_label(const render::Bar& bar, bool first, float em) {
   return std::max(0.0f, 0.5f * text_width(tick.label) - out);
 }
 
-/// A bar beside its title, or below it if there is no room for both.
+/// Lays out a bar next to its title, or below it if there is no room for both.
 LegendItem bar_item(const render::Bar& bar, float room, float em) {
   LegendItem item;
   item.bar = &bar;
@@ -68,7 +69,7 @@ LegendItem swatch_item(const render::Swatch& swatch, float room, float em) {
   return item;
 }
 
-/// The items of a legend in rows. Returns its height, px.
+/// Lays out the items of a legend in rows; returns its height, px.
 float lay_out_legend(const render::FrameView& view, float room, float em, std::vector<LegendItem>& items) {
   for (const render::Legend& legend : view.legends) {
     for (const render::Bar& bar : legend.bars) items.push_back(bar_item(bar, room, em));
@@ -88,7 +89,8 @@ float lay_out_legend(const render::FrameView& view, float room, float em, std::v
   return bottom;
 }
 
-/// The mouse on a bar: pulling its ends sets the range of the map, a double click gives back the map's own.
+/// Handles the mouse on a bar: dragging its ends sets the range of the map, and a double click restores the
+/// default range.
 void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& high) {
   const float em = gui.em, length = high.x - low.x;
   pictures::MapSettings& map = gui.model.state.map;
@@ -186,7 +188,7 @@ void draw_legends(Gui& gui, const render::FrameView& view, float width, bool of_
   std::vector<LegendItem> items;
   const float height = lay_out_legend(view, width, gui.em, items);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  bool first = of_first;  // the bar whose range can be chosen
+  bool first = of_first;  // bar whose range can be chosen
   for (const LegendItem& item : items) {
     const ImVec2 at{corner.x + item.x, corner.y + item.y};
     if (item.bar != nullptr)

@@ -16,8 +16,8 @@ constexpr float least_picture = 4.0f;  ///< em
 
 constexpr float caption_line = 1.2f;  ///< em
 
-/// The title, and the caption on the right of it, or below it if there is no room for both. Returns how high
-/// they are, px.
+/// Returns the height (px) of the title with the caption to its right, or below it if there is no room for
+/// both.
 float caption_height(const render::FrameView& view, float width, float em) {
   const ImFont& font = *ImGui::GetFont();
   const bool both = rich_width(font, em, view.caption) + rich_width(font, em, view.title) + em < width;
@@ -50,7 +50,7 @@ void draw_caption(const render::FrameView& view, float width) {
   ImGui::Dummy({width, height});
 }
 
-/// Gravity, beside the legend.
+/// Draws the direction of gravity next to the legend.
 void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const auto x = static_cast<float>(sine(fall)), y = static_cast<float>(cosine(fall));
@@ -63,8 +63,8 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
-/// What is under the mouse. A second view of the same run tells what the first one does, and what it has of
-/// its own: another map, or what has changed.
+/// Describes the grain under the mouse. A second view of the same run shows the text of the first, and its
+/// own value: another map, or a change.
 void tell_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
   const view::View told = &view.run == &gui.model ? gui.model.first() : view;
   const double diameter = view.run.mean_diameter();
@@ -85,7 +85,7 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   };
   const render::Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
-  // The second view is looked at; what is selected, or pulled, is so in the first.
+  // The second view is for looking only; selections and drags belong to the first.
   if (!view.second && drag_grain(gui, place.x, place.y, shown)) return;
   const bool outlining = !view.second && select_by_outline(gui, shown);
   if (ImGui::IsItemHovered()) {
@@ -95,7 +95,7 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
     if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, view, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
-      if (&view.run == &gui.model)  // the inspector tells of the first run
+      if (&view.run == &gui.model)  // the inspector describes the first run
         select_clicked(gui, place.x, place.y);
       else
         say(gui, "Grains are selected in the first run only: click there.");
@@ -111,11 +111,11 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   }
 }
 
-/// Whether there is room for the scale bar and the arrow of gravity, right of the legend.
+/// Returns whether there is room for the scale bar and the arrow of gravity to the right of the legend.
 bool shows_gravity(float width, float em) { return width > 26.0f * em; }
 bool shows_scale(float width, float em) { return width > 40.0f * em; }
 
-/// em
+/// Lengths in em.
 constexpr float gravity_room = 3.5f, scale_room = 9.0f;
 
 float legend_width(float width, float em) {
@@ -123,10 +123,11 @@ float legend_width(float width, float em) {
          (shows_scale(width, em) ? scale_room * em : 0.0f);
 }
 
-/// The scale bar, which ends at `right`, with its length below it; pixels: of a mean diameter.
+/// Draws the scale bar, which ends at `right`, with its length below it; `pixels` is the size of a mean
+/// diameter.
 void draw_scale(Gui& gui, const ImVec2& right, double pixels) {
   const float em = gui.em;
-  constexpr float longest = 0.3f;  // of the width that scale_diameters is told
+  constexpr float longest = 0.3f;  // fraction of the width passed to scale_diameters
   const double diameters =
       pictures::scale_diameters(static_cast<double>((scale_room - 1.5f) * em / longest) / pixels, 1.0);
   const auto length = static_cast<float>(diameters * pixels);
@@ -142,7 +143,7 @@ void draw_scale(Gui& gui, const ImVec2& right, double pixels) {
   note_place(gui, "scale", {left, right.y - 0.3f * em}, {right.x, right.y + 1.3f * em});
 }
 
-/// At least so much that the arrow of gravity has its place.
+/// Returns the height below the map, at least that of the arrow of gravity.
 float below_map(const render::FrameView& annotated, float width, float em) {
   return std::max(2.6f * em, legend_height(annotated, legend_width(width, em)));
 }

@@ -12,11 +12,11 @@
 namespace talus::gui {
 namespace {
 
-constexpr float least_drag = 4.0f;            ///< px; less is a click
+constexpr float least_drag = 4.0f;            ///< px; shorter movements are clicks
 constexpr double contact_reach = 1.0;         ///< D, with ctrl
-constexpr double small_contact_reach = 0.15;  ///< D, without: elsewhere it is the grain that is meant
+constexpr double small_contact_reach = 0.15;  ///< D, without ctrl: farther away the grain is meant
 
-/// Whether a map shows single contacts.
+/// Returns whether a map shows single contacts.
 bool shows_contacts(const pictures::MapLayers& layers) {
   return pictures::any_layer(layers, [](pictures::MapKind kind) {
     return kind == pictures::MapKind::forces || kind == pictures::MapKind::critical;
@@ -28,7 +28,7 @@ bool is_far(const ImVec2& mouse, const Vec2& place) {
          least_drag;
 }
 
-/// A box by its corners, a lasso as it is; px.
+/// Returns the corners of a box, or a lasso unchanged; px.
 std::vector<Vec2> closed(const view::SelectingState& selecting) {
   if (!selecting.outline_is_box) return selecting.outline;
   const Vec2 from = selecting.outline.front(), to = selecting.outline.back();
@@ -59,7 +59,7 @@ void select_contact(Gui& gui, double x, double y) {
     gui.model.state.message = "No contact that carries a force is there.";
 }
 
-/// What the outline was drawn for, once the mouse is let go.
+/// Applies the finished outline when the mouse button is released.
 void finish(Gui& gui, const ShownMap& map) {
   view::SelectingState& selecting = gui.model.state.selecting;
   const Vec2 first = selecting.outline.front();
@@ -79,8 +79,8 @@ void finish(Gui& gui, const ShownMap& map) {
       fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
 }
 
-/// Where a spring can be held that is to be held at the mouse: not farther from the grain than commands
-/// allow.
+/// Returns the place where a spring that should be held at the mouse can be held: limited to the distance
+/// from the grain that commands allow.
 std::array<double, 2> within_reach(const view::ViewModel& model, Index grain, double x, double y) {
   const Frame& frame = model.frame();
   const double dx = x - frame.x[grain], dy = y - frame.y[grain];
@@ -88,7 +88,7 @@ std::array<double, 2> within_reach(const view::ViewModel& model, Index grain, do
   return {frame.x[grain] + std::min(1.0, share) * dx, frame.y[grain] + std::min(1.0, share) * dy};
 }
 
-/// What the spring does is told while it does it; what stands in the way ends the drag.
+/// Holds the spring and reports its action; an error ends the drag.
 void hold_at(Gui& gui, Index grain, double x, double y) {
   view::ViewModel& model = gui.model;
   const auto [held_x, held_y] = within_reach(model, grain, x, y);
@@ -105,7 +105,7 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
   }
 }
 
-/// The free grain on which a lasso would begin, once the mouse moves: a click is for a contact.
+/// Returns the free grain on which a lasso would begin once the mouse moves; a click is meant for a contact.
 std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& map) {
   const view::SelectingState& selecting = model.state.selecting;
   if (selecting.outline.size() != 1 || selecting.outline_is_box || ImGui::GetIO().KeyShift) return {};
@@ -116,14 +116,14 @@ std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& m
   return grain && *grain < model.statics().free_count ? grain : std::nullopt;
 }
 
-/// Whether a grain would be pulled, had the run not ended: then no lasso begins there, which would drop what
-/// is selected.
+/// Returns whether a grain would be dragged if the run had not ended. No lasso begins there then, because it
+/// would clear the selection.
 bool refuse_after_end(Gui& gui, const ShownMap& map) {
   view::ViewModel& model = gui.model;
   view::SelectingState& selecting = model.state.selecting;
   const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
                      !ImGui::GetIO().KeyShift && selecting.outline.empty();
-  if (waits) return true;  // the mouse goes on after it was refused
+  if (waits) return true;  // the mouse still moves after the rejection
   if (model.looks_back() || !model.live()->status().done || !first_grain(model, map)) return false;
   selecting.outline.clear();
   model.state.message =
@@ -132,7 +132,7 @@ bool refuse_after_end(Gui& gui, const ShownMap& map) {
   return true;
 }
 
-/// Those that are selected stay where it is one of them.
+/// Inspects a grain; the selection stays if the grain belongs to it.
 void look_at(view::ViewModel& model, Index grain) {
   if (std::ranges::binary_search(model.selected_grains(), grain))
     model.state.selected = grain;
@@ -215,7 +215,7 @@ bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
     const std::optional<Index> grain = model.looks_back() ? std::nullopt : first_grain(model, map);
     if (!grain) return false;
     model.state.selecting.outline.clear();
-    model.state.selecting.follow = false;  // else the picture would run after the mouse, and the mouse ahead
+    model.state.selecting.follow = false;  // otherwise picture and mouse would chase each other
     look_at(model, *grain);
     hold_at(gui, *grain, x, y);
     return true;
@@ -224,7 +224,7 @@ bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
     let_go(gui);
     return true;
   }
-  // One place a step: those between two steps would do nothing.
+  // One place per step: further places between two steps would have no effect.
   if (model.live()->status().step != drag->step && (x != drag->x || y != drag->y))
     hold_at(gui, drag->grain, x, y);
   if (drag) draw_spring(gui, map);

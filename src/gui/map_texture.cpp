@@ -11,14 +11,14 @@ bool same_bytes(const std::vector<Shape>& a, const std::vector<Shape>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Shape)) == 0;
 }
 
-/// Whether two views are sure to give the same picture: furniture is not compared.
+/// Returns whether two views certainly give the same picture; legends and titles are not compared.
 bool same_picture(const render::FrameView& a, const render::FrameView& b) {
   return !a.furniture && !b.furniture && a.x_min == b.x_min && a.x_max == b.x_max && a.y_min == b.y_min &&
          a.y_max == b.y_max && a.turn == b.turn && a.turn_max == b.turn_max && a.coloured == b.coloured &&
          a.transparent == b.transparent && same_bytes(a.discs, b.discs) && same_bytes(a.lines, b.lines);
 }
 
-/// A renderer for the target that is kept at hand for its texture.
+/// Returns a renderer for the target that is kept for its texture.
 std::unique_ptr<render::TextureTarget> keep(std::unique_ptr<render::TextureTarget> target,
                                             render::TextureTarget*& kept) {
   kept = target.get();
@@ -44,7 +44,7 @@ GLuint MapTexture::draw(const render::FrameView& view, int width) {
 }
 
 render::Image MapTexture::draw_image(const render::FrameView& view, int width) {
-  width_ = 0;  // the target is the same
+  width_ = 0;  // the target is shared
   return renderer_.draw(view, width);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The map of the bed as a texture for widgets.
+/// Map of the bed as a texture for widgets.
 
 #include <memory>
 
@@ -11,21 +11,21 @@ namespace talus::gui {
 
 class MapTexture {
  public:
-  /// Takes a current context; `gl` are its functions.
+  /// Takes over a current context with its functions `gl`.
   MapTexture(std::unique_ptr<render::Context> context, const render::Gl& gl);
 
-  /// The texture with a view, `width` px wide and as high as follows from it. A view without furniture is
-  /// drawn again only where it has changed: without a GPU 8000 grains take some 6 ms.
+  /// Returns the texture with a view, `width` px wide; the height follows from the view. A view without
+  /// legends and titles is redrawn only after a change: without a GPU, 8000 grains take about 6 ms.
   GLuint draw(const render::FrameView& view, int width);
 
-  /// A picture in memory, as talus render draws it.
+  /// Draws a picture in memory, as talus render does.
   render::Image draw_image(const render::FrameView& view, int width);
 
  private:
   const render::Gl& gl_;
-  render::TextureTarget* target_;  ///< of the renderer
+  render::TextureTarget* target_;  ///< owned by the renderer
   render::Renderer renderer_;
-  render::FrameView drawn_;  ///< what the texture shows; valid where width_ > 0
+  render::FrameView drawn_;  ///< view in the texture; valid if width_ > 0
   int width_ = 0;
 };
 

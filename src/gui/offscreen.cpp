@@ -7,7 +7,7 @@
 namespace talus::gui {
 namespace {
 
-/// Between two pictures as ImGui sees it, s: so long that two clicks are no double click.
+/// Time between two pictures for ImGui, s: long enough that two clicks are not a double click.
 constexpr double picture_seconds = 0.1;
 
 }  // namespace
@@ -65,7 +65,8 @@ render::Image OffscreenGui::frame(double seconds) {
 
 void OffscreenGui::settle() {
   while (screen_.input().waiting()) draw(0.0);
-  for (int k = 0; k < 3; ++k) draw(0.0);  // ImGui knows sizes and what is under the mouse one picture later
+  for (int k = 0; k < 3; ++k)
+    draw(0.0);  // ImGui needs one more picture to know sizes and what is under the mouse
 }
 
 }  // namespace talus::gui

@@ -1,5 +1,5 @@
 #pragma once
-/// The whole window without a display, drawn as a picture, for documents and for tests.
+/// The entire window without a display, drawn as a picture for documents and tests.
 
 #include <memory>
 #include <optional>
@@ -11,27 +11,27 @@ namespace talus::gui {
 
 class OffscreenGui {
  public:
-  /// A window of that size, px, in a context without a display; text and widgets are `scale` times as large
-  /// as usual. Throws Error(unavailable) if there is no context.
+  /// Creates a window of that size (px) in a context without a display, with text and widgets enlarged by
+  /// `scale`. Throws Error(unavailable) if there is no context.
   OffscreenGui(view::ViewModel& model, int width, int height, float scale = 1.0f,
                std::optional<render::ContextKind> kind = std::nullopt);
   ~OffscreenGui();
   OffscreenGui(const OffscreenGui&) = delete;
   OffscreenGui& operator=(const OffscreenGui&) = delete;
 
-  /// Lets time pass for the model, draws, and returns what the window shows: three channels.
+  /// Advances the model, draws, and returns the content of the window with three channels.
   render::Image frame(double seconds = 0.0);
-  /// Draws until no input waits any more and the layout is final. No time passes for the model.
+  /// Draws until all input is delivered and the layout is final. The model does not advance.
   void settle();
 
   const std::vector<WidgetPlace>& places() const { return screen_.places(); }
   InputQueue& input() { return screen_.input(); }
   void resize(int width, int height);
-  /// A view as talus render draws it.
+  /// Draws a view as talus render does.
   render::Image draw_image(const render::FrameView& view, int width) {
     return screen_.draw_image(view, width);
   }
-  /// Everything that widgets have requested since the window was made.
+  /// Returns all requests of the widgets since the window was created.
   const GuiRequests& requests() const { return requests_; }
 
  private:

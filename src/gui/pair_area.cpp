@@ -11,25 +11,25 @@
 namespace talus::gui {
 namespace {
 
-constexpr float gap = 0.8f;           ///< between the two, em
-constexpr float least_width = 12.0f;  ///< of a picture, em
+constexpr float gap = 0.8f;           ///< gap between the two, em
+constexpr float least_width = 12.0f;  ///< minimum width of a picture, em
 constexpr float least_height = 3.0f;
 
-/// A line above a view: the name of its run, its angle, or the title of its map.
+/// Lines above a view: the name of its run, its angle, or the title of its map.
 struct HeadLine {
   std::string text;
   bool is_name = false;
-  bool beside_name = false;  ///< on the right, in the line of the name
+  bool beside_name = false;  ///< drawn on the right, in the line of the name
 };
 using PaneHead = std::vector<HeadLine>;
 
-/// A name in a width, px: without the middle if it is longer.
+/// Shortens a name to a width (px) by leaving out its middle.
 std::string shortened(const std::string& name, float width) {
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   std::string shorter = name;
   for (std::size_t kept = name.size(); kept > 0 && rich_width(font, size, shorter) > width; --kept) {
-    // Not within a character of several bytes.
+    // Multi-byte characters must not be split.
     const auto begins = [&](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xC0) != 0x80; };
     std::size_t head = kept / 2, tail = name.size() - (kept - head);
     while (head > 0 && !begins(head)) --head;
@@ -39,7 +39,7 @@ std::string shortened(const std::string& name, float width) {
   return shorter;
 }
 
-/// Name and angle share a line if both have room.
+/// Lays out name and angle, in one line if both have room.
 PaneHead head_of(const view::View& of, float width) {
   const render::FrameView& annotated = of.annotated_map();
   const ImFont& font = *ImGui::GetFont();
@@ -76,12 +76,12 @@ void draw_head(const PaneHead& head, float width, int lines) {
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }
 
-/// Where the two views are: as columns, or one above the other.
+/// Layout of the two views: side by side, or one above the other.
 struct PairLayout {
   bool columns = true;
-  ImVec2 pane;         ///< each, with what is above and below its picture
-  ImVec2 picture;      ///< room for it
-  int lines = 0;       ///< above it
+  ImVec2 pane;         ///< size of each view, including everything above and below its picture
+  ImVec2 picture;      ///< room for the picture
+  int lines = 0;       ///< number of lines above it
   float below = 0.0f;  ///< height of the legend below it
   std::array<PaneHead, 2> heads;
 };
@@ -102,7 +102,7 @@ PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, c
   return of;
 }
 
-/// px of the picture that the bed fills; 0 where there is no room.
+/// Returns the width in px that the bed fills; 0 if there is no room.
 float bed_width(const PairLayout& of, double aspect, float em) {
   if (of.picture.x < least_width * em || of.picture.y < least_height * em) return 0.0f;
   return std::min(of.picture.x, of.picture.y * static_cast<float>(aspect));

@@ -7,7 +7,7 @@
 namespace talus::gui {
 namespace {
 
-/// The force at the contact in its Coulomb cone: f_n upwards, f_t to the right, in one scale.
+/// Draws the contact force in its Coulomb cone: f_n upwards, f_t to the right, at the same scale.
 void draw_cone(Gui& gui, const view::ContactInspection& contact) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
@@ -18,7 +18,7 @@ void draw_cone(Gui& gui, const view::ContactInspection& contact) {
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   const ImU32 law_colour = packed(gui.colours.curves[1]), force_colour = packed(gui.colours.curves[2]);
   const ImVec2 apex{corner.x + 0.5f * width, corner.y + size.y - 0.6f * em};
-  const float reach = size.y - 1.8f * em;  // of the axis of f_n
+  const float reach = size.y - 1.8f * em;  // length of the axis of f_n
   list.AddLine({corner.x + 0.05f * width, apex.y}, {corner.x + 0.95f * width, apex.y}, ink);
   list.AddLine(apex, {apex.x, apex.y - reach}, ink);
   const auto mu = static_cast<float>(contact.friction);
@@ -28,7 +28,7 @@ void draw_cone(Gui& gui, const view::ContactInspection& contact) {
   add_rich_text(list, {apex.x + 0.3f * em, corner.y}, ink, "f_n");
   add_rich_text(list, {corner.x + 0.95f * width - em, apex.y - 1.3f * em}, ink, "f_t");
   if (!(contact.fn > 0.0)) return;
-  const float shown = 0.85f * rise;  // of f_n
+  const float shown = 0.85f * rise;  // length of f_n
   const ImVec2 tip{apex.x + shown * static_cast<float>(contact.ft / contact.fn), apex.y - shown};
   list.AddLine(apex, tip, force_colour, 2.5f);
   list.AddCircleFilled(tip, 0.25f * em, force_colour);
@@ -51,7 +51,7 @@ void draw_forces(Gui& gui, const view::ContactInspection& contact) {
   fact("status", contact.status == ContactStatus::sliding ? "slides" : "sticks");
 }
 
-/// A click on a curve goes to the frame there.
+/// Draws the history; a click on a curve goes to the frame there.
 void draw_history(Gui& gui) {
   const view::PlotMarks marks = gui.model.plot_marks();
   for (const view::Plot& plot : gui.model.contact_history()) {
@@ -62,7 +62,7 @@ void draw_history(Gui& gui) {
   }
 }
 
-/// One of the two bodies; a grain is selected by a click.
+/// Shows one of the two bodies; a click selects a grain.
 void offer_body(Gui& gui, const char* name, Index body, const std::string& text) {
   ImGui::BeginDisabled(body >= gui.model.frame().grain_count());
   if (named_button(gui, name, text.c_str(), "select this grain")) gui.model.select(std::optional(body));

@@ -15,7 +15,7 @@ struct Entry {
   bool folder = false;
 };
 
-/// Folders, runs and scenarios of a folder, folders first, by name.
+/// Returns the folders, runs and scenarios in a folder, folders first, sorted by name.
 std::vector<Entry> entries_of(const fs::path& folder) {
   std::vector<Entry> entries = {{"..", folder.parent_path().string(), true}};
   std::error_code ignored;

@@ -22,11 +22,11 @@ const char* status_text(ContactStatus status) {
   return "open";
 }
 
-/// A click on a row selects the contact.
+/// Lists the contacts; a click on a row selects one.
 void draw_contacts(Gui& gui, const view::Inspection& grain, double weight) {
   const ImGuiTableFlags flags =
       ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingStretchProp;
-  // As high as most grains need, so that what is below stays in its place from frame to frame.
+  // Enough for most grains, so that the content below does not move between frames.
   constexpr float usual_rows = 7.0f;
   const float row_height = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
   const ImVec2 least{0.0f, usual_rows * row_height};
@@ -35,7 +35,7 @@ void draw_contacts(Gui& gui, const view::Inspection& grain, double weight) {
     ImGui::TableNextColumn();
     rich_text(title);
   }
-  std::optional<view::ContactKey> chosen;  // selected once all are drawn
+  std::optional<view::ContactKey> chosen;  // applied once all are drawn
   for (const view::GrainContact& contact : grain.contacts) {
     ImGui::TableNextColumn();
     const std::string row = fmt::format("{}##{} {} {}", contact.other_name, contact.key.a, contact.key.b,
@@ -53,8 +53,8 @@ void draw_contacts(Gui& gui, const view::Inspection& grain, double weight) {
   if (chosen) gui.model.select(*chosen);
 }
 
-/// Mohr's circle of a mean stress p and a deviator q, over p: principal values (1 +- gamma) / 2, and the line
-/// of Coulomb's threshold sin(theta_c).
+/// Draws Mohr's circle for mean stress p and deviator q, in units of p: principal values (1 +- gamma) / 2,
+/// and the line of Coulomb's threshold sin(theta_c).
 void draw_mohr_circle(Gui& gui, const view::Inspection& grain, double theta_c) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x, em = gui.em;
@@ -63,7 +63,7 @@ void draw_mohr_circle(Gui& gui, const view::Inspection& grain, double theta_c) {
   note_place(gui, "mohr circle");
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = packed(gui.colours.ink), law = packed(gui.colours.curves[1]);
-  const float scale = 0.7f * width;  // px for p
+  const float scale = 0.7f * width;  // px per p
   const ImVec2 origin{corner.x + 0.05f * width, corner.y + 1.6f * em + 0.37f * width};
   list.AddLine({corner.x, origin.y}, {corner.x + size.x, origin.y}, ink);
   list.AddLine({origin.x, corner.y + em}, {origin.x, corner.y + size.y}, ink);
@@ -102,7 +102,7 @@ std::string ratio_text(double ratio, const char* remark) {
   return std::isfinite(ratio) ? fmt::format("{:.3f}{}", ratio, remark) : "carries nothing";
 }
 
-/// The same rows for all free grains, so that none moves from frame to frame.
+/// Draws the same rows for all free grains, so that nothing moves between frames.
 void draw_state(const view::Inspection& grain, double diameter, double l_min) {
   fact("radius", fmt::format("{:.3f} D", grain.radius / diameter));
   fact("place", fmt::format("{:.2f}, {:.2f} D", grain.x / diameter, grain.y / diameter));
@@ -123,7 +123,7 @@ void draw_state(const view::Inspection& grain, double diameter, double l_min) {
   fact("ℓ_c", length ? fmt::format("{:.2f} D", *length / diameter) : "–");
 }
 
-/// What the curves say of the frame shown, while no grain is selected.
+/// Shows the values of the curves at the frame shown, if no grain is selected.
 void draw_frame_values(Gui& gui) {
   ImGui::TextWrapped("Click a grain to see its stress, its contacts and its neighbourhood.");
   ImGui::Separator();

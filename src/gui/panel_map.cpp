@@ -7,7 +7,7 @@
 namespace talus::gui {
 namespace {
 
-/// The names of all maps, after what stands for none of them.
+/// Returns the names of all maps, preceded by the entry for none.
 std::vector<std::string> kind_names(const char* none = nullptr) {
   std::vector<std::string> names;
   if (none != nullptr) names.emplace_back(none);
@@ -66,7 +66,7 @@ void choose_colours(Gui& gui) {
     map.colours = render::reversed(*map.colours);
 }
 
-/// The ends of the bar, instead of those of the map.
+/// Sets the ends of the bar, overriding those of the map.
 void choose_range(Gui& gui) {
   pictures::MapSettings& map = gui.model.state.map;
   if (!pictures::has_bar(map.layers)) return;
@@ -77,7 +77,7 @@ void choose_range(Gui& gui) {
     map.range_high.reset();
     const auto with_bar = std::ranges::find_if(
         shown.legends, [](const render::Legend& legend) { return !legend.bars.empty(); });
-    if (own && with_bar != shown.legends.end()) {  // begins with what is shown
+    if (own && with_bar != shown.legends.end()) {  // begin with the current range
       map.range_low = with_bar->bars.front().low;
       map.range_high = with_bar->bars.front().high;
     }
@@ -91,7 +91,7 @@ void choose_range(Gui& gui) {
   ImGui::PopItemWidth();
 }
 
-/// An angle (rad) that may be there: a checkbox, which begins with that of the frame shown, and a slider.
+/// Edits an optional angle (rad): a checkbox, which sets it to that of the frame shown, and a slider.
 void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& name, const char* label,
                   const char* tip) {
   bool there = angle.has_value();
@@ -103,7 +103,7 @@ void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& nam
     angle = radians(shown);
 }
 
-/// By what runs are linked.
+/// Clocks that link runs.
 constexpr std::pair<view::PlotAxis, const char*> clocks[] = {
     {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θc − θ"}, {view::PlotAxis::time, "t"}};
 
@@ -131,7 +131,7 @@ void choose_run_beside(Gui& gui) {
     beside.clock = known[static_cast<std::size_t>(chosen)];
 }
 
-/// What is shown beside the map.
+/// Chooses the content of the second view.
 void choose_beside(Gui& gui) {
   view::BesideState& beside = gui.model.state.beside;
   named_checkbox(gui, "beside", "a second view", beside.shown,

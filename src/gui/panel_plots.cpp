@@ -6,13 +6,13 @@
 namespace talus::gui {
 namespace {
 
-/// Plots as wide as they can be read, and as high as there is room, in rows.
+/// Grid of plots, as wide as legibility requires and as high as there is room.
 struct PlotGrid {
   int columns = 1;
   ImVec2 cell;
 };
 
-constexpr float least_width = 17.5f;  // em: the longest title has room
+constexpr float least_width = 17.5f;  // em: fits the longest title
 
 PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   PlotGrid grid;
@@ -24,7 +24,7 @@ PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   return grid;
 }
 
-/// A click on a curve along the run goes to the frame nearest to it.
+/// Draws a plot; a click on a curve along the run goes to the nearest frame.
 void draw_and_answer(Gui& gui, const view::Plot& plot, const ImVec2& size, const view::PlotMarks& marks,
                      std::string& gone) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -45,7 +45,7 @@ void draw_and_answer(Gui& gui, const view::Plot& plot, const ImVec2& size, const
   gui.model.go_to_place(*clicked);
 }
 
-/// One plot in all of the room, with what can be chosen of it.
+/// Draws one plot at full size, with its options.
 void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& marks, std::string& gone) {
   view::ViewState& state = gui.model.state;
   if (named_button(gui, "all plots", "All plots", "a double click on the plot")) state.enlarged_plot.clear();
@@ -56,7 +56,7 @@ void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& mark
   draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks, gone);
 }
 
-/// What all plots along the run are over.
+/// Chooses the abscissa of all plots along the run.
 void draw_axis(Gui& gui) {
   constexpr std::pair<view::PlotAxis, const char*> axes[] = {
       {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θ_c − θ"}, {view::PlotAxis::time, "t"}};
@@ -76,7 +76,7 @@ void draw_axis(Gui& gui) {
   }
 }
 
-/// Adds a plot of any quantity, of those whose name or title has the text that is typed in.
+/// Adds a plot of any quantity whose name or title contains the text typed.
 void draw_more(Gui& gui) {
   ImGui::SetNextItemWidth(9.0f * gui.em);
   const bool open = ImGui::BeginCombo("##add plot", "add a plot", ImGuiComboFlags_HeightLarge);
@@ -101,7 +101,7 @@ void draw_more(Gui& gui) {
   ImGui::EndCombo();
 }
 
-/// A field for a path in a popup, and a button that takes it. True where it was taken.
+/// Draws a field for a path in a popup, and a button that accepts it; returns whether it was accepted.
 bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, const char* button,
               const char* label) {
   ImGui::SetNextItemWidth(22.0f * gui.em);
@@ -113,7 +113,7 @@ bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, c
   return taken && !path.empty();
 }
 
-/// Another run, or an ensemble, behind the curves.
+/// Chooses another run, or an ensemble, to draw behind the curves.
 void draw_behind_choice(Gui& gui) {
   view::ViewState& state = gui.model.state;
   if (named_button(gui, "behind", "behind ...",
@@ -134,7 +134,7 @@ void draw_behind_choice(Gui& gui) {
     gui.model.set_ghost(std::nullopt);
 }
 
-/// The plots shown as figures.
+/// Exports the plots shown as figures.
 void draw_export(Gui& gui) {
   view::ViewState& state = gui.model.state;
   if (named_button(gui, "export plots", "export ...",
@@ -169,7 +169,7 @@ void draw_plots(Gui& gui) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
   const view::PlotMarks marks = gui.model.plot_marks();
-  std::string gone;  // removed once all are drawn
+  std::string gone;  // removed after all are drawn
   const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &view::Plot::name);
   if (enlarged != plots.end()) {
     draw_enlarged(gui, *enlarged, marks, gone);
@@ -178,7 +178,7 @@ void draw_plots(Gui& gui) {
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0f, 0.0f});
   std::size_t drawn = 0;
-  for (const bool added : {true, false})  // what was asked for is seen without scrolling
+  for (const bool added : {true, false})  // added plots first, so that they are visible without scrolling
     for (const view::Plot& plot : plots) {
       if (plot.added != added) continue;
       if (drawn++ % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();

@@ -11,7 +11,7 @@
 namespace talus::gui {
 namespace {
 
-/// The state of a live run, in lines that stay where they are while it goes on.
+/// Shows the state of a live run in lines that keep their places while it runs.
 void draw_status(const Palette& colours, const view::LiveStatus& status, bool theta_c_known, double theta_c) {
   fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
   fact("θ", fmt::format("{:.3f}°", degrees(status.tilt)));
@@ -27,7 +27,7 @@ void draw_status(const Palette& colours, const view::LiveStatus& status, bool th
   ImGui::PopStyleColor();
 }
 
-/// Of a branch: which run it has left, and the way back to that.
+/// Shows, for a branch, its parent run and a button that returns to it.
 void draw_branch_origin(Gui& gui) {
   const auto line = gui.model.branch_line();
   if (!line) return;
@@ -57,7 +57,7 @@ void draw_live(Gui& gui, view::LiveRun& live) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(5.0f * gui.em);
   named_number(gui, "run to angle", "", state.run_to_tilt, "%.2f°", "the tilt to run to");
-  if (status.depositing) {  // the last of its row: where it goes nothing moves
+  if (status.depositing) {  // last in its row, so that nothing moves when it disappears
     ImGui::SameLine();
     if (named_button(gui, "deposit", "Deposit", "compute until the bed rests and the tilt begins: b"))
       deposit(gui);

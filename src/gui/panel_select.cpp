@@ -14,7 +14,7 @@
 namespace talus::gui {
 namespace {
 
-/// Names that a condition may have, with what they mean; a chosen one is added to it.
+/// Offers the names that a condition may contain, with their meaning; a chosen name is appended.
 void offer_names(Gui& gui) {
   view::SelectingState& selecting = gui.model.state.selecting;
   ImGui::SetNextItemWidth(5.5f * gui.em);
@@ -106,7 +106,7 @@ std::string cell_text(const analysis::GrainNumber& number, double value) {
                                                                    : fmt::format("{:.4g}", value);
 }
 
-/// The columns that are shown: the quantity of the histogram, and what is mostly wanted.
+/// Returns the columns of the table: the quantity of the histogram, and the most common ones.
 std::vector<const analysis::GrainNumber*> shown_columns(const std::string& chosen) {
   std::vector<const analysis::GrainNumber*> columns = {&analysis::grain_number("id")};
   for (const std::string_view name : {std::string_view(chosen), std::string_view("x"), std::string_view("y"),
@@ -116,7 +116,7 @@ std::vector<const analysis::GrainNumber*> shown_columns(const std::string& chose
   return columns;
 }
 
-/// A click on a row shows its grain in the inspector; what is selected stays.
+/// Draws the rows; a click shows a grain in the inspector and keeps the selection.
 void draw_rows(Gui& gui, const std::vector<Index>& grains,
                const std::vector<const analysis::GrainNumber*>& columns) {
   view::ViewState& state = gui.model.state;
@@ -150,7 +150,7 @@ void draw_table(Gui& gui, const std::vector<Index>& grains) {
   if (!ImGui::BeginTable("selected grains", static_cast<int>(columns.size()), flags, {0.0f, height})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
   for (const analysis::GrainNumber* number :
-       columns)  // its own id, so that a sorting stays with its quantity
+       columns)  // separate id, so that the sort order belongs to the quantity
     ImGui::TableSetupColumn(view::head_of(*number).c_str());
   ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
   for (int k = 0; k < static_cast<int>(columns.size()); ++k) {

@@ -25,7 +25,7 @@ struct AxisRange {
     high = std::max(high, value);
   }
   bool empty() const { return !(low <= high); }
-  /// A little wider than its values, and never without width.
+  /// Adds a margin, so that the range is never empty.
   void widen() {
     const double room = high > low ? 0.05 * (high - low) : std::max(0.5 * std::abs(high), 0.5);
     low -= room;
@@ -33,7 +33,7 @@ struct AxisRange {
   }
 };
 
-/// From values to pixels.
+/// Transformation from values to pixels.
 struct Axes {
   AxisRange x, y;
   ImVec2 low, high;  ///< upper left and lower right corner of the frame
@@ -86,17 +86,17 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
   }
 }
 
-constexpr float column_width = 2.0f;  // px: without a GPU each line takes its time
+constexpr float column_width = 2.0f;  // px: without a GPU each line takes time
 
-/// The lowest and the highest point of a curve in a narrow column, in their order: all that can be seen of
-/// those in it.
+/// Lowest and highest point of a curve in a narrow column, in order of x: everything that is visible of the
+/// points in it.
 struct PixelColumn {
   ImVec2 low, high;
   bool low_first = true;
 };
 
-/// A curve of any number of points, thinned to what can be seen. Line by line: a polyline has no width where
-/// it turns back.
+/// Draws a curve with any number of points, thinned to what is visible. It is drawn line by line, because a
+/// polyline has no width at a sharp turn.
 void draw_curve(ImDrawList& list, const Axes& axes, const view::PlotSeries& series, ImU32 colour,
                 float width) {
   std::optional<ImVec2> pen;
@@ -132,16 +132,18 @@ void draw_curve(ImDrawList& list, const Axes& axes, const view::PlotSeries& seri
   end_column();
 }
 
-/// A colour with another opacity.
+/// Returns a colour with another opacity.
 ImU32 with_alpha(ImU32 colour, int alpha) {
   return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(alpha) << IM_COL32_A_SHIFT);
 }
 
-/// What stands behind a curve: the mean as a pale line, and a band of one deviation to either side.
+/// Draws the reference behind a curve: the mean as a pale line, and a band of one standard deviation to each
+/// side.
 void draw_behind(ImDrawList& list, const Axes& axes, const view::GhostCurve& behind, ImU32 colour,
                  float width) {
   const ImDrawListFlags flags = list.Flags;
-  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;  // or the seams between the parts of a band would show
+  list.Flags &=
+      ~ImDrawListFlags_AntiAliasedFill;  // antialiasing would show the seams between the parts of a band
   const auto end_of = [&](std::size_t k, double side) {
     const double y = behind.mean[k] + side * behind.deviation[k];
     return ImVec2{axes.px(behind.x[k]), axes.log_y && !(y > 0.0) ? axes.high.y : axes.py(y)};
@@ -160,7 +162,7 @@ double x_at(const Axes& axes, float px) {
   return axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
 }
 
-/// "0.12 ± 0.02"
+/// Formats "0.12 ± 0.02".
 std::string text_behind(const view::GhostCurve& behind, double x) {
   const double mean = value_near({{}, behind.x, behind.mean}, x);
   const double deviation = value_near({{}, behind.x, behind.deviation}, x);
@@ -182,7 +184,7 @@ void show_values(const view::Plot& plot, const Axes& axes) {
   ImGui::EndTooltip();
 }
 
-/// The range chosen, and a line for each curve that was measured.
+/// Draws the chosen range, and a line of statistics for each measured curve.
 void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plot, const view::PlotLook& look,
                  const Axes& axes, float em) {
   float y = axes.low.y + 0.1f * em;
@@ -207,7 +209,7 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
   }
 }
 
-/// Along x, about the mouse; not beyond what there is.
+/// Zooms along x about the mouse, within the range of the data.
 void zoom_plot(view::PlotLook& look, const Axes& axes, const Axes& all, float steps) {
   const double x = x_at(axes, ImGui::GetIO().MousePos.x), factor = std::pow(0.8, static_cast<double>(steps));
   const double low = std::max(all.x.low, x + factor * (axes.x.low - x));
@@ -216,7 +218,7 @@ void zoom_plot(view::PlotLook& look, const Axes& axes, const Axes& all, float st
   if (low > all.x.low || high < all.x.high) look.zoomed = {low, high};
 }
 
-/// What the mouse does to the plot that was drawn last; the x that was clicked.
+/// Handles the mouse on the plot drawn last; returns the x that was clicked.
 std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, const Axes& axes,
                                const Axes& all) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -234,7 +236,8 @@ std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, c
   return x_at(axes, io.MousePos.x);
 }
 
-/// The title, and the names of several curves in their colours: beside it where there is room, else alone.
+/// Draws the title and, in their colours, the names of several curves next to it; without room for both, only
+/// the names.
 void draw_names(const Palette& colours, ImDrawList& list, const view::Plot& plot, const ImVec2& place,
                 float right, float em) {
   const auto width_of = [](const std::string& text) {
@@ -272,7 +275,7 @@ void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, cons
 
 double value_near(const view::PlotSeries& series, double x) {
   if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
-  if (!std::ranges::is_sorted(series.x)) {  // loops: the first point that is nearest
+  if (!std::ranges::is_sorted(series.x)) {  // not monotonic: takes the first of the nearest points
     const auto distance = [x](double of) { return std::abs(of - x); };
     return series
         .y[static_cast<std::size_t>(std::ranges::min_element(series.x, {}, distance) - series.x.begin())];
@@ -289,7 +292,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
   note_place(gui, std::string("plot ").append(plot.name));
   if (!ImGui::IsItemVisible()) return std::nullopt;
-  if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // or the plots would be scrolled as well
+  if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // prevents the plots from scrolling as well
   const view::PlotLook look = gui.model.state.plot_looks[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
@@ -314,7 +317,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
     return std::nullopt;
   }
   all.x.widen();
-  if (axes.x.empty()) axes.y = all.y;  // it is zoomed between two values
+  if (axes.x.empty()) axes.y = all.y;  // zoomed between two values
   axes.x = all.x;
   if (look.zoomed) {
     axes.x.low = (*look.zoomed)[0];

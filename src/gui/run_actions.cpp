@@ -10,14 +10,14 @@ namespace talus::gui {
 
 namespace {
 
-/// Why a run that has ended does nothing more.
+/// Returns the reason why a run that has ended does nothing.
 std::string ended_text(const view::ViewModel& model, const view::LiveStatus& status) {
   return fmt::format("The run has ended, at {:.2f}°; r restarts {}{}.", degrees(status.tilt),
                      model.branch_line() ? "the branch" : "it",
                      status.commands_given > 0 ? ", U goes back before the last command" : "");
 }
 
-/// Goes that many frames on or back; says so if there are none.
+/// Moves by `count` frames, also backwards; reports if there are none.
 void advance_frames(Gui& gui, int count) {
   view::ViewModel& model = gui.model;
   const auto last = static_cast<long>(model.frame_count()) - 1;
@@ -27,7 +27,7 @@ void advance_frames(Gui& gui, int count) {
   model.go_to(static_cast<std::size_t>(to));
 }
 
-/// The next multiple of 5 deg above a tilt (deg), as one to run to.
+/// Returns the next multiple of 5 deg above a tilt (deg), as a target to run to.
 double next_round_tilt(double tilt) { return 5.0 * (std::floor(tilt / 5.0 + 1e-6) + 1.0); }
 
 }  // namespace
@@ -116,7 +116,7 @@ void offer_tilt_ahead(view::ViewModel& model) {
 void send(Gui& gui, const Command& command) {
   view::LiveRun* live = gui.model.live();
   if (!live) return refuse_in_replay(gui, "Commands are not possible");
-  gui.model.follow();  // a command is to the run as it is now
+  gui.model.follow();  // a command applies to the current state of the run
   try {
     live->apply(command);
     const Command given = live->commands().back();

@@ -11,10 +11,10 @@
 namespace talus::gui {
 namespace {
 
-/// As ImGui names textures.
+/// Converts a texture to the id that ImGui uses.
 void* texture_id(GLuint texture) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture)); }
 
-/// A context that somebody else owns, and that is current.
+/// Current context owned by another object.
 class SameContext final : public render::Context {
  public:
   explicit SameContext(const render::Context& context) : context_(context) {}
@@ -35,7 +35,8 @@ GLuint upload_font(const render::Gl& gl, ImFontAtlas& atlas) {
   return texture;
 }
 
-/// The scale asked for, or the largest, in steps, with which a small window still has room for its parts.
+/// Returns the requested scale, or the largest, in steps, at which a small window still has room for its
+/// parts.
 float fitting_scale(float asked, int width, int height) {
   constexpr float needed_width = 640.0f, needed_height = 450.0f, step = 0.25f;  // px at scale 1
   const float room =
@@ -63,7 +64,7 @@ GuiScreen::GuiScreen(std::unique_ptr<render::Context> context, float scale)
 
 GuiScreen::~GuiScreen() { gl_.DeleteTextures(1, &font_texture_); }
 
-/// The glyphs are baked in the pixels that they are drawn with, so that they are as sharp as the display.
+/// Bakes the glyphs at the pixel size of the display, so that they are sharp.
 void GuiScreen::put_on(const Look& look) {
   ImGuiIO& own = io();
   const float fine = look.scale * look.fineness;
@@ -89,7 +90,7 @@ GuiRequests GuiScreen::draw(view::ViewModel& model, const Surface& surface, int 
   const float pixels = static_cast<float>(surface.width) / static_cast<float>(width);
   own.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   own.DisplayFramebufferScale = {pixels, static_cast<float>(surface.height) / static_cast<float>(height)};
-  own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui accepts none that is zero
+  own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui requires a positive value
   const float asked = model.state.scale > 0.0 ? static_cast<float>(model.state.scale) : display_scale_;
   const Look look{model.state.theme, fitting_scale(asked, width, height), pixels};
   if (!(look == look_)) put_on(look);

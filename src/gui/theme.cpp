@@ -60,7 +60,7 @@ constexpr Palette dark_palette = {
     .bookmark = {196, 156, 255},
     .curves = {{{236, 239, 244}, {255, 152, 64}, {86, 180, 245}, {150, 157, 168}}}};
 
-/// White and black; what is pointed at is seen by a light blue, which no picture keeps.
+/// White and black; the item under the mouse is light blue, which never appears in saved pictures.
 constexpr Palette print_palette = {.ground = {255, 255, 255},
                                    .panel = {255, 255, 255},
                                    .raised = {255, 255, 255},
@@ -87,7 +87,7 @@ constexpr Palette print_palette = {.ground = {255, 255, 255},
                                    .bookmark = {100, 50, 150},
                                    .curves = {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}}};
 
-/// Which colour of the palette is that of a part of Dear ImGui.
+/// Colours of the palette for the parts of Dear ImGui.
 constexpr std::pair<ImGuiCol, render::Colour Palette::*> roles[] = {
     {ImGuiCol_Text, &Palette::ink},
     {ImGuiCol_TextDisabled, &Palette::soft},
@@ -144,13 +144,13 @@ const Palette& palette_of(view::Theme theme) {
 
 ImGuiStyle style_of(view::Theme theme, float scale) {
   ImGuiStyle style;
-  // Distances on a display of scale 1, px.
+  // Distances at display scale 1, px.
   constexpr float rounding = 4.0f;
-  style.WindowPadding = {10.0f, 8.0f};    // between a part of the window and what is in it
+  style.WindowPadding = {10.0f, 8.0f};    // between a part of the window and its content
   style.FramePadding = {8.0f, 4.0f};      // between a widget and its text
   style.ItemSpacing = {8.0f, 6.0f};       // between widgets
   style.ItemInnerSpacing = {6.0f, 4.0f};  // between a widget and its label
-  style.CellPadding = {4.0f, 2.0f};       // of tables
+  style.CellPadding = {4.0f, 2.0f};       // within tables
   style.ScrollbarSize = 10.0f;
   style.GrabMinSize = 12.0f;
   style.FrameRounding = style.GrabRounding = style.PopupRounding = rounding;

@@ -1,6 +1,6 @@
 #pragma once
-/// The look of the window: all of its colours, sizes of text and distances. No other file of this folder has
-/// a colour of its own.
+/// Appearance of the window: all colours, text sizes and distances. No other file of this folder defines
+/// colours.
 
 #include <imgui.h>
 
@@ -11,50 +11,50 @@
 
 namespace talus::gui {
 
-/// What colours are for.
+/// Colours by purpose.
 struct Palette {
   // Surfaces.
-  render::Colour ground;   ///< of the map and the plots, and behind everything
-  render::Colour panel;    ///< of the columns beside them
+  render::Colour ground;   ///< map, plots, and background
+  render::Colour panel;    ///< columns next to them
   render::Colour raised;   ///< buttons, headings of sections
-  render::Colour hovered;  ///< the same under the mouse
-  render::Colour pressed;  ///< the same while it is held, and what is chosen of a few
-  render::Colour field;    ///< what can be typed into, or slid along
-  render::Colour tint;     ///< chosen rows; the part of the time line that has passed
-  render::Colour track;    ///< the part that is to come
-  render::Colour range;    ///< a range that is chosen; lets through what is below it
-  render::Colour note;     ///< behind text over curves
+  render::Colour hovered;  ///< a raised element under the mouse
+  render::Colour pressed;  ///< a pressed element, and the chosen one of several
+  render::Colour field;    ///< text fields and sliders
+  render::Colour tint;     ///< chosen rows; the elapsed part of the time line
+  render::Colour track;    ///< the remaining part of the time line
+  render::Colour range;    ///< chosen range; transparent
+  render::Colour note;     ///< background of text over curves
 
   // Lines and texts.
   render::Colour line;         ///< borders
   render::Colour ink;          ///< text and axes
-  render::Colour soft;         ///< text that explains
-  render::Colour accent;       ///< the frame shown, check marks
-  render::Colour alarm;        ///< a run that has failed: a field with alarm_text
-  render::Colour alarm_text;   ///< on it
-  render::Colour warning;      ///< what went wrong, as text
+  render::Colour soft;         ///< explanatory text
+  render::Colour accent;       ///< frame shown, check marks
+  render::Colour alarm;        ///< background of the report on a failed run
+  render::Colour alarm_text;   ///< text on alarm
+  render::Colour warning;      ///< error text
   render::Colour grid;         ///< theta_c in plots, dashed
-  render::Colour frame_shown;  ///< the line of the frame shown, in plots
+  render::Colour frame_shown;  ///< line of the frame shown, in plots
 
-  // Events of the time line, also as text.
+  // Events of the time line, including their labels.
   render::Colour transition, failure, command, rearrangement, bookmark;
 
-  std::array<render::Colour, 4> curves;  ///< in their order; they differ in lightness
+  std::array<render::Colour, 4> curves;  ///< drawn in this order; they differ in lightness
 };
 
 const Palette& palette_of(view::Theme theme);
 
-/// A colour for Dear ImGui.
+/// Converts a colour for Dear ImGui.
 inline ImU32 packed(const render::Colour& colour) {
   return IM_COL32(colour.red, colour.green, colour.blue, colour.alpha);
 }
 inline ImVec4 mixed(const render::Colour& colour) { return ImGui::ColorConvertU32ToFloat4(packed(colour)); }
 
-/// Heights of text on a display of scale 1, px, in the order of TextSize: of text, of ticks and hints, and of
-/// what a part of the window is about.
+/// Text heights at display scale 1, px, in the order of TextSize: body text; ticks and hints; headings of the
+/// parts of the window.
 inline constexpr std::array<float, 3> type_scale = {15.0f, 12.5f, 17.0f};
 
-/// The style of a theme, on a display of that scale.
+/// Returns the style of a theme at that display scale.
 ImGuiStyle style_of(view::Theme theme, float scale);
 
 }  // namespace talus::gui

@@ -29,11 +29,11 @@ ImU32 event_colour(const Palette& colours, view::TimelineEvent::Kind kind) {
   return packed(colours.transition);
 }
 
-/// From frames to pixels.
+/// Transformation from frames to pixels.
 struct Track {
   ImVec2 low, high;   ///< corners
-  double last = 1.0;  ///< the place at the right end, in frames
-  double left = 0.0;  ///< frames of the run that a branch has left, before its first one
+  double last = 1.0;  ///< place of the right end, in frames
+  double left = 0.0;  ///< number of frames of the parent run before the first frame of a branch
 
   float px(double place) const {
     return low.x + static_cast<float>(std::clamp((place + left) / last, 0.0, 1.0)) * (high.x - low.x);
@@ -44,7 +44,7 @@ struct Track {
   }
 };
 
-/// Angles below the track, of the frames of the tilt, which ascend.
+/// Draws angles below the track, for frames of the tilt with ascending angles.
 void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em,
                  ImU32 ink) {
   const auto end = std::ranges::is_sorted_until(tilts);
@@ -61,7 +61,7 @@ void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>
   }
 }
 
-/// Where a programme of the tilt turns or begins to be held: the angles that it goes to.
+/// Draws the angles at which a tilt programme turns or begins to be held.
 void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em, ImU32 ink) {
   float first_free = 0.0f;
   for (std::size_t k = 0; k < tilts.size(); ++k) {
@@ -80,7 +80,7 @@ void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>&
   }
 }
 
-/// Labels above the track, theta_c before all others: each where it has room.
+/// Draws labels above the track, theta_c with priority, each only if it has room.
 void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
                  std::span<const view::TimelineEvent> events, float em) {
   std::vector<std::pair<float, float>> taken;
@@ -97,8 +97,8 @@ void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
     }
 }
 
-/// A stroke for each event; that of a rearrangement stands at the bottom, as high as it is large, a command
-/// has an arrow, and a bookmark a flag.
+/// Draws a stroke for each event. A rearrangement has a stroke at the bottom whose height shows its size, a
+/// command has an arrow, and a bookmark has a flag.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const view::TimelineEvent& event : gui.model.events()) {
@@ -119,7 +119,7 @@ void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   draw_labels(gui.colours, list, track, gui.model.events(), em);
 }
 
-/// The event under the mouse.
+/// Returns the event under the mouse.
 const view::TimelineEvent* event_near(const Gui& gui, const Track& track, float x) {
   const view::TimelineEvent* nearest = nullptr;
   float least = 0.4f * gui.em;
@@ -132,7 +132,7 @@ const view::TimelineEvent* event_near(const Gui& gui, const Track& track, float 
   return nearest;
 }
 
-/// All events so near to each other that they cannot be told apart by pointing are told.
+/// Describes all events that are too close together to be pointed at separately.
 void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) {
   const float x = ImGui::GetIO().MousePos.x;
   const auto frame = static_cast<std::size_t>(std::lround(track.place(x)));
@@ -163,7 +163,7 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   gui.model.go_to(event ? event->frame : static_cast<std::size_t>(std::lround(track.place(x))));
 }
 
-/// The note of the bookmark of the frame shown: enter keeps it.
+/// Edits the note of the bookmark of the frame shown; enter saves it.
 void draw_bookmark_note(Gui& gui) {
   view::ViewModel& model = gui.model;
   if (std::exchange(model.state.bookmark_asked, false)) {
@@ -193,7 +193,7 @@ void draw_bookmark_note(Gui& gui) {
   ImGui::EndPopup();
 }
 
-/// The angles of a branch, and of the run that it has left beside it, where they ascend together.
+/// Draws the angles of a branch and, next to them, of its parent run, if they ascend together.
 void draw_angles_of_branch(ImDrawList& list, Track track, const view::BranchLine& run,
                            const std::vector<double>& tilts, float em, ImU32 ink) {
   std::vector<double> all(run.tilts.begin(), run.tilts.begin() + static_cast<std::ptrdiff_t>(run.frame));
@@ -204,7 +204,7 @@ void draw_angles_of_branch(ImDrawList& list, Track track, const view::BranchLine
   draw_angles(list, track, all, em, ink);
 }
 
-/// The line of the run that a branch has left; the branch leaves it at its frame.
+/// Draws the line of the parent run, which a branch leaves at its frame.
 void draw_left_run(ImDrawList& list, const Track& track, const view::BranchLine& run, const Gui& gui) {
   const float em = gui.em;
   const ImU32 colour = packed(gui.colours.curves[2]);
@@ -215,7 +215,7 @@ void draw_left_run(ImDrawList& list, const Track& track, const view::BranchLine&
   list.AddCircleFilled({std::max(track.low.x, leaves - 0.8f * em), y}, 0.25f * em, colour);
 }
 
-/// The frame of the run that a branch has left, where the mouse is on its line.
+/// Returns the frame of the parent run under the mouse, if the mouse is on its line.
 std::optional<std::size_t> left_frame_near(const Track& track, const view::BranchLine& run) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double frame =
@@ -225,7 +225,7 @@ std::optional<std::size_t> left_frame_near(const Track& track, const view::Branc
   return static_cast<std::size_t>(std::lround(std::max(0.0, frame)));
 }
 
-/// A click on that line returns to the run.
+/// Handles a click on that line, which returns to the parent run.
 bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
   const std::optional<std::size_t> frame = left_frame_near(track, run);
   if (!frame || !ImGui::IsItemHovered()) return false;
@@ -237,7 +237,7 @@ bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
   return true;
 }
 
-/// The buttons at the right end of the line. Returns how wide they are.
+/// Draws the buttons at the right end of the line; returns their width.
 float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
   const float em = gui.em;
   float width = 6.6f * em;

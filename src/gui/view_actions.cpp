@@ -9,7 +9,7 @@
 namespace talus::gui {
 namespace {
 
-/// "The first frame", as a sentence begins.
+/// Returns the name as the beginning of a sentence: "The first frame".
 const char* name_of(view::Landmark landmark) {
   switch (landmark) {
     case view::Landmark::first:
@@ -28,7 +28,7 @@ const char* name_of(view::Landmark landmark) {
   return "";
 }
 
-/// Why a run has no such place.
+/// Returns the reason why a run has no such place.
 std::string absence_of(const view::ViewModel& model, view::Landmark landmark, bool goes_on) {
   if (model.frame_count() == 0) return "No frame is recorded yet: the time line begins with the tilt.";
   const std::string name = name_of(landmark);

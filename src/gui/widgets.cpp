@@ -15,13 +15,13 @@ void show_tip(const char* tip) {
   if (tip != nullptr && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
 }
 
-/// Bytes of the UTF-8 character that begins with this byte.
+/// Returns the length in bytes of the UTF-8 character that begins with this byte.
 std::size_t character_size(char lead) {
   const auto byte = static_cast<unsigned char>(lead);
   return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Calls piece(text, is_subscript) for the pieces of a rich text, in order.
+/// Calls piece(text, is_subscript) for each piece of a rich text, in order.
 template <typename Piece>
 void for_pieces(std::string_view text, const Piece& piece) {
   while (!text.empty()) {
@@ -34,7 +34,7 @@ void for_pieces(std::string_view text, const Piece& piece) {
   }
 }
 
-/// Where the values of rows begin, so that they are below each other.
+/// Moves the cursor to the column of values, which aligns the rows.
 void go_to_values() {
   constexpr float share_of_labels = 0.42f;
   const float before = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
@@ -42,7 +42,7 @@ void go_to_values() {
   ImGui::SameLine(before + ImGui::GetStyle().ItemInnerSpacing.x < values ? values : 0.0f);
 }
 
-/// The label of a row, if it has one; the widget that follows gets the rest of the width.
+/// Draws the label of a row, if any; the widget that follows fills the rest of the width.
 void begin_row(const char* label, const char* tip) {
   if (*label == '\0') return;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -54,7 +54,7 @@ void begin_row(const char* label, const char* tip) {
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-/// What follows a widget: where it is, the tip under the mouse.
+/// Completes a widget: notes its place, and shows its tip under the mouse.
 void finish_widget(Gui& gui, const char* name, const char* tip) {
   note_place(gui, name);
   show_tip(tip);
@@ -106,11 +106,11 @@ bool named_slider(Gui& gui, const char* name, const char* label, double& value, 
 
 std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,
                                              double low, double high, const char* format, const char* tip) {
-  // What it stands at while it is held; not a number else.
+  // Value while the slider is held; otherwise NaN.
   float& held =
       *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(name), std::numeric_limits<float>::quiet_NaN());
   double value = std::isnan(held) ? current : static_cast<double>(held);
-  ImGui::BeginGroup();  // with its label
+  ImGui::BeginGroup();  // includes its label
   named_slider(gui, name, label, value, low, high, format, tip);
   ImGui::EndGroup();
   const bool done = ImGui::IsItemDeactivatedAfterEdit();

@@ -1,6 +1,6 @@
 #include "gui/window.h"
 
-// GLFW brings no OpenGL header: the renderer has its own.
+// The renderer has its own OpenGL header.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -18,23 +18,24 @@
 namespace talus::gui {
 namespace {
 
-constexpr double picture_time = 1.0 / 60.0;  ///< s, at least
-constexpr int smallest_side = 200;           ///< of the window
-constexpr float nowhere = -FLT_MAX;          ///< ImGui: the mouse is outside
-constexpr double longest_wait = 0.1;         ///< s, before the model is asked again
-/// Pictures after the last change: ImGui knows what is under the mouse one picture later, and hints fade in.
+constexpr double picture_time = 1.0 / 60.0;  ///< s, minimum time per picture
+constexpr int smallest_side = 200;           ///< minimum side of the window, px
+constexpr float nowhere = -FLT_MAX;          ///< ImGui's value for a mouse outside the window
+constexpr double longest_wait = 0.1;         ///< s, until the model is polled again
+/// Pictures drawn after the last change: ImGui knows what is under the mouse one picture later, and hints
+/// fade in.
 constexpr int settling_pictures = 4;
-constexpr double fast_after_change = 0.5;  ///< s, in which the model is asked often
-constexpr double shortest_wait = 0.003;    ///< s, between two such questions: the solver needs the core too
-constexpr double blink_time = 0.25;        ///< s, of the cursor in a text field
+constexpr double fast_after_change = 0.5;  ///< s after a change during which the model is polled often
+constexpr double shortest_wait = 0.003;    ///< s between two polls, because the solver needs the core too
+constexpr double blink_time = 0.25;        ///< s, blinking of the cursor in a text field
 
-/// The OpenGL of a window that is current.
+/// OpenGL context of a window, made current.
 class WindowContext final : public render::Context {
  public:
   Function function(const char* name) const override { return glfwGetProcAddress(name); }
 };
 
-/// The library, from its start to its end.
+/// Initialises GLFW, and terminates it at the end of its life.
 class Glfw {
  public:
   Glfw() {
@@ -81,8 +82,7 @@ WindowHandle make_window(int width, int height) {
   return window;
 }
 
-/// Makes a window that is too large for its display as large as that is. A window manager would, but there
-/// may be none.
+/// Shrinks a window that is too large for its display. A window manager would do this, but there may be none.
 void fit_display(GLFWwindow* window) {
   GLFWmonitor* const display = glfwGetPrimaryMonitor();
   if (display == nullptr) return;
@@ -95,8 +95,8 @@ void fit_display(GLFWwindow* window) {
   glfwSetWindowPos(window, left, top);
 }
 
-/// The factor by which text and widgets are larger than on a usual display. Where the window has more pixels
-/// than its size says, they are finer rather than more.
+/// Returns the enlargement of text and widgets for the display. If a window has more pixels than its size
+/// states, they make the picture sharper, not larger.
 float display_scale(GLFWwindow* window) {
   float scale = 1.0f;
   int width = 1, pixels = 1, height = 0;
@@ -117,15 +117,15 @@ struct WindowState {
   WindowHandle window;
   GuiScreen screen;
   std::string title;
-  std::string dropped;         ///< a file
-  int pictures_due = 1;        ///< to be drawn even where the model does not change
-  double last_picture = -1.0;  ///< s, GLFW's clock
+  std::string dropped;         ///< path of a dropped file
+  int pictures_due = 1;        ///< pictures to draw even if the model does not change
+  double last_picture = -1.0;  ///< s, clock of GLFW
   double last_update = -1.0, last_change = -1.0;
 };
 
 namespace {
 
-/// The state that GLFW's callbacks change.
+/// Returns the state that GLFW's callbacks change.
 WindowState& state_of(GLFWwindow* window) {
   return *static_cast<WindowState*>(glfwGetWindowUserPointer(window));
 }
@@ -156,7 +156,7 @@ void catch_keys(GLFWwindow* window) {
   using Kind = InputEvent::Kind;
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     if (action != GLFW_REPEAT)
-      add(w, {Kind::key, 0.0f, 0.0f, key, action == GLFW_PRESS});  // ImGui repeats itself
+      add(w, {Kind::key, 0.0f, 0.0f, key, action == GLFW_PRESS});  // ImGui generates its own key repeats
   });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned character) {
     add(w, {Kind::character, 0.0f, 0.0f, static_cast<int>(character), false});
@@ -165,15 +165,16 @@ void catch_keys(GLFWwindow* window) {
 
 void catch_the_rest(GLFWwindow* window) {
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
-    state_of(w).screen.io().AddFocusEvent(focused != 0);  // keys that are down are released
+    state_of(w).screen.io().AddFocusEvent(focused != 0);  // losing the focus releases all keys
     state_of(w).pictures_due = settling_pictures;
   });
   glfwSetFramebufferSizeCallback(
       window, [](GLFWwindow* w, int, int) { state_of(w).pictures_due = settling_pictures; });
-  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) {  // on another display
-    state_of(w).screen.set_display_scale(display_scale(w));
-    state_of(w).pictures_due = settling_pictures;
-  });
+  glfwSetWindowContentScaleCallback(window,
+                                    [](GLFWwindow* w, float, float) {  // the window is on another display
+                                      state_of(w).screen.set_display_scale(display_scale(w));
+                                      state_of(w).pictures_due = settling_pictures;
+                                    });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).pictures_due = settling_pictures; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) state_of(w).dropped = paths[0];
@@ -191,7 +192,7 @@ void lend_clipboard(WindowState& state) {
   };
 }
 
-/// Waits for events, or until the model may have something new, or until the next picture is due.
+/// Waits for events, for possible news from the model, or for the next picture.
 void wait(WindowState& state, const view::ViewModel& model) {
   const double now = glfwGetTime();
   const bool busy = state.pictures_due > 0 || state.screen.input().waiting() || model.playing() ||
@@ -205,7 +206,7 @@ void wait(WindowState& state, const view::ViewModel& model) {
     glfwPollEvents();
 }
 
-/// Advances the model, and notes whether there is something to draw.
+/// Advances the model, and notes whether a redraw is needed.
 void update(WindowState& state, view::ViewModel& model) {
   const double now = glfwGetTime();
   const double seconds = state.last_update < 0.0 ? 0.0 : now - state.last_update;
@@ -219,7 +220,7 @@ void update(WindowState& state, view::ViewModel& model) {
     state.pictures_due = std::max(state.pictures_due, 1);
 }
 
-/// "bed.h5, 12.25° – Talus".
+/// Sets the title, such as "bed.h5, 12.25° – Talus".
 void set_title(WindowState& state, const view::ViewModel& model) {
   const std::string file = std::filesystem::path(model.path()).filename().string();
   const std::string title = fmt::format("{}, {:.2f}° – Talus", file, degrees(model.frame().tilt));

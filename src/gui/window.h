@@ -1,5 +1,5 @@
 #pragma once
-/// The window of `talus view`.
+/// Window of `talus view`.
 
 #include <memory>
 #include <string>
@@ -14,22 +14,21 @@ struct WindowState;
 
 class GuiWindow {
  public:
-  /// A window that is not shown yet, `width` x `height` times the scale of the display. Throws
-  /// Error(unavailable) if there is no display, or no OpenGL 3.3.
+  /// Creates a hidden window, `width` x `height` times the scale of the display. Throws Error(unavailable)
+  /// without a display or OpenGL 3.3.
   GuiWindow(int width, int height);
   ~GuiWindow();
   GuiWindow(const GuiWindow&) = delete;
   GuiWindow& operator=(const GuiWindow&) = delete;
 
-  /// Waits until there is something new to show, for at most a tenth of a second, and shows it: at most 60
-  /// pictures a second, and none if nothing has changed. Dropping a file on the window requests to open
-  /// it.
+  /// Waits for news for at most a tenth of a second and shows it, at most 60 pictures per second and none
+  /// without changes. Dropping a file on the window requests to open it.
   GuiRequests next_picture(view::ViewModel& model);
 
-  bool closed() const;  ///< whether its user asked to close it
+  bool closed() const;  ///< whether the user has asked to close it
   void stay_open();     ///< cancels that request
   const std::vector<WidgetPlace>& places() const;
-  /// A view as talus render draws it.
+  /// Draws a view as talus render does.
   render::Image draw_image(const render::FrameView& view, int width);
 
  private:

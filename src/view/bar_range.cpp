@@ -6,13 +6,13 @@
 namespace talus::view {
 namespace {
 
-constexpr double least_share = 0.02;  // of the range, that is left of it
+constexpr double least_share = 0.02;  // minimum width of the new range, as a share of the old one
 
-/// To hundredths of the power of ten of the range, or of the value where the bar is logarithmic.
+/// Rounds to hundredths of the power of ten of the range or, on a logarithmic bar, of the value.
 double rounded(double value, const BarEnds& bar) {
   const double size = bar.logarithmic ? std::abs(value) : bar.high - bar.low;
   const double decimals = 2.0 - std::floor(std::log10(size));
-  const double scale = std::pow(10.0, std::abs(decimals));  // a whole number: its division leaves no hair
+  const double scale = std::pow(10.0, std::abs(decimals));  // a whole number, so that the division is exact
   return decimals < 0.0 ? scale * std::round(value / scale) : std::round(value * scale) / scale;
 }
 
@@ -24,7 +24,7 @@ double value_at(const BarEnds& bar, double share) {
 }
 
 std::array<double, 2> pulled(const HeldBar& held, double share) {
-  double low = 0.0, high = 1.0;  // as shares of the bar before
+  double low = 0.0, high = 1.0;  // as shares of the previous bar
   switch (held.part) {
     case HeldBar::Part::low:
       low = std::min(share, 1.0 - least_share);

@@ -19,7 +19,8 @@ namespace {
 constexpr const char* header = "time (s),tilt (deg),note";
 constexpr std::string_view folder_ending = ".run";
 
-/// Reads a number and the comma after it, and takes both away; false where there is none.
+/// Reads a number and the comma after it, and removes both from the line; returns false if the line does not
+/// begin with them.
 bool take_number(std::string_view& line, double& value) {
   const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
   if (error != std::errc() || end == line.data() + line.size() || *end != ',' || !std::isfinite(value))
@@ -28,7 +29,8 @@ bool take_number(std::string_view& line, double& value) {
   return true;
 }
 
-/// A field in quotes, to the end of the line, without them; false where there is none.
+/// Reads a quoted field that extends to the end of the line, without the quotes; returns false if there is
+/// none.
 bool take_quoted(std::string_view line, std::string& text) {
   if (line.size() < 2 || line.front() != '"' || line.back() != '"') return false;
   line = line.substr(1, line.size() - 2);

@@ -1,5 +1,6 @@
 #pragma once
-/// Frames of a run that a user has marked, each with a note, kept in a small file beside the run.
+/// Frames of a run that the user has marked, each with a note. They are stored in a small file next to the
+/// run.
 
 #include <string>
 #include <vector>
@@ -7,22 +8,23 @@
 namespace talus::view {
 
 struct Bookmark {
-  double time = 0.0;  ///< s, of the frame
-  double tilt = 0.0;  ///< rad, of the frame
+  double time = 0.0;  ///< s, time of the frame
+  double tilt = 0.0;  ///< rad, tilt of the frame
   std::string note;   ///< one line; may be empty
 };
 
-/// "slope.h5.bookmarks.csv", also of a run that is still a folder.
+/// Returns "slope.h5.bookmarks.csv" for "slope.h5", also if the run is still a folder.
 std::string bookmarks_path(const std::string& run);
 
-/// In the order of their times; none where there is no file. Throws LocatedError(bad_data) at a line that is
-/// no bookmark, and as read_text does.
+/// Reads the bookmarks in order of time; returns none if the file does not exist. Throws
+/// LocatedError(bad_data) at a line that is not a bookmark, and the errors of read_text.
 std::vector<Bookmark> read_bookmarks(const std::string& path);
 
-/// A line for each: time (s), tilt (deg) and note, with all digits. Throws as write_text does.
+/// Writes one line per bookmark with time (s), tilt (deg) and note, at full precision. Throws the errors of
+/// write_text.
 void write_bookmarks(const std::string& path, const std::vector<Bookmark>& bookmarks);
 
-/// Sets the note of the bookmark at that time, or adds one in its place; a line break becomes a blank.
+/// Sets the note of the bookmark at that time, or inserts a bookmark in order. Line breaks become spaces.
 void set_bookmark(std::vector<Bookmark>& bookmarks, Bookmark bookmark);
 
 }  // namespace talus::view

@@ -6,19 +6,20 @@
 namespace talus::view {
 namespace {
 
-constexpr double smallest_part = 3.0;  // D, that fill the width of a picture
+constexpr double smallest_part = 3.0;  // D, shortest part that may fill the width of a picture
 
-/// The largest a cos(turn) + b sin(turn) for turns from 0 to turn_max: what a picture has room for.
+/// Returns the maximum of a cos(turn) + b sin(turn) over 0 <= turn <= turn_max: the space that the turned
+/// part needs.
 double largest_extent(double a, double b, double turn_max) {
   const double turn = std::clamp(std::atan2(b, a), 0.0, turn_max);
   return a * std::cos(turn) + b * std::sin(turn);
 }
 
-/// Depth over length of the part that fills a picture of that aspect. Where it is turned, pictures can be so
-/// wide, or so high, that no part fills them.
+/// Returns the ratio of depth to length of the part that fills a picture of that aspect. If the part is
+/// turned, a picture can be so wide or so high that no part fills it.
 double shape_of(double aspect, double turn_max) {
   if (turn_max == 0.0) return 1.0 / aspect;
-  double low = 1e-3, high = 1e3;  // the aspect falls from one to the other
+  double low = 1e-3, high = 1e3;  // bounds of the shape, over which the aspect decreases
   for (int k = 0; k < 60; ++k) {
     const double middle = std::sqrt(low * high);
     (picture_aspect(middle, turn_max) > aspect ? low : high) = middle;
@@ -26,7 +27,7 @@ double shape_of(double aspect, double turn_max) {
   return std::sqrt(low * high);
 }
 
-/// Where a stretch about `centre` begins that shows no more beyond low ... high than it has to.
+/// Returns the beginning of a stretch around `centre` that extends beyond [low, high] only as far as it must.
 double begin_of(double centre, double stretch, double low, double high) {
   if (stretch >= high - low) return 0.5 * (low + high - stretch);
   return std::clamp(centre - 0.5 * stretch, low, high - stretch);

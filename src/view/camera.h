@@ -1,31 +1,30 @@
 #pragma once
-/// What part of the bed a picture shows.
+/// Part of the bed that a picture shows.
 
 #include "pictures/maps.h"
 #include "view/view_state.h"
 
 namespace talus::view {
 
-/// The camera with its zoom not below 1, where all of the bed is seen, and not above what leaves 3 D, and its
-/// centre in the bed.
+/// Returns the camera with its zoom limited to [1, zoom that shows 3 D], and its centre inside the bed. Zoom
+/// 1 shows the entire bed.
 ViewCamera clamped(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter);
 
-/// Width over height of a picture in which a part 1 long and `depth` deep just has room, turned by up to
-/// `turn_max` (rad, >= 0).
+/// Returns the aspect (width / height) of the smallest picture that holds a part of length 1 and depth
+/// `depth`, turned by up to `turn_max` (rad, >= 0).
 double picture_aspect(double depth, double turn_max);
 
-/// The part of the bed that fills a picture of that aspect (width / height). With zoom 1 it is all of the
-/// bed, and what is left of the picture is beside it; else no more is shown beyond an end of the bed than
-/// there has to be. `turn_max` (rad, >= 0): the part is drawn turned by up to that angle, and all of it is to
-/// fit.
+/// Returns the part of the bed that fills a picture of that aspect (width / height). At zoom 1 it contains
+/// the entire bed, with empty space around it; at other zooms it extends beyond the ends of the bed only as
+/// far as it must. The part fits even if it is drawn turned by up to `turn_max` (rad, >= 0).
 pictures::MapExtent shown_part(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter,
                                double aspect, double turn_max);
 
-/// The camera in the middle of what it shows, so that a centre moved on at an end of the bed moves back at
-/// once.
+/// Returns the camera moved to the middle of the part that it shows. A centre pushed beyond an end of the bed
+/// then moves back at once.
 ViewCamera centred(const ViewCamera& camera, const pictures::MapExtent& part);
 
-/// What of one is within the other.
+/// Returns the intersection of two parts.
 pictures::MapExtent common_part(const pictures::MapExtent& one, const pictures::MapExtent& other);
 
 }  // namespace talus::view

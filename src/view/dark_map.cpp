@@ -7,10 +7,10 @@
 namespace talus::view {
 namespace {
 
-/// What mirrored black and white become: neither blinds, nor is lost in the ground.
+/// Grays that replace black and white: the one does not dazzle, and the other stands out from the background.
 constexpr double brightest = 245.0, darkest = 34.0;
 constexpr render::Colour floor_fill{46, 51, 59}, floor_rim{140, 148, 160};
-constexpr double dark_luma = 60.0;  // below it a grain needs a rim that is lighter
+constexpr double dark_luma = 60.0;  // luminance below which a grain needs a lighter rim
 constexpr render::Colour light_rim{96, 104, 118};
 
 render::Colour mirrored(const render::Colour& colour) {
@@ -25,7 +25,7 @@ bool all_gray(const render::Bar& bar) {
                              [](const render::Colour& colour) { return render::is_gray(colour); });
 }
 
-/// Whether the bar goes from one hue to another through a light gray.
+/// Returns whether the bar passes from one hue to another through a light gray.
 bool passes_white(const render::Bar& bar) {
   const render::Colour& middle = bar.colours[bar.colours.size() / 2];
   const int low = std::min({middle.red, middle.green, middle.blue});
@@ -39,8 +39,8 @@ bool keeps_grains(const render::FrameView& map) {
   });
 }
 
-/// The rim of a grain whose fill is that on a dark ground. One that marks a cluster that spans stays if it is
-/// light, or if the colour is so light that a mirrored black one would not be seen.
+/// Returns the rim of a grain with that fill on a dark background. The rim of a spanning cluster stays if it
+/// is light, or if the fill is so light that a mirrored (white) rim would be invisible.
 render::Colour rim_on_dark(const render::Colour& fill, const render::Colour& rim) {
   constexpr double light_luma = 110.0;
   const bool marks = rim == pictures::spanning_rim(fill) && !render::is_gray(fill);

@@ -1,13 +1,13 @@
 #pragma once
-/// Maps on a dark ground.
+/// Maps on a dark background.
 
 #include "render/frame_view.h"
 
 namespace talus::view {
 
-/// A map as it is shown on a dark ground: nothing behind its discs, and all of its grays mirrored, in the bed
-/// and in its legends, so that black shines and white is dark; colours stay. Where the gray of a bar is the
-/// middle of its colours, grains keep theirs, and only lines and the floor are mirrored.
+/// Returns the map for a dark background. The space behind the discs is left empty, and all grays of the bed
+/// and of the legends are mirrored; colours stay. If the middle of a colour bar is gray, the grains keep
+/// their colours, and only lines and the floor are mirrored.
 render::FrameView on_dark_ground(render::FrameView map);
 
 }  // namespace talus::view

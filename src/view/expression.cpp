@@ -16,26 +16,27 @@ namespace {
 
 using Operation = Expression::Operation;
 
-constexpr std::size_t longest_text = 1000;  // so that no nesting can use up the stack
+constexpr std::size_t longest_text =
+    1000;  // limits the nesting, so that the recursion cannot exhaust the stack
 
 constexpr std::string_view blanks = " \t";
 constexpr std::string_view digits = "0123456789";
 constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
 
-/// A number, a name or a sign of the text.
+/// Number, name or sign in the text.
 struct Token {
   enum class Kind { number, name, sign, end };
   Kind kind = Kind::end;
   std::string_view text;
-  std::size_t place = 0;  ///< of its first character
+  std::size_t place = 0;  ///< index of its first character
   double number = 0.0;
 };
 
-/// Signs of two characters come before those of one that they begin with.
+/// Two-character signs precede the one-character signs that they begin with.
 constexpr std::array<std::string_view, 15> signs = {"<=", ">=", "==", "!=", "&&", "||", "<", ">",
                                                     "!",  "(",  ")",  "+",  "-",  "*",  "/"};
 
-/// What is written in place of a sign.
+/// Common misspelling of a sign, with its correction.
 struct Slip {
   std::string_view written, meant;
 };
@@ -56,7 +57,7 @@ constexpr std::array<std::pair<std::string_view, Operation>, 6> comparisons = {{
                                                                                 {"==", Operation::equal},
                                                                                 {"!=", Operation::unequal}}};
 
-/// What a part of the text is: a number, a condition, or a flag, which is both.
+/// Type of a part of the text: a number, a condition, or a flag, which can serve as either.
 enum class Value { number, condition, flag };
 
 class Parser {
@@ -81,7 +82,7 @@ class Parser {
                 fmt::format("'{}', column {}: {}", visible_word(text_, 200), place + 1, what));
   }
 
-  /// Another token was found than the one that the text would go on with.
+  /// Reports that the token found is not among those that may follow here.
   [[noreturn]] void expect(const std::string& what) const {
     const std::string_view rest = text_.substr(token_.place);
     const auto slip = std::ranges::find_if(slips, [&](const Slip& of) {
@@ -146,7 +147,7 @@ class Parser {
   }
   void add(Operation operation) { result_.steps.push_back({operation, 0.0, 0}); }
 
-  // A part of the text begins at `place`.
+  // `place` is the beginning of this part of the text.
   void to_condition(Value value, std::size_t place) const {
     if (value == Value::number)
       fail(begin_of(place), "expected a condition, such as gamma > 0.7, found a number");
@@ -218,7 +219,7 @@ class Parser {
     return Value::condition;
   }
 
-  /// Operands with operators of one rank between them, which are done from left to right.
+  /// Parses operands separated by operators of equal precedence, evaluated from left to right.
   template <typename Operand>
   Value chain(std::string_view sign, Operation operation, std::string_view other_sign, Operation other,
               const Operand& operand) {
@@ -292,7 +293,7 @@ class Parser {
   std::string_view text_;
   std::span<const ExpressionName> names_;
   Token token_;
-  std::size_t end_ = 0;  ///< of the token
+  std::size_t end_ = 0;  ///< end of the current token
   Expression result_;
 };
 

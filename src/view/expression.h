@@ -9,13 +9,13 @@
 
 namespace talus::view {
 
-/// A name that a condition may have.
+/// Name that a condition may contain.
 struct ExpressionName {
   std::string name;
-  bool flag = false;  ///< 1 or 0, and so by itself a condition: "overloaded && y > 30"
+  bool flag = false;  ///< either 1 or 0, so that the name is itself a condition: "overloaded && y > 30"
 };
 
-/// A condition that was read: what is done with numbers, in the order in which it is done.
+/// Parsed condition as a sequence of operations in order of evaluation.
 struct Expression {
   enum class Operation {
     number,
@@ -39,22 +39,22 @@ struct Expression {
   };
   struct Step {
     Operation operation = Operation::number;
-    double number = 0.0;   ///< of a number
-    std::size_t name = 0;  ///< of a name: its place in `names`
+    double number = 0.0;   ///< value of a number
+    std::size_t name = 0;  ///< index of a name in `names`
   };
   std::vector<Step> steps;
-  std::vector<std::string> names;  ///< that are used, in the order in which they come first
+  std::vector<std::string> names;  ///< names used, in order of first appearance
 };
 
-/// Reads a condition. It is made of numbers, names, + - * /, abs(...) and sqrt(...); comparisons of two of
-/// these by < <= > >= == !=; and && || ! of comparisons; with parentheses anywhere. ! is of the comparison
-/// after it, && binds more closely than ||. Throws Error(usage): the text, the column (counted from 1), what
-/// was found, what was expected, and what may have been meant. What would be read but is nearly always meant
-/// otherwise is an error, too: "0.5 < gamma < 0.7", "gamma = 0.7", "gamma > 0,7".
+/// Parses a condition. It consists of numbers, names, + - * /, abs(...) and sqrt(...); comparisons of two of
+/// these by < <= > >= == !=; and && || ! applied to comparisons. Parentheses are allowed anywhere. ! applies
+/// to the comparison that follows it, and && binds more tightly than ||. Throws Error(usage) with the text,
+/// the column (counted from 1), what was found, what was expected, and a suggestion. Conditions that could be
+/// parsed but are nearly always mistakes are also errors: "0.5 < gamma < 0.7", "gamma = 0.7", "gamma > 0,7".
 Expression parse_condition(std::string_view text, std::span<const ExpressionName> names);
 
-/// Whether it holds for these values, which are in the order of Expression::names. A comparison with NaN
-/// never holds, != included: where there is no value, nothing is to be said of it.
+/// Returns whether the condition holds for these values, given in the order of Expression::names. A
+/// comparison with NaN (no value) never holds, not even !=.
 bool holds(const Expression& condition, std::span<const double> values);
 
 }  // namespace talus::view

@@ -30,7 +30,7 @@ void FrameAhead::begin(std::size_t k, double l_min, const std::shared_ptr<const 
   try {
     made_ = std::async(std::launch::async, make);
     asked_ = next;
-  } catch (const std::system_error&) {  // no more threads: the frame is made when it is shown
+  } catch (const std::system_error&) {  // no thread is available: the frame is computed when it is shown
   }
 }
 

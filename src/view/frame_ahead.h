@@ -1,5 +1,5 @@
 #pragma once
-/// The frame of a replay that will be shown next, made while the one before it is drawn.
+/// Next frame of a replay, prepared while the current one is drawn.
 
 #include <cstddef>
 #include <future>
@@ -11,25 +11,26 @@
 
 namespace talus::view {
 
-/// A frame as it is stored, and with the gamma of neighbourhoods (mapped_frame).
+/// A frame as it is stored, and the same frame with the gamma of neighbourhoods (mapped_frame).
 struct ShownFrame {
   std::shared_ptr<const Frame> stored, mapped;
 };
 
-/// Makes one frame at a time in the background. All members are for one thread.
+/// Prepares one frame at a time in the background. All members must be called from one thread.
 class FrameAhead {
  public:
   FrameAhead(RunStatics statics, ReadFrame read);
-  /// Finishes what is under way.
+  /// Waits for the frame in progress.
   ~FrameAhead() = default;
   FrameAhead(const FrameAhead&) = delete;
   FrameAhead& operator=(const FrameAhead&) = delete;
 
-  /// Begins to make frame k, with neighbourhoods from l_min (D) on; reads it where it is not known. Does
-  /// nothing where another is under way, or no thread can be had.
+  /// Begins to prepare frame k with neighbourhoods of diameter l_min (D) and larger, reading it unless it is
+  /// `known`. Does nothing if another frame is in progress or no thread is available.
   void begin(std::size_t k, double l_min, const std::shared_ptr<const Frame>& known = nullptr);
-  /// Frame k, where it was begun last with that l_min; waits until it is made. None where something else
-  /// was begun, where it has not all grains, or where it could not be read: reading it again tells why.
+  /// Returns frame k if it was the last one begun, with the same l_min; waits until it is ready. Returns
+  /// nothing if something else was begun, if grains are missing, or if reading failed (reading it again
+  /// reports the reason).
   std::optional<ShownFrame> take(std::size_t k, double l_min);
 
  private:
@@ -42,7 +43,8 @@ class FrameAhead {
   const RunStatics statics_;
   const ReadFrame read_;
   Asked asked_;
-  std::future<std::optional<ShownFrame>> made_;  ///< the last: it is waited for before the rest goes
+  std::future<std::optional<ShownFrame>>
+      made_;  ///< last member: it is waited for before the others are destroyed
 };
 
 }  // namespace talus::view

@@ -8,7 +8,7 @@
 namespace talus::view {
 namespace {
 
-/// Of a run none of whose frames was met.
+/// Returns the pictures of a run before any of its frames is added.
 pictures::PictureSeries pictures_of_clusters(const RunStatics& statics) {
   pictures::PictureSeries pictures;
   pictures.run.statics = statics;
@@ -17,7 +17,7 @@ pictures::PictureSeries pictures_of_clusters(const RunStatics& statics) {
   return pictures;
 }
 
-/// The record of a frame where it is asked for.
+/// Adds the frame to the pictures and returns its record, if requested.
 std::optional<analysis::FrameRecord> meet_and_measure(pictures::PictureSeries& pictures, const Frame& stored,
                                                       bool with_values) {
   const pictures::OverloadRule& rule = pictures.plan.maps[0];
@@ -85,7 +85,7 @@ void FrameSeries::work(const std::stop_token& stop) {
       turn = shared_.turn;
       rule = shared_.rule;
       pictures.met = {};
-      continue;  // there may be no frame yet
+      continue;  // the run may have no frame yet
     }
     const std::size_t next = pictures.met.instants.size();
     const bool with_values = next >= shared_.known && next < shared_.of_tilt;

@@ -1,5 +1,5 @@
 #pragma once
-/// What is worked out frame by frame, in the order of the run, while the view is used.
+/// Results computed frame by frame, in order, in the background of the view.
 
 #include <condition_variable>
 #include <cstddef>
@@ -15,45 +15,46 @@
 
 namespace talus::view {
 
-/// Reads frames in a thread of its own. All members are for one other thread.
+/// Reads and evaluates frames in its own thread. All members must be called from one other thread.
 class FrameSeries {
  public:
-  /// `read` lives as long as the series. Nothing is read before begin.
+  /// `read` must outlive the series. Nothing is read before begin().
   FrameSeries(const RunStatics& statics, ReadFrame read);
-  /// Finishes the frame under way.
+  /// Finishes the frame in progress.
   ~FrameSeries() = default;
   FrameSeries(const FrameSeries&) = delete;
   FrameSeries& operator=(const FrameSeries&) = delete;
 
-  /// All frames anew, by this rule. Values that are `known`, of the first frames, are not worked out again.
+  /// Evaluates all frames with this rule. The values in `known`, of the first frames, are not recomputed.
   void begin(const pictures::OverloadRule& rule, std::vector<analysis::FrameRecord> known);
-  /// How many frames there are, and how many of them, the first, are of the tilt: only these have values.
+  /// Sets the number of frames, and how many of them (the first ones) belong to the tilt: only these have
+  /// values.
   void set_counts(std::size_t frames, std::size_t of_tilt);
 
-  /// Takes in what is ready; true where there was something. Only here does anything below change, and what
-  /// the pictures of the run know of frames that were met.
+  /// Collects the finished results; returns whether there were any. Everything below, and what the pictures
+  /// know of the frames added, changes only here.
   bool take_in(pictures::PictureSeries& pictures);
 
   const pictures::OverloadRule& rule() const { return rule_; }
-  /// Of the first frames of the tilt, as far as they are known.
+  /// Returns the values known so far, of the first frames of the tilt.
   const std::vector<analysis::FrameRecord>& values() const { return values_; }
-  /// Whether all frames of the tilt have values.
+  /// Returns whether all frames of the tilt have values.
   bool has_all_values() const { return values_.size() >= of_tilt_; }
-  /// The bed in all frames met since the series was made.
+  /// Returns the extent of the bed over all frames read since the series was created.
   const pictures::MapExtent& extent() const { return extent_; }
-  /// Why frames could not be read on; empty where they could.
+  /// Returns the reason why reading stopped; empty if it did not.
   const std::string& error() const { return error_; }
 
  private:
-  /// What both threads use, under `mutex`.
+  /// Data used by both threads, protected by `mutex`.
   struct Shared {
     std::mutex mutex;
     std::condition_variable_any changed;
-    int turn = 0;  ///< counts the calls of begin; 0: none yet
+    int turn = 0;  ///< number of calls of begin(); 0: none yet
     pictures::OverloadRule rule;
     std::size_t known = 0, frames = 0, of_tilt = 0;
     std::vector<analysis::FrameRecord> ready;
-    std::optional<pictures::MetFrames> met;  ///< none where it has been taken in
+    std::optional<pictures::MetFrames> met;  ///< empty once it has been collected
     pictures::MapExtent extent;
     std::string error;
   };
@@ -68,7 +69,7 @@ class FrameSeries {
   pictures::MapExtent extent_;
   std::string error_;
   Shared shared_;
-  std::jthread thread_;  ///< the last: it is joined before the rest goes
+  std::jthread thread_;  ///< last member: it is joined before the others are destroyed
 };
 
 }  // namespace talus::view

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double slowest = 1e-3;  // deg/s
 
-/// How many frames of that size are kept: all of the paper's bed, which has some 90 of 1.6 MB.
+/// Returns how many frames of that size are cached: all of the paper's bed, which has about 90 of 1.6 MB.
 std::size_t most_kept(const Frame& frame) {
   constexpr std::size_t budget = 256u << 20, of_grain = 90, of_contact = 60;  // bytes
   const std::size_t size = of_grain * frame.x.size() + of_contact * frame.contacts.a.size() + 1;
@@ -45,7 +45,7 @@ RunFrames::RunFrames(const std::string& path, std::shared_ptr<ReadingTurn> turn)
 }
 
 RunFrames::~RunFrames() {
-  const std::scoped_lock lock(*turn_);  // closing the file is for one thread at a time, too
+  const std::scoped_lock lock(*turn_);  // HDF5 must also be entered by one thread at a time to close the file
   file_.reset();
 }
 

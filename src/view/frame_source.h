@@ -1,5 +1,5 @@
 #pragma once
-/// The frames of a run that is shown: of a file, or those that a run has recorded while it is computed.
+/// Frames of the run shown: those of a file, or those that a live run has recorded.
 
 #include <cstddef>
 #include <deque>
@@ -16,10 +16,10 @@
 
 namespace talus::view {
 
-/// Frame k of a run, for any thread.
+/// Function that returns frame k of a run; it may be called from any thread.
 using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
 
-/// Frames of a run for several threads. All but `read` is for the thread that shows them.
+/// Frames of a run for several threads. Every member except `read` belongs to the thread that shows them.
 class FrameSource {
  public:
   FrameSource() = default;
@@ -28,18 +28,18 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
 
   std::size_t count() const { return instants_.tilts.size(); }
-  /// When they are; without theta_c.
+  /// Returns tilts and times of the frames; without theta_c.
   const RunInstants& instants() const { return instants_; }
-  /// Frame k, for any thread. Throws as RunFile::frame does.
+  /// Returns frame k; may be called from any thread. Throws as RunFile::frame does.
   virtual std::shared_ptr<const Frame> read(std::size_t k) = 0;
-  /// The same for the thread that shows it.
+  /// Returns frame k to the thread that shows it.
   virtual std::shared_ptr<const Frame> frame(std::size_t k) { return read(k); }
 
  protected:
   RunInstants instants_;
 };
 
-/// Frames that a run has recorded; one thread adds, and another reads.
+/// Frames that a live run has recorded; one thread adds them, another reads them.
 class RecordedFrames final : public FrameSource {
  public:
   void add(const std::vector<std::shared_ptr<const Frame>>& more);
@@ -50,54 +50,54 @@ class RecordedFrames final : public FrameSource {
   std::vector<std::shared_ptr<const Frame>> frames_;
 };
 
-/// Whose turn it is to read: HDF5 is for one thread at a time, also where the files are different ones. A
-/// thread may take it again while it has it.
+/// Lock on HDF5, which admits one thread at a time even for different files. A thread may lock it repeatedly.
 using ReadingTurn = std::recursive_mutex;
 
-/// The frames of a run file.
+/// Frames of a run file.
 class RunFrames final : public FrameSource {
  public:
-  /// Runs that are open at the same time share a turn. Throws as RunFile::open does, and Error(bad_data)
-  /// where the run has no frames.
+  /// Opens a run; runs that are open at the same time share a lock. Throws as RunFile::open does, and
+  /// Error(bad_data) if the run has no frames.
   explicit RunFrames(const std::string& path,
                      std::shared_ptr<ReadingTurn> turn = std::make_shared<ReadingTurn>());
   ~RunFrames() override;
   RunFrames(const RunFrames&) = delete;
   RunFrames& operator=(const RunFrames&) = delete;
 
-  /// Header, tilts and results; before there is a second thread, also series.
+  /// Header, tilts and results; until a second thread runs, also the series.
   const io::RunFile& file() const { return *file_; }
   std::shared_ptr<const Frame> read(std::size_t k) override;
-  /// Those asked for last are kept, up to some 256 MB.
+  /// Returns frame k. The frames requested most recently are cached, up to about 256 MB.
   std::shared_ptr<const Frame> frame(std::size_t k) override;
-  /// Frame k if it is kept; null else.
+  /// Returns frame k if it is cached, else null.
   std::shared_ptr<const Frame> kept(std::size_t k) const;
-  /// Frame k, which somebody else has read, is kept as if it had been asked for.
+  /// Caches frame k, which another reader has read, as if it had been requested.
   void keep(std::size_t k, std::shared_ptr<const Frame> frame);
 
  private:
   std::shared_ptr<ReadingTurn> turn_;
   std::optional<io::RunFile> file_;
-  std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< the last asked for in front
+  std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< most recently requested first
 };
 
-/// Which frame is shown, and how playing moves it on.
+/// Current frame of a replay, and its motion during playback.
 class Replay {
  public:
   explicit Replay(std::shared_ptr<const RunFrames> frames) : frames_(std::move(frames)) {}
 
   std::size_t index() const { return index_; }
-  /// The last frame where there is none with that number.
+  /// Goes to that frame, or to the last one if the number is too large.
   void go_to(std::size_t frame);
 
   bool playing() const { return playing_; }
-  /// From the first frame where it is at the last.
+  /// Starts or stops playback; from the last frame it starts again at the first.
   void play(bool on);
   double speed() const { return speed_; }
-  /// Degrees of tilt a second; not below a thousandth.
+  /// Sets the speed in degrees of tilt per second; at least 0.001.
   void set_speed(double degrees_per_second);
-  /// Moves a playing replay on by so many seconds; true where another frame is shown. It stops at the last.
-  /// Frames of a flow after failure follow each other as those of the tilt do, whatever their tilt.
+  /// Advances a playing replay by `seconds`; returns whether the frame has changed. Playback stops at the
+  /// last frame. Frames of the flow after failure follow each other at the same intervals as those of the
+  /// tilt, whatever their tilt.
   bool advance(double seconds);
 
  private:
@@ -107,7 +107,7 @@ class Replay {
   std::size_t index_ = 0;
   bool playing_ = false;
   double speed_ = 2.0;   ///< deg/s
-  double waited_ = 0.0;  ///< s since the frame shown was reached
+  double waited_ = 0.0;  ///< s since the current frame was reached
 };
 
 }  // namespace talus::view

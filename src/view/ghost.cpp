@@ -10,7 +10,7 @@
 namespace talus::view {
 namespace {
 
-/// A curve of one run, by ascending x.
+/// Curve of one run, in ascending x.
 struct RunCurve {
   std::vector<double> x, y;
 };
@@ -40,7 +40,7 @@ RunCurve curve_of(const GhostRun& run, const analysis::Quantity& quantity, PlotA
   return curve;
 }
 
-/// Between the two points around x; NaN outside of the curve.
+/// Interpolates between the two points around x; NaN outside the curve.
 double value_at(const RunCurve& curve, double x) {
   const auto above = std::ranges::lower_bound(curve.x, x);
   if (above == curve.x.end()) return not_known;
@@ -51,7 +51,7 @@ double value_at(const RunCurve& curve, double x) {
   return curve.y[k - 1] + share * (curve.y[k] - curve.y[k - 1]);
 }
 
-/// The least mean distance of the points of a curve: that of its frames.
+/// Returns the smallest mean spacing of points among the curves, which is that of their frames.
 double spacing_of(const std::vector<RunCurve>& curves) {
   double spacing = not_known;
   for (const RunCurve& curve : curves)

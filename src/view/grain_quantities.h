@@ -1,5 +1,5 @@
 #pragma once
-/// Conditions on the numbers of grains (frame_quantities.h).
+/// Conditions on the values of grains (frame_quantities.h).
 
 #include <vector>
 
@@ -8,13 +8,13 @@
 
 namespace talus::view {
 
-/// "gamma", or "y (D)": a head of a table.
+/// Returns the heading of a column: "gamma", or "y (D)".
 std::string head_of(const analysis::GrainNumber& number);
 
-/// All names, for parse_condition.
+/// Returns all names, for parse_condition.
 const std::vector<ExpressionName>& grain_names();
 
-/// The free grains of which a condition holds, by ascending ids.
+/// Returns the free grains that satisfy a condition, in ascending order of id.
 std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& of);
 
 }  // namespace talus::view

@@ -78,7 +78,7 @@ void HistorySeries::work(const std::stop_token& stop) {
     try {
       instant = instant_of(*read_(next), question);
     } catch (const std::exception&) {
-      failed = true;  // the series of frames meets it too, and says why
+      failed = true;  // the series of frames meets the same error and reports it
     }
     lock.lock();
     if (shared_.turn != turn || failed) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// What single grains and a contact went through: read from all frames of a run, while the view is used.
+/// History of single grains and of a contact, read from all frames of a run in the background of the view.
 
 #include <condition_variable>
 #include <memory>
@@ -17,49 +17,50 @@
 
 namespace talus::view {
 
-/// A grain in a frame.
+/// Position of a grain in a frame.
 struct GrainPlace {
-  double x = 0.0, y = 0.0;  ///< m; NaN where it has not arrived yet
-  Index image = 0;          ///< how often it left through the right periodic edge
+  double x = 0.0, y = 0.0;  ///< m; NaN if the grain has not arrived yet
+  Index image = 0;          ///< number of crossings of the right periodic edge
 };
 
-/// One frame.
+/// One frame of the history.
 struct HistoryInstant {
   std::int64_t step = 0;
   double time = 0.0;               ///< s
   double tilt = 0.0;               ///< rad
-  std::vector<GrainPlace> places;  ///< of the grains asked for, in their order
+  std::vector<GrainPlace> places;  ///< positions of the requested grains, in their order
   double fn = not_known,
-         ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 where it is open
+         ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 if it is open
   ContactStatus status = ContactStatus::open;
-  bool with_wall = false;  ///< where it carries force
+  bool with_wall = false;  ///< whether the contact is with a wall, if it carries force
 };
 
 HistoryInstant instant_of(const Frame& frame, const Selection& question);
 
-/// Reads in a thread of its own. All members are for one other thread.
+/// Reads in its own thread. All members must be called from one other thread.
 class HistorySeries {
  public:
   explicit HistorySeries(ReadFrame read);
-  /// Finishes the frame under way.
+  /// Finishes the frame in progress.
   ~HistorySeries() = default;
   HistorySeries(const HistorySeries&) = delete;
   HistorySeries& operator=(const HistorySeries&) = delete;
 
-  /// From the first of `frames` frames on, where the question is another one; else only those to come.
+  /// Requests the history of `question` over `frames` frames: from the first frame if the question is new,
+  /// else only the frames not yet read.
   void ask(const Selection& question, std::size_t frames);
-  /// Takes in what has been read; true where there was something.
+  /// Collects what has been read; returns whether there was anything.
   bool take_in();
 
   const Selection& question() const { return question_; }
-  /// Of the first frames, as far as they have been read. A frame that cannot be read ends them.
+  /// Returns the instants read so far, of the first frames. A frame that cannot be read ends them.
   const std::vector<HistoryInstant>& instants() const { return instants_; }
 
  private:
   struct Shared {
     std::mutex mutex;
     std::condition_variable_any changed;
-    int turn = 0;  ///< counts the questions
+    int turn = 0;  ///< number of questions
     Selection question;
     std::size_t frames = 0;
     std::vector<HistoryInstant> ready;
@@ -71,11 +72,12 @@ class HistorySeries {
   Selection question_;
   std::vector<HistoryInstant> instants_;
   Shared shared_;
-  std::jthread thread_;  ///< the last: it is joined before the rest goes
+  std::jthread thread_;  ///< last member: it is joined before the others are destroyed
 };
 
-/// "contact forces", over the weight `weight` (N/m), and "mobilisation", with 1, where it slides: along the
-/// run. `friction` of each instant. An open contact has no mobilisation.
+/// Returns two plots along the run: "contact forces", in units of the weight `weight` (N/m), and
+/// "mobilisation", which is 1 while the contact slides. `friction` has the value at each instant. An open
+/// contact has no mobilisation.
 std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
                                 double weight, const PlotAbscissa& abscissa);
 

@@ -10,14 +10,14 @@
 namespace talus::view {
 namespace {
 
-/// A plane is named by where it is seen from the grain.
+/// Returns the name of a plane, given by the direction in which the grain sees it.
 std::string plane_name(double nx) {
   if (nx < -0.5) return "left wall";
   return nx > 0.5 ? "right wall" : "floor";
 }
 
-/// The normal turns where the grain is the second of its contact, and so does the force: its components along
-/// normal and tangent stay.
+/// Returns the contacts seen from the grain. If the grain is the second body of its contact, the normal and
+/// the force are reversed, so that their components along normal and tangent stay.
 std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
   const FrameContacts& all = bed.frame.contacts;
   std::vector<GrainContact> contacts;
@@ -39,7 +39,7 @@ std::vector<GrainContact> contacts_of(const BedFrame& bed, Index grain) {
   return contacts;
 }
 
-/// l_c, as coarse_graining has it.
+/// Returns l_c as coarse_graining computes it.
 double length_of(const analysis::NeighbourhoodCurve& curve, const analysis::CoarseGrainingRule& rule) {
   for (std::size_t k = 0; k < curve.l.size() && curve.l[k] <= rule.cut; ++k) {
     const bool below = k + 1 < curve.l.size() && curve.l[k + 1] <= rule.l_min;
@@ -121,7 +121,7 @@ ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, do
 std::optional<Index> find_grain(const BedFrame& bed, double x, double y) {
   const double period = analysis::period_of(bed.statics);
   std::optional<Index> nearest;
-  double least = bed.statics.mean_diameter;  // from the edge of a disc; negative within it
+  double least = bed.statics.mean_diameter;  // distance from the edge of a disc; negative inside it
   for (Index i = 0; i < bed.frame.grain_count(); ++i) {
     double dx = bed.frame.x[i] - x;
     if (period > 0.0) dx -= period * std::round(dx / period);

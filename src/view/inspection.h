@@ -1,5 +1,5 @@
 #pragma once
-/// What there is to say of one grain, and of one contact.
+/// Properties of one grain and of one contact.
 
 #include <optional>
 #include <string>
@@ -13,17 +13,17 @@
 
 namespace talus::view {
 
-/// A contact of the selected grain.
+/// Contact of the selected grain.
 struct GrainContact {
   ContactKey key;
-  Index other = -1;           ///< grain, or a plane
+  Index other = -1;           ///< grain or plane
   std::string other_name;     ///< "grain 431", "floor grain 8012", "left wall"
   double fn = 0.0, ft = 0.0;  ///< N (per metre of thickness)
-  double nx = 0.0, ny = 0.0;  ///< unit, from the grain outwards
+  double nx = 0.0, ny = 0.0;  ///< unit vector, outwards from the grain
   ContactStatus status = ContactStatus::open;
 };
 
-/// All there is to say of one grain.
+/// Properties of one grain.
 struct Inspection {
   Index grain = -1;
   bool free = true;
@@ -31,49 +31,51 @@ struct Inspection {
   double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0, omega = 0.0;
   std::vector<GrainContact> contacts;
   Tensor2 internal_moment;
-  stress::StressState state;  ///< of the internal moment: its ratio is the gamma of the grain alone
-  double gamma = 0.0;         ///< as the frame has it: of the neighbourhood of diameter l_min
+  stress::StressState state;  ///< state of the internal moment; its ratio is the gamma of the single grain
+  double gamma = 0.0;         ///< value of the frame: that of the neighbourhood of diameter l_min
   bool overloaded = false;
-  Index cluster = -1;  ///< of the overloaded clusters; -1 for none
+  Index cluster = -1;  ///< among the overloaded clusters; -1: none
   Index cluster_size = 0;
   analysis::NeighbourhoodCurve curve;  ///< gamma_l over l (paper, Fig. 11)
   std::optional<double>
-      coarse_graining_length;        ///< m; none where it is not overloaded; the cut where it is cut off
+      coarse_graining_length;  ///< m; empty if the grain is not overloaded; the cut-off if it is cut off
   double neighbourhood_gamma = 0.0;  ///< gamma_l at ViewState::neighbourhood
 };
 
-/// "grain 431", "floor grain 8012"; of a plane where it is seen from the grain, from which the normal (of x
-/// component nx) points to it: "left wall".
+/// Returns "grain 431", "floor grain 8012" or, for a plane, "left wall". A plane is named by its direction
+/// from the grain, given by the x component nx of the normal.
 std::string body_name(const BedFrame& bed, Index body, double nx);
 
-/// Of a grain of a frame of mapped_frame, floor included; one of the floor has contacts, but no
-/// neighbourhoods. `clusters` are those of the overloaded grains of the frame, which are found by the rule;
-/// `neighbourhood` (m) is the diameter of neighbourhood_gamma.
+/// Inspects a grain of a frame of mapped_frame. A floor grain has contacts, but no neighbourhoods. `clusters`
+/// are those of the overloaded grains of the frame, found by the rule; `neighbourhood` (m) is the diameter
+/// for neighbourhood_gamma.
 Inspection inspect(const BedFrame& bed, const analysis::Clusters& clusters,
                    const analysis::CoarseGrainingRule& rule, double neighbourhood, Index grain);
 
-/// All there is to say of one contact.
+/// Properties of one contact.
 struct ContactInspection {
   ContactKey key;
   std::string a_name, b_name;  ///< "grain 431", "floor grain 8012", "left wall"
-  bool carries = false;        ///< force in the frame shown; if not, what follows is 0
-  double fn = 0.0, ft = 0.0;   ///< on b along the normal from a to b and along it turned by +90 deg, N/m
+  bool carries = false;  ///< whether it carries force in the frame shown; if not, the values below are 0
+  double fn = 0.0,
+         ft = 0.0;  ///< force on b, along the normal from a to b and along the normal turned by +90 deg, N/m
   double nx = 0.0, ny = 0.0;
   double px = 0.0, py = 0.0;  ///< m
   ContactStatus status = ContactStatus::open;
-  double friction = 0.0;      ///< mu, in the frame shown
-  double mobilisation = 0.0;  ///< the size of f_t over mu f_n; NaN without friction
+  double friction = 0.0;      ///< mu in the frame shown
+  double mobilisation = 0.0;  ///< |f_t| / (mu f_n); NaN without friction
 };
 
-/// `friction`: that between grains at the time of the frame. A contact with a side wall has that of the
-/// walls.
+/// Inspects a contact. `friction` is that between grains at the time of the frame; a contact with a side wall
+/// has that of the walls.
 ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction);
 
-/// The share of friction that is mobilised, |f_t| / (friction f_n); NaN where it is open, or has none.
+/// Returns the mobilised share of friction, |f_t| / (friction f_n); NaN if the contact is open or has no
+/// friction.
 double mobilised(double fn, double ft, double friction);
 
-/// The grain whose disc holds the place (m, frame of the bed; in a periodic bed any image of it), else the
-/// one whose edge is nearest, not farther than a mean diameter.
+/// Returns the grain whose disc contains the point (m, frame of the bed; in a periodic bed, any image of it),
+/// else the grain with the nearest edge, up to a mean diameter away.
 std::optional<Index> find_grain(const BedFrame& bed, double x, double y);
 
 }  // namespace talus::view

@@ -1,5 +1,5 @@
 #pragma once
-/// What a live run has recorded, beside what goes to its file.
+/// Data that a live run keeps in memory, in addition to those in its file.
 
 #include <algorithm>
 #include <cstdint>
@@ -13,19 +13,20 @@
 
 namespace talus::view {
 
-/// What the run has recorded since it began.
+/// Data recorded since the beginning of the run.
 struct LiveHistory {
   std::vector<ObservableRow> observables;
   std::vector<std::shared_ptr<const Frame>> frames;
   std::vector<Command> commands;
   std::vector<StepRow> steps;
-  std::int64_t stride = 1;  ///< of steps
+  std::int64_t stride = 1;  ///< interval between the rows, in steps
 };
 
-/// Rows of steps that are kept at most.
+/// Maximum number of rows of steps kept.
 inline constexpr std::size_t most_live_steps = 4000;
 
-/// Adds rows of steps; where there are too many, every second of all is left out, and so of those to come.
+/// Adds rows of steps. When there are too many, every second row is dropped, and the stride of later rows
+/// doubles.
 inline void add_steps(std::span<const StepRow> rows, LiveHistory& history) {
   const auto is_left_out = [&history](const StepRow& row) {
     return static_cast<std::int64_t>(at(row, StepField::step)) % history.stride != 0;
@@ -39,7 +40,7 @@ inline void add_steps(std::span<const StepRow> rows, LiveHistory& history) {
   }
 }
 
-/// The items from number `from` on; none where there are fewer.
+/// Returns the items from index `from` on; empty if there are fewer.
 template <typename T>
 std::vector<T> since(const std::vector<T>& items, std::size_t from) {
   return {items.begin() + static_cast<std::ptrdiff_t>(std::min(from, items.size())), items.end()};

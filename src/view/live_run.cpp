@@ -26,9 +26,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::duration<double> frame_interval(1.0 / 30.0);
 constexpr std::chrono::duration<double> speed_interval(0.5);
-constexpr double reached_within = 1e-9;  // rad: a tilt is a sum of steps, up to rounding
+constexpr double reached_within =
+    1e-9;  // rad: tolerance, because a tilt is a sum of steps with rounding errors
 
-/// Up to where the run plays.
+/// Point at which the run pauses.
 struct Goal {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   double tilt = std::numeric_limits<double>::infinity();  ///< rad
@@ -40,26 +41,27 @@ bool is_reached(const Goal& goal, const session::Session& session) {
          (goal.end_of_deposition && session.phase() != session::Phase::deposition);
 }
 
-/// How much of the session's segment the history has, or what of the history there was.
+/// Position in the session's segment up to which the history has copied it, or a position in the history.
 struct Taken {
   std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
 };
 
 constexpr std::size_t most_marks = 64;  // some megabytes each in a bed of 8000 grains
 
-/// A run before a command.
+/// State of the run before a command.
 struct Mark {
   io::Checkpoint state;
   Taken history;
 };
 
-/// Whether a command begins something, and does not just go on with a drag, or end it.
+/// Returns whether a command begins an action, rather than continuing or ending a drag.
 bool begins(const Command& command, const std::optional<session::Drag>& drag) {
   if (command.kind == CommandKind::drag) return !drag || drag->grain != command.grain;
   return command.kind != CommandKind::release;
 }
 
-/// The window needs a core of its own; where there are two, this is the other.
+/// Returns the number of solver threads. One core is left to the window; on two cores the solver has the
+/// other.
 int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
 
 std::string one_line(std::string text) {
@@ -69,22 +71,22 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-/// The session, the store and what belongs to them are the solver's alone once it runs; the rest is shared,
-/// under the mutex.
+/// The session, the store and their data belong to the solver's thread alone once it runs; the rest is shared
+/// and protected by the mutex.
 struct LiveRun::State {
   session::Session session;
   const RunStatics statics;
   const session::RunOrigin origin;
   std::optional<io::RunStore> store;
   std::optional<session::Recorder> recorder;
-  bool is_recorded = false;  ///< also after it has been packed
+  bool is_recorded = false;  ///< remains true after packing
   Taken taken;
-  std::vector<StepRow> steps;  ///< all since the beginning
-  std::vector<Mark> marks;     ///< before each command that was given, the last ones
-  Clock::time_point show_at;   ///< the next frame
+  std::vector<StepRow> steps;  ///< all steps since the beginning
+  std::vector<Mark> marks;     ///< one before each of the last commands given
+  Clock::time_point show_at;   ///< time of the next frame
   Clock::time_point speed_since;
   std::int64_t speed_step = 0;
-  Clock::time_point due;  ///< of the next step, by the pace
+  Clock::time_point due;  ///< time of the next step, set by the pace
 
   mutable std::mutex mutex;
   std::condition_variable_any asked;
@@ -92,13 +94,13 @@ struct LiveRun::State {
   std::optional<Goal> goal;
   LivePace pace = live_paces[0];
   bool pause_asked = false;
-  std::function<void()> request;  ///< that is waited for; the solver does it between two steps
-  std::exception_ptr refusal;     ///< of the request done last
+  std::function<void()> request;  ///< pending request; the solver executes it between two steps
+  std::exception_ptr refusal;     ///< exception of the last request
   LiveStatus status;
   std::shared_ptr<const Frame> frame;
   LiveHistory history;
 
-  std::jthread solver;  ///< last: ends before what it uses
+  std::jthread solver;  ///< last member: it ends before the data that it uses
 
   State(const scenario::Scenario& scenario, session::RunOrigin from)
       : session(from.branch ? session::Session(scenario, from.branch->start) : session::Session(scenario)),
@@ -129,7 +131,7 @@ struct LiveRun::State {
   void fail(const std::exception& error);
 };
 
-// --- what is asked of the solver, from outside ---
+// --- requests to the solver, from other threads ---
 
 void LiveRun::State::play_to(const Goal& next) {
   const std::lock_guard lock(mutex);
@@ -142,8 +144,8 @@ void LiveRun::State::play_to(const Goal& next) {
   asked.notify_one();
 }
 
-/// Waits until the solver has done what is asked: between two steps, so at most a step. Throws what it
-/// throws.
+/// Waits until the solver has executed the request between two steps, which takes at most one step. Rethrows
+/// its exceptions.
 void LiveRun::State::ask(std::function<void()> next) {
   std::unique_lock lock(mutex);
   request = std::move(next);
@@ -180,7 +182,7 @@ bool LiveRun::State::goes_on() {
   return goal.has_value();
 }
 
-/// Does what is waited for.
+/// Executes the pending request.
 void LiveRun::State::answer() {
   std::unique_lock lock(mutex);
   if (!request) return;
@@ -215,7 +217,7 @@ void LiveRun::State::apply(const Command& command) {
   describe();
 }
 
-/// What was recorded from the beginning up to there.
+/// Returns everything recorded from the beginning up to that position.
 io::Segment LiveRun::State::recorded_until(const Taken& end) const {
   const auto first = [](const auto& of, std::size_t count) { return std::span(of).first(count); };
   io::Segment segment;
@@ -259,7 +261,7 @@ void LiveRun::State::back(const std::string& output) {
   if (recorder) keep([this] { recorder->commit(); });
 }
 
-/// Records all that the session has done since it began, and what comes.
+/// Records everything that the session has done since its beginning, and what follows.
 void LiveRun::State::record(const std::string& output, bool overwrite) {
   store = io::RunStore::create(output, session::run_header(session, origin), overwrite);
   recorder.emplace(session, *store);
@@ -278,7 +280,7 @@ void LiveRun::State::take_step() {
   keep([this, failed] {
     if (!recorder) return;
     if (failed)
-      recorder->commit();  // the state before what failed is whole
+      recorder->commit();  // the state before the failure is complete
     else
       recorder->commit_if_due();
   });
@@ -289,19 +291,19 @@ void LiveRun::State::take_step() {
   if (Clock::now() >= show_at) show_frame();
 }
 
-/// Until the next step is due, or something is asked for.
+/// Waits until the next step is due or a request arrives.
 void LiveRun::State::wait_for_pace(const std::stop_token& stop) {
   std::unique_lock lock(mutex);
   const bool tilts = status.tilt_rate > 0.0 && !status.depositing;
   const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / status.tilt_rate : pace.seconds;
   if (!(seconds > 0.0)) return;
   const std::chrono::duration<double> step(scenario::time_step(session.scenario()) / seconds);
-  // What was late is not made good later, so that nothing rushes after a slow step.
+  // Lost time is not made up, so that the run does not rush after a slow step.
   due = std::max(due + std::chrono::duration_cast<Clock::duration>(step), Clock::now());
   asked.wait_until(lock, stop, due, [this] { return pause_asked || request; });
 }
 
-/// Does something that empties the segment, unless it fails.
+/// Performs an action that empties the segment unless it fails.
 void LiveRun::State::keep(const std::function<void()>& store_something) {
   try {
     store_something();
@@ -311,7 +313,7 @@ void LiveRun::State::keep(const std::function<void()>& store_something) {
   if (session.segment().steps.empty() && session.segment().commands.empty()) taken = {};
 }
 
-/// Copies what the segment has that is new to the history.
+/// Copies new entries of the segment to the history.
 void LiveRun::State::take_in() {
   const io::Segment& segment = session.segment();
   std::vector<std::shared_ptr<const Frame>> frames;
@@ -329,7 +331,7 @@ void LiveRun::State::take_in() {
   taken = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
 }
 
-/// The status as the session is now; under the mutex.
+/// Updates the status from the session; requires the mutex.
 void LiveRun::State::describe() {
   const World& world = session.world();
   status.step = world.step;
@@ -352,14 +354,14 @@ void LiveRun::State::describe() {
 
 void LiveRun::State::show_frame() {
   auto next = std::make_shared<const Frame>(session::make_frame(session.world(), session.law()));
-  // A step late is made good by the next.
+  // A delay of one step is made up by the next.
   const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
   show_at = std::max(show_at + interval, Clock::now());
   const std::lock_guard lock(mutex);
   frame = std::move(next);
 }
 
-/// The frame, and where nothing is to go on, that the run waits, in which state.
+/// Shows the frame and, if nothing more is to run, the paused status with its state hash.
 void LiveRun::State::show_pause() {
   show_frame();
   const std::string hash = hash_text(state_hash(session.world()));
@@ -371,7 +373,7 @@ void LiveRun::State::show_pause() {
   status.steps_per_second = 0.0;
 }
 
-/// Packs a run that is done.
+/// Packs a finished run.
 void LiveRun::State::pack() {
   if (!store || session.phase() != session::Phase::done) return;
   keep([this] {

@@ -1,4 +1,4 @@
-/// What is drawn over the map of a frame so that it stays readable: thin, without fills.
+/// Marks drawn over the map of a frame. They are thin and unfilled, so that the map stays readable.
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +16,11 @@ namespace talus::view {
 namespace {
 
 constexpr render::Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170}, cluster_colour{240, 130, 0};
-constexpr std::size_t few = 500;                   // grains whose rings are drawn finely
+constexpr std::size_t few = 500;                   // maximum number of grains whose rings are drawn finely
 constexpr double largest_ring_width = 0.05;        // D
-constexpr double least_ring_width = 1.0 / 2500.0;  // of the width of the picture: about a pixel
+constexpr double least_ring_width = 1.0 / 2500.0;  // relative to the width of the picture: about a pixel
 
-/// A circle of straight lines, with its images in a periodic bed.
+/// Adds a circle made of straight lines, with its images in a periodic bed.
 void add_circle(render::FrameView& view, Vec2 centre, double radius, double half_width,
                 const render::Colour& colour, const RunStatics& statics, int circle_lines = 64) {
   const auto corner = [&](int k) {
@@ -65,7 +65,7 @@ void add_contact(render::FrameView& view, const BedFrame& bed, std::size_t c, do
   }
 }
 
-/// Line by line, each from where the bed is: its images follow from that.
+/// Adds a trail line by line. Each line begins inside the bed, from which its images follow.
 void add_trail(render::FrameView& view, const BedFrame& bed, const std::vector<Vec2>& trail,
                double half_width, const render::Colour& colour) {
   const double period = analysis::period_of(bed.statics);
@@ -80,8 +80,8 @@ void add_trail(render::FrameView& view, const BedFrame& bed, const std::vector<V
   }
 }
 
-/// A stroke between each grain of a cluster and each neighbour that is not of it. Fills and rims of grains
-/// stay as they are: a cluster can be most of the bed.
+/// Adds a stroke between each grain of a cluster and each neighbour outside it. Fills and rims of grains
+/// stay, because a cluster can make up most of the bed.
 void add_outline(render::FrameView& view, const BedFrame& bed, const analysis::Clusters& clusters,
                  Index cluster) {
   if (cluster < 0) return;
@@ -104,19 +104,19 @@ void add_outline(render::FrameView& view, const BedFrame& bed, const analysis::C
   }
 }
 
-/// On a white ground, to be seen over dark grains and light ones.
+/// Adds a ring on a white background, visible over dark and light grains.
 void add_ring(render::FrameView& view, Vec2 centre, double radius, double half_width,
               const render::Colour& colour, const RunStatics& statics) {
   add_circle(view, centre, radius, 2.0 * half_width, render::white, statics);
   add_circle(view, centre, radius, half_width, colour, statics);
 }
 
-/// The grain that is looked at, and its neighbourhoods.
+/// Adds the inspected grain and its neighbourhoods.
 void add_looked_at(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   if (!overlay.selected) return;
   const RunStatics& statics = bed.statics;
   const double d = statics.mean_diameter;
-  const double pen = std::min(d, (view.x_max - view.x_min) / 60.0);  // finer where little is shown
+  const double pen = std::min(d, (view.x_max - view.x_min) / 60.0);  // finer if only a small part is shown
   const auto grain = static_cast<std::size_t>(*overlay.selected);
   const Vec2 centre{bed.frame.x[grain], bed.frame.y[grain]};
   for (const double diameter : overlay.diameters)
@@ -126,7 +126,7 @@ void add_looked_at(render::FrameView& view, const BedFrame& bed, const Overlay& 
   add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
-/// What is selected beside it, and where it has been.
+/// Adds the rest of the selection, and its trails.
 void add_selection(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   const double d = bed.statics.mean_diameter, width = view.x_max - view.x_min;
   const double half_width = std::clamp(least_ring_width * width, 0.02 * d, largest_ring_width * d);

@@ -10,7 +10,7 @@
 namespace talus::view {
 namespace {
 
-constexpr std::size_t most_points = 2000;  // of a curve over steps: about as many as pixels
+constexpr std::size_t most_points = 2000;  // maximum for a curve over steps: about the number of pixels
 constexpr int gamma_bins = 50;
 
 Plot& plot_of(std::vector<Plot>& plots, PlotKind kind) { return plots[static_cast<std::size_t>(kind)]; }
@@ -21,7 +21,7 @@ PlotSeries series_of(const analysis::QuantityMember& member) {
   return talus::view::series_of(analysis::quantity_of(member));
 }
 
-/// A logarithmic axis has no place for zero.
+/// Returns the value, or NaN if it is not positive: zero cannot be drawn on a logarithmic axis.
 double positive(double value) { return value > 0.0 ? value : not_known; }
 
 void clear(PlotSeries& series) {
@@ -34,7 +34,7 @@ void add(PlotSeries& series, double x, double y) {
   series.y.push_back(y);
 }
 
-/// The largest value of a field.
+/// Returns the largest value of a field.
 double largest_of(std::span<const StepRow> rows, StepField field) {
   double largest = 0.0;
   for (const StepRow& row : rows) largest = std::max(largest, at(row, field));

@@ -11,19 +11,19 @@
 namespace talus::view {
 namespace {
 
-/// As short as it can be: eight digits tell any two frames apart.
+/// Formats a number as briefly as possible; eight digits distinguish any two frames.
 std::string number(double value) { return fmt::format("{:.8g}", value == 0.0 ? 0.0 : value); }
 
-/// In D, rounded into the part: `talus render` refuses what leaves the bed.
+/// Formats the part in D, rounded inwards, because `talus render` rejects parts that leave the bed.
 std::string crop_text(const pictures::MapExtent& part, double diameter) {
-  constexpr double parts = 100.0;  // of D
+  constexpr double parts = 100.0;  // hundredths of D
   const auto up = [&](double x) { return number(std::ceil(x / diameter * parts - 1e-9) / parts); };
   const auto down = [&](double x) { return number(std::floor(x / diameter * parts + 1e-9) / parts); };
   return fmt::format("{},{},{},{}", up(part.x_min), up(part.y_min), down(part.x_max), down(part.y_max));
 }
 
-/// The range that is not the one that `talus render` finds by itself: one that was chosen, or, of motion, the
-/// fixed one of the window.
+/// Returns the range if it differs from the default of `talus render`: a range chosen by the user or, for
+/// motion, the fixed range of the window.
 std::optional<pictures::ScaleRange> range_of(const RenderRequest& shown) {
   const pictures::MapSettings& settings = shown.settings;
   if (!pictures::has_bar(settings.layers)) return std::nullopt;

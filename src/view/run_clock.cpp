@@ -17,7 +17,7 @@ std::size_t nearest_place(std::span<const double> places, double place) {
 
 double begin_of(const RunInstants& run) { return run.times.empty() ? 0.0 : run.times.front(); }
 
-/// Of the last frame of the tilt.
+/// Returns the time of the last frame of the tilt.
 double end_of_tilt(const RunInstants& run) {
   return run.tilt_count > 0 ? run.times[run.tilt_count - 1] : begin_of(run);
 }

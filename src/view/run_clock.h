@@ -1,5 +1,5 @@
 #pragma once
-/// Which frame of one run belongs to a frame of another.
+/// Correspondence between the frames of two runs.
 
 #include <optional>
 #include <vector>
@@ -8,19 +8,19 @@
 
 namespace talus::view {
 
-/// What two runs are compared by: their frames, those of a flow after failure last.
+/// Instants by which two runs are compared: those of their frames, with frames of a flow after failure last.
 struct RunInstants {
-  std::vector<double> tilts;   ///< rad, of all frames
-  std::vector<double> times;   ///< s, of the same
-  std::size_t tilt_count = 0;  ///< how many of them, the first, are of the tilt
+  std::vector<double> tilts;   ///< rad, one per frame
+  std::vector<double> times;   ///< s, one per frame
+  std::size_t tilt_count = 0;  ///< number of frames of the tilt, which come first
   double theta_c = not_known;  ///< rad
 };
 
-/// The frame of `other` that is nearest on a clock, as far as its frames go, to an instant (rad, s) of
-/// `shown`: by the tilt, by the angle that is left to failure, or by the time since the first frame; the
-/// first of several that are as near. By an angle a frame of the flow of `shown` belongs to one of the flow
-/// of `other`, by the time since the last frame of the tilt, where it has any. None where `other` has no
-/// frames, or the clock is the angle left and not both have failed.
+/// Returns the frame of `other` that is nearest to an instant (rad, s) of `shown` on a clock: the tilt, the
+/// angle left to failure, or the time since the first frame; among equally near frames, the first. With a
+/// clock of angles, a frame of the flow of `shown` corresponds to a frame of the flow of `other`, if it has
+/// any, by the time since the last frame of the tilt. Returns nothing if `other` has no frames, or if the
+/// clock is the angle left and not both runs have failed.
 struct Instant {
   double tilt = 0.0, time = 0.0;
   bool in_flow = false;

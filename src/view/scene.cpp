@@ -21,7 +21,7 @@ void add_grains(render::FrameView& view, const render::FrameView& map) {
     if (pictures::is_seen(view, line)) view.lines.push_back(line);
 }
 
-/// Side walls, and a smooth floor; light where there is no white behind them.
+/// Adds side walls and a smooth floor, in a light colour if the background is not white.
 void add_boundary(render::FrameView& view, const BedFrame& bed) {
   const RunStatics& statics = bed.statics;
   const render::Colour colour = view.transparent ? light_wall : render::black;
@@ -38,7 +38,7 @@ void add_boundary(render::FrameView& view, const BedFrame& bed) {
     add(std::max(0.0, view.x_min), 0.0, std::min(statics.length, view.x_max), 0.0);
 }
 
-/// What `draw` makes; where it cannot, the grains alone, with the reason as title.
+/// Returns the result of `draw`; if it fails, the grains alone, with the reason as title.
 template <typename Draw>
 render::FrameView drawn_or_outlined(const pictures::PictureSeries& series, const Frame& frame,
                                     const Draw& draw) {
@@ -53,7 +53,7 @@ render::FrameView drawn_or_outlined(const pictures::PictureSeries& series, const
   }
 }
 
-/// Layers of a map; none where it cannot be drawn.
+/// Returns the layers of a map; none if it cannot be drawn.
 std::vector<pictures::MapLayer> layers_of(const MapSource& source, const RunStatics& statics) {
   const pictures::MapFrame of{{*source.frame, statics}, source.reference.get(), !source.since};
   try {
@@ -117,7 +117,7 @@ render::FrameView shown_map(const render::FrameView& map, const pictures::MapExt
   view.turn = map.turn;
   view.turn_max = map.turn_max;
   view.tilt = map.tilt;
-  view.coloured = true;  // one target for all that is shown
+  view.coloured = true;  // the same render target for everything shown
   view.transparent = map.transparent;
   add_grains(view, map);
   add_boundary(view, bed);

@@ -10,7 +10,7 @@
 namespace talus::view {
 namespace {
 
-/// Whether a ray from the place in the direction of x crosses the line an odd number of times.
+/// Returns whether a ray from the point along +x crosses the line an odd number of times.
 bool is_within(std::span<const Vec2> outline, double x, double y) {
   bool within = false;
   for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -92,7 +92,7 @@ ContactKey key_of(const FrameContacts& contacts, Index c) {
 }
 
 std::optional<Index> contact_of_key(const FrameContacts& contacts, const ContactKey& key) {
-  Index low = 0, high = contacts.count();  // contacts come in the order of their keys
+  Index low = 0, high = contacts.count();  // contacts are sorted by key
   const auto before = [&](Index c) {
     const ContactKey of = key_of(contacts, c);
     return std::tie(of.a, of.b, of.shift) < std::tie(key.a, key.b, key.shift);

@@ -1,5 +1,5 @@
 #pragma once
-/// What is selected, as plain data, and how grains and contacts of a frame are found by their places.
+/// Selection as plain data, and functions that find grains and contacts by position.
 
 #include <optional>
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace talus::view {
 
-/// A contact keeps its key from frame to frame: bodies a < b, where b may be a plane, and b touches a from
-/// x_b + shift * length.
+/// Identity of a contact across frames: bodies a < b, where b may be a plane, and b touches a from x_b +
+/// shift * length.
 struct ContactKey {
   Index a = -1, b = -1;
   std::int8_t shift = 0;
@@ -19,41 +19,41 @@ struct ContactKey {
 };
 
 struct Selection {
-  std::vector<Index> grains;          ///< by their ids, each once
+  std::vector<Index> grains;          ///< sorted by id, without duplicates
   std::optional<ContactKey> contact;  ///< instead of grains
   bool operator==(const Selection&) const = default;
 };
 
-/// What grains that were found do to those that are selected.
+/// Combination of the grains found with the current selection.
 enum class SelectionMode {
-  anew,    ///< they take their place
-  add,     ///< they come to them
-  remove,  ///< they are taken from them
-  common,  ///< only those stay that were found
+  anew,    ///< replaces the selection
+  add,     ///< adds to the selection
+  remove,  ///< removes from the selection
+  common,  ///< intersects with the selection
 };
 
-/// Both by ascending ids, each once; so is what is returned.
+/// Combines two lists; both, and the result, are sorted by id without duplicates.
 std::vector<Index> combined(const std::vector<Index>& before, const std::vector<Index>& found,
                             SelectionMode mode);
 
-/// The grains with that one, or without it if it is among them.
+/// Returns the grains with `grain` added, or removed if it is among them.
 std::vector<Index> toggled(const std::vector<Index>& grains, Index grain);
 
-/// At most so many: all of them, or every second, third, ... one from the first on.
+/// Returns at most `most` grains: all of them, or every second, third, ... from the first on.
 std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most);
 
-/// The free grains whose centre, or an image of it in a periodic bed, is within a closed line through these
-/// places (m, frame of the bed): from where a ray crosses the line an odd number of times. By ascending ids;
-/// none for fewer than three places.
+/// Returns, sorted by id, the free grains whose centre, or an image of it in a periodic bed, lies inside the
+/// closed polygon through these points (m, frame of the bed): a ray from the centre crosses it an odd number
+/// of times. Empty for fewer than three points.
 std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outline);
 
-/// The contact whose point, or an image of it, is nearest to a place (m), not farther than `reach` (m); its
-/// place among those of the frame.
+/// Returns the index of the contact whose point, or an image of it, is nearest to a point (m), within `reach`
+/// (m).
 std::optional<Index> find_contact(const BedFrame& bed, double x, double y, double reach);
 
 ContactKey key_of(const FrameContacts& contacts, Index c);
 
-/// Where a contact with that key is among those of a frame; none where it carries no force there.
+/// Returns the index of the contact with that key in a frame; nothing if it carries no force there.
 std::optional<Index> contact_of_key(const FrameContacts& contacts, const ContactKey& key);
 
 }  // namespace talus::view

@@ -63,7 +63,7 @@ Plot histogram_of(const analysis::GrainNumber& number, std::span<const Index> se
   plot.title = "Density";
   const std::string unit = analysis::scaled_unit(number.quantity->unit);
   plot.x_title = number.name + (unit == "1" ? "" : " in " + unit);
-  std::ranges::replace(plot.x_title, '_', ' ');  // which would set a subscript
+  std::ranges::replace(plot.x_title, '_', ' ');  // an underscore would set a subscript
   plot.along_run = false;
   const std::vector<double> known = known_values(all, values);
   if (known.empty()) return plot;

@@ -1,5 +1,5 @@
 #pragma once
-/// The themes of the window.
+/// Themes of the window.
 
 #include <span>
 #include <string_view>
@@ -8,17 +8,17 @@ namespace talus::view {
 
 enum class Theme {
   light,
-  dark,   ///< for dark rooms: grays of maps are mirrored, so that what was black shines
-  print,  ///< what a journal prints: white, black text, nothing filled with gray
+  dark,   ///< for dark rooms: the grays of maps are mirrored, so that black becomes bright
+  print,  ///< as a journal prints: white background, black text, nothing filled with gray
 };
 
-/// All of them, in the order in which they are offered.
+/// Returns all themes in the order in which they are offered.
 std::span<const Theme> themes();
-/// "light", "dark", "print".
+/// Returns "light", "dark" or "print".
 std::string_view theme_name(Theme theme);
-/// The theme of that name. Throws Error(usage) with the names that there are.
+/// Returns the theme of that name. Throws Error(usage) with the valid names.
 Theme theme_of(std::string_view name);
-/// The one after it, and the first after the last.
+/// Returns the next theme; the first follows the last.
 Theme next_theme(Theme theme);
 
 }  // namespace talus::view

@@ -19,13 +19,13 @@ std::vector<double> column_of(std::span<const ObservableRow> rows, Observable fi
   return values;
 }
 
-/// Adds what has a tilt.
+/// Collects the events that have a tilt.
 struct EventList {
   const TimelineSource& source;
   std::size_t rise_begins;                   ///< frame
-  std::vector<double> rise_tilts;            ///< rad, magnitudes
-  bool other_side;                           ///< the bed slopes to it in the rise
-  std::vector<double> row_tilts, row_times;  ///< rad, magnitudes, and s: of the rows of the rise
+  std::vector<double> rise_tilts;            ///< rad, absolute values
+  bool other_side;                           ///< whether the bed slopes backwards in the rise
+  std::vector<double> row_tilts, row_times;  ///< rows of the rise: absolute tilts (rad) and times (s)
   std::vector<TimelineEvent> events;
 
   explicit EventList(const TimelineSource& of) : source(of) {
@@ -38,7 +38,7 @@ struct EventList {
     row_times = column_of(rows, Observable::time);
   }
 
-  /// What happens in the last rise, at a tilt of that magnitude (rad).
+  /// Adds an event of the last rise, at a tilt of that magnitude (rad).
   void add(const char* name, const char* label, const std::string& what, double tilt,
            TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
     if (!std::isfinite(tilt)) return;
@@ -46,7 +46,7 @@ struct EventList {
            static_cast<double>(rise_begins) + place_among(rise_tilts, tilt), time_of(tilt), kind);
   }
 
-  /// s, at which the last rise comes to a tilt (rad), between two rows.
+  /// Returns the time (s) at which the last rise reaches a tilt (rad), interpolated between two rows.
   double time_of(double tilt) const {
     if (row_tilts.empty()) return not_known;
     const double place = place_among(row_tilts, tilt);
@@ -61,7 +61,7 @@ struct EventList {
     events.back().time = time;
   }
 
-  /// What happens at a tilt (rad) and a time (s), in whichever rise.
+  /// Adds an event at a tilt (rad) and a time (s), in any rise.
   void add_then(const std::string& name, const std::string& what, double tilt, double time,
                 TimelineEvent::Kind kind) {
     const double place = std::ranges::is_sorted(source.tilts) ? place_among(source.tilts, tilt)
@@ -121,11 +121,12 @@ void add_of_frames(EventList& list, double theta_c) {
            analysis::percolation_onset(tilts, spans, theta_c).tilt);
 }
 
-/// Decades of energy below the largest rearrangement in which those are told apart, and the size of the rest.
+/// Decades of energy below the largest rearrangement over which sizes differ, and the size of all smaller
+/// ones.
 constexpr double told_decades = 4.0;
 constexpr double least_size = 0.2;
 
-/// Not the flow that fails the slope, of which theta_c tells.
+/// Adds the rearrangements except the flow that ends the slope, which theta_c marks.
 void add_rearrangements(EventList& list) {
   std::vector<analysis::EventRecord> chosen(list.source.rearrangements.begin(),
                                             list.source.rearrangements.end());

@@ -1,4 +1,4 @@
-/// The second view: what it is of, and how it follows the first.
+/// The second view: its content, and how it follows the first.
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +16,9 @@ const pictures::MapLayers& layers_beside(const ViewState& asked) {
   return asked.beside.layers.empty() ? asked.map.layers : asked.beside.layers;
 }
 
-/// Holds both, with ends of few digits.
+/// Returns a range that contains both, with ends of few digits.
 pictures::ScaleRange common_range(const pictures::ScaleRange& one, const pictures::ScaleRange& two) {
-  constexpr double hair = 1e-6;  // of a step: ends that are round stay
+  constexpr double hair = 1e-6;  // in steps: ends that are already round stay
   const double low = std::min(one.low, two.low), high = std::max(one.high, two.high);
   const double step = std::pow(10.0, std::floor(std::log10(high - low)) - 1.0);
   return {step * std::floor(low / step + hair), step * std::ceil(high / step - hair)};
@@ -57,7 +57,7 @@ ViewState ViewModel::beside_state() const {
   ViewState of = state;
   of.map.layers = layers_beside(state);
   of.minus = state.beside.minus;
-  if (of.minus || of.map.layers != state.map.layers) {  // these are of another map
+  if (of.minus || of.map.layers != state.map.layers) {  // these belong to another map
     of.map.range_low.reset();
     of.map.range_high.reset();
   }
@@ -86,7 +86,7 @@ void ViewModel::link_ranges() {
   if (linked_.layers == state.map.layers && linked_.theta_c == theta_c() &&
       linked_.other_theta_c == other_->theta_c())
     return;
-  // By their frames of now: ranges are the same in all.
+  // The current frames suffice, because ranges are the same in all frames.
   linked_ = {state.map.layers, theta_c(), other_->theta_c(), std::nullopt};
   ViewState plain = state;
   plain.map.range_low.reset();

@@ -1,4 +1,4 @@
-/// What happened in the run that is shown, and the bookmarks of its frames.
+/// Events of the run shown, and bookmarks of its frames.
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-/// The curves of the run that is shown.
+/// Curves of the run shown.
 
 #include <algorithm>
 #include <cmath>

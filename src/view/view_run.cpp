@@ -1,4 +1,4 @@
-/// The run that is shown: how it is opened, replayed, computed, branched, and followed.
+/// The run shown: opening, replaying, computing, branching, and following it.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,8 @@
 namespace talus::view {
 namespace {
 
-/// "slope-2.h5" after "slope.h5", or "slope-branch-1.h5": the first from a number on that is not there yet.
+/// Returns "slope-2.h5" after "slope.h5", or "slope-branch-1.h5": the first name, counting from `number`,
+/// that does not exist yet.
 std::string next_output(const std::string& run, const char* what, int number, const std::string& extension) {
   const std::filesystem::path path(run);
   for (int k = number;; ++k) {
@@ -29,7 +30,7 @@ std::string next_output(const std::string& run, const char* what, int number, co
   }
 }
 
-/// Where a run that is recorded goes on; empty for one that is not.
+/// Returns the path in which a recorded run is continued; empty if it is not recorded.
 std::string output_after(const std::string& output, const std::string& first) {
   return output.empty() ? "" : next_output(first, "", 2, std::filesystem::path(first).extension().string());
 }
@@ -66,7 +67,7 @@ void ViewModel::open_replay() {
   pictures_.has_program = file.has_program();
   all_statics_ = statics();
   theta_c_ = find_value(file.checkpoint().results, "theta_c");
-  if (theta_c_ && !std::isfinite(*theta_c_)) theta_c_.reset();  // it has not failed
+  if (theta_c_ && !std::isfinite(*theta_c_)) theta_c_.reset();  // the run has not failed
   analysis_ = read_usable_analysis(file);
   rows_ = file.observables();
   plot_rows();
@@ -146,23 +147,23 @@ void ViewModel::show_replayed() {
   } else {
     return replay_->play(false);
   }
-  // On by as many frames as last time, back as well.
+  // Predict the same stride as the last one, also backwards.
   const std::size_t following = k == shown_before_ ? k + 1 : k + (k - shown_before_);
   shown_before_ = k;
   if (following < frame_count()) ahead_->begin(following, l_min_, run_file_->kept(following));
 }
 
-/// Whether grains are above the bed that they will make.
+/// Returns whether grains are above the bed that they will form.
 bool ViewModel::is_falling() const {
   const scenario::DepositionMethod method = scenario_.deposition.method;
   return live_->status().depositing &&
          (method == scenario::DepositionMethod::pour || method == scenario::DepositionMethod::collapse);
 }
 
-/// What has been recorded, with room for the bed that is being deposited: grains fall into the picture from
-/// above, so that it and all around it stay where they are.
+/// Returns the extent recorded so far, with room for the bed that is being deposited: grains enter the
+/// picture from above, while everything else stays in place.
 pictures::MapExtent ViewModel::live_extent() const {
-  constexpr double surplus = 1.05;  // of the depth: what a loose bed and its surface have
+  constexpr double surplus = 1.05;  // relative to the depth, for a loose bed and its surface
   pictures::MapExtent extent = series_ ? series_->extent() : pictures::bed_extent(statics());
   const RunStatics& of = statics();
   extent.y_max = std::max({extent.y_max, surplus * of.depth, of.depth + of.mean_diameter});
@@ -254,7 +255,7 @@ void ViewModel::take_all_recorded() {
   find_events();
 }
 
-/// The file is read up to here, and no more while the branch is computed.
+/// The file is read up to here, and not again while the branch is computed.
 void ViewModel::branch() {
   if (is_live()) return;
   const std::size_t k = frame_index();

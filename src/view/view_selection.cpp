@@ -82,7 +82,7 @@ bool ViewModel::follow_history() {
 
 double ViewModel::friction_at(std::int64_t step) const {
   double friction = statics().friction;
-  // A branch goes on with what commands had set before it.
+  // A branch continues with the settings of earlier commands.
   if (const auto& origin = replay_ ? pictures_.run.branch : origin_)
     friction = find_value(origin->start.reals, "friction").value_or(friction);
   for (const Command& command : commands_)

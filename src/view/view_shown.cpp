@@ -1,4 +1,4 @@
-/// What is made of the frame that is shown: its maps, and what is known of it.
+/// Results for the frame shown: its maps, and the properties of its grains.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ pictures::MapSettings View::settings() const {
     settings.range_high = run.linked_.range->high;
   }
   settings.tilt_max = 0.0;
-  if (settings.turned)  // all frames in one size
+  if (settings.turned)  // the same size for all frames
     settings.tilt_max =
         run.is_live() ? std::max(run.theta_c(), run.frame().tilt) : std::ranges::max(run.frame_tilts());
   return settings;

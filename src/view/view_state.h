@@ -1,5 +1,5 @@
 #pragma once
-/// What the interactive view shows, and how: plain data that widgets change and drawing reads.
+/// State of the interactive view: plain data that widgets change and drawing reads.
 
 #include <array>
 #include <map>
@@ -16,92 +16,93 @@
 
 namespace talus::view {
 
-/// What part of the bed fills the window.
+/// Part of the bed that fills the window.
 struct ViewCamera {
   double centre_x = 0.0, centre_y = 0.0;  ///< m, frame of the bed
-  double zoom = 1.0;                      ///< 1: all of the bed is seen
+  double zoom = 1.0;                      ///< 1: the entire bed is visible
 };
 
-/// What is shown beside the first view.
+/// State of the second view.
 struct BesideState {
   bool shown = false;
-  pictures::MapLayers layers{};     ///< empty: those of the first view
-  std::optional<double> minus{};    ///< rad: the frame minus that at this tilt, instead of the frame
-  std::string path{};               ///< of the run that is asked for next
-  PlotAxis clock = PlotAxis::tilt;  ///< by which the frame of another run belongs to that of the first
+  pictures::MapLayers layers{};     ///< empty: same as the first view
+  std::optional<double> minus{};    ///< rad: show the frame minus that at this tilt
+  std::string path{};               ///< path of the run requested next
+  PlotAxis clock = PlotAxis::tilt;  ///< clock by which frames of another run correspond to those of the first
 };
 
-/// How a plot is looked at.
+/// Display options of a plot.
 struct PlotLook {
-  std::optional<std::array<double, 2>> zoomed;  ///< from and to, of x; without: all
-  std::optional<std::array<double, 2>> chosen;  ///< a range of x whose statistics are told
-  std::optional<bool> log_y;                    ///< instead of what the plot has
+  std::optional<std::array<double, 2>> zoomed;  ///< limits of x; empty: all
+  std::optional<std::array<double, 2>> chosen;  ///< range of x whose statistics are shown
+  std::optional<bool> log_y;                    ///< overrides the default of the plot
 };
 
-/// What is selected beside a single grain, and how.
+/// Selection in addition to the inspected grain, and how it is made.
 struct SelectingState {
-  Selection selection;                           ///< two grains or more, or a contact; empty: neither
-  SelectionMode mode = SelectionMode::anew;      ///< of a box, a lasso or a condition
-  std::string condition;                         ///< that is written, or was
-  std::string error;                             ///< why it selects nothing
-  bool in_each_frame = false;                    ///< the condition selects anew in each frame
-  std::string quantity = "gamma_neighbourhood";  ///< whose histogram is shown
-  std::string table_path = "selected.csv";       ///< to be written
-  bool trails = false;          ///< where the selected grains have been, up to the frame shown
-  bool follow = false;          ///< the picture keeps the grain that is looked at in its middle
-  std::vector<Vec2> outline;    ///< that is being drawn, px of the window; empty: none
-  bool outline_is_box = false;  ///< between its first place and its last
+  Selection selection;                           ///< two or more grains, or a contact; empty: neither
+  SelectionMode mode = SelectionMode::anew;      ///< applies to a box, a lasso or a condition
+  std::string condition;                         ///< text being edited, or last applied
+  std::string error;                             ///< why the condition selects nothing
+  bool in_each_frame = false;                    ///< whether the condition selects again in each frame
+  std::string quantity = "gamma_neighbourhood";  ///< quantity whose histogram is shown
+  std::string table_path = "selected.csv";       ///< path of the table to write
+  bool trails = false;                           ///< paths of the selected grains up to the frame shown
+  bool follow = false;                           ///< whether the picture stays centred on the inspected grain
+  std::vector<Vec2> outline;                     ///< outline being drawn, px of the window; empty: none
+  bool outline_is_box = false;                   ///< whether it is a box between its first and its last point
 };
 
-/// A grain that the mouse holds.
+/// Grain held by the mouse.
 struct GrainDrag {
   Index grain = -1;
-  double x = 0.0, y = 0.0;  ///< m, where the mouse was when that was last told to the run
-  std::int64_t step = 0;    ///< of the run then
+  double x = 0.0, y = 0.0;  ///< m, position of the mouse last sent to the run
+  std::int64_t step = 0;    ///< step of the run at that time
 };
 
 struct ViewState {
   pictures::MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   BesideState beside;
-  std::optional<double> minus;    ///< rad, of a view that shows a frame minus that at this tilt
-  double scale = 0.0;             ///< of text and widgets; 0: that of the display
-  std::optional<double> since;    ///< rad: motion and strain since that tilt; without: per degree
-  std::optional<Index> selected;  ///< the grain that is looked at, and that commands act on
-  SelectingState selecting;       ///< more grains than that one, or a contact
-  double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the selected grain
+  std::optional<double> minus;    ///< rad, for a view that shows a frame minus that at this tilt
+  double scale = 0.0;             ///< scale of text and widgets; 0: that of the display
+  std::optional<double> since;    ///< rad: motion and strain since that tilt; empty: per degree
+  std::optional<Index> selected;  ///< the inspected grain, which commands act on
+  SelectingState selecting;       ///< further grains, or a contact
+  double neighbourhood = 10.0;    ///< D: diameter of the neighbourhood drawn about the inspected grain
   bool show_neighbourhoods = true;
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
-  bool bookmark_asked = false;                 ///< a key has asked for the note of a bookmark
-  bool discard_asked = false;                  ///< whether a run that is not saved may be given up
-  std::string panel_asked;                     ///< to be opened with the next picture
-  HeldBar held_bar;                            ///< of the legend
-  std::map<std::string, PlotLook> plot_looks;  ///< by the names of plots
-  std::string quantity_filter;                 ///< part of the names of quantities offered for plots
-  std::string enlarged_plot;                   ///< its name; empty: all are shown
-  std::string behind_path;                     ///< of a run or an ensemble to put behind the curves
-  std::string plots_folder = "talus-plots";    ///< where plots are written
-  float picture_share = 0.0f;  ///< of the height, for the map; 0: as high as the bed, the plots get the rest
+  bool bookmark_asked = false;                 ///< whether a key has requested the note of a bookmark
+  bool discard_asked = false;                  ///< whether the user was asked to discard an unsaved run
+  std::string panel_asked;                     ///< panel to open with the next picture
+  HeldBar held_bar;                            ///< drag of the legend's bar
+  std::map<std::string, PlotLook> plot_looks;  ///< key: name of the plot
+  std::string quantity_filter;                 ///< filter on the names of quantities offered for plots
+  std::string enlarged_plot;                   ///< name of the plot; empty: all are shown
+  std::string behind_path;                     ///< path of a run or an ensemble to put behind the curves
+  std::string plots_folder = "talus-plots";    ///< folder for exported plots
+  float picture_share =
+      0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots
   Theme theme = Theme::light;
-  std::string bookmark_note;  ///< what is being written
-  std::string announcement;   ///< of a run that has failed or ended, until it is clicked away
-  std::string message;        ///< last thing worth telling: a file written, an error
+  std::string bookmark_note;  ///< note being edited
+  std::string announcement;   ///< report on a run that has failed or ended, until dismissed
+  std::string message;        ///< latest message: a file written, an error
 
   std::optional<GrainDrag> drag;
 
-  // What the action widgets hold.
+  // Contents of the action widgets.
   double push_speed = 1.0;    ///< sqrt(g D)
   double push_angle = 0.0;    ///< deg to the bed
   double drop_height = 5.0;   ///< D
   double run_to_tilt = 10.0;  ///< deg
   int drop_count = 5;
-  int pace = 0;        ///< of live_paces
-  int seed = 1;        ///< of the next reset
-  std::string folder;  ///< that the list of files shows; empty: where the program was started
+  int pace = 0;        ///< index in live_paces
+  int seed = 1;        ///< seed of the next reset
+  std::string folder;  ///< folder shown in the list of files; empty: the working directory at start
   std::string picture_path = "talus.png";
-  std::string run_path = "talus.h5";  ///< where a run is saved that was not recorded
+  std::string run_path = "talus.h5";  ///< path in which an unrecorded run is saved
 };
 
 }  // namespace talus::view
