@@ -79,7 +79,7 @@ void draw_column(Gui& gui, bool with_inspector) {
   const bool several = ImGui::GetWindowHeight() >= room_for_several * gui.em;
   if (!with_inspector && gui.panel_asked == group_of_key('G')) {
     gui.panel_asked.clear();
-    gui.model.state.message = "The selected grain has the column on the right.";
+    gui.model.state.message = "The selected grain is shown in the column on the right.";
   }
   for (const Group& group : groups)
     if (with_inspector || group.draw != draw_inspector) draw_group(gui, group, several);

@@ -87,9 +87,8 @@ void next_colours(Gui& gui, ImWchar) {
 void change_reference(Gui& gui, ImWchar) {
   std::optional<double>& since = gui.model.state.since;
   since = since ? std::nullopt : std::optional(gui.model.frame().tilt);
-  say(gui, since
-               ? fmt::format("Maps of motion and strain show what has moved since {:.2f}°.", degrees(*since))
-               : std::string("Maps of motion and strain show what moves in a degree of tilt."));
+  say(gui, since ? fmt::format("Maps of motion and strain show the change since {:.2f}°.", degrees(*since))
+                 : std::string("Maps of motion and strain show the change per degree of tilt."));
 }
 
 void move_by_key(Gui& gui, ImWchar key) {
@@ -159,7 +158,7 @@ void toggle_trails(Gui& gui) {
   if (!selecting.trails)
     say(gui, "No trails are drawn.");
   else if (count == 0)
-    say(gui, "Trails are drawn of selected grains, once there are some.");
+    say(gui, "Trails will be drawn once grains are selected.");
   else
     say(gui, fmt::format("Trails of {} selected grain{}, from the first frame to the one shown.", count,
                          count == 1 ? "" : "s"));
@@ -184,7 +183,7 @@ void show_change_since_here(Gui& gui) {
   beside.shown = true;
   beside.minus = gui.model.frame().tilt;
   gui.model.state.message =
-      fmt::format("The second view shows what has changed since {:.2f}°.", degrees(*beside.minus));
+      fmt::format("The second view shows the change since {:.2f}°.", degrees(*beside.minus));
 }
 
 /// All keys in the order of the list. A test compares docs/view.md with it.
@@ -195,13 +194,13 @@ constexpr Key all_keys[] = {
      {key_right, key_left},
      advance_by_key},
     {"home, end",
-     "first, last frame; of a run that goes on, as it is now",
+     "first, last frame; in a live run, its current state",
      {key_home, key_end},
      [](Gui& gui, ImWchar key) {
        go_to_landmark(gui, key == key_home ? view::Landmark::first : view::Landmark::last);
      }},
     {"d, j, p, c",
-     "to θ_d; to the jump of ℓ_c; to where a cluster first spans; to θ_c",
+     "to θ_d; to the jump of ℓ_c; to the first spanning cluster; to θ_c",
      {'d', 'j', 'p', 'c'},
      go_by_key},
     {"< >",
@@ -276,15 +275,15 @@ constexpr Key all_keys[] = {
      {'B'},
      [](Gui& gui, ImWchar) { gui.model.state.bookmark_asked = true; }},
     {"P, D",
-     "a second view; in it, what changes from the frame shown on",
+     "second view; in it, the change from the frame shown",
      {'P', 'D'},
      [](Gui& gui, ImWchar key) { key == 'P' ? toggle_second_view(gui) : show_change_since_here(gui); }},
     {"g, b",
      "run to the angle; deposit the bed",
      {'g', 'b'},
      [](Gui& gui, ImWchar key) { key == 'g' ? run_to_tilt(gui) : deposit(gui); }},
-    {"r", "reset, with the seed given", {'r'}, [](Gui& gui, ImWchar) { reset(gui); }},
-    {"s", "save the state of a run that is computed", {'s'}, [](Gui& gui, ImWchar) { save_state(gui); }},
+    {"r", "reset, with the given seed", {'r'}, [](Gui& gui, ImWchar) { reset(gui); }},
+    {"s", "save the state of a live run", {'s'}, [](Gui& gui, ImWchar) { save_state(gui); }},
     {"e",
      "write the picture to the file named under files",
      {'e'},
@@ -294,7 +293,7 @@ constexpr Key all_keys[] = {
      {'u', 'k'},
      [](Gui& gui, ImWchar key) { key == 'u' ? push_selected(gui) : drop_here(gui); }},
     {"N, U",
-     "branch: go on from the frame shown; back before the last command",
+     "branch: continue from the frame shown; undo the last command",
      {'N', 'U'},
      [](Gui& gui, ImWchar key) { key == 'N' ? branch_here(gui) : go_back(gui); }},
     {"R M A S F G",
@@ -309,7 +308,7 @@ constexpr Key all_keys[] = {
      {'h'},
      [](Gui& gui, ImWchar) {
        view::ViewState& state = gui.model.state;
-       toggle(gui, state.show_controls, "The columns are shown, where there is room.",
+       toggle(gui, state.show_controls, "The columns are shown if there is room.",
               "The columns are hidden: h shows them.");
        state.show_inspector = state.show_controls;
      }},
@@ -317,7 +316,7 @@ constexpr Key all_keys[] = {
      "show or hide the plots",
      {'l'},
      [](Gui& gui, ImWchar) {
-       toggle(gui, gui.model.state.show_plots, "The plots are shown, where there is room.",
+       toggle(gui, gui.model.state.show_plots, "The plots are shown if there is room.",
               "The plots are hidden: l shows them.");
      }},
     {"C",
@@ -362,9 +361,9 @@ void draw_help(Gui& gui) {
   }
   ImGui::TextUnformatted("On the map: click a grain, drag to move, wheel to zoom.");
   ImGui::TextUnformatted(
-      "With shift: click one more grain, drag a box. With ctrl: click a contact, drag a lasso.");
+      "With shift: click to add a grain, drag a box. With ctrl: click a contact, drag a lasso.");
   ImGui::TextUnformatted(
-      "With ctrl, from a grain of a run that is computed: pull it. With ctrl and shift: always a lasso.");
+      "With ctrl, from a grain of a live run: pull it. With ctrl and shift: always a lasso.");
   note_place(gui, "help", ImGui::GetWindowPos(),
              {ImGui::GetWindowPos().x + ImGui::GetWindowWidth(),
               ImGui::GetWindowPos().y + ImGui::GetWindowHeight()});

@@ -125,7 +125,7 @@ void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& 
   const double share = std::clamp(static_cast<double>((x - low.x) / length), 0.0, 1.0);
   ImGui::BeginTooltip();
   rich_text(fmt::format("{} = {:.3g} {}", bar.symbol, view::value_at(ends, share), bar.unit));
-  rich_text("drag an end, or the middle; double click: the range of the map");
+  rich_text("drag an end or the middle; double click restores the range of the map");
   ImGui::EndTooltip();
 }
 

@@ -56,7 +56,7 @@ void select_contact(Gui& gui, double x, double y) {
   if (contact)
     gui.model.select(*contact);
   else
-    gui.model.state.message = "No contact that carries a force is there.";
+    gui.model.state.message = "There is no contact with a force here.";
 }
 
 /// Applies the finished outline when the mouse button is released.
@@ -76,7 +76,7 @@ void finish(Gui& gui, const ShownMap& map) {
   const std::vector<Index> found = view::grains_within(gui.model.bed(), corners);
   gui.model.select_found(found);
   gui.model.state.message =
-      fmt::format("Grains within: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
+      fmt::format("Grains inside: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
 }
 
 /// Returns the place where a spring that should be held at the mouse can be held: limited to the distance
@@ -97,7 +97,7 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
     const double distance = std::hypot(held_x - model.frame().x[grain], held_y - model.frame().y[grain]);
     model.state.message = fmt::format(
         "Grain {} is pulled with {:.0f} m g.{}", grain, drag_stiffness * distance / model.mean_diameter(),
-        model.live()->status().running ? "" : " The run is paused: space goes on.");
+        model.live()->status().running ? "" : " The run is paused: space continues.");
     model.state.drag = view::GrainDrag{grain, x, y, model.live()->status().step};
   } catch (const Error& error) {
     model.state.message = error.what();
@@ -127,7 +127,7 @@ bool refuse_after_end(Gui& gui, const ShownMap& map) {
   if (model.looks_back() || !model.live()->status().done || !first_grain(model, map)) return false;
   selecting.outline.clear();
   model.state.message =
-      "The run has ended: no grain can be pulled. U goes back before a command; with shift ctrl draws a "
+      "The run has ended: no grain can be pulled. U undoes a command; ctrl with shift draws a "
       "lasso.";
   return true;
 }

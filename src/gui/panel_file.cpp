@@ -37,8 +37,8 @@ std::vector<Entry> entries_of(const fs::path& folder) {
 void draw_browser(Gui& gui) {
   view::ViewState& state = gui.model.state;
   ImGui::TextWrapped(
-      "Open a run or a scenario: choose it, or drop it on the window. With shift a run is shown beside "
-      "this one.");
+      "Open a run or a scenario: choose it, or drop it on the window. With shift, a run is shown next "
+      "to this one.");
   ImGui::BeginChild("files", {0.0f, 12.0f * gui.em}, true);
   for (const Entry& entry :
        entries_of(state.folder.empty() ? fs::path(resolved_path(".")) : fs::path(state.folder))) {
@@ -66,10 +66,9 @@ void draw_file_panel(Gui& gui) {
   ImGui::SetNextItemWidth(-1.0f);
   named_text(gui, "picture path", "", state.picture_path, "PNG file to write");
   double& printed = state.map.printed;
-  named_number(
-      gui, "printed", "print width", printed, "%.1f cm",
-      "how wide the picture will be printed, as 8.6 for a column: its letters have 8 points there; 0: "
-      "for a screen");
+  named_number(gui, "printed", "print width", printed, "%.1f cm",
+               "width in print, such as 8.6 for a column, at which letters have 8 points; 0: "
+               "for a screen");
   if (!(printed >= 4.0)) printed = 0.0;
   printed = std::min(printed, 200.0);
   if (named_button(gui, "save picture", "Save picture", "the map as talus render draws it")) {
@@ -82,10 +81,10 @@ void draw_file_panel(Gui& gui) {
     ImGui::Separator();
     if (gui.model.recording().output.empty()) {
       ImGui::SetNextItemWidth(-1.0f);
-      named_text(gui, "run path", "", state.run_path, "run file to write; it is recorded there from then on");
+      named_text(gui, "run path", "", state.run_path, "run file to write, in which the run is then recorded");
     }
     if (named_button(gui, "save state", "Save state",
-                     "everything the run has done, so that it can go on later: s"))
+                     "saves the entire run, so that it can be continued later: s"))
       save_state(gui);
   }
   std::string command = gui.model.render_command();

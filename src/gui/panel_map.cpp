@@ -29,7 +29,7 @@ void choose_layers(Gui& gui) {
   }
   ImGui::TextWrapped("%s", std::string(pictures::map_help(layers[0])).c_str());
   int over = layers.size() > 1 ? place_of(layers[1]) + 1 : 0;
-  if (named_choice(gui, "overlay", "over it", kind_names("nothing"), over)) {
+  if (named_choice(gui, "overlay", "overlay", kind_names("nothing"), over)) {
     layers.resize(1);
     const bool other = over > 0 && pictures::map_kinds()[static_cast<std::size_t>(over - 1)] != layers[0];
     if (other) layers.push_back(pictures::map_kinds()[static_cast<std::size_t>(over - 1)]);
@@ -62,7 +62,7 @@ void choose_colours(Gui& gui) {
     if (chosen > 0) map.colours = render::colour_maps()[static_cast<std::size_t>(chosen - 1)];
     if (reversed && map.colours) map.colours = render::reversed(*map.colours);
   }
-  if (map.colours && named_checkbox(gui, "reversed", "reversed", reversed, "the bar from its other end"))
+  if (map.colours && named_checkbox(gui, "reversed", "reversed", reversed, "reverses the colours of the bar"))
     map.colours = render::reversed(*map.colours);
 }
 
@@ -71,7 +71,8 @@ void choose_range(Gui& gui) {
   pictures::MapSettings& map = gui.model.state.map;
   if (!pictures::has_bar(map.layers)) return;
   bool own = map.range_low || map.range_high;
-  if (named_checkbox(gui, "range", "range", own, "the ends of the bar, instead of the map's own")) {
+  if (named_checkbox(gui, "range", "range", own,
+                     "sets the ends of the bar, instead of the range of the map")) {
     const render::FrameView shown = gui.model.first().annotated_map();
     map.range_low.reset();
     map.range_high.reset();
@@ -112,11 +113,11 @@ void choose_run_beside(Gui& gui) {
   view::BesideState& beside = model.state.beside;
   if (model.is_live()) return;
   if (model.run_beside() == nullptr) {
-    named_text(gui, "beside path", "run", beside.path, "run file to show beside this one");
-    if (!beside.path.empty() && named_button(gui, "open beside", "Open beside")) show_run_beside(gui);
+    named_text(gui, "beside path", "run", beside.path, "run file to show next to this one");
+    if (!beside.path.empty() && named_button(gui, "open beside", "Open next to it")) show_run_beside(gui);
     return;
   }
-  if (named_button(gui, "close beside", "This run again", "the second view is of the first run"))
+  if (named_button(gui, "close beside", "This run again", "shows the first run in the second view"))
     return model.close_beside();
   std::vector<std::string> names;
   std::vector<view::PlotAxis> known;
@@ -134,16 +135,15 @@ void choose_run_beside(Gui& gui) {
 /// Chooses the content of the second view.
 void choose_beside(Gui& gui) {
   view::BesideState& beside = gui.model.state.beside;
-  named_checkbox(gui, "beside", "a second view", beside.shown,
-                 "another map, another run, or what has changed: P");
+  named_checkbox(gui, "beside", "a second view", beside.shown, "another map, another run, or a change: P");
   if (!beside.shown) return;
   int chosen = beside.layers.empty() ? 0 : place_of(beside.layers[0]) + 1;
-  if (named_choice(gui, "beside map", "its map", kind_names("as the first"), chosen)) {
+  if (named_choice(gui, "beside map", "its map", kind_names("same as the first"), chosen)) {
     beside.layers.clear();
     if (chosen > 0) beside.layers = {pictures::map_kinds()[static_cast<std::size_t>(chosen - 1)]};
   }
   choose_angle(gui, beside.minus, "beside minus", "minus the frame at an angle",
-               "what has changed since: its grains, and contacts gained and lost; D begins here");
+               "change since that angle: grains, and contacts gained and lost; D: since the frame shown");
   choose_run_beside(gui);
 }
 
@@ -157,11 +157,11 @@ void draw_map_panel(Gui& gui) {
   ImGui::Separator();
   named_slider(
       gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
-      "diameter of the neighbourhood whose γ a grain has: 3, its first neighbours; 0, the grain alone");
+      "diameter of the neighbourhood that gives a grain its γ; 3: its first neighbours, 0: the grain alone");
   named_slider(gui, "threshold", "overloaded", state.map.threshold_factor, 0.1, 4.0, "γ ≥ %.2f Γc",
-               "grains are overloaded from this multiple of Γc on: [ and ]");
+               "multiple of Γc from which grains are overloaded: [ and ]");
   named_slider(gui, "length", "coarse over ℓ", state.map.length, 1.0, 40.0, "%.1f D",
-               "what coarse, density, stress, shear_rate and temperature average over, a diameter: , and .");
+               "averaging diameter of coarse, density, stress, shear_rate and temperature: , and .");
   choose_angle(gui, state.since, "since", "moved since an angle",
                "maps of motion and strain since that tilt, instead of per degree");
   choose_beside(gui);

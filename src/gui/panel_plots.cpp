@@ -48,7 +48,8 @@ void draw_and_answer(Gui& gui, const view::Plot& plot, const ImVec2& size, const
 /// Draws one plot at full size, with its options.
 void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& marks, std::string& gone) {
   view::ViewState& state = gui.model.state;
-  if (named_button(gui, "all plots", "All plots", "a double click on the plot")) state.enlarged_plot.clear();
+  if (named_button(gui, "all plots", "All plots", "shows all plots; so does a double click on the plot"))
+    state.enlarged_plot.clear();
   ImGui::SameLine();
   view::PlotLook& look = state.plot_looks[plot.name];
   bool logarithmic = look.log_y.value_or(plot.log_y);
@@ -61,8 +62,7 @@ void draw_axis(Gui& gui) {
   constexpr std::pair<view::PlotAxis, const char*> axes[] = {
       {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θ_c − θ"}, {view::PlotAxis::time, "t"}};
   constexpr const char* names[] = {"over tilt", "over angle left", "over time"};
-  constexpr const char* tips[] = {"all curves over the tilt",
-                                  "all curves over the angle that is left to failure",
+  constexpr const char* tips[] = {"all curves over the tilt", "all curves over the angle left to failure",
                                   "all curves over time"};
   for (std::size_t k = 0; k < std::size(axes); ++k) {
     const bool missing = !gui.model.has_plot_axis(axes[k].first);
@@ -83,7 +83,7 @@ void draw_more(Gui& gui) {
   note_place(gui, "add plot");
   if (!open) return;
   std::string& filter = gui.model.state.quantity_filter;
-  named_text(gui, "quantity filter", "", filter, "part of a name, as stress");
+  named_text(gui, "quantity filter", "", filter, "part of a name, such as stress");
   for (const analysis::Quantity* quantity : gui.model.more_quantities()) {
     if ((quantity->name + " " + quantity->display.title).find(filter) == std::string::npos) continue;
     if (ImGui::Selectable(quantity->name.c_str())) gui.model.add_plot(*quantity);
@@ -120,8 +120,8 @@ void draw_behind_choice(Gui& gui) {
                    "draw another run, or the band of an ensemble, behind the curves"))
     ImGui::OpenPopup("behind");
   if (ImGui::BeginPopup("behind")) {
-    if (ask_path(gui, "behind path", state.behind_path,
-                 "run that was analysed, folder of an ensemble, or ensemble.h5", "put behind", "Put behind"))
+    if (ask_path(gui, "behind path", state.behind_path, "analysed run, folder of an ensemble, or ensemble.h5",
+                 "put behind", "Put behind"))
       gui.requests.behind_path = state.behind_path;
     ImGui::EndPopup();
   }
@@ -137,8 +137,7 @@ void draw_behind_choice(Gui& gui) {
 /// Exports the plots shown as figures.
 void draw_export(Gui& gui) {
   view::ViewState& state = gui.model.state;
-  if (named_button(gui, "export plots", "export ...",
-                   "write what the plots show as PDF, SVG and PNG with its data"))
+  if (named_button(gui, "export plots", "export ...", "write the plots as PDF, SVG and PNG with their data"))
     ImGui::OpenPopup("export plots");
   if (!ImGui::BeginPopup("export plots")) return;
   if (ask_path(gui, "plots folder", state.plots_folder, "folder to write the plots to", "write plots",

@@ -33,7 +33,7 @@ void draw_branch_origin(Gui& gui) {
   if (!line) return;
   ImGui::TextWrapped("branch at frame %zu, %.2f°", line->frame, degrees(line->tilts[line->frame]));
   if (named_button(gui, "return to the run", "return to the run",
-                   "open the run again that this branch left")) {
+                   "opens the run from which this branch began")) {
     gui.requests.open_path = line->run;
     gui.requests.open_frame = line->frame;
   }
@@ -59,7 +59,8 @@ void draw_live(Gui& gui, view::LiveRun& live) {
   named_number(gui, "run to angle", "", state.run_to_tilt, "%.2f°", "the tilt to run to");
   if (status.depositing) {  // last in its row, so that nothing moves when it disappears
     ImGui::SameLine();
-    if (named_button(gui, "deposit", "Deposit", "compute until the bed rests and the tilt begins: b"))
+    if (named_button(gui, "deposit", "Deposit",
+                     "compute until the bed has come to rest and the tilt begins: b"))
       deposit(gui);
   }
   std::vector<std::string> paces;
@@ -70,15 +71,15 @@ void draw_live(Gui& gui, view::LiveRun& live) {
   ImGui::TextWrapped("%s", applied_text(live.commands()).c_str());
   ImGui::Separator();
   if (gui.model.branch_line()) {
-    if (named_button(gui, "reset", "Reset", "begin the branch anew: r")) reset(gui);
+    if (named_button(gui, "reset", "Reset", "restart the branch: r")) reset(gui);
   } else {
-    if (named_button(gui, "reset", "Reset", "begin the run anew with this seed: r")) reset(gui);
+    if (named_button(gui, "reset", "Reset", "restart the run with this seed: r")) reset(gui);
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("with seed");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-FLT_MIN);
-    named_number(gui, "seed", "", state.seed, "of the random deposition");
+    named_number(gui, "seed", "", state.seed, "seed of the random deposition");
   }
   ImGui::Separator();
   const std::string output = gui.model.recording().output;
@@ -97,11 +98,11 @@ void draw_landmarks(Gui& gui) {
     const char* tip;
   };
   const LandmarkButton places[] = {
-      {"theta_d", "θ_d", view::Landmark::theta_d, "where contraction turns into dilation: d"},
+      {"theta_d", "θ_d", view::Landmark::theta_d, "transition from contraction to dilation: d"},
       {"length jump", "ℓ_c jumps", view::Landmark::length_jump,
-       "where the largest coarse-graining length jumps: j"},
+       "jump of the largest coarse-graining length: j"},
       {"percolation", "spans", view::Landmark::percolation,
-       "where a cluster first spans from floor to surface: p"},
+       "first cluster that spans from floor to surface: p"},
       {"theta_c", "θ_c", view::Landmark::theta_c, "the last frame before failure: c"}};
   bool first = true;
   for (const LandmarkButton& place : places) {
@@ -137,8 +138,7 @@ void draw_replay(Gui& gui) {
   draw_landmarks(gui);
   draw_branch_button(gui);
   double speed = model.speed();
-  if (named_slider(gui, "speed", "speed", speed, 0.1, 20.0, "%.1f°/s", "how fast a replay goes: < and >",
-                   true))
+  if (named_slider(gui, "speed", "speed", speed, 0.1, 20.0, "%.1f°/s", "speed of the replay: < and >", true))
     model.set_speed(speed);
   ImGui::Separator();
   fact("θ", fmt::format("{:.3f}°", degrees(model.frame().tilt)));
@@ -155,7 +155,7 @@ void draw_replay(Gui& gui) {
 
 void draw_branch_button(Gui& gui) {
   if (named_button(gui, "branch here", "branch here",
-                   "go on from this frame, as a run of its own: N; the run stays as it is"))
+                   "continue from this frame as a separate run: N; this run stays unchanged"))
     branch_here(gui);
 }
 

@@ -37,7 +37,7 @@ void offer_names(Gui& gui) {
 void choose_mode(Gui& gui) {
   view::SelectionMode& mode = gui.model.state.selecting.mode;
   int chosen = static_cast<int>(mode);
-  if (named_choice(gui, "mode", "selecting", {"anew", "adds", "takes away", "keeps only these"}, chosen))
+  if (named_choice(gui, "mode", "selecting", {"replaces", "adds", "removes", "intersects"}, chosen))
     mode = static_cast<view::SelectionMode>(chosen);
 }
 
@@ -47,20 +47,20 @@ void write_condition(Gui& gui) {
   const bool entered = ImGui::InputTextWithHint("##condition", "gamma > 0.7 && y > 30", &selecting.condition,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   note_place(gui, "condition");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("selects the free grains of which it holds: enter");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("selects the free grains that satisfy it: enter");
   const bool pressed = named_button(gui, "select", "Select", "enter");
   ImGui::SameLine();
   offer_names(gui);
   choose_mode(gui);
   if (entered || pressed) gui.model.select_by_condition();
-  if (named_checkbox(gui, "in each frame", "anew in each frame", selecting.in_each_frame) &&
+  if (named_checkbox(gui, "in each frame", "again in each frame", selecting.in_each_frame) &&
       selecting.in_each_frame)
     gui.model.select_by_condition();
-  named_checkbox(gui, "trails", "trails", selecting.trails, "where the selected grains have been: T");
+  named_checkbox(gui, "trails", "trails", selecting.trails, "paths of the selected grains: T");
   ImGui::SameLine();
   bool follow = selecting.follow;
   if (named_checkbox(gui, "follow grain", "follow the grain", follow,
-                     "keeps the grain that is looked at in the middle: L"))
+                     "keeps the inspected grain in the middle: L"))
     toggle_following(gui);
   if (selecting.error.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, packed(gui.colours.warning));

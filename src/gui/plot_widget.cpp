@@ -313,7 +313,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   find_ranges(plot, {}, all);
   find_ranges(plot, look, axes);
   if (all.x.empty()) {
-    list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, packed(colours.soft), "nothing yet");
+    list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, packed(colours.soft), "no data yet");
     return std::nullopt;
   }
   all.x.widen();

@@ -14,7 +14,7 @@ namespace {
 std::string ended_text(const view::ViewModel& model, const view::LiveStatus& status) {
   return fmt::format("The run has ended, at {:.2f}°; r restarts {}{}.", degrees(status.tilt),
                      model.branch_line() ? "the branch" : "it",
-                     status.commands_given > 0 ? ", U goes back before the last command" : "");
+                     status.commands_given > 0 ? ", U undoes the last command" : "");
 }
 
 /// Moves by `count` frames, also backwards; reports if there are none.
@@ -42,7 +42,7 @@ void toggle_playing(Gui& gui) {
       status.running ? live->pause() : live->play();
     return;
   }
-  if (model.frame_count() == 1) model.state.message = "The run has one frame only.";
+  if (model.frame_count() == 1) model.state.message = "The run has only one frame.";
   model.play(!model.playing());
 }
 
@@ -133,8 +133,8 @@ void reset(Gui& gui) {
   if (!model.may_discard()) return;
   try {
     model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
-    model.state.message =
-        model.branch_line() ? "The branch begins anew." : fmt::format("A new run, seed {}.", model.seed());
+    model.state.message = model.branch_line() ? "The branch has been restarted."
+                                              : fmt::format("A new run, seed {}.", model.seed());
   } catch (const Error& error) {
     model.state.message = error.what();
   }
@@ -182,7 +182,7 @@ void drop_here(Gui& gui) {
 void branch_here(Gui& gui) {
   view::ViewModel& model = gui.model;
   if (model.is_live()) {
-    model.state.message = "This run is being computed already; U goes back before its last command.";
+    model.state.message = "This run is being computed already; U undoes its last command.";
     return;
   }
   try {
@@ -199,11 +199,11 @@ void branch_here(Gui& gui) {
 
 void go_back(Gui& gui) {
   view::ViewModel& model = gui.model;
-  if (!model.is_live()) return refuse_in_replay(gui, "There is no command to take back");
+  if (!model.is_live()) return refuse_in_replay(gui, "There is no command to undo");
   try {
     model.state.drag.reset();
     model.back();
-    model.state.message = fmt::format("As it was before the command, after step {}.", model.frame().step);
+    model.state.message = fmt::format("The command is undone; the run is after step {}.", model.frame().step);
     if (!model.recording().output.empty())
       model.state.message += " It is recorded in " + model.recording().output + " from here on.";
   } catch (const Error& error) {

@@ -176,7 +176,7 @@ void draw_bookmark_note(Gui& gui) {
   rich_text(fmt::format("Bookmark at {:.2f}°", degrees(model.frame().tilt)));
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(20.0f * gui.em);
-  named_text(gui, "note", "", model.state.bookmark_note, "what is worth remembering here; may be empty");
+  named_text(gui, "note", "", model.state.bookmark_note, "note on this frame; may be empty");
   const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
   if (named_button(gui, "keep bookmark", "keep", "enter") || entered) {
     model.set_bookmark(model.state.bookmark_note);
@@ -243,7 +243,7 @@ float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
   float width = 6.6f * em;
   ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
   if (named_button(gui, "bookmark", gui.model.bookmark() ? "bookmark*" : "bookmark",
-                   "mark this frame, with a note that is kept beside the run: B"))
+                   "mark this frame with a note, which is saved next to the run: B"))
     gui.model.state.bookmark_asked = true;
   draw_bookmark_note(gui);
   if (!gui.model.is_live()) return width;
@@ -251,7 +251,7 @@ float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
   ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
   ImGui::BeginDisabled(!gui.model.looks_back());
   if (named_button(gui, "follow", gui.model.looks_back() ? "follow" : "live",
-                   "show the run as it is now: end"))
+                   "show the current state of the run: end"))
     gui.model.follow();
   ImGui::EndDisabled();
   return width;

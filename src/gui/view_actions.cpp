@@ -33,7 +33,8 @@ std::string absence_of(const view::ViewModel& model, view::Landmark landmark, bo
   if (model.frame_count() == 0) return "No frame is recorded yet: the time line begins with the tilt.";
   const std::string name = name_of(landmark);
   if (landmark == view::Landmark::theta_c)
-    return goes_on ? name + " is not known yet: the slope stands." : "There is no failure: the slope stands.";
+    return goes_on ? name + " is not known yet: the slope has not failed."
+                   : "There is no failure: the slope remained stable.";
   return name + (goes_on ? " is not known yet." : " does not exist, or has not been found yet.");
 }
 
@@ -42,14 +43,14 @@ std::string absence_of(const view::ViewModel& model, view::Landmark landmark, bo
 void say(Gui& gui, std::string text) { gui.model.state.message = std::move(text); }
 
 void refuse_in_replay(Gui& gui, const char* what) {
-  say(gui, fmt::format("{}: this is a replay; N goes on from the frame shown, as a run of its own.", what));
+  say(gui, fmt::format("{}: this is a replay; N continues from the frame shown, as a separate run.", what));
 }
 
 void go_to_landmark(Gui& gui, view::Landmark landmark) {
   view::ViewModel& model = gui.model;
   const bool live = model.is_live(), goes_on = live && !model.live()->status().done;
   if (live && landmark == view::Landmark::last) {
-    if (!model.looks_back()) say(gui, "The run is shown as it is now.");
+    if (!model.looks_back()) say(gui, "The current state of the run is shown.");
     return model.follow();
   }
   if (!model.has(landmark)) return say(gui, absence_of(model, landmark, goes_on));
@@ -68,7 +69,7 @@ void move_picture(Gui& gui, double dx, double dy) {
   const view::ViewCamera& camera = model.state.camera;
   model.state.selecting.follow = false;
   if (model.look({camera.centre_x + dx, camera.centre_y + dy, camera.zoom})) return;
-  say(gui, "The bed ends there; zoom in (+ or the wheel) to move the picture.");
+  say(gui, "The bed ends here; zoom in (+ or the wheel) to move the picture.");
 }
 
 void show_whole_bed(Gui& gui) {
@@ -81,7 +82,7 @@ void show_whole_bed(Gui& gui) {
 void toggle_following(Gui& gui) {
   view::ViewState& state = gui.model.state;
   state.selecting.follow = !state.selecting.follow;
-  if (!state.selecting.follow) return say(gui, "The picture stays where it is.");
+  if (!state.selecting.follow) return say(gui, "The picture follows no grain.");
   if (!state.selected) {
     state.selecting.follow = false;
     return say(gui, "Click the grain to follow first.");

@@ -44,8 +44,8 @@ class Glfw {
     glfwGetError(&reason);
     throw Error(ExitCode::unavailable,
                 fmt::format("no window: {}; talus view needs a display (is DISPLAY set?); talus render and "
-                            "talus view --screenshot draw without",
-                            reason ? reason : "GLFW does not start"));
+                            "talus view --screenshot draw without one",
+                            reason ? reason : "GLFW cannot be initialised"));
   }
   ~Glfw() { glfwTerminate(); }
   Glfw(const Glfw&) = delete;

@@ -95,7 +95,7 @@ class Parser {
       found = fmt::format("'{}'", slip->written);
       hint = fmt::format("; did you mean '{}'?", slip->meant);
     } else if (token_.text == ",") {
-      hint = "; decimals follow a point, as in 0.7";
+      hint = "; write a decimal point, as in 0.7";
     }
     fail(token_.place, fmt::format("expected {}, found {}{}", what, found, hint));
   }
@@ -273,7 +273,7 @@ class Parser {
     if (take("(")) return function(of);
     const auto known = std::ranges::find(names_, of.text, &ExpressionName::name);
     if (known == names_.end())
-      fail(of.place, fmt::format("{} is no quantity of a grain{}", visible_word(of.text),
+      fail(of.place, fmt::format("{} is not a quantity of a grain{}", visible_word(of.text),
                                  did_you_mean(of.text, names_of(names_))));
     auto used = std::ranges::find(result_.names, of.text);
     if (used == result_.names.end()) used = result_.names.insert(used, std::string(of.text));
@@ -283,7 +283,7 @@ class Parser {
 
   Value function(const Token& of) {
     if (of.text != "abs" && of.text != "sqrt")
-      fail(of.place, fmt::format("{} is no function; there are abs and sqrt", visible_word(of.text)));
+      fail(of.place, fmt::format("{} is not a function; use abs or sqrt", visible_word(of.text)));
     const std::size_t place = token_.place;
     to_number(in_parentheses(), place);
     add(of.text == "abs" ? Operation::absolute : Operation::root);

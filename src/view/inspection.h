@@ -34,7 +34,7 @@ struct Inspection {
   stress::StressState state;  ///< state of the internal moment; its ratio is the gamma of the single grain
   double gamma = 0.0;         ///< value of the frame: that of the neighbourhood of diameter l_min
   bool overloaded = false;
-  Index cluster = -1;  ///< among the overloaded clusters; -1: none
+  Index cluster = -1;  ///< index among the overloaded clusters; -1: none
   Index cluster_size = 0;
   analysis::NeighbourhoodCurve curve;  ///< gamma_l over l (paper, Fig. 11)
   std::optional<double>

@@ -229,7 +229,7 @@ io::Segment LiveRun::State::recorded_until(const Taken& end) const {
 }
 
 void LiveRun::State::back(const std::string& output) {
-  if (marks.empty()) throw Error(ExitCode::usage, "no command has been given that could be taken back");
+  if (marks.empty()) throw Error(ExitCode::usage, "there is no command to undo");
   Mark& mark = marks.back();
   session::Session before(session.scenario(), mark.state, "the state before the command");
   before.use_threads(origin.threads);

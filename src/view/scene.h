@@ -13,7 +13,7 @@ namespace talus::view {
 
 /// Data that determine the first map of a series at a frame.
 struct MapSource {
-  std::shared_ptr<const Frame> frame, reference;  ///< as in `picture`: `reference` may be null
+  std::shared_ptr<const Frame> frame, reference;  ///< those of `picture`; `reference` may be null
   pictures::MapSettings settings;
   pictures::MapExtent extent;
   std::optional<std::size_t> since;

@@ -25,7 +25,7 @@ std::string_view theme_name(Theme theme) {
     case Theme::print:
       return "print";
   }
-  throw Error(ExitCode::internal, "a theme of no name");
+  throw Error(ExitCode::internal, "unknown theme");
 }
 
 Theme theme_of(std::string_view name) {

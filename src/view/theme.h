@@ -9,7 +9,7 @@ namespace talus::view {
 enum class Theme {
   light,
   dark,   ///< for dark rooms: the grays of maps are mirrored, so that black becomes bright
-  print,  ///< as a journal prints: white background, black text, nothing filled with gray
+  print,  ///< journal style: white background, black text, nothing filled with gray
 };
 
 /// Returns all themes in the order in which they are offered.

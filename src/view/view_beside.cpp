@@ -126,10 +126,10 @@ bool ViewModel::follow_beside(double seconds) {
 
 void ViewModel::open_beside(const std::string& path) {
   if (is_live())
-    throw Error(ExitCode::usage, path + ": another run can be beside a replay only; " + this->path() +
-                                     " is being computed. Show another map of it, or what has changed");
+    throw Error(ExitCode::usage, path + ": another run can be shown only next to a replay; " + this->path() +
+                                     " is being computed. Show another map of it, or its change");
   if (!io::is_run(path))
-    throw Error(ExitCode::usage, path + ": only a run file can be shown beside another run");
+    throw Error(ExitCode::usage, path + ": only a run file can be shown next to another run");
   {
     const std::scoped_lock lock(*turn_);
     std::unique_ptr<ViewModel> next(new ViewModel);

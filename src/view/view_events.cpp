@@ -87,7 +87,7 @@ void ViewModel::set_bookmark(const std::optional<std::string>& note) {
   const std::string file = bookmarks_file();
   if (file.empty() || !bookmarks_unread_.empty()) {
     state.message =
-        file.empty() ? "Save the run first: bookmarks are kept in a file beside it." : bookmarks_unread_;
+        file.empty() ? "Save the run first: bookmarks are kept in a file next to it." : bookmarks_unread_;
     return;
   }
   try {

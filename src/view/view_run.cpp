@@ -44,7 +44,7 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
   if (io::is_run(path)) {
     if (!settings.empty() || !output.empty() || overwrite)
       throw Error(ExitCode::usage,
-                  path + " is a run, which is only replayed: leave out the settings and the output");
+                  path + " is a run, which can only be replayed: leave out the settings and the output");
     model.open_replay();
   } else {
     model.scenario_ = scenario::read_scenario(path, settings, &model.scenario_text_);
