@@ -1,4 +1,4 @@
-// From mean diameters in the frame of the bed to pixels of the page: a clockwise turn, then a scale.
+// Transformation from mean diameters in the frame of the bed to pixels of the page: a clockwise turn, then a scale.
 
 const camera = { scale: 1, originX: 0, originY: 0, turn: 0 };
 
@@ -13,9 +13,9 @@ function unproject(px, py) {
   return [c * along - s * up, s * along + c * up];
 }
 
-const margin = 0.75;  // D, around the bed: there its periodic images are seen
+const margin = 0.75;  // D, space around the bed that shows its periodic images
 
-/** The box that the bed fills at a turn: in the turned frame, D. */
+/** Returns the bounding box of the bed at a turn, in the turned frame, D. */
 function boxAt(turn) {
   const c = Math.cos(turn), s = Math.sin(turn);
   const xs = [], ys = [];
@@ -27,7 +27,7 @@ function boxAt(turn) {
   return { left: Math.min(...xs), right: Math.max(...xs), low: Math.min(...ys), high: Math.max(...ys) };
 }
 
-/** The camera that shows all of the bed in a picture of that size, px. */
+/** Sets the camera to show the entire bed in a picture of that size, px. */
 function fitCamera(width, height, turn) {
   const box = boxAt(turn);
   camera.turn = turn;
@@ -36,7 +36,7 @@ function fitCamera(width, height, turn) {
   camera.originY = height / 2 + (camera.scale * (box.low + box.high)) / 2;
 }
 
-/** Turns the bed about what is seen in the middle of the picture. */
+/** Turns the bed about the point in the middle of the picture. */
 function turnCamera(width, height, turn) {
   const [x, y] = unproject(width / 2, height / 2);
   camera.turn = turn;
@@ -49,7 +49,7 @@ function moveCamera(dx, dy) {
   camera.originY += dy;
 }
 
-/** Zooms about a point of the picture; from half of the whole bed (`fitted`: its scale) to 200 px for a grain. */
+/** Zooms about a point of the picture, between half the scale of the entire bed (`fitted`) and 200 px per D. */
 function zoomCamera(factor, px, py, fitted) {
   const scale = Math.min(Math.max(camera.scale * factor, 0.5 * fitted), Math.max(200, fitted));
   const change = scale / camera.scale;

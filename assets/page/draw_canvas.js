@@ -1,4 +1,4 @@
-// Drawing with Canvas 2D, where there is no WebGL 2: the same picture, more slowly.
+// Drawing with Canvas 2D if WebGL 2 is unavailable: the same picture, more slowly.
 
 const cssColour = (bytes, at) => `rgba(${bytes[at]}, ${bytes[at + 1]}, ${bytes[at + 2]}, ${bytes[at + 3] / 255})`;
 
@@ -58,7 +58,7 @@ function canvasDrawer(canvas) {
     }
   };
 
-  /** A path around the bed from edge to edge; `outside` turns it inside out. */
+  /** Clips to the bed between its edges or, if `outside`, to the rest of the picture. */
   const clipToBed = (ratio, outside) => {
     pen.beginPath();
     if (outside) pen.rect(0, 0, canvas.width, canvas.height);

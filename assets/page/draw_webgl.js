@@ -1,12 +1,12 @@
-// Drawing with WebGL 2: one triangle for each disc, one quad for each line, as the shaders of Talus draw them.
+// Drawing with WebGL 2: one triangle per disc and one quad per line, like the shaders of Talus.
 
 const commonShader = `#version 300 es
 precision highp float;
-uniform vec2 size;     // of the picture, px
-uniform vec3 camera;   // px per D; where the origin of the bed lies, px from the left and from the top
+uniform vec2 size;     // size of the picture, px
+uniform vec3 camera;   // px per D; origin of the bed, px from the left and from the top
 uniform vec2 turn;     // cosine and sine of the clockwise turn
-uniform vec3 period;   // length of the bed, how far this copy is shifted, alpha beyond the edges; D
-uniform float ratio;   // px of the canvas in one of the page
+uniform vec3 period;   // length of the bed and shift of this copy, D; alpha beyond the edges
+uniform float ratio;   // px of the canvas per px of the page
 vec2 project(vec2 p) { return camera.yz + camera.x * vec2(turn.x * p.x + turn.y * p.y, turn.y * p.x - turn.x * p.y); }
 float alongBed(vec2 px) {
   vec2 q = (px - camera.yz) / camera.x;
@@ -109,7 +109,7 @@ function program(gl, vertex, fragment) {
   return made;
 }
 
-/** Instances of one kind: a vertex array over buffers, each with its attributes. */
+/** Creates the instances of one kind: a vertex array over buffers, each with its attributes. */
 function instances(gl, used, buffers) {
   const vertices = gl.createVertexArray(), made = [];
   gl.bindVertexArray(vertices);
@@ -136,7 +136,7 @@ function fill(gl, kind, arrays) {
   });
 }
 
-/** Draws on a canvas; null where there is no WebGL 2. */
+/** Returns a drawer for a canvas; null if WebGL 2 is unavailable. */
 function webglDrawer(canvas) {
   const gl = canvas.getContext("webgl2", { antialias: false, alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
   if (!gl) return null;

@@ -1,6 +1,6 @@
-// What is told of a grain: beside the mouse, and of the one that is selected.
+// Values of a grain: next to the mouse, and on the card of the selected grain.
 
-/** With its unit; what is counted (no digits) as a whole number. */
+/** Formats a value with its unit; a count (digits: 0) is a whole number. */
 function valueText({ value, digits, unit }) {
   if (!Number.isFinite(value)) return "–";
   return (digits === 0 ? String(value) : numberText(value, digits)) + (unit ? `\u00a0${unit}` : "");
@@ -9,12 +9,12 @@ function valueText({ value, digits, unit }) {
 function valueRows(grain, frame) {
   const radius = radii()[grain], places = centres(frame);
   const known = [{ label: "diameter", value: 2 * radius, digits: 3, unit: "D" },
-                 { label: "place x, y", text: `${numberText(places[2 * grain], 4)}, ${numberText(places[2 * grain + 1], 3)}\u00a0D` },
+                 { label: "position x, y", text: `${numberText(places[2 * grain], 4)}, ${numberText(places[2 * grain + 1], 3)}\u00a0D` },
                  ...grainValues(grain, frame)];
   return known.map((row) => element("div", {}, element("dt", {}, rich(row.label)), element("dd", {}, row.text || valueText(row))));
 }
 
-/** Beside the mouse: all values, without its place. */
+/** Shows the values of the grain under the mouse next to it. */
 function showHover(grain, event) {
   const tip = byId("hover");
   if (view.hovered !== grain) {
@@ -31,7 +31,7 @@ function showHover(grain, event) {
   tip.style.top = `${Math.max(4, top)}px`;
 }
 
-/** The history of a grain over all frames of the page. */
+/** Returns the history of a grain over all frames of the page. */
 function grainHistory(name, grain) {
   if (name === "coordination" || name === "cluster") {
     const of = name === "cluster" ? clusterSize : (g, frame) => coordinations(frame)[g];
@@ -41,18 +41,18 @@ function grainHistory(name, grain) {
   return frames.tilts.map((_, frame) => fieldValue(field, grain, frame));
 }
 
-/** Fields that a history can show. */
+/** Returns the fields that a history can show. */
 function historyChoices() {
-  return [...data.fields.filter((field) => field.name !== "cluster"), ...(fieldOf("cluster") ? [{ name: "cluster", label: "grains of its cluster", unit: "" }] : []),
+  return [...data.fields.filter((field) => field.name !== "cluster"), ...(fieldOf("cluster") ? [{ name: "cluster", label: "grains in its cluster", unit: "" }] : []),
           { name: "coordination", label: "contacts", unit: "" }];
 }
 
-/** The card of the selected grain, with a plot of its history that `makePlot` makes. */
+/** Creates the card of the selected grain, with a plot of its history made by `makePlot`. */
 function grainCard(makePlot) {
   const card = byId("grain"), list = element("dl", { class: "values" });
   const heading = element("h2", {}, "Grain");
-  const clear = element("button", { type: "button", class: "plain", title: "Select no grain (Escape)", onclick: () => selectGrain(-1) }, "none");
-  const hint = element("p", { class: "hint" }, "Point at a grain of the map to read its values; click one to keep it here, with its history over the tilt.");
+  const clear = element("button", { type: "button", class: "plain", title: "Clear the selection (Escape)", onclick: () => selectGrain(-1) }, "none");
+  const hint = element("p", { class: "hint" }, "Point at a grain on the map to read its values; click it to keep them here, with their history over the tilt.");
   const title = element("span", { class: "title" });
   const choice = element("select", { "aria-label": "Quantity of the grain" });
   const titleOfField = (field) => field.label + (field.unit ? ` in ${field.unit}` : "");

@@ -1,4 +1,4 @@
-// The legend of what is shown, its scale and the direction of gravity.
+// Legend of the map, its scale, and the direction of gravity.
 
 function barElement(bar, ramp) {
   const fills = colourBytes(ramp.fills), stops = [];
@@ -26,7 +26,7 @@ function swatchElement(swatch) {
   return element("span", { class: "swatch" }, svg, element("span", {}, rich(swatch.label)));
 }
 
-/** Of a map and of lines over it, either of which may be null. */
+/** Shows the legend of a map and of the lines over it; either may be null. */
 function showLegend(map, lines, frame) {
   const legend = byId("legend"), parts = [];
   if (map) {
@@ -37,14 +37,14 @@ function showLegend(map, lines, frame) {
   legend.replaceChildren(...parts);
 }
 
-/** "Overloaded grains; force chains": as the pictures have it. */
+/** Returns the title as in pictures: "Overloaded grains; force chains". */
 function titleOf(map, lines, frame) {
   const titles = [map, lines].filter(Boolean).map((shown) => ofFrame(shown.titles, frame));
   if (titles.length === 0) return "Grains";
   return titles.length === 1 ? titles[0] : `${titles[0]}; ${firstLower(titles[1])}`;
 }
 
-/** A bar as long as a round number of diameters, and an arrow along gravity as the picture is turned. */
+/** Shows a scale bar with a round number of diameters, and an arrow along gravity in the turned picture. */
 function showScale(frame) {
   const svg = byId("scale"), arrow = 26, most = 110;
   const diameters = [100, 50, 20, 10, 5, 2, 1, 0.5].find((count) => count * camera.scale <= most) || 0.5;

@@ -1,12 +1,12 @@
-// The looks of grains: fill and rim, eight bytes for each, from the colours that the page was given.
+// Looks of grains: fill and rim, eight bytes per grain, from the colours stored in the page.
 
-/** Bytes of "#rrggbbaa...". */
+/** Returns the bytes of "#rrggbbaa...". */
 function colourBytes(text) {
   const digits = text.replace(/#/g, "");
   return Array.from({ length: digits.length / 2 }, (_, k) => parseInt(digits.slice(2 * k, 2 * k + 2), 16));
 }
 
-/** A ramp as 256 looks. */
+/** Returns a ramp as 256 looks. */
 function rampLooks(ramp) {
   if (!ramp.looks) {
     ramp.looks = new Uint8Array(8 * 256);
@@ -17,10 +17,10 @@ function rampLooks(ramp) {
   return ramp.looks;
 }
 
-/** Of what the texts of frames are kept in: that of a frame. */
+/** Returns the entry for a frame from a list of distinct entries. */
 const ofFrame = (distinct, frame) => distinct.kinds[distinct.of[frame]];
 
-/** The step of the ramp of a value, as colour_at has it; that of the lower end for none. */
+/** Returns the step of the ramp for a value, as colour_at does; the lower end if there is no value. */
 function rampStep(scale, value) {
   const share = scale.log ? Math.log(value / scale.low) / Math.log(scale.high / scale.low)
                           : (value - scale.low) / (scale.high - scale.low);
@@ -43,7 +43,7 @@ function clusterLooks(map, frame, looks) {
     looks.set(codes[at] === noCode ? none : first[codes[at]] || rest, 8 * i);
 }
 
-/** Of all grains in a frame; `map` null: outlines. */
+/** Returns the looks of all grains in a frame; `map` null: outlines. */
 function looksOf(map, frame) {
   const looks = new Uint8Array(8 * bed.grains);
   if (!map) {

@@ -1,4 +1,4 @@
-// What belongs together: buttons, keys, time line, map and plots.
+// Connects buttons, keys, time line, map and plots.
 
 const plotNames = ["packing/stress_ratio", "overloaded/fraction", "lc/max", "clusters/largest_share", "packing/volume_strain",
                    "contacts/coordination_number", "contacts/critical_share"];
@@ -19,7 +19,7 @@ function goTo(frame) {
   writeState(cells);
 }
 
-/** By a user's hand: what plays is paused. */
+/** Goes to a frame on request of the user, which pauses playback. */
 function goByHand(frame) {
   play.pause();
   goTo(Math.min(Math.max(frame, 0), frames.count - 1));
@@ -34,7 +34,7 @@ function selectGrain(grain) {
   writeState(cells);
 }
 
-/** A row of buttons of which one is pressed. */
+/** Creates a row of buttons of which exactly one is pressed. */
 function choiceButtons(holder, choices, chosen, choose) {
   const buttons = choices.map(({ value, label, help }) =>
     element("button", { type: "button", title: help, "aria-pressed": String(value === chosen()), onclick: () => { choose(value); update(); } }, label));
@@ -66,8 +66,8 @@ function setTurned(turned) {
 
 function makeButtons() {
   updateMaps = choiceButtons(byId("maps"), [...data.maps.map((map) => ({ value: map, label: map.name, help: map.help })),
-    { value: null, label: "outlines", help: "grains alone" }], () => view.map, setMap);
-  updateLines = choiceButtons(byId("lines"), [{ value: null, label: "no lines", help: "the map alone" },
+    { value: null, label: "outlines", help: "only the outlines of the grains" }], () => view.map, setMap);
+  updateLines = choiceButtons(byId("lines"), [{ value: null, label: "no lines", help: "only the map" },
     ...data.lines.map((lines) => ({ value: lines, label: lines.name, help: lines.help }))], () => view.lines, setLines);
   byId("turned").addEventListener("click", () => setTurned(!view.turned));
   byId("fit").addEventListener("click", fitMap);
@@ -104,7 +104,7 @@ const keyActions = {
 function listenToKeys() {
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest("select, input, textarea")) return;
-    // A button that has the focus is pressed by the space bar.
+    // The space bar presses a focused button.
     if (event.key === " " && event.target.closest("button, summary")) return;
     const digit = /^[1-9]$/.test(event.key) ? Number(event.key) : 0;
     const action = digit > 0 && digit <= data.maps.length ? () => { setMap(data.maps[digit - 1]); updateMaps(); } : keyActions[event.key];
@@ -129,7 +129,7 @@ function tellEvent(event) {
   byId("event").replaceChildren(event ? rich(`${event.tilt.toFixed(2)}°: ${event.what}`) : "");
 }
 
-/** What a test asks of the page, in its document: "#check=1". */
+/** Writes the data that a test requests with "#check=1" into the document. */
 function writeCheck() {
   const places = Array.from({ length: frames.count }, (_, frame) => Array.from(centres(frame)));
   const check = { drawing: view.drawer.name, frames: frames.count, tilts: frames.tilts, centres: places, radii: Array.from(radii()),
@@ -182,7 +182,7 @@ function tellProblem(error) {
   document.documentElement.dataset.state = "failed";
 }
 
-// An address that a user has changed is shown anew; those that the page writes tell nobody.
+// The page reloads if the user changes the address; addresses written by the page cause no event.
 window.addEventListener("hashchange", () => location.reload());
 window.addEventListener("error", (event) => tellProblem(event.error || event.message));
 window.addEventListener("unhandledrejection", (event) => tellProblem(event.reason));

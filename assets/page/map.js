@@ -1,4 +1,4 @@
-// The map: what is drawn of the bed, and what the mouse does with it.
+// The map: drawing of the bed, and its mouse controls.
 
 const view = {
   frame: 0, map: null, lines: null, turned: false, grain: -1, hovered: -1,
@@ -7,7 +7,7 @@ const view = {
 
 const turnOf = (frame) => (view.turned ? (Math.max(0, frames.tilts[frame]) * Math.PI) / 180 : 0);
 
-/** A canvas has one kind of context for good: for another kind it is made anew. */
+/** Chooses WebGL or Canvas 2D. A canvas keeps its kind of context, so another kind requires another canvas. */
 function chooseDrawer(wanted) {
   if (wanted !== "2d") view.drawer = webglDrawer(byId("discs"));
   if (!view.drawer) {
@@ -23,7 +23,7 @@ function chooseDrawer(wanted) {
   });
 }
 
-/** The height follows from the bed, so that nothing around it is empty. */
+/** Sets the size of the map. Its height follows from the bed, to avoid empty space. */
 function sizeMap() {
   const holder = byId("bed"), width = holder.clientWidth;
   if (width === 0) return;
@@ -50,7 +50,7 @@ function fitMap() {
   sizeMap();
 }
 
-/** What a frame shows changes with these; the camera alone moves what is there. */
+/** Updates the shapes if frame, map or lines have changed; moving the camera does not require it. */
 function updateShapes() {
   const wanted = `${view.frame} ${view.map && view.map.name} ${view.lines && view.lines.name}`;
   if (wanted === view.drawn) return;
@@ -67,7 +67,7 @@ function drawMarks() {
   drawRing(pen, view.grain, 3);
 }
 
-/** Walls and a smooth floor as lines; the edges of a period as dashes. */
+/** Draws walls and a smooth floor as lines, and the edges of a period as dashes. */
 function drawEdges(pen) {
   const line = (x0, y0, x1, y1) => {
     pen.beginPath();
@@ -85,7 +85,7 @@ function drawEdges(pen) {
   if (bed.smooth_floor) line(0, 0, bed.length, 0);
 }
 
-/** A ring in two tones, which is seen on every colour. */
+/** Draws a ring in two tones, visible on every colour. */
 function drawRing(pen, grain, width) {
   if (grain < 0) return;
   const places = centres(view.frame);
@@ -122,7 +122,7 @@ function redraw() {
   });
 }
 
-/** The free grain at a place of the picture; -1 where there is none. */
+/** Returns the free grain at a point of the picture; -1 if there is none. */
 function grainAt(px, py) {
   let [x, y] = unproject(px, py);
   if (bed.periodic) x -= bed.length * Math.floor(x / bed.length);
@@ -140,7 +140,7 @@ function grainAt(px, py) {
   return found;
 }
 
-/** Listens to mouse, fingers and wheel. `use`: what happens on hover (grain or -1, event) and click (grain). */
+/** Listens to mouse, touch and wheel. `use` has the handlers hover (grain or -1, event) and click (grain). */
 function listenToMap(use) {
   const holder = byId("bed"), pointers = new Map();
   let moved = 0;
@@ -183,7 +183,7 @@ function listenToMap(use) {
   holder.addEventListener("dblclick", fitMap);
 }
 
-/** One finger goes from `before` to `at` while the other stays. */
+/** Zooms and moves while one finger goes from `before` to `at` and the other stays. */
 function pinch(before, at, still) {
   const factor = Math.hypot(at[0] - still[0], at[1] - still[1]) / Math.max(1, Math.hypot(before[0] - still[0], before[1] - still[1]));
   zoomCamera(factor, (at[0] + still[0]) / 2, (at[1] + still[1]) / 2, view.fitted);

@@ -15,7 +15,7 @@ function extentOf(lists) {
   return [low, high];
 }
 
-/** The path of a curve; a missing value parts it. */
+/** Returns the path of a curve, interrupted at missing values. */
 function curvePath(curve, toX, toY) {
   let path = "", pen = "M";
   for (let k = 0; k < curve.x.length; ++k) {
@@ -30,7 +30,7 @@ function curvePath(curve, toX, toY) {
   return path;
 }
 
-/** The value of a curve at the tilt nearest to x. */
+/** Returns the value of a curve at the tilt nearest to x. */
 function valueNear(curve, x) {
   let best = 0;
   for (let k = 1; k < curve.x.length; ++k) if (Math.abs(curve.x[k] - x) < Math.abs(curve.x[best] - x)) best = k;
@@ -38,8 +38,8 @@ function valueNear(curve, x) {
 }
 
 /**
- * A plot in a holder; `go` is called with a tilt that was clicked. Of what it returns, `set` takes curves
- * { label, x, y, points }, and `cursor` a tilt.
+ * Creates a plot in a holder; `go` is called with the tilt that was clicked. The result has `set` for curves
+ * { label, x, y, points }, and `cursor` for a tilt.
  */
 function curvePlot(holder, go) {
   const svg = shape("svg", { role: "img", height: plotHeight });
@@ -112,18 +112,18 @@ function curvePlot(holder, go) {
   };
 }
 
-/** The curves of a quantity of the table. */
+/** Returns the curves of a quantity of the table. */
 const curvesOf = (quantity) =>
   quantity.curves.map((curve) => ({ label: curve.label, x: data.curves[curve.over], y: curve.values, points: curve.over === "frames" }));
 
-/** A title over the list that it is chosen from: titles have subscripts, lists have none. */
+/** Creates a title above its list of choices; a title can have subscripts, list entries cannot. */
 const chooser = (title, choice) => element("div", { class: "head chooser" }, title, element("span", { class: "arrow", "aria-hidden": "true" }, "▾"), choice);
 
-/** A cell whose quantity can be chosen from all of the table. */
+/** Creates a cell with a plot of any quantity of the table. */
 function quantityCell(name, go, onChange) {
   const title = element("span", { class: "title" });
   const choice = element("select", { "aria-label": "Quantity of the plot" });
-  for (const [label, common] of [["Curves", true], ["All numbers of a frame", false]]) {
+  for (const [label, common] of [["Curves", true], ["All quantities of a frame", false]]) {
     const group = element("optgroup", { label });
     for (const quantity of data.curves.quantities)
       if (quantity.common === common) group.append(element("option", { value: quantity.name }, quantity.title));

@@ -1,4 +1,4 @@
-// The run: its data, and what follows from the codes of its tables. Lengths are in mean diameters, angles in degrees.
+// The run: its data, decoded from its tables. Lengths are in mean diameters, angles in degrees.
 
 const noCode = 65535;
 const data = JSON.parse(byId("data").textContent);
@@ -13,13 +13,13 @@ async function readTables(names) {
 
 const isFlow = (frame) => frame >= frames.of_tilt;
 
-/** Radii of all grains. */
+/** Returns the radii of all grains. */
 function radii() {
   if (!radii.known) radii.known = Float32Array.from(tables.radius.codes, (code) => bed.radius.low + bed.radius.step * code);
   return radii.known;
 }
 
-/** Centres of all grains in a frame: x, y, x, y, ... */
+/** Returns the centres of all grains in a frame: x, y, x, y, ... */
 function centres(frame) {
   if (centres.frame !== frame) {
     const known = centres.known || new Float32Array(2 * bed.grains);
@@ -34,7 +34,7 @@ function centres(frame) {
   return centres.known;
 }
 
-/** The number that a code of a field stands for; NaN for none. */
+/** Returns the value of a code of a field; NaN for none. */
 function decoded(field, code) {
   if (code === noCode) return NaN;
   if (!field.log) return field.low + field.step * code;
@@ -43,10 +43,10 @@ function decoded(field, code) {
 
 const fieldOf = (name) => data.fields.find((field) => field.name === name);
 
-/** Of a free grain in a frame. */
+/** Returns the value of a free grain in a frame. */
 const fieldValue = (field, grain, frame) => decoded(field, tables[field.name].codes[grain * frames.count + frame]);
 
-/** Grains of each cluster of overloaded grains in a frame. */
+/** Returns the number of grains in each cluster of overloaded grains of a frame. */
 function clusterSizes(frame) {
   if (clusterSizes.frame !== frame) {
     const sizes = [], codes = tables.cluster.codes;
@@ -58,13 +58,13 @@ function clusterSizes(frame) {
   return clusterSizes.known;
 }
 
-/** Grains in the cluster of a grain; NaN where it is not overloaded. */
+/** Returns the number of grains in the cluster of a grain; NaN if it is not overloaded. */
 function clusterSize(grain, frame) {
   const code = tables.cluster.codes[grain * frames.count + frame];
   return code === noCode ? NaN : clusterSizes(frame)[code];
 }
 
-/** Contacts of each grain that carry force. */
+/** Returns the number of force-carrying contacts of each grain. */
 function coordinations(frame) {
   if (coordinations.frame !== frame) {
     const counts = new Uint16Array(bed.grains), { a, b, force } = tables;
@@ -79,10 +79,10 @@ function coordinations(frame) {
   return coordinations.known;
 }
 
-/** f_n over the mean of its frame. */
+/** Returns f_n divided by the mean of its frame. */
 const forceOf = (code) => data.contacts.widest * ((code - 1) / 254) ** 2;
 
-/** What is known of a free grain in a frame: [rich label, value, digits, rich unit]. */
+/** Returns the values of a free grain in a frame: [{ label, value, digits, unit }], label and unit as rich text. */
 function grainValues(grain, frame) {
   const values = [];
   for (const field of data.fields) {

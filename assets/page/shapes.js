@@ -1,6 +1,6 @@
-// What is drawn of a frame: discs and lines in mean diameters, as arrays with so many numbers for each.
+// Shapes of a frame: discs and lines in mean diameters, as arrays with a fixed number of entries per shape.
 
-/** x, y, radius, hatched of all grains; the looks come beside them. */
+/** Returns x, y, radius, hatched of all grains; their looks are separate. */
 function discShapes(frame) {
   const places = centres(frame), sizes = radii(), discs = new Float32Array(4 * bed.grains);
   for (let i = 0; i < bed.grains; ++i) {
@@ -12,7 +12,7 @@ function discShapes(frame) {
   return discs;
 }
 
-/** The unit normal of a contact, from a to b, and how far apart the centres are, or a and its plane. */
+/** Returns the unit normal of a contact, from a to b, and the distance between the centres, or of a from its plane. */
 function branch(c, places) {
   const a = tables.a.codes[c], b = tables.b.codes[c], x = places[2 * a], y = places[2 * a + 1];
   if (b >= bed.grains) {
@@ -24,7 +24,7 @@ function branch(c, places) {
   return { x, y, nx: dx / length, ny: dy / length, length, radius: radii()[a] };
 }
 
-/** Ends, half width and four bytes of colour, as "lines" of a list; the strong ones last, so that they lie above. */
+/** Returns a list of lines, each with ends, half width and four bytes of colour; strong ones last, so that they lie on top. */
 function forceLines(frame, places, swatches) {
   const [strong, weak] = swatches.map((swatch) => colourBytes(swatch.fill));
   const weakLines = [], strongLines = [];
@@ -39,7 +39,7 @@ function forceLines(frame, places, swatches) {
   return weakLines.concat(strongLines);
 }
 
-/** Along the two surfaces, through the contact point. */
+/** Returns lines along the two surfaces, through the contact point. */
 function criticalLines(frame, places, swatches) {
   const colour = colourBytes(swatches[0].fill), reach = 0.5 * data.contacts.critical_length, lines = [];
   for (let c = 0, at = frame; c < tables.a.rows; ++c, at += frames.count) {
@@ -51,17 +51,17 @@ function criticalLines(frame, places, swatches) {
   return lines;
 }
 
-/** Over filled grains those that cannot be seen through have a white border: they are told from any shade of gray. */
+/** Adds a white border to opaque lines over filled grains, which distinguishes them from any shade of gray. */
 function withBorders(lines) {
   const isOpaque = (line) => line.colour[3] === 255, above = lines.filter(isOpaque);
   const borders = above.map((line) => ({ ...line, half: line.half + data.contacts.border, colour: [255, 255, 255, 255] }));
   return lines.filter((line) => !isOpaque(line)).concat(borders, above);
 }
 
-/** The legend of lines over a map; `map` null: over outlines. */
+/** Returns the legend of lines over a map; `map` null: over outlines. */
 const linesLegend = (lines, map) => lines.legends.find((legend) => legend.over === (map ? map.over : "")).legend;
 
-/** The lines of a frame, as { ends: 4 numbers each, half: 1, colour: 4 bytes }. */
+/** Returns the lines of a frame; `numbers` has 4 ends and a half width per line, `colours` 4 bytes. */
 function lineShapes(lines, map, frame) {
   if (!lines) return { count: 0, numbers: new Float32Array(0), colours: new Uint8Array(0) };
   const make = lines.name === "forces" ? forceLines : criticalLines;
@@ -75,7 +75,7 @@ function lineShapes(lines, map, frame) {
   return { count: made.length, numbers, colours };
 }
 
-/** The shifts by which the bed is drawn: around a period also its images. */
+/** Shifts at which the bed is drawn; a periodic bed includes its neighbouring images. */
 const shifts = bed.periodic ? [0, -bed.length, bed.length] : [0];
 
-const faded = 0.28;  // of the images beyond the edges of the period
+const faded = 0.28;  // opacity of the images beyond the edges of the period

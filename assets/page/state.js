@@ -1,17 +1,17 @@
-// What is shown, in the address: after "#", so that a copied address shows the same.
+// State of the page, stored in the address after "#", so that a copied address shows the same content.
 
 function readState() {
   return Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
 }
 
-/** The frame nearest to a tilt, among those of the tilt. */
+/** Returns the frame of the tilt phase nearest to a tilt. */
 function frameAtTilt(tilt) {
   let best = 0;
   for (let k = 1; k < frames.of_tilt; ++k) if (Math.abs(frames.tilts[k] - tilt) < Math.abs(frames.tilts[best] - tilt)) best = k;
   return best;
 }
 
-/** The last frame before failure; the last of the tilt where it has not failed. */
+/** Returns the last frame before failure or, without failure, the last of the tilt phase. */
 function frameAtRepose() {
   const last = Math.max(0, frames.of_tilt - 1);
   if (data.theta_c === null) return last;
@@ -20,7 +20,7 @@ function frameAtRepose() {
   return found;
 }
 
-/** A frame by its place on the page, or the nearest to an angle. */
+/** Returns the frame given by its number on the page or by the nearest angle. */
 function frameOfState(state) {
   if (state.at !== undefined && Number.isFinite(Number(state.at))) return frameAtTilt(Number(state.at));
   const frame = Math.round(Number(state.frame));
@@ -29,7 +29,7 @@ function frameOfState(state) {
 
 let stateTimer = null;
 
-/** Not at once, as browsers refuse to change an address many times in a second. */
+/** Writes the state with a delay, because browsers limit how often an address may change. */
 function writeState(cells) {
   clearTimeout(stateTimer);
   stateTimer = setTimeout(() => {
@@ -40,7 +40,7 @@ function writeState(cells) {
     try {
       history.replaceState(null, "", `#${state}`);
     } catch (error) {
-      // An address that may not be changed is left as it is.
+      // The browser does not allow the address to change.
     }
   }, 300);
 }

@@ -1,4 +1,4 @@
-// Tables of whole numbers, as the page holds them: base64 of a zlib stream of differences, byte by byte.
+// Tables of whole numbers as stored in the page: base64 of a zlib stream of differences, byte by byte.
 
 function bytesOfBase64(text) {
   const letters = atob(text);
@@ -12,7 +12,7 @@ async function inflate(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/** Undoes difference_bytes: columns are differences from the one before, the first from the row above. */
+/** Undoes difference_bytes: each column is the difference from the previous one, the first from the row above. */
 function undoDifferences(planes, { rows, columns, bytes }) {
   const count = rows * columns;
   const codes = bytes === 1 ? new Uint8Array(count) : bytes === 2 ? new Uint16Array(count) : new Uint32Array(count);
@@ -26,12 +26,12 @@ function undoDifferences(planes, { rows, columns, bytes }) {
   return codes;
 }
 
-/** The table of an entry of the data; its text is dropped, as it is large. */
+/** Returns the table of an entry of the data, and removes its text, which is large. */
 async function readTable(entry) {
   const holder = byId(`table-${entry.name}`);
   const planes = await inflate(bytesOfBase64(holder.textContent));
   holder.textContent = "";
   if (planes.length !== entry.rows * entry.columns * entry.bytes)
-    throw new Error(`the table ${entry.name} is not whole: the page was cut off or changed`);
+    throw new Error(`the table ${entry.name} is incomplete: the page was truncated or changed`);
   return { ...entry, codes: undoDifferences(planes, entry) };
 }

@@ -2,13 +2,13 @@
 
 const byId = (id) => document.getElementById(id);
 
-/** An element with attributes ("on..." are listeners) and children: nodes or plain texts. */
+/** Creates an element with attributes ("on..." are listeners) and children: nodes or plain texts. */
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   return furnish(made, attributes, children);
 }
 
-/** The same in SVG. */
+/** Creates an SVG element in the same way. */
 function shape(tag, attributes = {}, ...children) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
   return furnish(made, attributes, children);
@@ -23,7 +23,7 @@ function furnish(made, attributes, children) {
   return made;
 }
 
-/** A rich text, in which "_c" sets c as a subscript. */
+/** Returns the nodes of a rich text, in which "_c" sets c as a subscript. */
 function rich(text) {
   const parts = document.createDocumentFragment();
   let plain = "";
@@ -38,7 +38,7 @@ function rich(text) {
   return parts;
 }
 
-/** The same as one text of SVG. */
+/** Returns a rich text as one SVG text. */
 function richShape(text, attributes) {
   const made = shape("text", attributes);
   for (const part of rich(text).childNodes)
@@ -49,10 +49,10 @@ function richShape(text, attributes) {
   return made;
 }
 
-/** The plain text of a rich one: "θ_c" as "θc". */
+/** Returns the plain text of a rich one: "θc" for "θ_c". */
 const plainText = (text) => text.replace(/_(.)/gu, "$1");
 
-/** Calls `use` once an element has another width; in the next picture, as a size must not change while it is told. */
+/** Calls `use` when the width of an element has changed; in the next picture, because the callback must not change sizes. */
 function onWidth(of, use) {
   let width = of.clientWidth;
   new ResizeObserver(() => requestAnimationFrame(() => {
@@ -64,7 +64,7 @@ function onWidth(of, use) {
 
 const firstLower = (text) => text.charAt(0).toLowerCase() + text.slice(1);
 
-/** A number to so many significant digits; a dash for none. */
+/** Formats a number with `digits` significant digits; a dash for none. */
 function numberText(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -86,7 +86,7 @@ function powerText(size, digits) {
   return `${factor}·10${power < 0 ? "⁻" : ""}${raised}`;
 }
 
-/** Round numbers from low to high, at most `most` steps apart, with equally many decimals. */
+/** Returns round numbers from low to high, in at most `most` steps, with the same number of decimals. */
 function roundTicks(low, high, most) {
   const decade = 10 ** Math.floor(Math.log10((high - low) / most));
   const step = [1, 2, 5, 10].map((f) => f * decade).find((s) => (high - low) <= s * most * (1 + 1e-9));

@@ -1,9 +1,10 @@
-// The time line: a place for each frame, and a mark for what happened.
+// The time line: a place for each frame, and a mark for each event.
 
 const lineLeft = 14, lineRight = 14, lineY = 58, lineHeight = 84;
 
 /**
- * `go` is called with a frame, `tell` with an event or null. `show` draws it anew, `move` moves its handle.
+ * Creates the time line. Calls `go` with a frame, and `tell` with an event or null. The result has `show`, which
+ * redraws it, and `move`, which moves its handle.
  */
 function timeLine(go, tell) {
   const svg = byId("timeline");
@@ -11,7 +12,7 @@ function timeLine(go, tell) {
   const last = Math.max(1, frames.count - 1);
   const toX = (place) => lineLeft + ((width - lineLeft - lineRight) * place) / last;
 
-  /** A bar on the line, as high as the rearrangement is large. */
+  /** Creates a bar on the line whose height shows the size of the rearrangement. */
   const rearrangementMark = (event, x) => {
     const mark = shape("g", { class: `event ${event.kind}` },
       shape("path", { class: "bar", d: `M${x} ${lineY - 3}v${-3 - 9 * event.size}` }),
@@ -20,7 +21,7 @@ function timeLine(go, tell) {
     mark.addEventListener("pointerleave", () => tell(null));
     return mark;
   };
-  /** Labels in two rows, so that neighbours do not lie on each other. */
+  /** Creates the marks, with labels in rows so that neighbours do not overlap. */
   const eventMarks = () => {
     const ends = [-Infinity, -Infinity, -Infinity];
     return data.events.map((event) => {
@@ -39,7 +40,7 @@ function timeLine(go, tell) {
       return mark;
     });
   };
-  /** Round angles of the tilt, as many as have room, and where the flow begins. */
+  /** Creates labels at round angles of the tilt, as many as fit, and at the beginning of the flow. */
   const labels = () => {
     const parts = [], tilts = frames.tilts.slice(0, frames.of_tilt);
     for (let k = 0; k < frames.count; ++k) parts.push(shape("path", { class: "tick", d: `M${toX(k).toFixed(1)} ${lineY - 3}v6` }));
@@ -90,7 +91,7 @@ function timeLine(go, tell) {
   return { show, move };
 }
 
-/** Plays frames at a chosen speed; `step` goes one on and returns whether there is another. */
+/** Plays frames at a chosen speed; `step` advances by one frame and returns whether another follows. */
 function player(step) {
   const button = byId("play");
   let timer = null;
