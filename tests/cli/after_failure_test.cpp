@@ -1,4 +1,4 @@
-/// Runs that go on after failure: what is told of them, and what the other commands make of their files.
+/// Runs that continue after failure: their reports, and their files in other commands.
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 namespace talus::test {
 namespace {
 
-/// A small bed that is tilted fast: it fails and comes to rest again within some seconds.
+/// Small bed that is tilted fast: it fails and comes to rest again within a few seconds.
 const char* const lowered_bed =
     "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
     "[output]\nframe_every = 1\nobservable_every = 0.2\n";
 
-/// One of 40 grains, with few frames.
+/// Bed of 40 grains with few frames.
 const char* const smaller_bed =
     "seed = 2\n[bed]\nlength = 10\ndepth = 4\n[deposition]\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 5\n"
@@ -35,10 +35,10 @@ class AfterFailure : public testing::Test {
     return json_value(talus({"info", run, "--json"}).out, key);
   }
 
-  /// Waits until the process, which writes the run, commits again or ends.
+  /// Waits until the process that writes the run commits again or ends.
   void wait_for_commit(pid_t process, const std::string& run) const {
     const auto committed = [&] {
-      std::error_code none;  // of a run that has not begun
+      std::error_code none;  // for a run that has not begun
       return std::filesystem::last_write_time(folder_.path(run + ".run/manifest"), none);
     };
     const auto before = committed();
@@ -56,7 +56,7 @@ TEST_F(AfterFailure, the_angle_at_rest_is_told) {
   const std::string theta_r = info("bed.h5", "theta_r_deg");
   ASSERT_NE(theta_r, "null");
   EXPECT_LT(std::stod(theta_r), std::stod(info("bed.h5", "theta_c_deg")));
-  // One unit for one name: what is at the top in degrees has another name than what results have in radians.
+  // A name implies its unit: the top level in degrees uses other names than results in radians.
   std::istringstream json(talus({"info", "bed.h5", "--json"}).out);
   std::map<std::string, int> keys;
   for (std::string line; std::getline(json, line);)
@@ -89,7 +89,7 @@ TEST_F(AfterFailure, the_other_commands_see_the_tilt_alone) {
   EXPECT_EQ(talus({"info", "stop.h5"}).out.find("theta_r"), std::string::npos);
   const auto table = [this](const std::string& run) {
     const std::string text = talus({"analyze", run}).out;
-    return text.substr(text.find('\n'));  // without its name
+    return text.substr(text.find('\n'));  // without the name
   };
   const std::string stopped = table("stop.h5");
   EXPECT_NE(stopped.find("theta_d by"), std::string::npos) << stopped;

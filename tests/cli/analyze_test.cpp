@@ -1,4 +1,4 @@
-/// `talus analyze`: what it prints and stores, of a tiny bed.
+/// `talus analyze`: its output and the data it stores, for a tiny bed.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace talus::test {
 namespace {
 
-/// A folder with the run of a bed of 32 grains that stands at 1.5 deg: 4 frames.
+/// Folder with a run of 32 grains that remains stable up to 1.5 deg: 4 frames.
 class Analyze : public testing::Test {
  protected:
   Analyze() {

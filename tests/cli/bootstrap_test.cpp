@@ -1,4 +1,4 @@
-/// ./bootstrap demo, as it is, around this build of the program and a bed that fails within a second.
+/// The unmodified ./bootstrap demo, with this build of the program and a bed that fails within a second.
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Few frames, as the demo draws all of them.
+/// Few frames, because the demo draws all of them.
 const char* const failing_bed =
     "[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n[tilt]\nrate = 20\nstep = 0.02\n"
     "[output]\nframe_every = 5\nobservable_every = 0.2\n";
 
-/// A checkout with nothing but what the demo needs. Commands before those of the system say that everything
-/// is installed, and install and build nothing.
+/// Checkout that contains only what the demo needs. Fake commands, ahead of the system's, report that
+/// everything is installed; they neither install nor build anything.
 class BootstrapDemo : public testing::Test {
  protected:
   void SetUp() override {

@@ -1,5 +1,4 @@
-/// Members of an ensemble that are not what they seem: values with mistakes, tables of others, changed beds,
-/// and names that lead elsewhere.
+/// Irregular members of an ensemble: invalid values, foreign tables, changed beds, and symbolic links.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +15,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+/// Bed of 32 grains that is deposited and fully tilted in a fraction of a second.
 const char* const tiny_bed =
     "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
 
@@ -24,7 +23,7 @@ std::vector<std::string> ensemble_of(const std::string& folder, const std::strin
   return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
 }
 
-/// Two grains side by side on a smooth floor, and one upon them; or the other way round.
+/// Two grains side by side on a smooth floor and one on top of them, in both orders.
 const char* const three_grains = "x,y,radius\n10.55,0.5,0.5\n9.45,0.5,0.5\n10,1.3351646544245033,0.5\n";
 const char* const other_grains = "x,y,radius\n0.55,0.5,0.5\n19.45,0.5,0.5\n0,1.3351646544245033,0.5\n";
 const char* const bed_of_file =
@@ -46,7 +45,7 @@ TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
   EXPECT_EQ(ensemble("a.csv").exit_code, 0);
   EXPECT_EQ(ensemble("a.csv,typo.csv").exit_code, 66);
   EXPECT_EQ(ensemble("a.csv,b.csv", "0").exit_code, 0);
-  // What is missing later fails, and the others go on.
+  // A member whose bed disappears later fails, and the others continue.
   std::filesystem::rename(folder.path("b.csv"), folder.path("c.csv"));
   EXPECT_EQ(ensemble("a.csv,c.csv", "0").exit_code, 0) << "b.csv, which cannot be had, is withdrawn";
   EXPECT_EQ(ensemble("c.csv").out.find("e: 4 of 4 done"), 0u);
@@ -178,7 +177,7 @@ TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {
   EXPECT_EQ(ensemble("0.3,0.5", "1", "1").out.find("e: 4 of 4 done"), 0u);
 }
 
-// Another process may be at its run, which ends; so a member that is refused its file is tried a second time.
+// Another process may own the run and end; a member whose file is locked is therefore tried a second time.
 TEST(EnsembleMembers, that_are_refused_their_file_are_tried_again_before_they_count_as_failed) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

@@ -1,5 +1,5 @@
-/// Job arrays as a user submits them, with commands in place of Slurm's that write down how they were called.
-/// tests/slurm has the same with a real Slurm.
+/// Job arrays as users submit them, with fake Slurm commands that record their arguments. tests/slurm repeats
+/// this with a real Slurm.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ const char* const tiny_bed =
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-/// An ensemble of four beds, none of them begun, and a folder of commands.
+/// Ensemble of four beds that have not begun, with a folder of fake commands.
 class EnsembleSubmit : public testing::Test {
  protected:
   void SetUp() override {
@@ -33,7 +33,8 @@ class EnsembleSubmit : public testing::Test {
     command("sbatch", "echo 12");
   }
 
-  /// A command that adds its words to the file "called", one a line, and goes on with `text`.
+  /// Writes a command that appends its arguments to the file "called", one per line, and continues with
+  /// `text`.
   void command(const std::string& name, const std::string& text) {
     const std::string called = folder_.path("called");
     write_file(folder_, "bin/" + name,

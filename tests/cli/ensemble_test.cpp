@@ -1,4 +1,4 @@
-/// Ensembles of a tiny bed: workers that share a folder, stops, takeovers, failures, and what is reported.
+/// Ensembles of a tiny bed: workers that share a folder, interruptions, takeovers, failures, and reports.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+/// Bed of 32 grains that is deposited and fully tilted in a fraction of a second.
 const char* const tiny_bed =
     "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
 
@@ -24,7 +24,7 @@ std::vector<std::string> ensemble_of(const std::string& folder, const std::strin
   return {"ensemble", "bed.toml", "--seeds", seeds, "-o", folder};
 }
 
-/// The hash of the last state of a run.
+/// Returns the hash of the last state of a run.
 std::string hash_in(const TemporaryFolder& folder, const std::string& run) {
   return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
 }
@@ -91,7 +91,7 @@ TEST(Ensemble, is_averaged_again_from_the_runs_of_its_members) {
   const std::string before = text_of(folder.path("e/averages.csv"));
   for (const char* name : {"e/averages.csv", "e/ensemble.h5", "e/members.csv"})
     std::filesystem::remove(folder.path(name));
-  // As talus run leaves it: without an analysis.
+  // Like the output of talus run: without an analysis.
   ASSERT_EQ(run_talus({"run", "bed.toml", "--seed", "2", "-o", "e/seed-2.h5", "--overwrite"}, folder.path())
                 .exit_code,
             0);
@@ -237,7 +237,8 @@ INSTANTIATE_TEST_SUITE_P(Signals, InterruptedEnsemble, testing::Values(SIGINT, S
 TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code, 0);  // for workers to find it
+  ASSERT_EQ(run_talus(ensemble_of("e", "1"), folder.path()).exit_code,
+            0);  // creates the ensemble for the workers
   const pid_t first = start_talus(ensemble_of("e", "1-12"), folder.path());
   const std::string manifest = folder.path("e/ensemble.manifest");
   for (int wait = 0; wait < 1000 && text_of(manifest).find("seeds 1-12") == std::string::npos; ++wait)
@@ -277,7 +278,7 @@ TEST(Ensemble, replaces_a_worker_that_was_killed) {
   std::vector<std::string> words = ensemble_of("e", "1-6");
   words.insert(words.end(), {"--jobs", "1"});
   const pid_t ensemble = start_talus(words, folder.path());
-  // The worker tells its number in its claim: "process 123 on host a, ...".
+  // The worker writes its process number into its claim: "process 123 on host a, ...".
   std::string word, worker;
   for (int wait = 0; wait < 30000 && worker.empty(); ++wait) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -290,7 +291,7 @@ TEST(Ensemble, replaces_a_worker_that_was_killed) {
   EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 7u);
 }
 
-/// The first number in a file, once there is one; 0 after half a minute. Words before it are passed over.
+/// Waits for a number in a file after `words_before` words and returns it; 0 after 30 s.
 int number_in(const std::string& path, int words_before = 0) {
   for (int wait = 0; wait < 3000; ++wait) {
     std::ifstream file(path);
@@ -341,7 +342,7 @@ TEST(Ensemble, takes_over_what_a_worker_of_another_machine_has_left) {
 
 TEST(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
   const TemporaryFolder folder;
-  // Half of these beds come to rest in so few steps.
+  // Half of these beds come to rest within so short a time.
   write_file(folder, "bed.toml", std::string(tiny_bed) + "[deposition]\nmax_time = 0.05\n");
   const Outcome failed = run_talus(ensemble_of("e", "1-2"), folder.path());
   EXPECT_EQ(failed.exit_code, 65) << failed.out;
@@ -459,7 +460,7 @@ TEST(Ensemble, is_left_without_claims_and_locks) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/ensemble.manifest.lock")));
   for (const char* number : {"0", "7"})
     write_file(folder, std::string("e/seed-1.claim-") + number, "process 1 on host far, boot another\n...");
-  std::filesystem::create_directory(folder.path("e/averages.csv.talus.part"));  // in the way of averages
+  std::filesystem::create_directory(folder.path("e/averages.csv.talus.part"));  // blocks the file of averages
   EXPECT_NE(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/averages.lock")));
   ASSERT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);

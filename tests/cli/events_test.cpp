@@ -1,4 +1,4 @@
-/// `talus events`: what it prints, of a tiny bed.
+/// `talus events`: its output for a tiny bed.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of 32 grains that stands at 1.5 deg.
+/// Bed of 32 grains that remains stable up to 1.5 deg.
 class Events : public testing::Test {
  protected:
   Events() {
@@ -31,7 +31,7 @@ void expect_texts(const std::string& text, const std::vector<std::string>& parts
   for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-/// So low a threshold that the whole tilt is one event.
+/// Threshold low enough that the entire tilt is one event.
 const std::vector<std::string> all_moves = {"--set", "event_velocity=1e-9"};
 
 std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {

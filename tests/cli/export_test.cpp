@@ -1,5 +1,5 @@
-/// Runs exported for other programs: options, messages, exit codes, what is replaced, stops. What the
-/// programs read is tested in tests/python.
+/// Export of runs for other programs: options, messages, exit codes, replaced files, interruptions.
+/// tests/python tests the exported data.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A bed of 40 grains that stands, with frames 0 to 3 at 0, 0.5, 1 and 1.5 deg.
+/// Bed of 40 grains that remains stable, with frames 0 to 3 at 0, 0.5, 1 and 1.5 deg.
 class Export : public testing::Test {
  protected:
   void SetUp() override {
@@ -134,7 +134,7 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
 }
 
 TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
-  // The bed is tilted by so little between frames that there are many of them.
+  // The tilt between frames is small, so that there are many of them.
   take_run(folder_, "long.h5",
            "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 2\n[output]\n"
            "frame_every = 0.01\n");
@@ -154,7 +154,7 @@ TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
   for (const std::string& name : files("out/frames")) EXPECT_FALSE(name.ends_with(".talus.part")) << name;
 }
 
-/// The commands of a page that export, in words.
+/// Returns the export commands of a page, split into words.
 std::vector<Words> export_commands(const std::string& page) {
   std::ifstream file(source_folder() + "/" + page);
   std::vector<Words> found;

@@ -1,4 +1,4 @@
-/// `talus figures`: the files that it makes of a tiny bed, and what it refuses.
+/// `talus figures`: the files that it makes for a tiny bed, and the requests that it rejects.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
   for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
-/// A folder with the run of a bed of 32 grains that stands at 1.5 deg: 4 frames.
+/// Folder with a run of 32 grains that remains stable up to 1.5 deg: 4 frames.
 class Figures : public testing::Test {
  protected:
   Figures() {
@@ -83,7 +83,7 @@ TEST_F(Figures, are_files_of_each_kind) {
 
 TEST_F(Figures, of_an_ensemble_are_of_its_members_that_are_done) {
   ASSERT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "-o", "e"}, folder_.path()).exit_code, 0);
-  fs::remove(folder_.path() / "e/seed-3.h5");  // as if it were still under way
+  fs::remove(folder_.path() / "e/seed-3.h5");  // simulates a run in progress
   const Outcome two = run_talus({"figures", "e", "-o", "out", "--only", "4"}, folder_.path());
   ASSERT_EQ(two.exit_code, 0) << two.err;
   const std::string table = content(out("fig04-shear-stress-pbc-l-10-d.csv"));
@@ -96,7 +96,7 @@ TEST_F(Figures, of_an_ensemble_are_of_its_members_that_are_done) {
   expect_parts(none.err, {"e: no member of this ensemble is done yet"});
 }
 
-/// The numbers of a table, which stand in lines after its head.
+/// Returns the numbers of a table, which follow its heading line.
 std::vector<double> numbers_in(const std::string& table) {
   std::vector<double> numbers;
   std::istringstream cells(table.substr(table.find('\n')));
@@ -116,7 +116,7 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
   ASSERT_EQ(
       run_talus({"ensemble", "bed.toml", "--seeds", "1-3", "--keep", "analysis", "-o", "e"}, folder_.path())
           .exit_code,
-      0);  // and of members without frames
+      0);  // and for members without frames
   for (const auto& [input, output] :
        {std::pair{"moved/ensemble.h5", "of-file"}, {"moved", "of-folder"}, {"e", "of-analyses"}}) {
     const Outcome alone =
@@ -156,7 +156,7 @@ TEST_F(Figures, are_drawn_again_by_their_script) {
   const std::size_t resolution = before.find("pHYs");
   ASSERT_NE(resolution, std::string::npos);
   EXPECT_EQ(before.substr(resolution + 4, 4), std::string("\0\0\x2e\x21", 4)) << "11809 px per m";
-  std::string plain = before;  // which gnuplot does not say
+  std::string plain = before;  // gnuplot itself does not report this
   EXPECT_EQ(content(out("fig05-stress-ratio.png")), plain.erase(resolution - 4, 21));
   EXPECT_TRUE(fs::exists(out("fig05-stress-ratio.pdf")) && fs::exists(out("fig05-stress-ratio.svg")));
   EXPECT_EQ(before.substr(16, 4), std::string("\0\0\x08\x36", 4)) << "17.8 cm at 300 dpi are 2102 px";
@@ -236,7 +236,7 @@ TEST_F(Figures, cannot_be_made_where_no_folder_can) {
   expect_parts(outcome.err, {"out"});
 }
 
-/// A value of PATH, for as long as it lives.
+/// Sets PATH during its lifetime.
 class Path {
  public:
   explicit Path(const std::string& value) : before_(getenv("PATH")) { setenv("PATH", value.c_str(), 1); }

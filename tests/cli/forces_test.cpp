@@ -1,4 +1,4 @@
-/// Admissible forces of the frames of a run, as a user asks for them.
+/// Admissible forces for the frames of a run, as requested by a user.
 
 #include <gtest/gtest.h>
 
@@ -66,8 +66,7 @@ TEST(Forces, of_a_run_without_frames_are_refused) {
   EXPECT_NE(outcome.err.find("begun.h5 has no frames yet"), std::string::npos) << outcome.err;
 }
 
-// One set of forces of the cone does not say which moments go with it, and problem files have no place for
-// them.
+// A set of forces does not determine the rolling moments, and problem files cannot store them.
 TEST(Forces, of_contacts_that_resist_rolling_are_refused_and_so_are_their_problems) {
   const TemporaryFolder folder;
   take_run(folder, "bed.h5", std::string(bed) + "[contact]\nrolling_friction = 0.1\n");

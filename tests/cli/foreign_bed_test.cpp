@@ -1,4 +1,4 @@
-/// Beds that other programs, or an export, have written.
+/// Beds written by other programs or by an export.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Maps drawn from a run file: names, what is kept and what is refused, stops, movies, panels.
+/// Maps drawn from a run file: file names, kept files, rejected requests, interruptions, movies, panels.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A bed of 40 grains with frames at 0, 0.5, 1 and 1.5 deg.
+/// Bed of 40 grains with frames at 0, 0.5, 1 and 1.5 deg.
 const char* const tiny_bed =
     "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.5\n[output]\nframe_every = "
     "0.5\n";
@@ -35,7 +35,7 @@ class MapCommands : public testing::Test {
     write_file(folder_, "bed.toml", tiny_bed);
     take_run(folder_, "bed.h5", tiny_bed);
   }
-  /// Its theta_c is not known: the bed stands.
+  /// The bed remains stable, so its theta_c is unknown.
   Outcome render(const Words& more) { return talus(Words{"render", "bed.h5", "--theta-c", "20"} + more); }
   std::set<std::string> files(const char* name) { return names_in(folder_.path() / name); }
 
@@ -296,7 +296,7 @@ TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
   }
   for (const char* picture : {"maps/pressure_001.00.png", "by_egl/pressure_001.00.png", "panel.png",
                               "live/pressure_000.00.png", "live/pressure_001.50.png"}) {
-    const auto pixels = [&](const char* folder) {  // their texts name the folder
+    const auto pixels = [&](const char* folder) {  // the texts name the folder
       const std::string bytes = file_bytes(folder_.path() / folder / picture);
       return bytes.substr(std::min(bytes.find("IDAT"), bytes.size()));
     };
@@ -307,7 +307,7 @@ TEST_F(MapCommands, no_variable_of_a_driver_changes_a_picture_or_costs_a_run) {
 
 TEST_F(MapCommands, a_full_disk_leaves_no_part_of_a_picture) {
   make_run();
-  // No file may grow beyond a block; the write fails as on a full disk.
+  // The size limit of one block makes writing fail as on a full disk.
   const std::string command = "cd '" + folder_.path().string() + "' && ulimit -f 1 && trap '' XFSZ && '" +
                               talus_program() + "' render bed.h5 --map pressure -o maps 2> /dev/null";
   const int status = std::system(("sh -c \"" + command + "\"").c_str());
@@ -376,7 +376,7 @@ TEST_F(MapCommands, a_movie_follows_the_tilt) {
   const Outcome plain = talus(movie + Words{"-o", "a.gif"});
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_NE(plain.out.find("4 frames, 0.4 s"), std::string::npos) << plain.out;
-  // 1.5 deg in 3 s at 10 frames a second, the last of them held for 1 s more.
+  // 1.5 deg in 3 s at 10 frames per second; the last frame is held for another second.
   const Outcome timed = talus(movie + Words{"--speed", "0.5", "-o", "b.webm"});
   ASSERT_EQ(timed.exit_code, 0) << timed.err;
   EXPECT_NE(timed.out.find("41 frames, 4.1 s"), std::string::npos) << timed.out;

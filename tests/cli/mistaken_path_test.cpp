@@ -1,4 +1,4 @@
-/// Each command, given a run that is not complete, its folder, a scenario in place of a run, a run in place
+/// Each command with a wrong path: an incomplete run, its folder, a scenario instead of a run, a run instead
 /// of a scenario, or the folder of an ensemble.
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 
 constexpr const char* bed = "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.2\n";
 
-/// A command with a word that names the run or the scenario it takes.
+/// Commands with an argument that names a run or a scenario.
 const Words takers_of_runs[] = {
     {"info", "X"},
     {"replay", "X"},
@@ -56,7 +56,7 @@ class MistakenPath : public testing::Test {
       EXPECT_NE(outcome.err.find(part), std::string::npos) << words[0] << ": " << part << "\n" << outcome.err;
   }
 
-  /// A run of which there is the folder stopped.h5.run only.
+  /// Creates a run that exists only as the folder stopped.h5.run.
   void stop_a_run() {
     run_talus(
         {"run", "bed.toml", "-q", "-o", "stopped.h5", "--max-wall", "00:00:01", "--set", "tilt.end_angle=60"},
@@ -102,7 +102,7 @@ TEST_F(MistakenPath, the_folder_of_an_ensemble_is_told_with_what_takes_it) {
   take_run(folder_, "beds/seed-2.h5", bed);
   take_run(folder_, "beds/seed-1.h5", bed);
   for (const Words& words : takers_of_runs)
-    if (words[0] != "figures" && words[0] != "analyze" && words[0] != "events")  // these take it
+    if (words[0] != "figures" && words[0] != "analyze" && words[0] != "events")  // these commands accept it
       expect_refused(words, "beds",
                      {"beds is the folder of an ensemble; expected one of its runs, such as beds/seed-1.h5",
                       "talus figures beds ", "talus ensemble average beds averages them"});

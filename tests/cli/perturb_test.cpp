@@ -1,4 +1,4 @@
-/// `talus perturb` on a tiny bed: its runs, tables and figure, stops and resumption.
+/// `talus perturb` on a tiny bed: its runs, tables and figure, interruption and resumption.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of 40 grains that is tilted to 20 deg in a second, and stands.
+/// Bed of 40 grains that is tilted to 20 deg in one second and remains stable.
 const char* const tiny_bed = "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 20\n";
 
 std::vector<std::string> perturb(const std::string& folder, const std::vector<std::string>& more = {}) {
@@ -97,7 +97,7 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
         return start_talus(perturb("parts", {"--seed", "1"}), folder.path());
       },
       GetParam(), 200, folder.path("parts"));
-  // A signal may come before the program waits for it.
+  // The signal may arrive before the program handles it.
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))
         << code << errors_in(folder.path());
@@ -109,7 +109,7 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));
 
-// What was tried is committed with the state that it was tried with.
+// Trials are committed together with the state at which they were made.
 TEST(Perturb, pushes_no_copy_again_whose_trials_are_stored) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

@@ -1,5 +1,5 @@
 #pragma once
-/// What tests look at in pictures and their folders.
+/// Helpers that inspect pictures and their folders.
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +17,7 @@ inline std::string file_bytes(const std::filesystem::path& path) {
   return bytes.str();
 }
 
-/// Of the files in a folder; none where it does not exist.
+/// Returns the names of the files in a folder; none if it does not exist.
 inline std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
   if (std::filesystem::exists(folder))
@@ -41,7 +41,7 @@ inline PictureSize picture_size(const std::filesystem::path& png) {
   return {static_cast<int>(big_endian(bytes, 16)), static_cast<int>(big_endian(bytes, 20))};
 }
 
-/// The compressed pixels of a PNG, without its texts: equal for equal pictures.
+/// Returns the compressed pixels of a PNG without its texts; equal for equal pictures.
 inline std::string pixels_of(const std::filesystem::path& png) {
   const std::string bytes = file_bytes(png);
   std::string pixels;

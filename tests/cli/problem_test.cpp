@@ -1,4 +1,4 @@
-/// Contact problems of a run: dumped, solved, read by others, and spoilt.
+/// Contact problems of a run: dumped, solved, read by other programs, and corrupted.
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ bool h5py(const std::string& arguments, const TemporaryFolder& folder) {
 
 bool has_h5py() { return std::system("/usr/bin/python3 -c 'import h5py' 2>/dev/null") == 0; }
 
-/// A short run, and the problem after its frame at 0.5 deg.
+/// A short run, and the contact problem after its frame at 0.5 deg.
 class Problem : public testing::Test {
  protected:
   void SetUp() override {
@@ -172,7 +172,7 @@ TEST_F(Problem, refusals_leave_with_the_code_of_their_cause) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("x.h5")));
 }
 
-/// The same bed when it has just failed.
+/// The same bed just after failure.
 class MovingBed : public testing::Test {
  protected:
   void SetUp() override {
@@ -211,7 +211,7 @@ TEST_F(MovingBed, is_named_with_the_tolerances_that_a_solve_has_reached) {
   }
 }
 
-/// The commands of a page that dump or solve a problem, in words, without their comments.
+/// Returns the commands of a page that dump or solve a problem, split into words, without comments.
 std::vector<std::vector<std::string>> problem_commands(const std::string& page) {
   std::ifstream file(source_folder() + "/" + page);
   std::vector<std::vector<std::string>> found;
@@ -226,7 +226,7 @@ std::vector<std::vector<std::string>> problem_commands(const std::string& page) 
   return found;
 }
 
-// In this bed the step at 10 deg is one at rest that does not come to 3e-7 from zero.
+// In this bed the step at 10 deg is at rest, and its residual does not reach 3e-7 when started from zero.
 TEST(ProblemExamples, of_the_documents_end_as_they_say) {
   const TemporaryFolder folder;
   take_run(folder, "RUN.h5",

@@ -48,7 +48,7 @@ def check_law(w, q, mu, r, u, eta):
     after_t = np.clip(rt - ut / diagonal[1::2], -mu * after_n, mu * after_n)
     change = np.hypot(np.linalg.norm(after_n - rn), np.linalg.norm(after_t - rt))
     assert change <= 1.001 * eta * np.linalg.norm(r), (change / np.linalg.norm(r), eta)
-    # What complementarity and Coulomb's law leave over, against what the free fall would do.
+    # Residual of complementarity and Coulomb's law relative to the effect of free fall.
     small = 300 * eta * np.linalg.norm(r) * np.linalg.norm(q)
     assert abs(rn @ un) < small and un.min() > -1e3 * eta * np.abs(q).max()
     assert abs(np.sum(mu * rn * np.abs(ut) + rt * ut)) < small, "sliding is opposed by the whole friction"

@@ -1,4 +1,4 @@
-/// `talus repair`, and what `talus check` says of a damaged run.
+/// `talus repair`, and the report of `talus check` on a damaged run.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Repair : public testing::Test {
 
   static scenario::Scenario bed() { return small_tilted_bed(2.0); }
 
-  /// A run of 5 frames, to its end or left after the third.
+  /// Computes a run of 5 frames, completely or up to the third frame.
   void compute(const std::string& name, bool to_its_end) {
     session::Session session(bed());
     io::RunStore store = io::RunStore::create(

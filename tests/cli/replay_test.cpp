@@ -1,4 +1,4 @@
-/// `talus replay`, and what `talus info` tells of commands.
+/// `talus replay`, and the commands listed by `talus info`.
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ class Replay : public testing::Test {
     return json_value(talus({"info", run, "--json"}).out, key);
   }
 
-  /// A run of the small bed that is left half-way: pushed while it falls, and meddled with at
-  /// 1.06 deg, between two rows of observables.
+  /// Writes an unfinished run of the small bed with a push during its fall and commands at 1.06 deg, between
+  /// two rows of observables.
   void write_left_run() {
     write_file(folder_, "bed.toml", small_bed);
     session::Session session(scenario::parse_scenario(small_bed, "bed.toml"));
@@ -88,7 +88,7 @@ TEST_F(Replay, commands_are_listed) {
   EXPECT_EQ(info("bed.h5", "commands"), "4");
 }
 
-/// A run that says another scenario than it was computed from.
+/// A run whose stored scenario is not the one from which it was computed.
 TEST_F(Replay, that_finds_another_end_says_so) {
   const scenario::Scenario scenario = scenario::parse_scenario(small_bed, "bed.toml");
   session::Session session(scenario);
@@ -114,7 +114,7 @@ TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {
   EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0) << "it is still there";
 }
 
-/// A run whose tilt is held, and that says it took more steps than anybody waits for.
+/// A run whose tilt is held, and which claims more steps than can be replayed.
 TEST_F(Replay, stops_when_asked) {
   session::Session session(scenario::parse_scenario(small_bed, "bed.toml"));
   io::RunStore store = io::RunStore::create(folder_.path("bed.h5"), session::run_header(session, {}), false);
@@ -128,7 +128,7 @@ TEST_F(Replay, stops_when_asked) {
   EXPECT_EQ(wait_for(process), 75);
 }
 
-/// It would go on without the commands that it had not come to.
+/// Resuming it as a run would omit the commands that were not yet applied.
 TEST_F(Replay, that_was_stopped_is_not_resumed_as_a_run) {
   write_left_run();
   {

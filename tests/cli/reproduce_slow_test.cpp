@@ -1,4 +1,4 @@
-/// A whole `talus reproduce --quick`: minutes.
+/// A complete `talus reproduce --quick`, which takes minutes.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
   EXPECT_EQ(text_of(folder.path("quick/report.html")), page);
   EXPECT_EQ(second.out, first.out);
 
-  // What is missing of a member, as after a change of the analysis, is made again, and nothing else.
+  // Data missing from a member, as after a change of the analysis, are recomputed, and nothing else is.
   const std::string other = folder.path("quick/pbc-collapse/seed-1.h5"),
                     readings = "cd " + folder.path().string() +
                                " && /usr/bin/python3 -c 'import h5py; print(len(h5py.File(\"quick/pbc/"

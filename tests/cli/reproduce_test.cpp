@@ -1,5 +1,5 @@
-/// `talus reproduce` before its first run is complete: arguments, stops, folders of something else. A whole
-/// one takes minutes: reproduce_slow_test.cpp.
+/// `talus reproduce` before its first run is complete: arguments, interruptions, foreign folders.
+/// reproduce_slow_test.cpp has a complete reproduction, which takes minutes.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace talus::test {
 namespace {
 
-const char* const first_run = "quick/wbc-150/seed-1.h5";  // the longest
+const char* const first_run = "quick/wbc-150/seed-1.h5";  // the longest run
 
 pid_t start_quick(const TemporaryFolder& folder) {
   const pid_t process = start_talus({"reproduce", "--quick", "-o", "quick", "--jobs", "1"}, folder.path());

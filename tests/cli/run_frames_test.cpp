@@ -1,4 +1,4 @@
-/// Maps drawn while a run computes: the run does not notice.
+/// Maps drawn while a run computes, which must not affect the run.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tilted fast, so that it fails and flows within some seconds.
+/// Bed that is tilted fast, so that it fails and flows within a few seconds.
 const char* const failing_bed =
     "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nafter_failure = \"lower\"\nlowering_rate = 20\n"
@@ -99,7 +99,7 @@ TEST_F(RunFrames, of_a_complete_run_are_made_whole) {
 
 TEST_F(RunFrames, that_cannot_be_written_do_not_lose_the_run) {
   take_run(folder_, "plain.h5", failing_bed);
-  fs::create_directories(folder_.path() / "maps/clusters_005.00.png/x");  // no file can take its place
+  fs::create_directories(folder_.path() / "maps/clusters_005.00.png/x");  // prevents a file of that name
   const Outcome outcome = talus(run("bed.h5", "maps", {"--overwrite"}));
   EXPECT_EQ(outcome.exit_code, 73);
   EXPECT_NE(outcome.err.find("warning"), std::string::npos) << outcome.err;

@@ -1,4 +1,4 @@
-/// Whole runs of a small bed: outputs, stops, resumption, the same bits every time.
+/// Complete runs of a small bed: outputs, interruptions, resumption, bit-identical results.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed that is deposited and tilted to its end in about a second.
+/// Bed that is deposited and fully tilted in about a second.
 const char* const small_bed =
     "seed = 3\n[bed]\nlength = 16\ndepth = 6\n[tilt]\nend_angle = 3.0\n[output]\nframe_every = 0.5\n";
 
@@ -85,7 +85,7 @@ TEST(Run, another_seed_is_another_bed) {
   EXPECT_NE(hash_of("a.h5", folder), hash_of("b.h5", folder));
 }
 
-/// Everything in a packed run but its provenance, which tells when and how it was made.
+/// Returns everything in a packed run except its provenance, which records when and how it was made.
 std::string science_of(const std::string& run, const TemporaryFolder& folder) {
   const std::string script =
       "import h5py,sys,hashlib\n"
@@ -116,7 +116,7 @@ TEST_P(Interrupted, run_resumes_to_the_same_bits) {
   const std::vector<std::string> words = {"run", "bed.toml", "-o", "parts.h5", "--resume"};
   const std::vector<int> codes = stop_until_done([&] { return start_talus(words, folder.path()); },
                                                  GetParam(), 60, folder.path("parts.h5"));
-  // A signal may come before the run listens for it.
+  // The signal may arrive before the run handles it.
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL)) << code;
   ASSERT_EQ(run_talus({"run", "bed.toml", "-o", "parts.h5", "--resume"}, folder.path()).exit_code, 0);
@@ -128,7 +128,7 @@ TEST_P(Interrupted, run_resumes_to_the_same_bits) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupted, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
-/// Starts a run that would go on for a minute, and returns once it has committed something.
+/// Starts a run that would take a minute, and returns once it has committed something.
 pid_t start_long_run(const TemporaryFolder& folder) {
   write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
   const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
@@ -206,7 +206,7 @@ TEST(Run, another_scenario_cannot_resume_it) {
   EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
 }
 
-// A loop over a parameter that names each run the same must not take the first for all of them.
+// In a loop over a parameter that gives every run the same name, the first run must not be accepted for all.
 TEST(Run, of_another_scenario_is_not_taken_for_the_one_asked_for) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);

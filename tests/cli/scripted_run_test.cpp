@@ -1,4 +1,4 @@
-/// Commands of a scenario and branches of a run, as a user makes and looks at them.
+/// Commands in a scenario and branches of a run, as users create and inspect them.
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST_F(ScriptedCommandLine, a_run_tells_what_was_carried_out_and_what_was_not) {
   EXPECT_EQ(talus({"replay", "bed.h5", "--threads", "2"}).exit_code, 0);
   EXPECT_EQ(talus({"check", "bed.h5"}).exit_code, 0);
 
-  // What `talus check` writes is the same scenario.
+  // `talus check` writes the same scenario.
   write_file(folder_, "full.toml", talus({"check", "bed.toml"}).out);
   ASSERT_EQ(talus({"run", "full.toml", "-q", "-o", "full.h5"}).exit_code, 0);
   EXPECT_EQ(info("full.h5", "state_hash"), info("bed.h5", "state_hash"));

@@ -1,4 +1,4 @@
-/// Studies of a tiny bed: their runs, their tables, stops and resumption.
+/// Studies of a tiny bed: their runs, tables, interruption and resumption.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of 32 grains that is deposited and tilted to its end in a fraction of a second.
+/// Bed of 32 grains that is deposited and fully tilted in a fraction of a second.
 const char* const tiny_bed =
     "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
 
@@ -24,7 +24,7 @@ std::vector<std::string> study_of(const std::string& folder) {
           "--seeds", "1-2",
           "-o",      folder};
 }
-/// Some of its runs, and what `talus run` is told to make the same.
+/// Some of its runs, with the arguments of `talus run` that produce the same.
 const std::pair<const char*, std::vector<std::string>> runs[] = {
     {"baseline/seed-1", {}},
     {"baseline/seed-2", {"--seed", "2"}},
@@ -95,7 +95,7 @@ TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
   write_file(folder, "bed.toml", tiny_bed);
   const std::vector<int> codes = stop_until_done(
       [&] { return start_talus(study_of("parts"), folder.path()); }, GetParam(), 50, folder.path("parts"));
-  // A signal may come before the program waits for it.
+  // The signal may arrive before the program handles it.
   for (const int code : codes)
     EXPECT_TRUE(code == 0 || code == -1 || (code == 75 && GetParam() != SIGKILL))
         << code << errors_in(folder.path());
@@ -108,11 +108,11 @@ TEST_P(InterruptedStudy, goes_on_to_the_same_bits) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedStudy, testing::Values(SIGINT, SIGTERM, SIGKILL));
 
-/// Starts a study of one run that would go on for a minute, and returns once that has committed something.
+/// Starts a study of one run that would take a minute, and returns once the run has committed something.
 pid_t start_long_study(const TemporaryFolder& folder) {
   write_file(folder, "long.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
   const std::string manifest = folder.path("long/baseline/seed-1.h5.run/manifest");
-  std::error_code none;  // of a study that has not run before
+  std::error_code none;  // for a study that has not begun
   const auto before = std::filesystem::last_write_time(manifest, none);
   const pid_t process =
       start_talus({"study", "long.toml", "--seeds", "1", "-o", "long", "--jobs", "1"}, folder.path());

@@ -1,4 +1,4 @@
-/// Runs with a programme of the tilt, as a user makes and looks at them.
+/// Runs with a tilt programme, as users create and inspect them.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace talus::test {
 namespace {
 
-/// A small bed that goes up and down twice, and then fails within some seconds.
+/// Small bed that is tilted up and down twice and then fails within a few seconds.
 const char* const cycled_bed =
     "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrate = 2\nrest_velocity = 0.05\n"
     "[tilt]\nrate = 20\nstep = 0.02\nprogram = [\"to 4\", \"hold 0.1\", \"to -2\", \"2 times\", \"to "
@@ -71,7 +71,7 @@ TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
   EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0);
   EXPECT_EQ(talus({"check", "bed.h5"}).exit_code, 0);
 
-  // As many pictures as frames, though several are at one angle.
+  // One picture per frame, although several frames have the same angle.
   EXPECT_EQ(static_cast<int>(files_in("live").size()), frames);
   EXPECT_TRUE(files_in("live").contains("gamma_00000_000.00.png"));
   const Outcome all = talus({"render", "bed.h5", "--map", "gamma", "--every", "0.001", "--theta-c", "20",

@@ -1,5 +1,5 @@
-/// Runs that were made when the schema got its present version, kept in tests/runs, one complete and one
-/// stopped: whoever changes what they mean must raise the version.
+/// Runs in tests/runs, one complete and one interrupted, written with the current version of the schema. A
+/// change of their meaning requires another version.
 
 #include <gtest/gtest.h>
 

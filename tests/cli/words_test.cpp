@@ -1,4 +1,4 @@
-/// What people type that is not quite a command, an option or a value; the help; the list of maps.
+/// Misspelt commands, options and values; the help; the list of maps.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class TypedWords : public testing::Test {
  protected:
   Outcome talus(const Words& words) { return run_talus(words, folder_.path()); }
 
-  /// Refused as wrong usage, with one line that has the part.
+  /// Expects a usage error of one line that contains `part`.
   void expect_refused(const Words& words, const std::string& part) {
     const Outcome outcome = talus(words);
     EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
@@ -29,7 +29,9 @@ class TypedWords : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// The names at the beginning of the lines below a heading that begins so: "\nRuns:\n  run ...".
+/// Returns the names at the beginning of the lines below a heading: "
+/// Runs:
+///  run ...".
 Words names_below(const std::string& help, const std::string& heading) {
   std::istringstream lines(help.substr(std::min(help.find("\n" + heading), help.size())));
   Words names;
@@ -166,7 +168,7 @@ TEST_F(TypedWords, help_has_groups_and_a_first_example) {
   EXPECT_NE(example, std::string::npos);
 }
 
-/// How the parser stores a value says nothing to a user.
+/// Checks that no internal terms of the argument parser appear in the text.
 void expect_no_word_of_the_parser(const std::string& text) {
   std::string letters = text;
   for (char& c : letters)
@@ -177,7 +179,8 @@ void expect_no_word_of_the_parser(const std::string& text) {
       EXPECT_NE(word, raw) << text;
 }
 
-/// The words of "\n  talus WORDS" in the help of a command, its example.
+/// Returns the words of "
+///  talus WORDS", the example in the help of a command.
 Words example_in(const std::string& help) {
   const std::size_t at = help.find("Example:\n  talus ");
   if (at == std::string::npos) return {};
@@ -203,7 +206,7 @@ TEST_F(TypedWords, each_command_has_an_example_of_its_options_in_lines_that_fit)
     ASSERT_GE(words.size(), depth) << help;
     for (std::size_t k = 0; k < depth; ++k) EXPECT_EQ(words[k], command[k]);
     for (const std::string& word : words) {
-      if (word == "--") break;  // what follows is for another program
+      if (word == "--") break;  // the rest belongs to another program
       if (word.starts_with("-")) {
         EXPECT_NE(help.find(word + (word.size() == 2 ? "," : " ")), std::string::npos) << word << "\n"
                                                                                        << help;

@@ -1,4 +1,4 @@
-/// Branches in the window: going on from a frame, back before a command, grains that are dragged.
+/// Branches in the window: continuing from a frame, undoing a command, dragging grains.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace talus {
 namespace {
 
-/// A replay of which a branch is made, in a window without a display.
+/// Replay from which a branch is made, in a window without a display.
 class Branching : public test::Replay {
  protected:
   bool wait_until(const std::function<bool()>& so) { return test::drawn_until(gui_, so); }
@@ -18,7 +18,7 @@ class Branching : public test::Replay {
     EXPECT_TRUE(wait_until([&] { return !status().running; }));
     return status().state_hash;
   }
-  /// So many tens of steps.
+  /// Advances by `count` times ten steps.
   void step_tens(int count) {
     for (int k = 0; k < count; ++k) {
       gui_.click("step 10");
@@ -38,7 +38,7 @@ TEST_F(Branching, a_replay_goes_on_from_the_frame_shown) {
   ASSERT_TRUE(wait_until([&] { return model_.frame_count() > 1; })) << "a frame later";
   gui_.click("play");
   ASSERT_FALSE(hash().empty());
-  // Five frames of the run fill the line, and the branch begins at the third of them.
+  // The line shows five frames of the run, and the branch begins at the third.
   gui_.click("time line", 0.51f, 0.6f);
   EXPECT_EQ(model_.frame_index(), 0u);
   EXPECT_TRUE(gui_.requests().open_path.empty());

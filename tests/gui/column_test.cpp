@@ -1,5 +1,5 @@
-/// The column on the left: groups that are folded and unfolded, labels before their widgets, and rows that
-/// stay where they are.
+/// The left column: groups that fold and unfold, labels in front of their widgets, and rows that keep their
+/// places.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using test::Live;
 using test::Replay;
 
-/// That a widget can be seen and used: inside of the column.
+/// Expects that a widget is visible and usable inside the column.
 void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float height) {
   ASSERT_TRUE(gui.has(name)) << name;
   const gui::WidgetPlace place = gui.place(name);
@@ -66,7 +66,7 @@ TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
   }
 }
 
-/// Widgets that have moved since, by name; those that are no longer there have not.
+/// Returns the names of widgets that have moved; those that have disappeared do not count.
 std::string moved_since(const std::vector<gui::WidgetPlace>& before, const test::DrivenGui& gui) {
   std::string moved;
   for (const gui::WidgetPlace& was : before) {
@@ -85,7 +85,7 @@ TEST_F(Live, nothing_moves_while_the_run_goes_on) {
   EXPECT_TRUE(wait_until([&] { return status().step > 20; }));
   EXPECT_EQ(moved_since(before, gui_), "") << "in the deposition";
   EXPECT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
-  gui_.settle();  // what was drawn last may have been a step before
+  gui_.settle();  // the last drawing may be one step behind
   EXPECT_FALSE(gui_.has("deposit"));
   EXPECT_EQ(moved_since(before, gui_), "") << "at rest";
   gui_.click("play");
@@ -99,7 +99,7 @@ Index contacts_of(const Frame& frame, Index grain) {
                             std::ranges::count(frame.contacts.b, grain));
 }
 
-/// The grain whose number of contacts changes most from frame to frame.
+/// Returns the grain whose number of contacts varies most between frames.
 Index busiest_grain(view::ViewModel& model) {
   Index busiest = 0, largest = -1;
   for (Index grain = 0; grain < model.statics().free_count; ++grain) {

@@ -20,7 +20,7 @@ namespace {
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 constexpr int longest_pauses = 200;  // ten seconds
 
-/// Starts Xvfb on a display that is free, and says which.
+/// Starts Xvfb on a free display and returns its name in `display`.
 pid_t start_server(std::string& display) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
@@ -30,7 +30,7 @@ pid_t start_server(std::string& display) {
     const int nothing = open("/dev/null", O_RDWR);
     dup2(nothing, STDOUT_FILENO);
     dup2(nothing, STDERR_FILENO);
-    // Without -noreset it begins anew when its only client leaves, and refuses who comes meanwhile.
+    // Without -noreset, Xvfb resets when its only client leaves, and rejects connections meanwhile.
     execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1500x1000x24", "-nolisten", "tcp", "-noreset",
            nullptr);
     _exit(127);

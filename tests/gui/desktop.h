@@ -1,5 +1,5 @@
 #pragma once
-/// A display in memory with a hand on its mouse and keys: Xvfb, xdotool and ImageMagick.
+/// In-memory display with control over mouse and keys: Xvfb, xdotool and ImageMagick.
 
 #include <sys/types.h>
 
@@ -11,11 +11,11 @@
 
 namespace talus::test {
 
-/// What is missing of the programs, as a sentence; empty where all are there.
+/// Returns a sentence on the programs that are missing; empty if all are installed.
 std::string missing_for_desktop();
 
-/// A display of 1500 x 1000 px, DISPLAY of this process and those that it starts. No window manager: the
-/// window under the mouse has the keys.
+/// Display of 1500 x 1000 px, set as DISPLAY of this process and its children. There is no window manager:
+/// the window under the mouse receives the keys.
 class Desktop {
  public:
   Desktop();
@@ -23,18 +23,18 @@ class Desktop {
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;
 
-  /// Waits for the window whose title contains the text. False after ten seconds.
+  /// Waits for a window whose title contains the text; returns false after ten seconds.
   bool wait_for_window(const std::string& title);
-  /// That window, as xdotool names it.
+  /// Returns that window's id for xdotool.
   const std::string& window() const { return window_; }
-  /// Its title.
+  /// Returns its title.
   std::string title() const;
-  /// Waits until the title contains a text, or does not. False after ten seconds.
+  /// Waits until the title contains a text, or no longer does; returns false after ten seconds.
   bool wait_for_title(const std::string& text, bool contained = true) const;
 
   void move(double x, double y) const;  ///< px of the window
   void click() const;
-  void drag(double x, double y) const;  ///< from where the mouse is
+  void drag(double x, double y) const;  ///< starts at the position of the mouse
   void key(const std::string& name) const;
   void resize(int width, int height) const;
   render::Image screenshot(const std::filesystem::path& folder) const;
@@ -44,7 +44,7 @@ class Desktop {
   std::string window_;
 };
 
-/// What a command prints, without the last line break.
+/// Returns the output of a command without the last line break.
 std::string output_of(const std::string& command);
 
 }  // namespace talus::test

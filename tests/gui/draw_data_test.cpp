@@ -1,4 +1,4 @@
-/// What ImGui lays out arrives as pixels: places, colours, clipping, textures, and which row is the top.
+/// Rendering of ImGui's layout: positions, colours, clipping, textures, and orientation of rows.
 
 #include "gui/draw_data.h"
 
@@ -21,7 +21,7 @@ constexpr int width = 40, height = 20;
 using Pixel = std::array<int, 3>;
 constexpr Pixel white_pixel{255, 255, 255}, red{255, 0, 0}, black_pixel{0, 0, 0};
 
-/// A context, an ImGui without widgets, and a surface of 40 x 20 px.
+/// Context, ImGui without widgets, and a surface of 40 x 20 px.
 class DrawData : public testing::Test {
  protected:
   DrawData() : context_(render::make_context(render::ContextKind::osmesa)), gl_(render::load_gl(*context_)) {
@@ -29,7 +29,7 @@ class DrawData : public testing::Test {
     imgui_ = ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().DisplaySize = {width, height};
-    ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {1.0f, 1.0f, 1.0f, 1.0f};  // the ground
+    ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = {1.0f, 1.0f, 1.0f, 1.0f};  // background
     ImGui::GetIO().Fonts->Build();
     const std::uint8_t full = 255;
     plain_ = render::make_texture(gl_, 1, 1, 1, &full, GL_NEAREST);
@@ -52,11 +52,11 @@ class DrawData : public testing::Test {
   static ImTextureID id(GLuint texture) { return reinterpret_cast<ImTextureID>(std::uintptr_t{texture}); }
   static ImDrawList* list() { return ImGui::GetForegroundDrawList(); }
 
-  /// Two triangles with all of a texture.
+  /// Adds two triangles that show an entire texture.
   static void add_picture(GLuint texture, ImVec2 low, ImVec2 high) {
     list()->AddImage(id(texture), low, high);
   }
-  /// A rectangle without soft edges.
+  /// Adds a rectangle without soft edges.
   static void add_rectangle(ImVec2 low, ImVec2 high, ImU32 colour) {
     list()->PrimReserve(6, 4);
     list()->PrimRectUV(low, high, {0.5f, 0.5f}, {0.5f, 0.5f}, colour);
@@ -70,7 +70,7 @@ class DrawData : public testing::Test {
     gl_.ReadPixels(0, 0, surface_.width, surface_.height, GL_RGB, GL_UNSIGNED_BYTE, pixels_.data());
     EXPECT_EQ(gl_.GetError(), static_cast<GLenum>(GL_NO_ERROR));
   }
-  /// The pixel of column x in row y of the surface.
+  /// Returns the pixel in column x and row y of the surface.
   Pixel at(int x, int y) const {
     const std::uint8_t* p = pixels_.data() + 3 * (y * surface_.width + x);
     return {p[0], p[1], p[2]};
@@ -128,7 +128,7 @@ TEST_F(DrawData, mixes_by_straight_alpha) {
 }
 
 TEST_F(DrawData, shows_one_channel_as_gray) {
-  const std::array<std::uint8_t, 4> rows = {0, 0, 100, 100};  // dark above, lighter below
+  const std::array<std::uint8_t, 4> rows = {0, 0, 100, 100};  // dark at the top, lighter below
   const GLuint picture = render::make_texture(gl_, 2, 2, 1, rows.data(), GL_NEAREST);
   gui::widen(gl_, picture, gui::OneChannel::gray);
   add_picture(picture, {10, 4}, {14, 8});
@@ -184,10 +184,10 @@ TEST_F(DrawData, shows_a_gray_map_as_gray) {
     EXPECT_EQ(at(12, 6), (Pixel{level, level, level}));
     ImGui::NewFrame();
   }
-  painter_.reset();  // before its context
+  painter_.reset();  // destroyed before its context
 }
 
-/// Lists of several commands, whose vertices begin anew.
+/// Draw lists of several commands, each with its own vertex numbering.
 TEST_F(DrawData, draws_more_corners_than_16_bits_count) {
   ImGui::EndFrame();
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;

@@ -1,5 +1,5 @@
 #pragma once
-/// The window without a display, driven as a user would.
+/// The window without a display, controlled like a user would.
 
 #include <string>
 #include <string_view>
@@ -13,22 +13,23 @@ class DrivenGui : public gui::OffscreenGui {
   using gui::OffscreenGui::OffscreenGui;
 
   bool has(std::string_view name) const;
-  /// The place of a widget. Throws Error(internal) if none has that name.
+  /// Returns the place of a widget. Throws Error(internal) if none has that name.
   gui::WidgetPlace place(std::string_view name) const;
 
-  // Actions of a user; each settles. A place inside a widget is given as shares of its width and height.
+  // User actions, each followed by settling. A place inside a widget is given as shares of its width and
+  // height.
   void move(float x, float y);
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void double_click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
-  /// The left button goes down there, with ctrl held, and stays down until let_go.
+  /// Presses the left button there with ctrl held, until let_go.
   void take(std::string_view name, float share_x, float share_y);
   void let_go();
   void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
-  /// A printable ASCII character, or a number of KeyCode.
+  /// Presses a printable ASCII character or a value of KeyCode.
   void key(int code, bool control = false);
   void type(std::string_view text);
-  /// A key, as key_left_shift, is held or let go from here on.
+  /// Holds or releases a key such as key_left_shift.
   void hold(int key, bool down);
 
  private:

@@ -1,4 +1,4 @@
-/// No click or key is lost, however fast it was.
+/// Clicks and keys are not lost, however fast they are.
 
 #include "gui/input.h"
 
@@ -24,7 +24,7 @@ class Input : public testing::Test {
   void key(int key, bool down) { queue_.add({Kind::key, 0.0f, 0.0f, key, down}); }
   void position(float x, float y) { queue_.add({Kind::position, x, y, 0, false}); }
 
-  /// One picture.
+  /// Simulates one picture.
   void picture() {
     queue_.hand_over(ImGui::GetIO());
     ImGui::NewFrame();

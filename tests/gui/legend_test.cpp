@@ -1,4 +1,4 @@
-/// The legend of the map sets its range, and the mouse is told values with units.
+/// The legend of the map sets its range, and hovering shows values with units.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ TEST_F(Replay, a_scale_bar_stands_beside_the_arrow_of_gravity) {
     EXPECT_LT(bar.x1, gravity.x0);
     return static_cast<double>(bar.x1 - bar.x0);
   };
-  const auto pixels = [this] {  // of D
+  const auto pixels = [this] {  // size of D in pixels
     const gui::WidgetPlace map = gui_.place("map");
     const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
     const pictures::MapExtent part = model_.first().part(aspect);

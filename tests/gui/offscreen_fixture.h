@@ -16,12 +16,12 @@
 
 namespace talus::test {
 
-/// 40 grains, tilted to 1 deg in five frames.
+/// Bed of 40 grains, tilted to 1 deg in five frames.
 inline const char* const small_bed =
     "seed = 18\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
     "0.25\n";
 
-/// A small run that is replayed in a window of 1400 x 900 px.
+/// Replay of a small run in a window of 1400 x 900 px.
 class Replay : public testing::Test {
  protected:
   Replay() : model_(open_run()), gui_(model_, 1400, 900) {}
@@ -30,7 +30,7 @@ class Replay : public testing::Test {
     return view::ViewModel::open(take_run(folder_, "bed.h5", small_bed), {}, "", false, "");
   }
 
-  /// Where a grain is in the map: shares of its width and height.
+  /// Returns the position of a grain in the map, as shares of its width and height.
   std::pair<float, float> share_of(Index grain) {
     const gui::WidgetPlace map = gui_.place("map");
     const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
@@ -49,7 +49,7 @@ class Replay : public testing::Test {
   DrivenGui gui_;
 };
 
-/// Draws until it is so; false after ten seconds.
+/// Draws until the condition holds; returns false after ten seconds.
 inline bool drawn_until(DrivenGui& gui, const std::function<bool()>& so) {
   for (int wait = 0; wait < 1000; ++wait) {
     gui.frame();
@@ -59,7 +59,7 @@ inline bool drawn_until(DrivenGui& gui, const std::function<bool()>& so) {
   return false;
 }
 
-/// A bed that is computed, in a window of 1200 x 800 px.
+/// Live run in a window of 1200 x 800 px.
 class Live : public testing::Test {
  protected:
   Live() : model_(view::ViewModel::open(scenario(), {}, "", false, "")), gui_(model_, 1200, 800) {}

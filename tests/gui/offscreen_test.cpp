@@ -1,5 +1,5 @@
-/// The window without a display: widgets are clicked by name, what they do is seen in the model and in the
-/// picture.
+/// The window without a display: widgets are clicked by name, and the effect is checked in the model and in
+/// the picture.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::Replay;
 using test::small_bed;
 using test::TemporaryFolder;
 
-/// The share of the pixels of a place that differ.
+/// Returns the share of the pixels in a place that differ.
 double difference(const render::Image& a, const render::Image& b, const gui::WidgetPlace& place) {
   int differing = 0, all = 0;
   for (int y = std::max(0, static_cast<int>(place.y0)); y < std::min(a.height, static_cast<int>(place.y1));
@@ -119,7 +119,7 @@ TEST_F(Replay, escape_closes_whatever_is_open_and_leaves_the_selection) {
 
 TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   model_.state.map.layers = {pictures::MapKind::displacement};
-  model_.state.map.range_low = 1e-9;  // the bed is small, and creeps
+  model_.state.map.range_low = 1e-9;  // the bed is small and creeps
   model_.state.map.range_high = 1e-2;
   gui_.key(gui::key_right);
   gui_.key(gui::key_right);
@@ -214,8 +214,8 @@ TEST_F(Replay, a_question_mark_lists_the_keys) {
 
 TEST_F(Replay, the_same_state_is_the_same_picture) { EXPECT_EQ(gui_.frame().pixels, gui_.frame().pixels); }
 
-/// How many pixels of the map differ from those of the same view drawn alone, right of and below the arrow of
-/// gravity.
+/// Counts the pixels of the map that differ from the same view drawn alone, to the right of and below the
+/// arrow of gravity.
 int differing_from_render(const render::Image& window, const gui::WidgetPlace& map,
                           const render::Image& alone) {
   int differing = 0;
@@ -236,7 +236,7 @@ int differing_from_render(const render::Image& window, const gui::WidgetPlace& m
 TEST_F(Replay, the_map_is_the_one_of_talus_render) {
   const gui::WidgetPlace map = gui_.place("map");
   const double aspect = static_cast<double>(map.x1 - map.x0) / static_cast<double>(map.y1 - map.y0);
-  for (const char key : {'1', '3'}) {  // gamma, all gray, and clusters in colour
+  for (const char key : {'1', '3'}) {  // gamma in gray, and clusters in colour
     gui_.key(key);
     const render::Image window = gui_.frame();
     const render::Image alone =
@@ -272,8 +272,8 @@ TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
   EXPECT_EQ(model_.first().furnished_map().letters, render::FrameView().letters) << "nobody prints that";
 }
 
-/// Widgets lie inside of the window, or in a part of it that scrolls; those of the first group are always
-/// there.
+/// Expects widgets to lie inside the window or a scrolling part of it; those of the first group are always
+/// present.
 void expect_inside(const test::DrivenGui& gui, float width, float height) {
   for (const char* name : {"play", "frame", "map", "group run"}) {
     const gui::WidgetPlace place = gui.place(name);
@@ -290,7 +290,7 @@ TEST_F(Replay, titles_of_plots_have_room) {
   for (const float scale : {1.0f, 1.5f, 2.0f}) {
     const test::DrivenGui gui(model_, 2400, 1600, scale);
     const gui::WidgetPlace plot = gui.place("plot overloaded"), button = gui.place("play");
-    const float em = (button.y1 - button.y0) / 1.53f;  // as high as a line with its frame
+    const float em = (button.y1 - button.y0) / 1.53f;  // a button is as high as a line with its frame
     EXPECT_GT(plot.x1 - plot.x0, 16.5f * em) << scale;
   }
 }
@@ -320,7 +320,7 @@ TEST_F(Replay, the_bar_goes_where_it_is_told_to) {
   const render::Image before = gui_.frame();
   gui_.click("range");
   ASSERT_TRUE(model_.state.map.range_high.has_value());
-  gui_.move(700.0f, 895.0f);  // hints hide nothing of the map
+  gui_.move(700.0f, 895.0f);  // where hints hide no part of the map
   EXPECT_EQ(difference(before, gui_.frame(), gui_.place("map")), 0.0) << "it begins with what is shown";
   gui_.click("range high");
   gui_.key('a', true);
@@ -451,7 +451,8 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   EXPECT_EQ(model_.live()->commands()[3].grain, 5) << "grains";
 }
 
-/// Keys and clicks anywhere, from a fixed seed; what would leave the window or write files is left out.
+/// Presses keys and clicks at random places, from a fixed seed, except those that would leave the window or
+/// write files.
 void use_at_random(test::DrivenGui& gui, view::ViewModel& model, int events) {
   std::mt19937_64 random(7);
   const auto below = [&random](std::uint64_t count) { return random() % count; };

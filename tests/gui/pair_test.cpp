@@ -11,7 +11,7 @@ namespace {
 using test::Live;
 using test::Replay;
 
-/// The share of its pixels that are not white or gray.
+/// Returns the share of pixels that are neither white nor gray.
 double coloured_share(const render::Image& image, const gui::WidgetPlace& place) {
   int coloured = 0, all = 0;
   for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y1); ++y)

@@ -1,4 +1,4 @@
-/// Selecting in the window without a display: clicks and drags with shift and ctrl, conditions, the table,
+/// Selection in the window without a display: clicks and drags with shift and ctrl, conditions, the table,
 /// the inspector of contacts.
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST_F(Replay, shift_selects_more_grains) {
 }
 
 TEST_F(Replay, a_box_selects_and_moves_nothing) {
-  gui_.scroll("map", 2.0f);  // where dragging would move the picture
+  gui_.scroll("map", 2.0f);  // a zoomed map, in which dragging would move the picture
   const std::vector<gui::WidgetPlace> before = gui_.places();
   const view::ViewCamera camera = model_.state.camera;
   gui_.hold(gui::key_left_shift, true);
@@ -46,7 +46,7 @@ TEST_F(Replay, a_box_selects_and_moves_nothing) {
   for (Index i = 0; i < model_.statics().free_count; ++i) {
     const double x = model_.frame().x[static_cast<std::size_t>(i)],
                  y = model_.frame().y[static_cast<std::size_t>(i)];
-    // On the edge of the box a pixel decides.
+    // Grains on the edge of the box may be inside or outside.
     if (std::abs(x - 0.5 * (x_min + x_max)) < (x_max - x_min) / static_cast<double>(map.x1 - map.x0))
       std::erase(selected, i);
     else if (x > x_min && x < 0.5 * (x_min + x_max) && y > y_min && y < y_max)
@@ -89,7 +89,7 @@ TEST_F(Replay, a_condition_is_written) {
   gui_.click("select");
   EXPECT_NE(model_.state.selecting.error.find("'&&'"), std::string::npos) << model_.state.selecting.error;
   EXPECT_GT(model_.selected_grains().size(), 1u);
-  gui_.key('S');  // brings all of the group into sight
+  gui_.key('S');  // scrolls the entire group into view
   gui_.click("select none");
   EXPECT_TRUE(model_.selected_grains().empty());
 }

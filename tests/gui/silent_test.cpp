@@ -1,5 +1,4 @@
-/// No action is silent: what a key or the mouse does is seen in the window, or the line at the bottom says
-/// why nothing is done.
+/// Every action has a visible effect in the window, or the line at the bottom says why nothing is done.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +10,7 @@
 namespace talus {
 namespace {
 
-/// The window, the model behind it, and what has been requested: enough to tell whether an action did
-/// anything.
+/// State of the window, of its model, and of the requests: enough to detect any effect of an action.
 struct Seen {
   render::Image picture;
   gui::GuiRequests requests;
@@ -25,7 +23,7 @@ struct Seen {
 
 Seen seen(test::DrivenGui& gui) { return {gui.frame(), gui.requests()}; }
 
-/// Draws until nothing changes by itself any more.
+/// Draws until nothing changes.
 void come_to_rest(test::DrivenGui& gui) {
   Seen last = seen(gui);
   for (int same = 0, tries = 0; same < 3 && tries < 1000; ++tries) {
@@ -36,7 +34,7 @@ void come_to_rest(test::DrivenGui& gui) {
   }
 }
 
-/// All that can be typed, and the keys with a name that the window uses.
+/// Returns all printable characters, and the named keys that the window uses.
 std::vector<int> all_keys() {
   std::vector<int> keys = {gui::key_space, gui::key_right, gui::key_left,
                            gui::key_home,  gui::key_end,   gui::key_escape};
@@ -44,7 +42,7 @@ std::vector<int> all_keys() {
   return keys;
 }
 
-/// The keys of the list that the window shows.
+/// Returns the keys listed in the window.
 std::vector<int> listed_keys() {
   std::vector<int> keys = {gui::key_space, gui::key_right, gui::key_left,
                            gui::key_home,  gui::key_end,   gui::key_escape};
@@ -58,7 +56,7 @@ std::string name_of_key(int key) {
                                            : fmt::format("key {}", key);
 }
 
-/// A run that is looked at in one of the states in which keys are pressed.
+/// Run shown in one of the states in which keys are pressed.
 struct OpenWindow {
   view::ViewModel model;
   test::DrivenGui gui;
@@ -69,7 +67,7 @@ struct OpenWindow {
 
 using OpenAgain = std::function<std::unique_ptr<OpenWindow>()>;
 
-/// Presses each key in the same state, and expects that something is seen of it.
+/// Presses each key in the same state and expects a visible effect.
 void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = listed_keys()) {
   std::unique_ptr<OpenWindow> window;
   view::ViewState begin;

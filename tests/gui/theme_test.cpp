@@ -1,4 +1,4 @@
-/// The look of the window: contrast, themes, and sizes of text from small windows to large ones.
+/// Appearance of the window: contrast, themes, and text sizes from small to large windows.
 
 #include "gui/theme.h"
 
@@ -23,13 +23,13 @@ namespace {
 
 using test::Replay;
 
-/// Text, and what it stands on.
+/// Text colour with its background.
 struct TextPair {
   std::string_view name;
   render::Colour text, ground;
 };
 
-/// All pairs of text and ground that the window has in a theme.
+/// Returns all pairs of text and background that occur in a theme.
 std::vector<TextPair> text_pairs(const gui::Palette& of) {
   return {{"text", of.ink, of.ground},
           {"text in columns", of.ink, of.panel},
@@ -61,7 +61,7 @@ double luminance(const render::Colour& colour) {
   return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
 }
 
-/// Contrast of two opaque colours, 1 ... 21 (WCAG 2.1, relative luminance).
+/// Returns the contrast of two opaque colours, 1 to 21 (WCAG 2.1, relative luminance).
 double contrast(const render::Colour& a, const render::Colour& b) {
   const double one = luminance(a), other = luminance(b);
   return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
@@ -79,7 +79,7 @@ TEST(Contrast, of_all_text_is_enough) {
       EXPECT_GE(contrast(pair.text, pair.ground), 4.5) << view::theme_name(theme) << ": " << pair.name;
 }
 
-/// The largest contrast of what is drawn between the middle of a disc and its edge to its fill.
+/// Returns the largest contrast to the fill found between the middle and the edge of a disc.
 double rim_contrast(render::Renderer& renderer, const render::FrameView& view, const render::Colour& fill,
                     const render::Colour& ground) {
   const render::Image image = renderer.draw(view, 200);
@@ -101,7 +101,7 @@ double rim_contrast(render::Renderer& renderer, const render::FrameView& view, c
 
 TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
   render::Renderer renderer(render::make_context(render::ContextKind::osmesa));
-  std::vector<render::Colour> fills = {render::gray(0.4)};  // of clusters without a colour
+  std::vector<render::Colour> fills = {render::gray(0.4)};  // clusters without a colour
   for (const pictures::ClusterPalette palette : pictures::cluster_palettes)
     for (const render::Colour& fill : pictures::cluster_palette(palette)) fills.push_back(fill);
   for (const view::Theme theme : view::themes())
@@ -129,7 +129,8 @@ TEST(Print, fills_nothing_with_gray) {
   for (const render::Colour& text : {of.ink, of.soft, of.line}) EXPECT_EQ(text, render::black);
 }
 
-/// A literal of a colour in a source: IM_COL32(1, 2, 3, 4), ImVec4(0.1f ...), Colour{1, 2, 3}.
+/// Returns whether a source contains a colour literal: IM_COL32(1, 2, 3, 4), ImVec4(0.1f ...), Colour{1, 2,
+/// 3}.
 bool has_colour(const std::string& text) {
   for (const std::string_view mark : {"IM_COL32(", "ImVec4(", "ImVec4{", "Colour{"})
     for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
@@ -153,7 +154,7 @@ TEST(Theme, is_the_only_place_of_colours) {
   EXPECT_GT(read, 20);
 }
 
-/// The share of the pixels of a picture that are as dark as that.
+/// Returns the share of the pixels of a picture that are at least as dark as `limit`.
 double share_below(const render::Image& image, double limit) {
   int dark = 0;
   for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
@@ -178,7 +179,7 @@ TEST_F(Replay, all_of_the_window_follows_the_theme) {
   EXPECT_EQ(model_.state.theme, view::Theme::light);
 }
 
-/// Names of widgets that are always there, and of which none lies over another.
+/// Names of widgets that always exist and never overlap.
 const char* const apart[] = {"play", "frame", "map", "time line", "bookmark"};
 
 void expect_apart(const test::DrivenGui& gui, float width, float height, const std::string& at) {

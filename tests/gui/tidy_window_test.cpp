@@ -1,5 +1,5 @@
-/// No text of the window is cut, or printed over another, at any size: measured in what is drawn, by the
-/// rectangles of the letters.
+/// No text of the window is clipped or overlaps another at any size, judged by the rectangles of the letters
+/// in the draw data.
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -13,14 +13,13 @@ namespace {
 
 using test::Replay;
 
-/// A letter as it is drawn, and what it is cut to, px.
+/// Letter as drawn, with its clip rectangle, px.
 struct Letter {
-  std::string part;  ///< of the window
+  std::string part;  ///< part of the window
   ImVec4 box, clip;  ///< x0, y0, x1, y1
 };
 
-/// The rectangles of the picture whose texture is that of the font: four corners that differ in their places
-/// there.
+/// Returns the rectangles with the texture of the font whose four corners have different texture coordinates.
 std::vector<Letter> letters_of(const ImDrawData& data, ImTextureID font, const ImVec2& white) {
   std::vector<Letter> letters;
   for (int k = 0; k < data.CmdListsCount; ++k) {
@@ -53,8 +52,8 @@ std::string text_of(const Letter& letter) {
   return fmt::format("{} ({:.0f}, {:.0f})", letter.part, letter.box.x, letter.box.y);
 }
 
-/// Letters that are cut at their left or right, or, outside of what can be scrolled, at all; and those that
-/// lie over others.
+/// Returns letters that are clipped at the left or right (outside scrolling parts, on any side), and letters
+/// that overlap others.
 std::string untidy(const std::vector<Letter>& letters) {
   std::string wrong;
   constexpr float slack = 1.0f;  // px
@@ -70,7 +69,7 @@ std::string untidy(const std::vector<Letter>& letters) {
     for (const Letter* other : seen) {
       const float x = std::min(box.z, other->box.z) - std::max(box.x, other->box.x);
       const float y = std::min(box.w, other->box.w) - std::max(box.y, other->box.y);
-      // The foot of a j reaches below the letter before it.
+      // The foot of a j may reach below the preceding letter.
       const bool next = other == seen.back() && box.x > other->box.x && x < 0.3f * (box.w - box.y);
       if (!next && x > 1.5f && y > 1.5f) wrong += text_of(letter) + " meets " + text_of(*other) + "\n";
     }
@@ -81,7 +80,7 @@ std::string untidy(const std::vector<Letter>& letters) {
 
 class TidyWindow : public Replay {
  protected:
-  /// px: where the map ends, with its legend.
+  /// px, lower end of the map with its legend
   float below() const { return gui_.place(gui_.has("border") ? "border" : "time line").y0; }
 
   void expect_tidy(const std::string& what) {

@@ -1,4 +1,4 @@
-/// The time line, plots that answer, and what a run announces, in a window without a display.
+/// The time line, interactive plots, and announcements of a run, in a window without a display.
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ TEST_F(Replay, a_plot_answers) {
   EXPECT_TRUE(gui_.has("plot energy"));
 }
 
-/// How many pixels of the upper left part of a plot have the colour in which its threshold is written.
+/// Counts the pixels in the upper left part of a plot that have the colour of its threshold note.
 int note_pixels(test::DrivenGui& gui, const std::string& plot) {
   const render::Image window = gui.frame();
   const gui::WidgetPlace place = gui.place("plot " + plot);

@@ -1,4 +1,4 @@
-/// What the window tells of grains and frames, and that what a command does is seen.
+/// Information that the window shows on grains and frames, and visible effects of commands.
 
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
   gui_.place("palette");
 }
 
-/// Of each free grain on each map: no number that is none, and gamma only where the map shows it. Returns how
-/// many times a grain that carries nothing was told.
+/// Checks the description of each free grain on each map: no NaN, and gamma only on maps that show it.
+/// Returns how often a grain that carries nothing was described.
 int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
   int idle = 0;
   model.state.map.l_min = 0.0;

@@ -15,12 +15,12 @@
 
 namespace talus::test {
 
-/// 40 grains, tilted to 1 deg in five frames.
+/// Bed of 40 grains, tilted to 1 deg in five frames.
 inline const char* const small_bed =
     "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 1.0\n[output]\nframe_every = "
     "0.25\n";
 
-/// talus view on a desktop of its own.
+/// talus view on a separate desktop.
 class Window : public testing::Test {
  protected:
   void SetUp() override {
@@ -47,7 +47,7 @@ class Window : public testing::Test {
     return code;
   }
 
-  /// Middle of a widget, px of the window; waits until it is there.
+  /// Returns the middle of a widget, px of the window; waits until it exists.
   std::pair<double, double> middle_of(const std::string& name) {
     for (int wait = 0; wait < 200; ++wait) {
       std::ifstream places(folder_.path("places"));
@@ -62,7 +62,7 @@ class Window : public testing::Test {
     ADD_FAILURE() << "no widget " << name;
     return {0.0, 0.0};
   }
-  /// False where a widget is still there after ten seconds.
+  /// Waits until a widget has disappeared; returns false after ten seconds.
   bool wait_until_gone(const std::string& name) {
     for (int wait = 0; wait < 200; ++wait) {
       std::ifstream places(folder_.path("places"));

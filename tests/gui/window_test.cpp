@@ -1,4 +1,4 @@
-/// `talus view` as a user meets it: a window on a display in memory, a mouse, keys, and what is seen.
+/// `talus view` as a user meets it: a window on an in-memory display, with mouse and keys.
 
 #include <gtest/gtest.h>
 
@@ -138,7 +138,7 @@ TEST(View, refuses_sizes_that_are_none) {
   }
 }
 
-/// How many colours there are in a picture.
+/// Counts the colours of a picture.
 std::size_t colours_of(const render::Image& image) {
   std::set<std::array<std::uint8_t, 3>> colours;
   for (std::size_t k = 0; k + 2 < image.pixels.size(); k += 3)
@@ -150,7 +150,7 @@ TEST_F(Window, replays_a_run) {
   take_run(folder_, "bed.h5", small_bed);
   start({"bed.h5"});
   EXPECT_TRUE(desktop_->wait_for_title("bed.h5, 0.00° ")) << desktop_->title();
-  move_to("map");  // the window under the mouse has the keys
+  move_to("map");  // the window under the mouse receives the keys
   desktop_->key("Right");
   EXPECT_TRUE(desktop_->wait_for_title("0.25°")) << desktop_->title();
   const render::Image before = desktop_->screenshot(folder_.path());

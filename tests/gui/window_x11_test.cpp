@@ -1,4 +1,4 @@
-/// What other programs of a desktop do to the window of `talus view`.
+/// Effects of other desktop programs on the window of `talus view`.
 
 #include "gui/window_fixture.h"
 #include "gui/x11_client.h"

@@ -15,7 +15,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr long protocol_version = 5;
-constexpr long inside = 20;  // px of the window, where the file is dropped
+constexpr long inside = 20;  // px of the window, position of the drop
 
 class Client {
  public:
@@ -42,7 +42,7 @@ class Client {
     XFlush(display_.get());
   }
 
-  /// The next event; none after five seconds.
+  /// Returns the next event; nothing after five seconds.
   std::optional<XEvent> next() const {
     for (const auto end = Clock::now() + std::chrono::seconds(5); Clock::now() < end;) {
       if (XPending(display_.get()) > 0) {
@@ -60,7 +60,7 @@ class Client {
   Window target_ = 0, own_ = 0;
 };
 
-/// Hands the file's name over to who asks for it.
+/// Sends the file's name to the requesting client.
 void answer(const Client& client, const XSelectionRequestEvent& request, const std::string& uri) {
   XChangeProperty(client.display(), request.requestor, request.property, request.target, 8, PropModeReplace,
                   reinterpret_cast<const unsigned char*>(uri.data()), static_cast<int>(uri.size()));

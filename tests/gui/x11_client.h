@@ -1,15 +1,15 @@
 #pragma once
-/// What a file manager and a window manager say to a window, which xdotool cannot.
+/// Messages of file managers and window managers that xdotool cannot send.
 
 #include <string>
 
 namespace talus::test {
 
-/// Drops a file on a window, by the XDND protocol; `window` as xdotool names it. False where the window does
-/// not take it within five seconds.
+/// Drops a file on a window by the XDND protocol; `window` is the id for xdotool. Returns false if the window
+/// does not accept it within five seconds.
 bool drop_file(const std::string& window, const std::string& path);
 
-/// Asks a window to close, as its button does.
+/// Asks a window to close, like its close button.
 void ask_to_close(const std::string& window);
 
 }  // namespace talus::test

@@ -1,4 +1,4 @@
-/// A program of its own: it counts what every operator new of the process is asked for.
+/// A separate program, because it counts every operator new of the process.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace {
 
 std::atomic<long> allocations = 0;
-std::atomic<long> until_one_fails = 0;  ///< 1: the next one fails; 0: none does
+std::atomic<long> until_one_fails = 0;  ///< 1: the next allocation fails; 0: none does
 
 bool fails() { return until_one_fails > 0 && --until_one_fails == 0; }
 
@@ -53,7 +53,7 @@ void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { s
 namespace talus {
 namespace {
 
-/// Whether something ends well while its k-th allocation fails: it does where it makes fewer.
+/// Returns whether an action succeeds while its k-th allocation fails, which it does if it makes fewer.
 template <typename Do>
 bool ends_without(long k, const Do& what) {
   until_one_fails = k;
@@ -67,7 +67,7 @@ bool ends_without(long k, const Do& what) {
   return ended;
 }
 
-/// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns their allocations.
+/// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns the number of allocations.
 long allocations_of_steps(World& world, const dynamics::StepSettings& settings,
                           dynamics::StepWorkspace& workspace, int steps) {
   const long before = allocations;
@@ -79,8 +79,8 @@ long allocations_of_steps(World& world, const dynamics::StepSettings& settings,
   return allocations - before;
 }
 
-/// On a busy machine one thread may take all of the first steps. Goes on, up to a limit, until each thread
-/// has made its part of a neighbour list, and so has the memory for it.
+/// Steps, up to a limit, until each thread has built its part of a neighbour list and so has the memory for
+/// it. On a busy machine one thread may do all of the first steps.
 void let_every_thread_work(World& world, const dynamics::StepSettings& settings,
                            dynamics::StepWorkspace& workspace) {
   const auto threads = static_cast<std::size_t>(settings.solver.threads);
@@ -95,8 +95,8 @@ class Allocation : public testing::TestWithParam<solver::SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, Allocation, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
 
-// Large enough that two threads have work: a solver may leave threads idle on small problems. The first steps
-// see more contacts than the others, so that all arrays have room for what comes.
+// Large enough that two threads have work, because a solver may leave threads idle on small problems. The
+// first steps have more contacts than the others, so that all arrays are large enough.
 TEST_P(Allocation, a_steady_step_allocates_nothing) {
   dynamics::StepSettings settings = test::bed_step(1e-3);
   const World settled = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
@@ -115,7 +115,7 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
     allocations_of_steps(world, settings, workspace, 6);  // with more cells than the wider steps
     ASSERT_GT(world.contacts.count(), 2500);
     const std::int64_t rebuilds = workspace.neighbours.rebuilds;
-    // On a busy machine a team that has rested works anew in one of these rounds, and makes what it lacks.
+    // On a busy machine an idle team may resume in one of these rounds and allocate missing memory.
     long fewest = allocations_of_steps(world, settings, workspace, 50);
     for (int round = 1; round < 4 && fewest > 0; ++round)
       fewest = std::min(fewest, allocations_of_steps(world, settings, workspace, 50));
@@ -124,7 +124,8 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
   }
 }
 
-// Beside other processes a solve goes on with its team or without, as time tells; here in turn.
+// When other processes run, a solve may continue with or without its team, depending on the timing; here the
+// two alternate.
 TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_turn) {
   const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
@@ -138,14 +139,14 @@ TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_tur
     return allocations - before;
   };
   EXPECT_GT(detect(&two), 0) << "nothing is counted";
-  detect(&two);  // with room for all that was listed
+  detect(&two);  // with room for everything listed
   for (ThreadTeam* const team : std::initializer_list<ThreadTeam*>{nullptr, &two, nullptr, &two})
     EXPECT_EQ(detect(team), 0) << (team ? "two threads" : "one");
   EXPECT_EQ(list.rebuilds, 6);
   ASSERT_GT(contacts.count(), 2500);
 }
 
-/// Moves every fortieth grain to and fro by more than half the skin of a list.
+/// Moves every fortieth grain back and forth by more than half the skin of a list.
 void shake(World& world, const contact::NeighbourList& list, int round) {
   for (Index i = 0; i < world.grains.free_count; i += 40)
     world.grains.y[i] += (round % 2 == 0 ? 0.6 : -0.6) * list.skin;
@@ -157,7 +158,7 @@ TEST(DetectionAllocation, of_the_pairs_of_a_few_grains_is_none) {
   contact::NeighbourList list;
   Contacts contacts;
   contact::detect_contacts(list, world.grains, world.boundary, settings.margin, contacts);
-  contacts.resize(2 * list.pairs.count());  // room for more candidates than there are
+  contacts.resize(2 * list.pairs.count());  // room for more candidates than exist
   const long before = allocations;
   for (int round = 0; round < 20; ++round) {
     shake(world, list, round);
@@ -168,8 +169,8 @@ TEST(DetectionAllocation, of_the_pairs_of_a_few_grains_is_none) {
   EXPECT_EQ(list.rebuilds, 1);
 }
 
-/// A list of a bed in which some grains have moved since, and three have arrived: its own allocations are
-/// those of a renewal.
+/// List of a bed in which some grains have moved and three have arrived since; its allocations are those of a
+/// renewal.
 struct OldList {
   World world;
   contact::NeighbourList list;
@@ -194,7 +195,7 @@ struct OldList {
   }
 };
 
-// Whichever allocation of a renewal fails, the list finds what it should the next time.
+// Whichever allocation of a renewal fails, the list is correct the next time.
 TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
   const dynamics::StepSettings settings = test::bed_step(1e-3);
   const OldList old(test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200));
@@ -220,7 +221,7 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
   EXPECT_GT(failed, 5);
 }
 
-// Whichever allocation of a solve fails, both threads come back, and the workspace can be used again.
+// Whichever allocation of a solve fails, both threads return and the workspace remains usable.
 TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_usable) {
   const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 1600, 100, 5), settings, 400);
@@ -249,8 +250,8 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
   EXPECT_GT(failed, 30);
 }
 
-// Arrays may have taken the sizes of a problem whose solve then failed: what the one before left in them is
-// not used.
+// Arrays may have the sizes of a problem whose solve then failed: values of the previous problem must not be
+// used.
 TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
   const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200);

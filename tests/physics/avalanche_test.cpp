@@ -1,4 +1,4 @@
-/// What follows failure: a flow that stops when its tilt is lowered, or when its surface has relaxed.
+/// Flow after failure, which stops when the tilt is lowered or when the surface has relaxed.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace talus {
 namespace {
 
-/// A small bed that is tilted fast, and fails within a second of its time.
+/// Returns a small bed that is tilted fast and fails within a second of simulated time.
 scenario::Scenario bed(scenario::AfterFailure after_failure, scenario::BedBoundary boundary) {
   scenario::Scenario scenario;
   scenario.bed.length = 20.0;
@@ -72,7 +72,7 @@ TEST(Avalanche, stops_when_the_tilt_is_lowered) {
   EXPECT_GT(*session.angle_at_rest(), 0.0);
 }
 
-// The same failure, lowered more slowly: the flow has more time to follow the tilt.
+// The same failure with a slower decrease of the tilt, which gives the flow more time to follow.
 TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
   scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
   session::Session fast = to_failure(scenario);
@@ -155,7 +155,7 @@ TEST(Avalanche, is_resumed_to_the_same_bits) {
   EXPECT_EQ(state_hash(parts->world()), state_hash(whole.world()));
   EXPECT_EQ(parts->angle_at_rest(), whole.angle_at_rest());
   EXPECT_EQ(parts->schedule().record.unconverged_flow, whole.schedule().record.unconverged_flow);
-  // Of the end too.
+  // Also for the end.
   const session::Session again(scenario, whole.checkpoint(0.0));
   EXPECT_EQ(again.angle_at_rest(), whole.angle_at_rest());
 }

@@ -1,4 +1,5 @@
-/// Beds of some hundred grains at rest: forces balance, and the grain stresses say what the boundary feels.
+/// Beds of some hundred grains at rest: forces balance, and the grain stresses agree with the forces on the
+/// boundary.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double tolerance = 1e-8;
 
-/// Computed once for all tests.
+/// Returns a bed at rest, computed once for all tests.
 const World& bed_at_rest(bool periodic) {
   const auto settle = [](bool periodic) {
     return test::settled_bed(test::bed_plan(periodic, 240, 20, 7), test::bed_step(tolerance));
@@ -24,13 +25,13 @@ const World& bed_at_rest(bool periodic) {
   return periodic ? with_period : between_walls;
 }
 
-/// Force on b of contact c, N.
+/// Returns the force on b at contact c, N.
 Vec2 force(const Contacts& contacts, Index c) {
   return {contacts.fn[c] * contacts.nx[c] - contacts.ft[c] * contacts.ny[c],
           contacts.fn[c] * contacts.ny[c] + contacts.ft[c] * contacts.nx[c]};
 }
 
-/// Sum of the contact forces on each free grain.
+/// Returns the sum of the contact forces on each free grain.
 std::vector<Vec2> contact_forces(const World& world) {
   std::vector<Vec2> sum(static_cast<std::size_t>(world.grains.free_count));
   for (Index c = 0; c < world.contacts.count(); ++c) {
@@ -46,7 +47,7 @@ std::vector<Vec2> contact_forces(const World& world) {
   return sum;
 }
 
-/// What the free grains exert on floor and walls, N.
+/// Returns the force of the free grains on floor and walls, N.
 Vec2 force_on_boundary(const World& world) {
   Vec2 sum;
   for (Index c = 0; c < world.contacts.count(); ++c) {
@@ -57,8 +58,8 @@ Vec2 force_on_boundary(const World& world) {
   return sum;
 }
 
-/// - sum over boundary contacts of r_i f_j - sum over free grains of r_i m g_j, f and g acting on the grains.
-/// `grains` are those of the midpoint, where the contacts were found.
+/// Returns - sum over boundary contacts of r_i f_j - sum over free grains of r_i m g_j, with f and g acting
+/// on the grains. `grains` are those of the midpoint, at which the contacts were found.
 Tensor2 moment_of_outer_forces(const World& world, const Grains& grains) {
   Tensor2 sum;
   const auto add = [&](double x, double y, double fx, double fy) {
@@ -87,7 +88,7 @@ Tensor2 bed_moment(const World& world) {
   return stress::sum_of_moments(moments, 0, world.grains.free_count);
 }
 
-/// Tilts a bed at 0.04 degrees a step and lets it rest there.
+/// Tilts a bed by 0.04 degrees per step and lets it come to rest.
 void tilt_to(World& world, double angle, const dynamics::StepSettings& settings,
              dynamics::StepWorkspace& workspace) {
   while (world.tilt < angle) {
@@ -102,8 +103,8 @@ class BedAtRest : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Beds, BedAtRest, testing::Values(true, false),
                          [](const auto& parameter) { return parameter.param ? "periodic" : "walled"; });
 
-// m (v+ - v-) / h = sum f + m g for each grain is an identity of the step and holds to round-off; at rest the
-// left side is what the solver leaves. The boundary carries the whole weight.
+// m (v+ - v-) / h = sum f + m g holds for each grain to round-off, as an identity of the step; at rest the
+// left side is the residual of the solver. The boundary carries the entire weight.
 TEST_P(BedAtRest, balances) {
   const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(GetParam());
@@ -133,9 +134,9 @@ TEST_P(BedAtRest, balances) {
   RecordProperty("carried_minus_one", std::to_string((-carried.y / test::weight(world) - 1.0) * 1e6) + "e-6");
 }
 
-// The sum of the grain stresses is the moment of the outer forces: inner forces act at one point on two
-// grains. Across the periodic edge that holds for the y row only, whose levers do not jump there. What is
-// left over is the solver's unbalance and the closed gaps.
+// The sum of the grain stresses is the moment of the external forces, because internal forces act at one
+// point on two grains. Across the periodic edge this holds only for the y row, whose lever arms do not jump
+// there. The difference is due to the residual of the solver and to closed gaps.
 TEST_P(BedAtRest, grain_stresses_add_up_to_the_moment_of_the_outer_forces) {
   const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(GetParam());
@@ -163,8 +164,8 @@ TEST_P(BedAtRest, grain_stresses_add_up_to_the_moment_of_the_outer_forces) {
 }
 
 // On each level of a periodic bed the weight above gives shear and pressure in the ratio tan(theta), so their
-// sums have it too, but for the lower half of the lowest layer. M_yx is negative: our y points out of the
-// bed.
+// sums have this ratio too, except for the lower half of the lowest layer. M_yx is negative because y points
+// out of the bed.
 TEST(PeriodicBed, shear_over_normal_stress_is_the_tangent_of_the_tilt) {
   const dynamics::StepSettings settings = test::bed_step(tolerance);
   World world = bed_at_rest(true);

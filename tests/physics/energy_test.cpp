@@ -1,8 +1,8 @@
-/// Energy, as the scheme has it. With P the impulses of a step, v- + h g the free velocity and e = 0,
-/// Signorini and Coulomb give K(v+) - K(v- + h g) = P . U+ - P . W P / 2 <= 0. As positions follow (v- + v+)
-/// / 2, height energy takes exactly what gravity gives, and the whole energy gains - w . M w / 2 - (h / 2) w
-/// . M g at most, with w = M^-1 H P: never more than m (g h)^2 / 8 for each grain in one step, and nothing
-/// without gravity.
+/// Energy balance of the scheme. With P the impulses of a step, v- + h g the free velocity and e = 0,
+/// Signorini and Coulomb give K(v+) - K(v- + h g) = P . U+ - P . W P / 2 <= 0. Because positions follow (v- +
+/// v+) / 2, potential energy takes exactly the work of gravity, and the total energy increases by at most - w
+/// . M w / 2 - (h / 2) w . M g, with w = M^-1 H P: never more than m (g h)^2 / 8 per grain and step, and not
+/// at all without gravity.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace talus {
 namespace {
 
-/// Kinetic energy of the free grains after free fall over one step.
+/// Returns the kinetic energy of the free grains after free fall over one step.
 double free_energy(const World& world, double h) {
   Grains free = world.grains;
   const Vec2 g = gravity_vector(world);

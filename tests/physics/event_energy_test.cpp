@@ -1,5 +1,6 @@
-/// The energy that a rearrangement releases, as the catalogue of events finds it from where grains have gone,
-/// against what the contacts take: P . (U- + U+) / 2 in each step, and what is left of it as motion.
+/// Compares two energies of a rearrangement: the one that the catalogue of events derives from the
+/// displacements of the grains, and the work dissipated by the contacts, P . (U- + U+) / 2 in each step, plus
+/// the remaining kinetic energy.
 
 #include <gtest/gtest.h>
 
@@ -16,14 +17,15 @@ Frame frame_of(const World& world) {
   return frame;
 }
 
-/// Velocity of a body at its contact, along n and t; `arm` is its radius, less than 0 where n points to it.
+/// Returns the velocity of a body at its contact, along n and t; `arm` is its radius, negative if n points
+/// towards the body.
 Vec2 at_contact(const Grains& grains, Index body, double nx, double ny, double arm) {
   if (body >= grains.count()) return {};
   const double vx = grains.vx[body], vy = grains.vy[body];
   return {vx * nx + vy * ny, vy * nx - vx * ny + grains.omega[body] * arm};
 }
 
-/// What the contact forces of a step do at the velocities of `grains`, W/m.
+/// Returns the power of the contact forces of a step at the velocities of `grains`, W/m.
 double contact_power(const Grains& grains, const Contacts& contacts) {
   double power = 0.0;
   for (Index c = 0; c < contacts.count(); ++c) {
@@ -60,7 +62,7 @@ TEST_P(EventEnergy, is_what_contacts_dissipate_and_motion_keeps) {
     dynamics::step(world, settings, workspace);
     dissipated -=
         0.5 * settings.h * (contact_power(old, world.contacts) + contact_power(world.grains, world.contacts));
-    if (k % 20 != 0) continue;  // a frame
+    if (k % 20 != 0) continue;  // only frames
     const Frame after = frame_of(world);
     released +=
         analysis::gravity_work(statics, analysis::mean_displacement(before, after, statics), world.tilt);

@@ -1,4 +1,5 @@
-/// Pushes on a small bed on its way to failure: far from theta_c it absorbs them, next to it it fails.
+/// Pushes on a small bed on its way to failure: far below theta_c they are absorbed, close to theta_c they
+/// cause failure.
 
 #include <gtest/gtest.h>
 
@@ -22,10 +23,10 @@ scenario::Scenario small_bed() {
 }
 constexpr session::SurfacePatch patch{4.0, 1.0};
 
-/// A bed tilted to its failure, with copies of it on the way.
+/// Bed tilted until failure, with copies on the way.
 struct TiltedBed {
   World far;   ///< at 8 deg
-  World near;  ///< the last of those every 0.2 deg that comes to rest by itself, at rest
+  World near;  ///< the last of the copies, taken every 0.2 deg, that comes to rest by itself
   double theta_c = 0.0;
 };
 
@@ -51,8 +52,8 @@ const TiltedBed& tilted_bed() {
   return bed;
 }
 
-// A disk that may not roll and is pushed with v slides v^2 / (2 mu g), and up to a step more. The edge of the
-// period, which it crosses, is no displacement.
+// A disk that cannot roll and is pushed with velocity v slides v^2 / (2 mu g), and up to one step further.
+// Crossing the periodic edge is no displacement.
 TEST(Metastability, a_disk_slides_as_far_as_friction_lets_it) {
   const scenario::Scenario scenario = small_bed();
   World world;

@@ -10,10 +10,10 @@
 namespace talus {
 namespace {
 
-// The residual bounds what a step lets through: |P'_n - P_n| <= eta ||P||, so U_n >= - W_nn eta ||P||, and a
-// gap shrinks by no more than h times that, as the distance of two disks is convex. With the share alpha of
-// what is beyond ten allowed overlaps taken back in each step, d <- (1 - alpha) d + h W_nn eta ||P|| never
-// passes h W_nn eta ||P|| / alpha above ten allowed overlaps.
+// The residual bounds the overlap of a step: |P'_n - P_n| <= eta ||P||, so U_n >= - W_nn eta ||P||, and a gap
+// shrinks by at most h times that, because the distance of two disks is convex. In each step the share alpha
+// of the excess over ten allowed overlaps is corrected, d <- (1 - alpha) d + h W_nn eta ||P||, so the overlap
+// exceeds ten allowed overlaps by at most h W_nn eta ||P|| / alpha.
 double overlap_bound(const World& world, const dynamics::StepSettings& settings, double eta, double impulse) {
   const Grains& g = world.grains;
   const double lightest = *std::max_element(g.inverse_mass.begin(), g.inverse_mass.end());
@@ -21,7 +21,7 @@ double overlap_bound(const World& world, const dynamics::StepSettings& settings,
          settings.h * 2.0 * lightest * eta * impulse / settings.law.overlap_correction;
 }
 
-/// ||P|| of the last step, N s.
+/// Returns ||P|| of the last step, N s.
 double impulse_norm(const World& world, double h) {
   double sum = 0.0;
   for (Index c = 0; c < world.contacts.count(); ++c)
@@ -34,8 +34,8 @@ struct LongRun {
   double bound = 0.0;
 };
 
-/// A heap of 14 grains between walls, at rest, then rocked to and fro by 3 degrees for so many steps.
-/// Overlaps that the fall of the grains has left, by residuals that are not looked at, are gone by then.
+/// Rocks a heap of 14 grains at rest between walls by 3 degrees in both directions for `steps` steps. By
+/// then, overlaps left by the unchecked residuals of the fall have disappeared.
 LongRun rock_a_heap(double tolerance, double allowed_overlap, int steps) {
   dynamics::StepSettings settings = test::bed_step(tolerance);
   settings.law.allowed_overlap = allowed_overlap;
@@ -78,8 +78,8 @@ TEST(Overlap, stays_near_what_is_allowed_over_100_000_steps) {
   EXPECT_LT(run.largest_overlap, run.bound);
 }
 
-// Ten digits below the diameter, with room for the few steps whose residual ends above the tolerance asked
-// for.
+// Ten digits below the diameter, with a margin for the few steps whose residual exceeds the requested
+// tolerance.
 TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
   const LongRun run = rock_a_heap(1e-12, 0.0, 24000);
   record("largest_overlap_over_D", run.largest_overlap);
@@ -88,7 +88,7 @@ TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
   EXPECT_LT(run.largest_overlap, 1e-9 * dynamics::BedPlan{}.mean_diameter);
 }
 
-// Ten times round-off of a position: neither overlap nor creep.
+// Ten times the round-off of a position: neither overlap nor creep.
 TEST(Overlap, a_column_does_not_sink) {
   World world = test::column(3);
   const Grains start = world.grains;

@@ -1,4 +1,4 @@
-/// Beds whose contacts resist rolling (T38): the laws that hold for friction hold for moments too.
+/// Beds whose contacts resist rolling (T38): the laws of friction hold for moments too.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ dynamics::StepSettings settings_with(double rolling_friction, double tolerance) 
   return settings;
 }
 
-/// Kinetic energy of the free grains after free fall over one step.
+/// Returns the kinetic energy of the free grains after free fall over one step.
 double free_energy(const World& world, double h) {
   Grains free = world.grains;
   const Vec2 g = gravity_vector(world);
@@ -27,7 +27,7 @@ double free_energy(const World& world, double h) {
   return kinetic_energy(free);
 }
 
-// As in energy_test.cpp: P_r U_r <= 0 too.
+// See energy_test.cpp; P_r U_r <= 0 holds too.
 TEST(RollingBed, energy_never_grows) {
   const dynamics::StepSettings settings = settings_with(0.2, 1e-8);
   World world = dynamics::make_loose_bed(test::bed_plan(true, 120, 12, 3), 0.4);
@@ -48,7 +48,7 @@ TEST(RollingBed, energy_never_grows) {
   EXPECT_LT(energy, start - 0.2 * test::weight(world) * dynamics::BedPlan{}.mean_diameter) << "nothing fell";
 }
 
-// At rest each grain is in balance: the torques of the tangential forces are those of the moments.
+// At rest each grain is balanced: the torques of the tangential forces equal the moments.
 TEST(RollingBed, grains_at_rest_are_in_balance_with_their_moments) {
   const dynamics::StepSettings settings = settings_with(0.2, 1e-9);
   World world = test::settled_bed(test::bed_plan(true, 60, 10, 4), settings);
@@ -85,7 +85,7 @@ TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {
     World together = world;
     dynamics::StepWorkspace workspace;
     for (int k = 0; k < 5; ++k) {
-      workspace.solver.accelerated.choice = {};  // all of them, whether they are worth it or not
+      workspace.solver.accelerated.choice = {};  // all of them, whether or not they pay off
       dynamics::step(together, settings, workspace);
     }
     if (threads == 1)
@@ -95,7 +95,7 @@ TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {
   }
 }
 
-// The moments are part of the state: without them the next step is another one, and the hash tells.
+// The moments are part of the state: without them the next step differs, and so does the hash.
 TEST(RollingBed, remembers_its_moments) {
   const dynamics::StepSettings settings = settings_with(0.2, 1e-6);
   World world = test::settled_bed(test::bed_plan(true, 60, 10, 4), settings);

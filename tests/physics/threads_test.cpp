@@ -10,7 +10,7 @@ namespace {
 
 struct FallenBed {
   dynamics::StepSettings settings = test::bed_step(1e-4);
-  // Large enough that three threads have work: a solver may leave threads idle on small problems.
+  // Large enough that three threads have work, because a solver may leave threads idle on small problems.
   World world = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
 
   FallenBed() { settings.solver.max_iterations = 100; }
@@ -27,7 +27,7 @@ TEST(Threads, any_number_of_them_gives_the_same_bits) {
     World together = bed.world;
     dynamics::StepWorkspace fresh;
     for (int k = 0; k < 5; ++k) {
-      fresh.solver.accelerated.choice = {};  // all of them, whether they are worth it or not
+      fresh.solver.accelerated.choice = {};  // all of them, whether or not they pay off
       dynamics::step(together, bed.settings, fresh);
     }
     EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
@@ -56,7 +56,7 @@ TEST(Threads, one_that_goes_on_alone_gives_the_same_bits) {
   for (int k = 0; k < 4; ++k) {
     dynamics::step(left, bed.settings, of_team);
     choice = {};
-    if (k == 1) choice.add(1.0, 1.0);  // the team was slow: alone is tried
+    if (k == 1) choice.add(1.0, 1.0);  // the team was slow, so one thread is tried
     EXPECT_EQ(choice.in_team(), k != 1);
   }
   EXPECT_EQ(of_team.solver.accelerated.team->size(), 2);

@@ -1,4 +1,4 @@
-/// A poured bed that is tilted, held, and lowered again, well below its angle of repose.
+/// Poured bed that is tilted, held, and lowered again, well below its angle of repose.
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ scenario::Scenario lowered_bed(std::vector<std::string> program) {
   return scenario;
 }
 
-/// How far the contact forces of a world leave the law: pulling, or beyond Coulomb's limit, over the largest
-/// force.
+/// Returns the violation of the contact law in a world, tension or excess over Coulomb's limit, relative to
+/// the largest force.
 double violation(const World& world, double friction) {
   const Contacts& contacts = world.contacts;
   double largest = 0.0, worst = 0.0;
@@ -45,8 +45,8 @@ TEST(TiltProgram, a_bed_that_is_lowered_keeps_the_contact_law_and_its_stress_fol
   }
   EXPECT_EQ(session.angle_of_repose(), std::nullopt);
   EXPECT_EQ(session.world().tilt, 0.0);
-  // Force balance alone fixes sigma_T/sigma_N in a periodic bed at rest, on the way up and on the way down,
-  // on either side; Gamma is its sine but for the normal stress difference.
+  // In a periodic bed at rest, force balance alone fixes sigma_T/sigma_N, for rising and falling tilts on
+  // either side; Gamma is its sine except for the normal stress difference.
   int rising = 0, falling = 0, other_side = 0;
   double before = -1.0;
   for (const ObservableRow& row : session.segment().observables) {

@@ -1,4 +1,4 @@
-// Several sweeps as a wave, against the same sweeps one after another.
+// Several sweeps executed as a wave, compared with the same sweeps one after another.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ void expect_same_bits(const std::vector<Value>& one, const std::vector<Value>& o
   EXPECT_TRUE(one.empty() || std::memcmp(one.data(), other.data(), one.size() * sizeof(Value)) == 0) << what;
 }
 
-/// A solve on its way, and the sums of what is swept.
+/// Solve in progress, with the sums over the swept contacts.
 struct Swept {
   solver::Linearisation at;
   std::vector<solver::SweepSums> sums;
@@ -60,7 +60,7 @@ class Wave : public testing::Test {
   solver::AcceleratedWorkspace workspace_;
 };
 
-// With 20 domains there is room for one wave of four sweeps, two of two, and five of one.
+// 20 domains allow one wave of four sweeps, two of two, and five of one.
 TEST_F(Wave, has_the_bits_of_sweeps_one_after_another) {
   for (const bool rolls : {false, true}) {
     begin(400, rolls);
@@ -87,7 +87,7 @@ TEST_F(Wave, is_for_beds_that_do_not_stay_in_the_caches) {
   EXPECT_FALSE(solver::fits_wave(order, 1, 1));
 }
 
-// The momentum of a sweep is that which the ones before it leave, where none of them makes it begin anew.
+// Momentum carries over from one sweep to the next, unless a restart is triggered.
 TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   begin(400, false);
   Swept together(workspace_.linearisation), apart(workspace_.linearisation);
@@ -107,7 +107,7 @@ TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   expect_same_bits(together.at.increment, apart.at.increment, "impulses");
 }
 
-// Members begin a sweep while others still decide upon the one before.
+// Members begin a sweep while others still evaluate the previous one.
 TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
   begin(400, false);
   const auto swept_on = [this](int size) {
@@ -144,7 +144,7 @@ TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
   EXPECT_GT(changes(half, 2 * half), 0.0);
 }
 
-/// Sweeps as T16 has them: all bodies are extrapolated, then all contacts swept, part by part.
+/// Performs sweeps as in T16: all bodies are extrapolated, then all contacts are swept, part by part.
 Swept plainly_swept(const solver::Linearisation& from, std::size_t sweeps) {
   Swept swept(from);
   const solver::SweepOrder& order = swept.at.order;
@@ -159,8 +159,8 @@ Swept plainly_swept(const solver::Linearisation& from, std::size_t sweeps) {
   return swept;
 }
 
-/// Contacts from the first half of the bodies to the second: most domains have none of their own, and most
-/// contacts are left to the last phase.
+/// Returns contacts between the first and the second half of the bodies: most domains have no internal
+/// contacts, so that most contacts belong to the last phase.
 solver::ContactProblem problem_of_far_contacts() {
   solver::ContactProblem problem;
   const Index bodies = 2000;
@@ -171,7 +171,7 @@ solver::ContactProblem problem_of_far_contacts() {
   return problem;
 }
 
-// Parts extrapolate the bodies that they change: each once, and before its first contact.
+// Each part extrapolates the bodies that it changes, once, before their first contact.
 TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
   solver::ContactProblem of_layers = test::columns_problem(3, 30, 40);
   of_layers.columns = 0;
@@ -208,7 +208,7 @@ TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
   EXPECT_GT(domains.back(), 4);
 }
 
-// 66 domains: room for waves of four sweeps by up to four members; more of them sweep phase by phase.
+// 66 domains allow waves of four sweeps with up to four members; more members sweep phase by phase.
 TEST(Waves, do_not_change_a_bit_of_a_solve) {
   const solver::ContactProblem problem = test::columns_problem(4, 1300, 60);
   const auto solve = [&problem](int threads) {

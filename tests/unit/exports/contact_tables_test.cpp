@@ -1,4 +1,4 @@
-/// Forces in a byte.
+/// Contact forces stored in one byte.
 
 #include "exports/page/contact_tables.h"
 

@@ -1,4 +1,4 @@
-/// docs/export.md has the tables of the program.
+/// The tables of docs/export.md agree with the program.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #pragma once
-/// Two free grains and one of the floor in a periodic bed: they touch across the edge, and the floor.
+/// Two free grains and a floor grain in a periodic bed: the free grains touch each other across the edge, and
+/// the floor.
 
 #include <cmath>
 
@@ -7,7 +8,7 @@
 
 namespace talus::test {
 
-/// What a GrainSource points to.
+/// Data to which a GrainSource points.
 struct ExampleFrame {
   RunStatics statics;
   Frame first, frame;

@@ -1,4 +1,4 @@
-/// Tables come back as they were.
+/// Tables are restored exactly.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace talus::exports {
 namespace {
 
-/// Neither even nor small: all bytes are in use.
+/// Returns codes that are neither regular nor small, so that all bytes are used.
 CodeTable some_table(std::size_t rows, std::size_t columns, int bytes) {
   CodeTable table = code_table(rows, columns, bytes);
   std::uint32_t state = 12345;
@@ -30,7 +30,7 @@ TEST(PackedTable, comes_back_as_it_was) {
 TEST(PackedTable, is_differences_byte_by_byte) {
   CodeTable table = code_table(2, 2, 2);
   table.codes = {300, 299, 301, 301};
-  // Differences 300 = 0x012c, -1 = 0xffff, 1, 0: the low bytes first.
+  // Differences 300 = 0x012c, -1 = 0xffff, 1, 0, with low bytes first.
   const std::vector<unsigned> expected = {0x2c, 0xff, 1, 0, 1, 0xff, 0, 0};
   const std::vector<std::byte> bytes = difference_bytes(table);
   ASSERT_EQ(bytes.size(), expected.size());

@@ -1,4 +1,4 @@
-/// Numbers in 16 bits are the numbers, within half a quantum.
+/// 16-bit numbers deviate from the originals by at most half a quantum.
 
 #include <gtest/gtest.h>
 

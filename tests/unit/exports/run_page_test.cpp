@@ -1,4 +1,4 @@
-/// The page of a bed that was made by hand.
+/// Page of a hand-made bed.
 
 #include "exports/page/run_page.h"
 
@@ -33,7 +33,7 @@ class RunPage : public testing::Test {
     analysis_ = runs::analyse_run(*file_, {}, 1, {});
   }
   std::string page(const Frames& frames) { return run_page(*file_, path_, analysis_, frames, {}); }
-  /// The text of an element of the page.
+  /// Returns the text of an element of the page.
   static std::string element(const std::string& page, const std::string& id) {
     const auto begin = page.find('>', page.find("id=\"" + id + "\"")) + 1;
     return page.substr(begin, page.find("</script>", begin) - begin);
@@ -132,7 +132,7 @@ TEST_F(RunPage, needs_nothing_but_itself) {
   EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
   const std::regex address(R"(https?:|//[a-z]+\.[a-z]|url\(|src=|@import|<link)");
   std::string rest = text;
-  const std::string names = "http://www.w3.org/2000/svg";  // a name, which nothing is fetched from
+  const std::string names = "http://www.w3.org/2000/svg";  // the name of a namespace, which is never fetched
   for (auto at = rest.find(names); at != std::string::npos; at = rest.find(names))
     rest.erase(at, names.size());
   const std::smatch found = [&] {
@@ -147,7 +147,7 @@ TEST_F(RunPage, needs_nothing_but_itself) {
 }
 
 TEST_F(RunPage, is_small) {
-  // A byte or two for each number of a grain: what remains is the page itself.
+  // Subtracting one or two bytes per value of a grain leaves the page itself.
   const std::size_t frames = file_->all_frame_tilts().size();
   Frames all(frames);
   for (std::size_t k = 0; k < frames; ++k) all[k] = k;

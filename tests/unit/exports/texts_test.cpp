@@ -1,4 +1,4 @@
-/// What the writers of texts make of a frame, to the letter.
+/// Exact text output of the writers for one frame.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a page does with its tables, in C++: base64, zlib, differences, undone.
+/// Decoding of a page's tables in C++: base64, zlib and differences.
 
 #include <zlib.h>
 
@@ -28,7 +28,8 @@ inline std::vector<unsigned char> bytes_of_base64(std::string_view text) {
   return bytes;
 }
 
-/// Empty where the text is not what packed_text makes of a table of that size.
+/// Decodes a table; returns an empty one if the text is not the output of packed_text for a table of that
+/// size.
 inline std::vector<std::uint32_t> unpacked(std::string_view text, std::size_t rows, std::size_t columns,
                                            int bytes) {
   const std::vector<unsigned char> stream = bytes_of_base64(text);

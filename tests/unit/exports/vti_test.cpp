@@ -27,7 +27,7 @@ TEST(Vti, has_an_array_for_each_field_with_its_unit) {
 TEST(Vti, grid_goes_once_around_the_period_and_beyond_walls) {
   ExampleFrame example = example_frame();
   const exports::FieldGrid around =
-      exports::field_grid(example.source(), 0.3);  // a period of 1 m: 34 points, not 33.3
+      exports::field_grid(example.source(), 0.3);  // the period of 1 m is divided into 34 points, not 33.3
   EXPECT_EQ(around.columns, 34);
   EXPECT_DOUBLE_EQ(around.dx, 1.0 / 34.0);
   EXPECT_DOUBLE_EQ(around.x, 0.5 / 34.0);

@@ -6,7 +6,7 @@
 namespace talus::test {
 namespace {
 
-/// How often a part occurs.
+/// Counts the occurrences of a part.
 int count_of(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;

@@ -1,4 +1,4 @@
-/// The chart of a reproduction whose values are made by hand.
+/// Chart of a reproduction with hand-made values.
 
 #include "figures/agreement_figure.h"
 
@@ -13,7 +13,7 @@
 namespace talus::figures {
 namespace {
 
-/// The row that has this label, from 1 on; 0 where there is none.
+/// Returns the row with this label, counted from 1; 0 if there is none.
 std::size_t row_of(const Figure& figure, const std::string& chart, const std::string& label) {
   for (const auto& [name, value] : figure.variables)
     if (name.starts_with(chart + "_row_") && value == '"' + label + '"')
@@ -21,7 +21,7 @@ std::size_t row_of(const Figure& figure, const std::string& chart, const std::st
   return 0;
 }
 
-/// Values of a column in a row, by series.
+/// Returns the values of a column in a row, one per series.
 std::vector<double> values_in(const Table& table, std::size_t row, const std::string& column) {
   const auto values = std::ranges::find(table.columns, column, &Column::name)->values;
   std::vector<double> found;
@@ -59,7 +59,7 @@ TEST(AgreementFigure, scores_are_differences_in_units_of_the_tolerance) {
 TEST(AgreementFigure, leaves_out_what_cannot_be_compared) {
   studies::ReproductionResult result = studies::like_the_paper(0.0);
   for (ensemble::Variant& bed : result.plan.variants)
-    bed.scenario.bed.depth = 20.0;  // lengths end at the depth
+    bed.scenario.bed.depth = 20.0;  // lengths are limited by the depth
   const Figure figure = agreement_figure(result).value();
   EXPECT_EQ(row_of(figure, "chain", "mean {/:Italic ℓ}_c at 0°"), 0u);
   EXPECT_GT(row_of(figure, "chain", "p_o at 0°"), 0u);

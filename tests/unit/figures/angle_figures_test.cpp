@@ -15,7 +15,7 @@ namespace {
 
 const double nan = std::nan("");
 
-/// A run of which there are only values: theta_c and theta_d by the jump of l_c, deg.
+/// Returns a run that has only values: theta_c, and theta_d from the jump of l_c, deg.
 runs::RunView run_with(std::uint64_t seed, double theta_c, double jump) {
   runs::RunView run;
   run.path = "e.h5#seed-" + std::to_string(seed);

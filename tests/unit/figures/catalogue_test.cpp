@@ -1,4 +1,4 @@
-/// Every figure has its script, every script its figure, and names say the same everywhere.
+/// Figures and scripts correspond one to one, and their names agree everywhere.
 
 #include "figures/catalogue.h"
 
@@ -17,12 +17,12 @@
 namespace talus::figures {
 namespace {
 
-/// Scripts that no figure of the catalogue has: what all begin with, the figures of `talus perturb`
-/// and `talus reproduce`, and plots of the window.
+/// Scripts without a figure in the catalogue: common parts, figures of `talus perturb` and `talus reproduce`,
+/// and plots of the window.
 const std::set<std::string_view> others = {"style", "text",    "axes",      "key",
                                            "maps",  "perturb", "agreement", "plot"};
 
-/// Figures that are panels of maps, which the renderer draws.
+/// Figures that are panels of maps, drawn by the renderer.
 const std::set<std::string_view> panels = {"fig10-stress-ratio-maps", "fig13-overloaded-maps"};
 
 TEST(Catalogue, EachFigureHasItsScriptOrIsAPanelOfMaps) {

@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t bins = 2;
 constexpr auto density = &analysis::FrameRecord::direction_density;
 
-/// A run that fails at theta_c (deg), with two bins of directions, all of density `level` in its first frame
-/// and of 3 `level` in the others.
+/// Returns a run that fails at theta_c (deg), with two bins of directions. Their density is `level` in the
+/// first frame and 3 `level` in the others.
 runs::RunView run_with(const std::string& folder, double theta_c, double level) {
   runs::RunView run = runs::view_of_run(folder, io::RunFile::open(folder), {});
   run.analysis.theta_c = radians(theta_c);

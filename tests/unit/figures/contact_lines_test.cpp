@@ -18,7 +18,8 @@ void expect_line(const ContactLine& line, Index contact, double x1, double y1, d
   EXPECT_DOUBLE_EQ(line.y2, y2);
 }
 
-/// Two contacts across the edge of a period of 8, one to each side, one inside, one to the floor.
+/// Returns two contacts across the edge of a period of 8, one in each direction, a contact inside, and one
+/// with the floor.
 test::Packing across_the_edge() {
   test::Packing packing = test::empty_packing(8.0, true);
   test::add_grain(packing, 7.5, 1.0);
@@ -44,7 +45,7 @@ TEST(ContactLines, AreCutAtThePeriodicEdge) {
   expect_line(lines[5], 3, 7.5, 1.0, 7.5, 0.0);
 }
 
-// In single precision a grain can lie on the period itself.
+// In single precision a grain can lie exactly at the period.
 TEST(ContactLines, AreCutWhereTheirEndLiesOnTheEdge) {
   test::Packing packing = test::empty_packing(8.0, true);
   test::add_grain(packing, 0.5, 1.0);

@@ -1,4 +1,4 @@
-/// The tables behind the paper's curves, of hand-made analyses.
+/// Tables behind the paper's curves, from hand-made analyses.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ const std::vector<double>& column(const Table& table, const std::string& name) {
   throw std::out_of_range(name);
 }
 
-/// The table of a figure whose name begins so.
+/// Returns the table of a figure whose name begins with `beginning`.
 const Table& table_called(const Figure& figure, const std::string& beginning) {
   for (const Table& table : figure.tables)
     if (table.name.starts_with(beginning)) return table;
@@ -37,7 +37,7 @@ std::string variable(const Figure& figure, const std::string& name) {
   return "not there";
 }
 
-/// A periodic group of three runs: two that fail after all three frames, and one that has not failed.
+/// Periodic group of three runs: two fail after all three frames, and one does not fail.
 class Curves : public ::testing::Test {
  protected:
   Curves() {
@@ -48,7 +48,7 @@ class Curves : public ::testing::Test {
       groups_[0].runs.push_back(example::figure_run(path_, groups_[0].runs.size() + 1, theta_c));
   }
 
-  /// Run r has r + 1 times `first`, growing by `step` from element to element.
+  /// Fills run r with r + 1 times `first`, increasing by `step` between elements.
   void fill(const analysis::QuantityMember& member, double first, double step) {
     const analysis::Quantity& quantity = analysis::quantity_of(member);
     for (std::size_t r = 0; r < groups_[0].runs.size(); ++r) {
@@ -61,7 +61,7 @@ class Curves : public ::testing::Test {
     }
   }
 
-  /// Beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
+  /// Changes the beds to beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
   void stand_between_walls() {
     const runs::RunView& run = groups_[0].runs[0];
     const double length = run.scenario.bed.length, diameter = run.statics.mean_diameter;
@@ -141,7 +141,7 @@ TEST_F(Curves, HaveTheRunsOneByOneBehindThem) {
 }
 
 TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
-  fill(&analysis::FrameRecord::stress_ratio, 0.0, 0.01);  // of all runs 0, 0.01 and 0.02 in the three frames
+  fill(&analysis::FrameRecord::stress_ratio, 0.0, 0.01);  // 0, 0.01 and 0.02 in the three frames of each run
   for (runs::RunView& run : groups_[0].runs) {
     run.scenario.output.frame_every = 0.5;
     for (std::size_t k = 0; k < 3; ++k) run.analysis.frames[k].tilt = radians(static_cast<double>(k));
@@ -232,7 +232,7 @@ TEST_F(Curves, OfDistributionsNeedNoFile) {
 }
 
 TEST_F(Curves, OfOverloadedGrainsNeedAThreshold) {
-  fill(&analysis::FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements: frame, threshold
+  fill(&analysis::FrameThreshold::overloaded_fraction, 0.2, 0.05);  // elements in the order frame, threshold
   const auto figure = overloaded_fraction_figure(groups_);
   ASSERT_TRUE(figure);
   EXPECT_EQ(figure->runs.size(), 2u) << "the third has none";
@@ -296,7 +296,8 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
   const io::RunFile& run = *groups_[0].runs[0].file;
   const RunStatics& statics = run.header().statics;
   for (std::size_t s = 0; s < scales.size(); ++s) {
-    const double l = std::max(scales[s], 1e-9) * statics.mean_diameter;  // of 0 the frame says itself
+    const double l =
+        std::max(scales[s], 1e-9) * statics.mean_diameter;  // scale 0 uses the value of the frame itself
     const Frame frame = analysis::with_gamma_of_neighbourhoods(run.frame(0), statics, l);
     EXPECT_NEAR(column(table, "p_o_0")[s],
                 stress::count_overloaded({frame, statics}, sine(radians(80.0))).fraction(), 1e-12)

@@ -1,4 +1,4 @@
-/// Cycles of a tilt that goes up and down.
+/// Figure of tilt cycles.
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@ namespace talus::figures {
 namespace {
 
 const double nan = std::nan("");
-constexpr double diameter = 0.01, gravity = 9.81;  // of the example's header
+constexpr double diameter = 0.01, gravity = 9.81;  // values of the example's header
 
 ObservableRow row_at(double time, double tilt, double displacement) {
   ObservableRow row{};
@@ -20,7 +20,7 @@ ObservableRow row_at(double time, double tilt, double displacement) {
   return row;
 }
 
-/// A run that fails at 10 s and 20 deg, and rests at `rest` (deg).
+/// Returns a run that fails at 10 s and 20 deg, and comes to rest at `rest` (deg).
 runs::RunView run_with(const std::string& path, double rest, std::uint64_t seed) {
   io::RunStore store = io::RunStore::create(path, example::header(), false);
   io::Segment segment;

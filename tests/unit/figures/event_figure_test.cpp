@@ -1,4 +1,4 @@
-/// The tables behind the figure of rearrangements, of hand-made events.
+/// Tables behind the figure of rearrangements, from hand-made events.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ class EventFigure : public ::testing::Test {
     for (const std::uint64_t seed : {1, 2}) groups_[0].runs.push_back(example::figure_run(path_, seed, 80.0));
   }
 
-  /// `count` events of each run, of 1, 2, 4, ... m g D; the last is the failure.
+  /// Adds `count` events of 1, 2, 4, ... m g D to each run; the last is the failure.
   void add_events(int count) {
     for (runs::RunView& run : groups_[0].runs) {
       const RunStatics& statics = run.file->header().statics;
@@ -83,7 +83,7 @@ TEST_F(EventFigure, has_shares_and_laws) {
   const Table& waits = table_called(figure, "waits-");
   EXPECT_EQ(column(waits, "waiting").size(), 10u) << "the first event of a run has none";
   EXPECT_NEAR(column(waits, "exponential_law").front(), 1.0, 1e-12);
-  // 0.1 to 0.5 deg: 0.2 beyond the shortest in the mean.
+  // Waiting angles from 0.1 to 0.5 deg exceed the shortest by 0.2 on average.
   EXPECT_NEAR(column(waits, "exponential_law").back(), std::exp(-0.4 / 0.2), 1e-9);
 }
 
@@ -98,7 +98,7 @@ TEST_F(EventFigure, says_where_there_are_too_few_for_a_law) {
   EXPECT_EQ(text->second, "\"too few for a law: 4\"");
 }
 
-// gnuplot complains about an empty range, and about a table without values.
+// gnuplot rejects an empty range, and a table without values.
 TEST_F(EventFigure, has_axes_with_room_for_a_single_rearrangement) {
   groups_[0].runs.resize(1);
   add_events(2);

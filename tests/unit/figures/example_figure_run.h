@@ -1,5 +1,5 @@
 #pragma once
-/// Runs of figures with hand-made analyses, on the frames of one small run.
+/// Runs with hand-made analyses for figures, based on the frames of one small run.
 
 #include <cmath>
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace talus::example {
 
-/// Opens the run at `path` (three frames) as one that fails at theta_c, deg; NaN: not at all, and without
-/// thresholds.
+/// Opens the run at `path` (three frames) as a run that fails at theta_c, deg; with NaN it does not fail and
+/// has no thresholds.
 inline runs::RunView figure_run(const std::string& path, std::uint64_t seed, double theta_c = std::nan("")) {
   runs::RunView run = runs::view_of_run(path, io::RunFile::open(path), {});
   run.scenario.seed = seed;

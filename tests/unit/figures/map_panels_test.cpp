@@ -8,7 +8,7 @@
 namespace talus::figures {
 namespace {
 
-/// Tilts from 0 to `last` degrees.
+/// Returns tilts from 0 to `last` degrees.
 std::vector<double> tilts_every(double spacing, double last) {
   std::vector<double> tilts;
   for (int k = 0; k * spacing <= last; ++k) tilts.push_back(radians(k * spacing));
@@ -37,7 +37,7 @@ TEST(PanelFrames, NeverShowAFlow) {
 }
 
 TEST(PanelFrames, TakeTheFramesThatThereAre) {
-  // A run whose frames begin late, as that of a perturbed bed.
+  // A run whose frames begin late, such as that of a perturbed bed.
   std::vector<double> tilts;
   for (int k = 0; k <= 40; ++k) tilts.push_back(radians(7.0 + 0.25 * k));
   EXPECT_EQ(chosen(tilts, 16.3), (std::vector<double>{10, 15, 16.25}));

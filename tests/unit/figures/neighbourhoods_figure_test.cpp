@@ -10,8 +10,8 @@ namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// Grains at heights 0.5 ... 7.5 in the middle of a bed 10 m long: those with the ids 2 ... 5 are in its
-/// middle half. Two floor grains.
+/// Returns grains at heights 0.5 ... 7.5 in the middle of a bed 10 m long, of which those with ids 2 ... 5
+/// are in its middle half, and two floor grains.
 test::Packing column_of_grains() {
   test::Packing packing = test::empty_packing(10.0, true);
   for (int i = 0; i < 8; ++i) test::add_grain(packing, 5.0, 0.5 + i);
@@ -52,8 +52,8 @@ TEST(GrainsAround, AreSeenFromTheGrainAcrossThePeriodicEdge) {
   test::Packing packing = test::empty_packing(20.0, true);
   packing.statics.mean_diameter = 2.0;
   test::add_grain(packing, 19.0, 5.0, 0.9);
-  test::add_grain(packing, 1.0, 6.0, 1.1);   // 2 to the right
-  test::add_grain(packing, 15.0, 8.0, 1.0);  // exactly 5 away
+  test::add_grain(packing, 1.0, 6.0, 1.1);   // at distance 2 to the right
+  test::add_grain(packing, 15.0, 8.0, 1.0);  // at distance 5 exactly
   test::add_grain(packing, 15.0, 8.1, 1.0);
   test::add_floor_grain(packing, 19.0, 4.0);
   packing.frame.gamma = {0.1, 0.2, 0.3, 0.4, 0.5};

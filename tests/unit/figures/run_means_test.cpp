@@ -11,7 +11,7 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-/// Three runs: the second ends first, and the third has frames half as often.
+/// Three runs: the second ends first, and the third has half as many frames per angle.
 const Rows tilts = {{0.0, 0.1, 0.2, 0.3, 0.4}, {0.0, 0.1, 0.2}, {0.0, 0.2 + 1e-9, 0.4}};
 
 TEST(CommonTilts, AreThoseOfAtLeastHalfOfTheRuns) {

@@ -1,6 +1,5 @@
-/// What a run computes has the same bits on every processor: + - * / and square roots, and what rounds
-/// exactly. The C library's sines, powers and the like are not of that kind (docs/architecture.md,
-/// Determinism).
+/// A run is bit-identical on every processor: it uses only + - * /, square roots and functions that round
+/// exactly. Sines, powers and similar functions of the C library differ (docs/architecture.md, Determinism).
 
 #include <gtest/gtest.h>
 
@@ -14,8 +13,7 @@
 namespace talus::house {
 namespace {
 
-/// The rooms of which nothing but a run is made, and the files of others through which its state or what it
-/// records goes.
+/// Folders that only serve runs, and files in other folders that handle a run's state or its records.
 const std::vector<std::string> of_a_run = {
     "src/base/",
     "src/core/",
@@ -37,14 +35,14 @@ const std::vector<std::string> of_a_run = {
     "src/session/session",
 };
 
-/// Of <cmath>: what may differ from one processor, C library or compiler to another.
+/// Functions of <cmath> whose results may depend on the processor, the C library or the compiler.
 const std::vector<std::string_view> inexact = {
     "sin",   "cos",   "tan",   "asin", "acos", "atan",  "atan2", "sinh",   "cosh",   "tanh",
     "asinh", "acosh", "atanh", "exp",  "exp2", "expm1", "log",   "log2",   "log10",  "log1p",
     "pow",   "cbrt",  "hypot", "fma",  "lerp", "erf",   "erfc",  "tgamma", "lgamma", "sincos",
 };
 
-/// The line without its comment and without what it quotes.
+/// Returns the line without comments and quoted text.
 std::string code_of(std::string_view line) {
   line = line.substr(0, line.find("//"));
   std::string code;

@@ -1,5 +1,5 @@
-/// Calls that go past a message: those of std::filesystem that throw, and text that goes to the terminal by
-/// any way but the one that leaves out what a terminal obeys.
+/// Calls that bypass error messages: functions of std::filesystem that throw, and terminal output that is not
+/// filtered for control sequences.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace talus::house {
 namespace {
 
-/// A file without its comments, as one text, and the line of each of its characters.
+/// File without comments as one text, with the line number of each character.
 struct Code {
   explicit Code(const TextFile& file) {
     for (std::size_t k = 0; k < file.lines.size(); ++k) {
@@ -27,7 +27,7 @@ struct Code {
   std::vector<std::size_t> lines;
 };
 
-/// The last of the arguments that begin at `begin`, after the bracket.
+/// Returns the last of the arguments that begin at `begin`, after the bracket.
 std::string last_argument(const std::string& text, std::size_t begin) {
   int depth = 0;
   std::size_t last = begin, end = begin;
@@ -42,7 +42,7 @@ std::string last_argument(const std::string& text, std::size_t begin) {
   return argument;
 }
 
-/// What a file calls its objects of std::error_code, parameters among them.
+/// Returns the names of all objects and parameters of type std::error_code in a file.
 std::set<std::string> error_codes(const std::string& text) {
   static const std::regex declared(R"(std::error_code\s*&?\s*(\w+))");
   std::set<std::string> names;
@@ -51,7 +51,8 @@ std::set<std::string> error_codes(const std::string& text) {
   return names;
 }
 
-/// The places of calls into std::filesystem that throw: without an object for the error. Paths do not.
+/// Returns the places of calls into std::filesystem that throw because they have no error_code. Paths do not
+/// throw.
 std::vector<std::string> throwing_calls(const TextFile& file) {
   static const std::regex call(
       R"((?:std::filesystem|\bfs)::(?!path\b)(\w+)(?:\s+\w+)?\s*[({]|\b(directory_entry)\b)");
@@ -62,7 +63,8 @@ std::vector<std::string> throwing_calls(const TextFile& file) {
   std::vector<std::string> found;
   for (std::sregex_iterator at(code.text.begin(), code.text.end(), call), end; at != end; ++at) {
     const auto begin = static_cast<std::size_t>(at->position() + at->length());
-    const bool entry = (*at)[2].matched;  // its own questions throw as well, and so does a loop over a folder
+    const bool entry =
+        (*at)[2].matched;  // the queries of a directory_entry throw too, and so does a loop over a folder
     if (entry || !names.contains(last_argument(code.text, begin)))
       found.push_back(place(file, code.lines[static_cast<std::size_t>(at->position())]));
   }

@@ -1,4 +1,5 @@
-/// The rooms of the house are used one way only (docs/architecture.md): read from the #include lines.
+/// Dependencies between the folders of src are acyclic (docs/architecture.md), as read from the #include
+/// lines.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@
 namespace talus::house {
 namespace {
 
-/// What each room includes of other rooms, prefixes of include paths: what it uses, and nothing else. The
-/// same is said in docs/architecture.md.
+/// Permitted dependencies of each folder, as prefixes of include paths; all of them are used.
+/// docs/architecture.md lists the same.
 const std::map<std::string, std::vector<std::string>> rooms = {
     {"base", {}},
     {"core", {"base/"}},
@@ -52,10 +53,10 @@ const std::map<std::string, std::vector<std::string>> rooms = {
       "problems/", "render/", "runs/", "scenario/", "session/", "studies/", "view/"}},
 };
 
-/// Headers of other projects, and the only places that include them.
+/// Header of another project, with the only place that includes it.
 struct Home {
-  std::string header;  ///< how an include path begins
-  std::string path;    ///< how the path of the file that includes it begins
+  std::string header;  ///< beginning of the include path
+  std::string path;    ///< beginning of the path of the including file
 };
 const std::vector<Home> homes = {
     {"CLI/", "src/app/"},
@@ -65,7 +66,7 @@ const std::vector<Home> homes = {
     {"GL/osmesa.h", "render/context_osmesa.cpp"},
     {"GLFW/", "src/gui/window.cpp"},
     {"cairo-", "render/pdf_target.cpp"},
-    {"fmt/core.h", ""},  // any room
+    {"fmt/core.h", ""},  // any folder
     {"hdf5", "src/io/hdf5_handle.h"},
     {"imgui", "src/gui/"},
     {"immintrin.h", "src/solver/"},
@@ -78,11 +79,11 @@ const std::vector<Home> homes = {
     {"zlib.h", "src/exports/page/tables.cpp"},
 };
 
-/// Headers of the operating system, which any room may include.
+/// Headers of the operating system, which any folder may include.
 const std::vector<std::string> of_the_system = {"dlfcn.h", "fcntl.h", "signal.h",
                                                 "poll.h",  "sys/",    "unistd.h"};
 
-/// "src/core/world.h" is in room "core", "render/png.h" in room "render".
+/// Returns the folder: "core" for "src/core/world.h", "render" for "render/png.h".
 std::string room_of(const std::string& path) {
   const std::string inside = path.starts_with("src/") ? path.substr(4) : path;
   return inside.substr(0, inside.find('/'));
@@ -106,7 +107,7 @@ bool begins_with_one_of(const std::string& path, const std::vector<std::string>&
   return std::ranges::any_of(prefixes, [&](const std::string& prefix) { return path.starts_with(prefix); });
 }
 
-/// Calls use(file, line index, include) for each include of the rooms.
+/// Calls use(file, line index, include) for each include in the folders.
 template <typename Use>
 void for_each_include(const Use& use) {
   std::size_t count = 0;
@@ -168,7 +169,8 @@ TEST(Includes, keep_each_foreign_library_in_its_room) {
   for (const std::string& header : unused) ADD_FAILURE() << "nothing includes " << header;
 }
 
-/// Names that all rooms share are in talus itself: those of base and core, and of the library its face.
+/// Returns whether the names of a folder belong to namespace talus itself: those of base and core, and the
+/// interface of the library.
 bool is_in_talus_itself(const std::string& room) {
   return room == "base" || room == "core" || room == "library";
 }

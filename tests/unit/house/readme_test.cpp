@@ -1,5 +1,5 @@
-/// The commands of the README are those that exist, and its test command is the one that every change must
-/// pass.
+/// Commands and options in the pages exist, and the test command of the README is the one that every change
+/// must pass.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-/// The lines of a page that are set as commands; code between fences has none.
+/// Returns the command lines of a page, which are indented; fenced code has none.
 std::vector<std::string> commands(const std::string& page = "README.md") {
   std::istringstream text(text_of(page));
   std::vector<std::string> found;
@@ -40,7 +40,7 @@ TEST(Readme, test_command_is_the_one_of_ci) {
   EXPECT_NE(text_of(".ci/run").find("\n./bootstrap test\n"), std::string::npos);
 }
 
-/// The rows between two lines of a text.
+/// Returns the lines between two lines of a text.
 std::vector<std::string> lines_between(const std::string& text, const std::string& first,
                                        const std::string& last) {
   std::istringstream stream(text);
@@ -53,7 +53,7 @@ std::vector<std::string> lines_between(const std::string& text, const std::strin
   return found;
 }
 
-/// "a  | b | c" as a row of a page: "| `a` | b | c |".
+/// Formats "a | b | c" as a table row of a page: "| `a` | b | c |".
 std::string row_of_page(const std::string& row) {
   const std::size_t end = row.find_first_of(" |");
   return "| `" + row.substr(0, end) + "` " + row.substr(row.find('|')) + " |";
@@ -88,7 +88,7 @@ TEST(Readme, commands_name_what_exists) {
   }
 }
 
-/// A page without the commands that open it in a browser, whose options are not ours.
+/// Returns a page without the commands that open it in a browser, whose options are not those of Talus.
 std::string without_browser(const std::string& page) {
   std::istringstream text(page);
   std::string rest;
@@ -97,8 +97,8 @@ std::string without_browser(const std::string& page) {
   return rest;
 }
 
-/// Commands of a page are subcommands that these sources define, and all options it names are theirs; returns
-/// how many options it names.
+/// Checks that the commands of a page are subcommands defined by these sources, and that its options are
+/// theirs; returns the number of options.
 int check_page(const std::string& name, const std::vector<const char*>& sources_of) {
   std::string sources;
   for (const char* source : sources_of) sources += text_of(std::string("src/app/") + source + ".cpp");
@@ -115,7 +115,7 @@ int check_page(const std::string& name, const std::vector<const char*>& sources_
   for (std::size_t at = page.find("--"); at != std::string::npos; at = page.find("--", at + 1)) {
     const std::size_t end = page.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", at);
     const std::string option = page.substr(at, end - at);
-    if (option.find_first_not_of('-') == std::string::npos) continue;  // the line of a table
+    if (option.find_first_not_of('-') == std::string::npos) continue;  // separator line of a table
     EXPECT_NE(sources.find(option), std::string::npos) << option;
     ++options;
     at = end;

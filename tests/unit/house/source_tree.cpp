@@ -15,7 +15,7 @@ namespace {
 
 const fs::path root = test::source_folder();
 
-/// Of a file that is no text: no lines, and no path.
+/// Returns the text of a file, without lines and path if the file is not text.
 TextFile read_text(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::stringstream content;
@@ -26,7 +26,7 @@ TextFile read_text(const fs::path& path) {
   return file;
 }
 
-/// Each file is read once: most tests ask for all of them.
+/// Adds the file; each file is read once, because most tests request all of them.
 void add_text(const fs::path& path, std::vector<TextFile>& texts) {
   static std::map<fs::path, TextFile> seen;
   auto at = seen.find(path);

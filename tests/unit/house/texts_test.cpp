@@ -1,4 +1,4 @@
-/// Files stay small, finished, and free of the paths of the machine they were written on.
+/// Files are small, finished, and free of paths of the machine on which they were written.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,8 @@ namespace {
 const std::vector<std::string> everything = {".",      ".ci",   "src",  "render", "shaders", "tests",
                                              "assets", "bench", "docs", "cmake",  "python"};
 
-/// Whether `line` holds an absolute path below the top folder `name`; "work/" inside a longer path is none.
+/// Returns whether `line` contains an absolute path below the top folder `name`; "work/" inside a longer path
+/// does not count.
 bool has_path_below(std::string_view line, std::string_view name) {
   for (auto at = line.find(name); at != std::string_view::npos; at = line.find(name, at + 1)) {
     const auto end = at + name.size();

@@ -1,5 +1,4 @@
-/// The equations that the code cites are those of docs/theory.md, and those that stand there are cited; so
-/// are its sources.
+/// Equations cited in the code exist in docs/theory.md, and all of its equations and sources are cited.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,7 @@ namespace {
 
 const std::string theory = "docs/theory.md";
 
-/// What the first group of a pattern matches in a line, each time.
+/// Returns the first group of each match of a pattern in a line.
 std::vector<std::string> matches(const std::string& line, const std::string& pattern) {
   const std::regex expression(pattern);
   std::vector<std::string> found;
@@ -24,9 +23,9 @@ std::vector<std::string> matches(const std::string& line, const std::string& pat
   return found;
 }
 
-/// The number of an equation stands at the end of an indented line.
+/// Returns the number of an equation, which ends an indented line.
 std::vector<std::string> defined_in(const std::string& line) {
-  if (line.find("(T") == std::string::npos) return {};  // expressions are slow
+  if (line.find("(T") == std::string::npos) return {};  // regular expressions are slow
   return matches(line, R"(^    .*\((T\d+)\)$)");
 }
 std::vector<std::string> cited_in(const std::string& line) {

@@ -1,4 +1,4 @@
-/// Frames of a live run and of its file say the same under the same names.
+/// Frames of a live run and of its file have the same values under the same names.
 
 #include "library/measured_frame.h"
 
@@ -35,7 +35,7 @@ TEST(MeasuredFrame, of_a_file_has_the_numbers_of_its_analysis) {
   int compared = 0;
   for (const analysis::Quantity& quantity : analysis::quantities()) {
     if (!analysis::is_number_of_frame(quantity) || quantity.name.starts_with("deformation/"))
-      continue;  // of two frames
+      continue;  // requires two frames
     for (std::size_t f = 0; f < (analysis::needs_threshold(quantity) ? 2u : 1u); ++f) {
       const std::string name = f == 0 ? quantity.name : quantity.name + "[1]";
       EXPECT_TRUE(same(frame.quantity(name), analysis::number_of(quantity, run.analysis.frames[k], f)))

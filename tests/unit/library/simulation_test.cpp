@@ -1,4 +1,4 @@
-/// A run that a program drives has the bits of one that is carried through, and can be looked at at any time.
+/// A run driven step by step is bit-identical to an uninterrupted one, and can be inspected at any time.
 
 #include "library/simulation.h"
 
@@ -33,21 +33,21 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t to_the_end = 1'000'000;
 
-/// Poured, so that grains arrive while it is looked at.
+/// Returns a scenario with pouring, so that grains arrive during inspection.
 scenario::Scenario poured_bed() {
   scenario::Scenario scenario = test::small_tilted_bed(3.0);
   scenario.deposition.method = scenario::DepositionMethod::pour;
   return scenario;
 }
 
-/// The state at the end of a run that nothing interrupts.
+/// Returns the state at the end of an uninterrupted run.
 std::string end_of(const scenario::Scenario& scenario) {
   session::Session session(scenario);
   session::replay(session, nullptr, {}, to_the_end, {});
   return hash_text(state_hash(session.world()));
 }
 
-/// The state that the commands and the start of a file lead to.
+/// Returns the state that results from the start and the commands of a file.
 std::string replayed(const io::RunFile& run) {
   session::Session session = session::session_at_start(run.header(), "run");
   session::replay(session, nullptr, run.commands(), to_the_end, {});
@@ -282,7 +282,7 @@ TEST(Simulation, is_interrupted_between_two_steps) {
   EXPECT_EQ(sim.state_hash(), end_of(slow));
 }
 
-/// How a child of fork ends that does this.
+/// Returns the exit status of a forked child that executes the work.
 template <typename Work>
 int code_of_child(const Work& work) {
   const pid_t child = ::fork();
@@ -327,7 +327,7 @@ TEST(Simulation, that_is_left_is_free_though_a_child_of_fork_has_its_files) {
   if (child == 0) {
     ::close(pipe[1]);
     char end = 0;
-    ::_exit(static_cast<int>(::read(pipe[0], &end, 1)));  // waits until the parent closes its side
+    ::_exit(static_cast<int>(::read(pipe[0], &end, 1)));  // waits until the parent closes its end
   }
   sim.reset();
   EXPECT_NO_THROW(Simulation::resume(folder.path("run.h5")).step(3));

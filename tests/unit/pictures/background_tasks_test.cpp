@@ -1,4 +1,4 @@
-/// Tasks done in a thread beside the one that gives them.
+/// Tasks executed in a background thread.
 
 #include "pictures/background_tasks.h"
 
@@ -87,7 +87,7 @@ TEST(BackgroundTasks, those_that_wait_can_be_dropped) {
   EXPECT_EQ(done, 10);
 }
 
-/// ThreadSanitizer sees here that nothing is dropped while the thread takes it.
+/// ThreadSanitizer checks here that no task is dropped while the thread takes it.
 TEST(BackgroundTasks, are_dropped_while_others_are_taken) {
   std::atomic<int> done = 0;
   BackgroundTasks tasks(3);

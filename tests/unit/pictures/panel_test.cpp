@@ -1,4 +1,4 @@
-/// What the maps of a panel share.
+/// Common parts of the maps of a panel.
 
 #include "pictures/panel.h"
 
@@ -21,7 +21,7 @@ render::FrameView map_of(const std::string& title, int angle, const std::string&
   return view;
 }
 
-/// Two maps at two angles.
+/// Returns two maps at two angles.
 std::vector<std::vector<render::FrameView>> four_maps(const std::string& second_legend) {
   std::vector<std::vector<render::FrameView>> maps;
   for (const int angle : {5, 10})

@@ -1,4 +1,4 @@
-/// What the maps of a frame are given of the frames around it.
+/// Data that the maps of a frame receive from neighbouring frames.
 
 #include "pictures/picture_series.h"
 
@@ -16,7 +16,7 @@ namespace {
 constexpr Index grains = 40;
 constexpr double diameter = 1.0;
 
-/// A row of grains that touch, in a bed between walls.
+/// Returns a row of touching grains in a bed between walls.
 World row_of_grains() {
   World world;
   world.boundary.length = grains * diameter;
@@ -26,7 +26,8 @@ World row_of_grains() {
   return world;
 }
 
-/// The row at a tilt in degrees, shifted by a tenth of it; grains of these ranges are overloaded.
+/// Returns the row at a tilt in degrees, shifted by a tenth of it, with the grains in these ranges
+/// overloaded.
 Frame frame_at(double tilt, const std::vector<std::pair<Index, Index>>& overloaded, double height = 0.0) {
   Frame frame;
   frame.step = std::lround(100.0 * tilt);
@@ -46,14 +47,14 @@ Frame frame_at(double tilt, const std::vector<std::pair<Index, Index>>& overload
   return frame;
 }
 
-/// What runs may differ in while their frames are the same.
+/// Differences between runs with the same frames.
 struct Variation {
   std::uint64_t seed = 1;
   std::string scenario, start;
   double stress_ratio = 0.1;
 };
 
-/// Frames at 0, 1, 2 deg of the tilt, and one of the flow that follows, which stands higher.
+/// Writes frames at 0, 1, 2 deg of the tilt, and a frame of the following flow, which is higher.
 std::string example_run(const test::TemporaryFolder& folder, const Variation& variation = {}) {
   io::Checkpoint checkpoint;
   checkpoint.world = row_of_grains();
@@ -126,7 +127,7 @@ TEST(PictureSeries, what_moves_is_measured_from_the_frame_before_or_from_that_as
   EXPECT_EQ(fill_of(picture(before, 2, 0), 5), steady) << "each frame has moved as far as the one before";
 
   MapOptions options;
-  options.since = 0.9;  // nearest: 1 deg
+  options.since = 0.9;  // the nearest frame is at 1 deg
   DrawnRun since = open_drawn_run(path, plan_of("displacement", options), {});
   EXPECT_EQ(picture(since, 2, 0).title, "Displacement since 1.00°");
   EXPECT_NE(fill_of(picture(since, 2, 0), 5), still);
@@ -146,7 +147,7 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
         run.series.plan.maps[0].motion.of(MapKind::displacement, false).value_or(ScaleRange{0.0, 0.0});
     return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
   };
-  // In thousandths of D. All grains have moved by 0.1 D at 1 deg, and 0.2 D at 2 deg.
+  // Values in thousandths of D. All grains have moved by 0.1 D at 1 deg, and by 0.2 D at 2 deg.
   EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end, where all move alike";
   EXPECT_EQ(ends({1, 2}), std::pair(100L, 200L));
   EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";

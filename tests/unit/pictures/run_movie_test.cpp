@@ -1,4 +1,4 @@
-/// Which frames a movie shows.
+/// Selection of the frames that a movie shows.
 
 #include "pictures/run_movie.h"
 
@@ -14,7 +14,7 @@ std::vector<double> rad(std::vector<double> angles) {
   return angles;
 }
 
-/// The frame of the run that each frame of the movie shows.
+/// Returns the frame of the run shown in each frame of the movie.
 std::vector<std::size_t> shown(const std::vector<double>& clock, const MovieTiming& timing) {
   std::vector<std::size_t> frames;
   for (const MovieFrame& frame : movie_frames(clock, timing))
@@ -32,7 +32,7 @@ TEST(MovieFrames, without_a_speed_each_is_shown_once) {
 TEST(MovieFrames, with_a_speed_each_shows_the_last_one_before_its_angle) {
   MovieTiming timing;
   timing.fps = 4.0;
-  timing.speed = 2.0;  // half a degree for each frame of the movie: 0, 0.5, 1, ...
+  timing.speed = 2.0;  // half a degree per frame of the movie: 0, 0.5, 1, ...
   EXPECT_EQ(shown(rad({0, 1, 1.7, 2}), timing), (std::vector<std::size_t>{0, 0, 1, 1, 3, 3, 3, 3, 3}))
       << "the one at 1.7 is never the last; the end is held for a second";
 }

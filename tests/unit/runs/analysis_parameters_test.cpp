@@ -1,4 +1,4 @@
-/// The parameters of an analysis: what is accepted, what is refused and how, and their table in the docs.
+/// Parameters of an analysis: accepted and rejected values, and their table in the documentation.
 
 #include "runs/analysis_parameters.h"
 

@@ -1,4 +1,4 @@
-/// The analysis of a whole run: four grains in a column, made by hand.
+/// Analysis of a complete run of four grains in a hand-made column.
 
 #include "runs/analysis_run.h"
 
@@ -22,11 +22,11 @@ namespace talus::runs {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double diameter = 0.25;  // m, a number without rounding
+constexpr double diameter = 0.25;  // m, exact in binary
 constexpr Index free_grains = 4;
 
-/// The column on its floor grain. Each grain carries 1 J across the bed; the one called `soft` (none for -1)
-/// carries half as much along the bed, so that its gamma is 1/3, and the others have 1.
+/// Returns the column on its floor grain. Each grain carries 1 J across the bed; the grain `soft` (-1: none)
+/// also carries half as much along the bed, so that its gamma is 1/3, while that of the others is 1.
 Frame column(double tilt, Index soft) {
   Frame frame;
   frame.tilt = radians(tilt);
@@ -41,7 +41,8 @@ Frame column(double tilt, Index soft) {
   frame.angle = frame.vx = frame.vy = frame.omega = std::vector(frame.x.size(), 0.0);
   frame.image.assign(frame.x.size(), 0);
   FrameContacts& c = frame.contacts;
-  for (Index i = 0; i < free_grains; ++i) {  // with the floor, then each with the one above it
+  for (Index i = 0; i < free_grains;
+       ++i) {  // contacts with the floor, then of each grain with the one above it
     c.a.push_back(i == 0 ? 0 : i - 1);
     c.b.push_back(i == 0 ? free_grains : i);
     c.shift.push_back(0);
@@ -56,10 +57,10 @@ Frame column(double tilt, Index soft) {
   return frame;
 }
 
-/// The tilt after a time (s), deg: 1 deg/s, but for a hold of 1 s at `held`.
+/// Returns the tilt at a time (s), deg: 1 deg/s with a hold of 1 s at `held`.
 double tilt_at(double time, double held) { return time <= held ? time : std::max(held, time - 1.0); }
 
-/// Frames of 1 s, one for each entry of `soft`, and rows of observables of 0.5 s.
+/// Writes a frame per second, one for each entry of `soft`, and a row of observables every 0.5 s.
 void write_run(const std::string& path, const std::vector<Index>& soft, double theta_c, bool complete = true,
                double held = 90.0) {
   io::RunHeader header;
@@ -97,7 +98,7 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
 
 class AnalysisRun : public testing::Test {
  protected:
-  /// By the gamma of single grains, unless the settings say another l_min.
+  /// Analyses the gamma of single grains, unless the settings specify another l_min.
   analysis::Analysis analyse(const std::vector<Index>& soft, double theta_c,
                              std::vector<std::string> settings = {}, int threads = 1) const {
     write_run(path_, soft, theta_c);
@@ -124,7 +125,7 @@ TEST_F(AnalysisRun, counts_overloaded_grains_at_each_threshold) {
 }
 
 TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
-  // Grain 1 has M_xx = 0.5 in the frame at 1 deg alone: 1/4 as a mean of two frames, 1/6 as one of three.
+  // Grain 1 has M_xx = 0.5 only in the frame at 1 deg: 1/4 averaged over two frames, 1/6 over three.
   const analysis::Analysis a = analyse({-1, 1, -1, -1}, 30.0, {"threshold_factors=1,1.3", "averaging=2"});
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0, 0), 1.0) << "0.6 >= 0.5";
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0, 1), 0.75) << "0.6 < 0.65";
@@ -140,7 +141,7 @@ TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
 }
 
 TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
-  // The highest grain has one contact, the others two.
+  // The highest grain has one contact, the others have two.
   const analysis::Analysis a = analyse({-1, 1}, 30.0, {"min_contacts=2"});
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 0), 1.0);
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction_of_all, 0), 0.75);
@@ -166,7 +167,7 @@ TEST_F(AnalysisRun, finds_clusters_and_labels_grains) {
 }
 
 TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
-  // From grain 0: alone its moment is (0, 1), gamma 1; with grain 1 (0.5, 2), 3/5; with grain 2 (0.5, 3),
+  // Around grain 0: its own moment is (0, 1), gamma 1; with grain 1 (0.5, 2), 3/5; with grain 2 (0.5, 3),
   // 5/7.
   const analysis::Analysis a = analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_cut=3"});
   EXPECT_DOUBLE_EQ(a.lc_cut, 3 * diameter);
@@ -183,7 +184,7 @@ TEST_F(AnalysisRun, coarse_grains_up_to_the_cut) {
 }
 
 TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
-  // Of the grains above 1.3 Gamma_c = 0.65, grain 0 has gamma 1, 3/5, 5/7 with its neighbours.
+  // Among the grains above 1.3 Gamma_c = 0.65, grain 0 has gamma 1, 3/5, 5/7 with its neighbours.
   const analysis::Analysis a =
       analyse({-1, 1}, 30.0, {"threshold_factors=0.5,1.3", "lc_factor=1.1", "lc_cut=3"});
   EXPECT_NEAR(a.thresholds[1].end_ratio, 0.55, 1e-12);
@@ -195,7 +196,7 @@ TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
 }
 
 TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
-  // The moments of grains 0 to 3, each with those above and below it, sum up to gamma 3/5, 5/7, 5/7, 1.
+  // The moments of grains 0 to 3, each summed with those above and below it, give gamma 3/5, 5/7, 5/7, 1.
   const analysis::Analysis a =
       analyse({-1, 1}, 30.0, {"l_min=3", "threshold_factors=1.3", "lc_factor=1.45", "lc_cut=3.5"});
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1), 0.75);
@@ -250,7 +251,7 @@ TEST_F(AnalysisRun, finds_the_percolation_angle_and_its_error) {
 }
 
 TEST_F(AnalysisRun, finds_the_jump_of_the_largest_length) {
-  // With a soft grain 1 the moments about grain 3 sum up to gamma 5/7 when the second neighbour is in.
+  // With a soft grain 1 the moments around grain 3 give gamma 5/7 once the second neighbour is included.
   const analysis::Analysis a = analyse({1, 1, -1, -1}, 30.0, {"threshold_factors=1.6", "lc_cut=6"});
   EXPECT_DOUBLE_EQ(number(a, &analysis::FrameThreshold::lc_max, 1), 4 * diameter);
   EXPECT_NEAR(a.thresholds[0].lc_jump, radians(2.0), 1e-12);
@@ -272,7 +273,8 @@ TEST_F(AnalysisRun, leaves_out_thresholds_where_the_slope_stands) {
 TEST_F(AnalysisRun, is_the_same_on_any_number_of_threads) {
   std::vector<Index> soft;
   for (Index k = 0; k < 12; ++k) soft.push_back(k % 5 - 1);
-  const std::vector<std::string> long_work = {"bins=1000", "sections=1000"};  // so that threads overlap
+  const std::vector<std::string> long_work = {"bins=1000",
+                                              "sections=1000"};  // long enough for threads to overlap
   const analysis::Analysis one = analyse(soft, 30.0, long_work), three = analyse(soft, 30.0, long_work, 3);
   for (const analysis::Quantity& quantity : analysis::quantities()) {
     const analysis::Values other = analysis::values_of(quantity, three);

@@ -1,5 +1,4 @@
-/// The catalogue of a made-up run: its bursts, what its rows and frames say of them, and what is told where
-/// something is missing.
+/// Catalogue of a made-up run: its bursts, their values from rows and frames, and reports on missing data.
 
 #include "runs/event_catalogue.h"
 
@@ -20,24 +19,23 @@ namespace talus::runs {
 namespace {
 
 constexpr double h = 1e-3, g = 9.81;
-constexpr double diameter = g * 1e-4;  // m: sqrt(D/g) is ten steps
+constexpr double diameter = g * 1e-4;  // m, so that sqrt(D/g) is ten steps
 constexpr std::int64_t begin = 10;     // steps before the tilt
-constexpr std::int64_t steps =
-    300;  // of the tilt, 0.001 deg each; a frame after each 100, a row after each 10
+constexpr std::int64_t steps = 300;    // steps of the tilt, 0.001 deg each; a frame every 100, a row every 10
 constexpr double slow = 1e-6, fast = 0.05;  // m/s
 
 double tilt_after(std::int64_t step) { return radians(10.0 + 1e-3 * static_cast<double>(step - begin)); }
 
-/// Velocity in a step of the tilt, from 1 on. Three bursts: 34-40 and 46-50, which is one; 151-157; and one
-/// from 281 on.
+/// Returns the velocity in a step of the tilt, counted from 1. There are three bursts: 34-40 with 46-50,
+/// 151-157, and one from 281 on.
 double velocity_in(std::int64_t step) {
   const std::int64_t k = step - begin;
   const bool is_fast = (k >= 34 && k <= 40) || (k >= 46 && k <= 50) || (k >= 151 && k <= 157) || k >= 281;
   return is_fast ? (k == 155 ? 2.0 * fast : fast) : slow;
 }
 
-/// Two grains of equal mass above one of the floor; `moved` D is how far the first has gone downslope, and
-/// `sunk` D how far the other has come down.
+/// Returns two grains of equal mass above a floor grain; the first has moved by `moved` D downslope, and the
+/// other has sunk by `sunk` D.
 Frame bed_after(std::int64_t step, double moved, double sunk) {
   Frame frame;
   frame.step = step;
@@ -151,7 +149,7 @@ TEST_F(EventCatalogue, has_what_moved_between_the_frames) {
 TEST_F(EventCatalogue, shares_the_work_of_gravity_by_the_path) {
   const analysis::Analysis a = analyse(10.285);
   const double weight = 0.4 * g;
-  // 12 of 100 steps are fast; 7 in the second interval, where the other grain comes down.
+  // 12 of 100 steps are fast; 7 in the second interval, in which the other grain sinks.
   const double of_first = 12.0 * fast / (12.0 * fast + 88.0 * slow);
   EXPECT_NEAR(a.events[0].path, (12.0 * fast + 5.0 * slow) * h, 1e-12);
   EXPECT_NEAR(a.events[0].energy, weight * 0.5 * diameter * sine(radians(10.05)), 1e-3 * a.events[0].energy);
@@ -160,7 +158,7 @@ TEST_F(EventCatalogue, shares_the_work_of_gravity_by_the_path) {
   EXPECT_NEAR(a.events[1].energy, weight * 0.25 * diameter * cosine(radians(10.15)),
               1e-3 * a.events[1].energy);
   EXPECT_NEAR(a.event_energy, a.events[0].energy + a.events[1].energy, 1e-15);
-  // Split in two by a shorter quiet time, they share the frames, and the energy by 7 to 5.
+  // Split by a shorter quiet time, the two parts share the frames, and the energy in the ratio 7 to 5.
   const analysis::Analysis b = analyse(10.285, {"event_quiet=0.3"});
   ASSERT_EQ(b.events.size(), 4u);
   EXPECT_EQ(b.events[0].sharing, 2);
@@ -194,7 +192,7 @@ TEST_F(EventCatalogue, is_empty_where_steps_or_rows_are_missing) {
   }
 }
 
-/// So many rearrangements whose energy is 2^k J/m, k mod 3 of which dilates.
+/// Returns `count` rearrangements with energies 2^k J/m, of which every third dilates.
 analysis::Analysis made_up_events(int count) {
   analysis::Analysis a;
   for (int k = 0; k < count; ++k)

@@ -1,4 +1,4 @@
-/// The range of a bar as it is pulled.
+/// Range of a bar that is dragged.
 
 #include "view/bar_range.h"
 

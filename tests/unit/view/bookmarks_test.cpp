@@ -1,4 +1,4 @@
-/// Bookmarks of a run, and the file that keeps them.
+/// Bookmarks of a run, and their file.
 
 #include "view/bookmarks.h"
 

@@ -1,4 +1,4 @@
-/// A replay that goes on from one of its frames, and runs that go back before a command.
+/// Replays that continue from one of their frames, and runs in which commands are undone.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace talus::view {
 namespace {
 
-/// The state after so many steps more; it waits for them.
+/// Returns the status after `count` further steps, for which it waits.
 LiveStatus after_steps(LiveRun& run, std::int64_t count) {
   run.step(count);
   while (run.status().running) std::this_thread::yield();
@@ -75,7 +75,7 @@ TEST(Back, takes_a_drag_back_as_a_whole) {
   EXPECT_EQ(run.status().state_hash, before);
 }
 
-/// What is recorded stays, and what goes on beside it is a whole run of its own.
+/// The recorded file stays unchanged, and the continuation is a complete run in another file.
 TEST(Back, of_a_recorded_run_goes_on_in_another_file) {
   const test::TemporaryFolder folder;
   const std::string one = folder.path("one.h5"), other = folder.path("other.h5");

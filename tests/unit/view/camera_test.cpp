@@ -1,4 +1,4 @@
-/// What part of the bed is shown: a bed of 100 x 20 m, mean diameter 1 m.
+/// Part of the bed shown, for a bed of 100 x 20 m with mean diameter 1 m.
 
 #include "view/camera.h"
 
@@ -52,7 +52,8 @@ TEST(Camera, does_not_lose_the_bed) {
   EXPECT_NEAR(length(part({50.0, 9.0, 1e9}, 5.0)), 3.0, 1e-12);
 }
 
-/// The picture of a part turned by each angle up to the largest has room for it, and has that aspect.
+/// The part fits into the picture when it is turned by any angle up to the largest, and has the picture's
+/// aspect.
 TEST(Camera, finds_the_part_that_fills_the_picture_when_it_is_turned) {
   for (const double turn : {5.0, 20.0, 35.0})
     for (const double aspect : {0.8, 1.3, 1.7}) {

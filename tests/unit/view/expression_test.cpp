@@ -1,4 +1,4 @@
-/// Conditions: what they mean, and what is said of those that are none.
+/// Conditions: their meaning, and the messages for invalid ones.
 
 #include "view/expression.h"
 
@@ -15,7 +15,7 @@ namespace {
 const std::vector<ExpressionName> names = {
     {"gamma", false}, {"y", false}, {"overloaded", true}, {"lc", false}};
 
-/// With gamma = 0.6, y = 40, overloaded = 1 and lc not known.
+/// Evaluates a condition with gamma = 0.6, y = 40, overloaded = 1 and lc unknown.
 bool is_so(const std::string& text) {
   const std::map<std::string, double> values = {
       {"gamma", 0.6}, {"y", 40.0}, {"overloaded", 1.0}, {"lc", std::nan("")}};

@@ -1,4 +1,4 @@
-/// The frame made beside the one that is drawn: the bed made by hand.
+/// Frame prepared while another is drawn, with the hand-made bed.
 
 #include "view/frame_ahead.h"
 
@@ -19,7 +19,7 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
       example::bed_frame(5.0 * static_cast<double>(k), example::overloaded_of_frames.at(k)));
 }
 
-/// Of the free grains: the floor has none.
+/// Returns gamma of the free grains; floor grains have none.
 std::vector<double> free_gamma(const Frame& frame) {
   return {frame.gamma.begin(), frame.gamma.begin() + example::bed_statics().free_count};
 }

@@ -1,4 +1,4 @@
-/// What is worked out frame by frame beside the view: the bed made by hand, theta_c = 20 deg.
+/// Results computed frame by frame in the background, with the hand-made bed, theta_c = 20 deg.
 
 #include "view/frame_series.h"
 
@@ -26,7 +26,7 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
       example::bed_frame(5.0 * static_cast<double>(k), example::overloaded_of_frames.at(k)));
 }
 
-/// Takes in until so many frames were met, and says what is known of them.
+/// Collects results until `frames` frames have been processed, and returns what is known of them.
 pictures::MetFrames wait_for(FrameSeries& series, std::size_t frames) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   pictures::PictureSeries pictures;
@@ -57,8 +57,8 @@ TEST(FrameSeries, has_the_values_of_each_frame) {
   EXPECT_TRUE(std::isnan(series.values()[0].thresholds[0].largest_share));
   EXPECT_TRUE(std::isnan(series.values()[0].thresholds[0].lc_max));
   EXPECT_EQ(series.values()[2].thresholds[0].largest_share, 1.0);
-  // One overloaded grain and the three beside it have Q/P = 1/7, below sin 20 deg; from the middle of a
-  // column of four it takes those across its corners.
+  // One overloaded grain with its three neighbours has Q/P = 1/7, below sin 20 deg; from the middle of a
+  // column of four, the neighbourhood must reach the diagonal neighbours.
   EXPECT_NEAR(series.values()[1].thresholds[0].lc_max, 2.0, 1e-12);
   EXPECT_NEAR(series.values()[3].thresholds[0].lc_max, std::sqrt(8.0), 1e-12);
   EXPECT_NEAR(series.values()[3].thresholds[0].lc_mean, 1.0 + std::sqrt(2.0), 1e-12);
@@ -95,7 +95,7 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   series.begin(rule, {});
   wait_for(series, 3);
   pictures::OverloadRule other = rule;
-  other.threshold_factor = 4.0;  // above 1: nothing is overloaded
+  other.threshold_factor = 4.0;  // above 1, so that nothing is overloaded
   series.begin(other, {});
   EXPECT_TRUE(series.values().empty());
   const pictures::MetFrames met = wait_for(series, 6);
@@ -114,9 +114,9 @@ TEST(FrameSeries, takes_grains_with_their_neighbours) {
   with_neighbours.l_min = 3.0;
   series.begin(with_neighbours, {});
   wait_for(series, 6);
-  // In a neighbourhood of 6 or 9 grains, each with P = 2 or, overloaded, 1, the overloaded ones are all of Q.
-  // With four of them the lowest and the highest have 2 of 6 (Q/P = 2/10), below sin 20 deg; those between 3
-  // of 9.
+  // In a neighbourhood of 6 or 9 grains, each with P = 2 or, if overloaded, 1, only the overloaded grains
+  // contribute to Q. With four of them, the neighbourhoods of the lowest and the highest contain 2 of 6 (Q/P
+  // = 2/10), below sin 20 deg; those between contain 3 of 9.
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[3].thresholds[0].overloaded_fraction, 0.0);
   with_neighbours.threshold_factor = 0.18 / sine(radians(20.0));
@@ -140,7 +140,7 @@ TEST(FrameSeries, goes_on_with_frames_that_come_later) {
 }
 
 TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
-  // The cluster of the first frame is gone in the second; that of the third is another.
+  // The cluster of the first frame has disappeared in the second; the third frame has a different cluster.
   FrameSeries series(example::bed_statics(), [](std::size_t k) {
     return std::make_shared<const Frame>(example::bed_frame(static_cast<double>(k), k == 1 ? 0 : 2));
   });
@@ -202,7 +202,7 @@ TEST(FrameSeries, ends_while_it_works) {
   EXPECT_LT(after, 1000000);
 }
 
-/// The frame of a landmark of the bed, of which some rows and values are known.
+/// Returns the frame of a landmark of the bed, for which some rows and values are known.
 std::optional<std::size_t> frame_of(Landmark landmark, const std::vector<double>& tilts,
                                     std::span<const ObservableRow> rows,
                                     std::span<const analysis::FrameRecord> values, double theta_c) {

@@ -1,4 +1,4 @@
-/// What stands behind curves: a run as it is, several as their mean and deviation.
+/// Reference curves: a single run, or the mean and standard deviation of several.
 
 #include "view/ghost.h"
 
@@ -17,7 +17,7 @@ const analysis::Quantity& p_o() {
   return analysis::quantity_of(&analysis::FrameThreshold::overloaded_fraction);
 }
 
-/// Frames each degree from 0 on, whose volume strain is `slope` times the angle in degrees.
+/// Returns frames at each degree from 0 on, with a volume strain of `slope` times the angle in degrees.
 GhostRun run_of(int frames, double slope, double theta_c) {
   GhostRun run;
   for (int k = 0; k < frames; ++k) {

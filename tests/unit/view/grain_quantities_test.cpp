@@ -1,5 +1,4 @@
-/// The quantities of single grains: as talus export has them, as docs/view.md lists them, and as conditions
-/// find them.
+/// Quantities of single grains agree with talus export and docs/view.md, and conditions find them.
 
 #include "view/grain_quantities.h"
 
@@ -94,7 +93,7 @@ TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {
   EXPECT_GT(overloaded, 0);
 }
 
-/// Grain 39 is lifted by a metre, which is D, between the frames at 5 and at 10 deg.
+/// Grain 39 is raised by 1 m = D between the frames at 5 and 10 deg.
 TEST(GrainQuantitiesOfARun, are_measured_since_the_frame_that_the_map_goes_by) {
   const test::TemporaryFolder folder;
   example::write_bed_run(folder.path("run.h5"), 20.0);
@@ -125,7 +124,7 @@ TEST(GrainQuantitiesOfPages, docs_list_those_that_no_export_has) {
   EXPECT_NE(page.find("|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
 }
 
-/// What the window says in SI units has the unit of the attribute of its data set: per metre of thickness.
+/// SI values in the window have the unit in the attribute of their data set: per metre of thickness.
 TEST(GrainQuantitiesOfARun, have_the_units_of_the_run_file) {
   const std::pair<const char*, const char*> same[] = {
       {"mass", "/particles/grains/mass"},

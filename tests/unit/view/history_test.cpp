@@ -1,4 +1,4 @@
-/// What grains and contacts went through, read frame by frame.
+/// History of grains and contacts, read frame by frame.
 
 #include "view/history.h"
 
@@ -19,8 +19,8 @@
 namespace talus::view {
 namespace {
 
-/// Of frame k grain 3 has moved by k/10 m, and the contact of grains 3 and 13 carries k N/m, but none in the
-/// third.
+/// Returns frame k, in which grain 3 has moved by k/10 m, and the contact of grains 3 and 13 carries k N/m,
+/// except in the third frame.
 std::shared_ptr<const Frame> read_frame(std::size_t k) {
   auto frame = std::make_shared<Frame>(example::bed_frame(static_cast<double>(k), 1));
   frame->x[3] += 0.1 * static_cast<double>(k);

@@ -1,4 +1,4 @@
-/// What is said of a grain, against forces given by hand.
+/// Properties of a grain, checked with forces given by hand.
 
 #include "view/inspection.h"
 
@@ -12,7 +12,7 @@
 namespace talus::view {
 namespace {
 
-/// With all that a frame of a run has.
+/// Returns the packing with all data of a run's frame.
 test::Packing whole(test::Packing packing) {
   Frame& frame = packing.frame;
   frame.angle = frame.vx = frame.vy = std::vector(frame.x.size(), 0.0);
@@ -28,7 +28,7 @@ analysis::Clusters clusters_of(const test::Packing& packing, double threshold) {
                                  packing.statics.periodic ? packing.statics.length : 0.0);
 }
 
-/// Grain 1 has grain 0 to its left, a floor grain below it, and the right wall beside it.
+/// Returns grain 1 with grain 0 to its left, a floor grain below it, and the right wall next to it.
 test::Packing corner() {
   test::Packing packing = test::empty_packing(2.0, false);
   test::add_grain(packing, 0.5, 0.5);
@@ -40,7 +40,7 @@ test::Packing corner() {
   packing = whole(packing);
   FrameContacts& c = packing.frame.contacts;
   c.a.push_back(1);
-  c.b.push_back(3 + 1);  // the second plane
+  c.b.push_back(3 + 1);  // second plane
   c.shift.push_back(0);
   c.nx.push_back(1.0);
   c.ny.push_back(0.0);
@@ -52,7 +52,7 @@ test::Packing corner() {
   return packing;
 }
 
-/// Of single grains.
+/// Returns a rule for single grains.
 analysis::CoarseGrainingRule rule_of(double threshold, double cut) {
   return {.threshold = threshold, .end_ratio = threshold, .l_min = 0.0, .cut = cut};
 }
@@ -64,7 +64,7 @@ TEST(Inspection, has_the_contacts_of_the_grain_seen_from_it) {
   const GrainContact& left = of.contacts[0];
   EXPECT_EQ(left.other, 0);
   EXPECT_EQ(left.other_name, "grain 0");
-  EXPECT_EQ(left.nx, -1.0);  // the contact has its normal from 0 to 1
+  EXPECT_EQ(left.nx, -1.0);  // the normal of the contact points from 0 to 1
   EXPECT_EQ(left.fn, 4.0);
   EXPECT_EQ(left.ft, 1.0);
   const GrainContact& below = of.contacts[1];
@@ -91,7 +91,7 @@ TEST(Inspection, names_planes_by_where_they_are) {
 }
 
 TEST(Inspection, of_a_pressed_grain_has_its_stress) {
-  // Pressed with 4 N along x and 1 N along y, radius 1/2: moments 4 J and 1 J, gamma = 3/5.
+  // Pressed with 4 N along x and 1 N along y at radius 1/2: moments 4 J and 1 J, gamma = 3/5.
   test::Packing packing = test::empty_packing(10.0, false);
   test::add_grain(packing, 5.0, 2.0);
   for (const auto& [x, y, fn] :
@@ -109,9 +109,10 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
   EXPECT_NEAR(of.state.axis, 0.0, 1e-15);
   EXPECT_TRUE(of.overloaded);
   EXPECT_EQ(of.cluster, 0);
-  EXPECT_EQ(of.cluster_size, 5);  // all of them carry along one line
+  EXPECT_EQ(of.cluster_size, 5);  // all of them carry force along one line
   EXPECT_NEAR(of.neighbourhood_gamma, 0.6, 1e-15) << "the grain alone";
-  // Its neighbours have 2 J along x twice, and 1/2 J along y twice: 8 to 2, still 3/5; never below 1/2.
+  // Its neighbours add twice 2 J along x and twice 1/2 J along y: 8 to 2, still 3/5; it never falls below
+  // 1/2.
   ASSERT_EQ(of.curve.l.size(), 2u);
   EXPECT_EQ(of.curve.l[1], 2.0);
   EXPECT_NEAR(of.curve.gamma[1], 0.6, 1e-15);

@@ -1,5 +1,5 @@
-/// A run computed in a thread of its own: the same bits as one that is not looked at, frames that are whole,
-/// and what is left on disk.
+/// A run computed in a separate thread: bit-identical to an unobserved run, with consistent frames, and the
+/// data left on disk.
 
 #include "view/live_run.h"
 
@@ -23,7 +23,7 @@
 namespace talus::view {
 namespace {
 
-/// A bed of 30 grains that is tilted to 2 deg in some hundred steps.
+/// Returns a bed of 30 grains that is tilted to 2 deg in some hundred steps.
 scenario::Scenario small_bed() {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
   scenario.output.frame_every = 1.0;
@@ -34,7 +34,7 @@ LiveRun live(const scenario::Scenario& scenario, const std::string& output = "")
   return LiveRun(scenario, "seed = 1\n", output, false, "test");
 }
 
-/// Waits until the solver waits, and returns its status then.
+/// Waits until the solver is paused, and returns its status.
 LiveStatus paused(const LiveRun& run) {
   while (run.status().running) std::this_thread::sleep_for(std::chrono::microseconds(200));
   return run.status();
@@ -48,7 +48,7 @@ session::Session plain_run(std::int64_t steps) {
 
 std::string hash_of(const session::Session& session) { return hash_text(state_hash(session.world())); }
 
-/// The frame is that of a session: places, contacts and stresses of one and the same step.
+/// Expects the frame to be that of the session: positions, contacts and stresses of the same step.
 void expect_frame_of(const session::Session& session, const Frame& frame) {
   const Frame expected = session::make_frame(session.world(), session.law());
   EXPECT_EQ(frame.step, expected.step);
@@ -101,7 +101,7 @@ TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
   EXPECT_TRUE(run.recorded_frames(99).empty());
 }
 
-/// Times are lower bounds, which hold however busy the machine is.
+/// Times are lower bounds, which hold on a busy machine too.
 TEST(LiveRun, goes_no_faster_than_its_pace) {
   const auto seconds_of = [](LiveRun& run, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
@@ -207,7 +207,7 @@ TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
   EXPECT_EQ(paused(run).step, status.step) << "it is there already";
 }
 
-/// A frame that was taken from a run that goes on is one that a plain run has after as many steps.
+/// A frame taken from a running run equals that of a plain run after the same number of steps.
 TEST(LiveRun, shows_frames_that_are_whole) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 60.0;
@@ -358,7 +358,7 @@ TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
   EXPECT_EQ(io::RunFile::open(path).steps().size(), 8u);
 }
 
-/// A bed of three grains, so that thousands of steps take no time.
+/// A bed of three grains, so that thousands of steps are fast.
 TEST(LiveRun, thins_the_history_of_its_steps) {
   scenario::Scenario scenario = small_bed();
   scenario.bed.length = 3.0;

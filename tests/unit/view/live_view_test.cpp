@@ -1,4 +1,4 @@
-/// The view of a small run that is computed.
+/// View of a small live run.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using example::comes_true, example::opened, example::plot;
 
-/// Done, and its last frame is there to be shown.
+/// Returns whether the run is done and its last frame is available.
 bool has_ended(ViewModel& model) {
   const LiveStatus status = model.live()->status();
   return status.done && !status.running;
@@ -123,7 +123,7 @@ TEST_F(ViewOfScenario, tells_that_the_slope_has_failed) {
 
 TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
   model_->state.map.layers = {pictures::MapKind::displacement};
-  model_->state.map.range_low = 1e-12;  // the bed is small, and creeps
+  model_->state.map.range_low = 1e-12;  // the bed is small and creeps
   model_->state.map.range_high = 1e-3;
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));

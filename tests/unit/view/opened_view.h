@@ -1,5 +1,5 @@
 #pragma once
-/// A view that a test looks at, and waits for.
+/// Opens a view for a test, and waits for its results.
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +11,7 @@
 
 namespace talus::example {
 
-/// By the gamma of single grains.
+/// Opens a view with the gamma of single grains.
 inline view::ViewModel opened(const std::string& path) {
   view::ViewModel model = view::ViewModel::open(path, {}, "", false, "talus view");
   model.state.map.l_min = 0.0;
@@ -19,7 +19,7 @@ inline view::ViewModel opened(const std::string& path) {
   return model;
 }
 
-/// Updates until something holds.
+/// Updates until the condition holds.
 inline bool comes_true(view::ViewModel& model, const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!holds() && std::chrono::steady_clock::now() < end) {

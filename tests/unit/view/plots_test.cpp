@@ -1,4 +1,4 @@
-/// Curves beside the map, from rows made by hand.
+/// Curves next to the map, from hand-made rows.
 
 #include "view/plots.h"
 
@@ -73,7 +73,7 @@ TEST(Plots, of_frames_are_over_degrees) {
       .tilt = radians(10.0),
       .thresholds = {{.overloaded_fraction = 0.25, .lc_mean = 1.5, .lc_max = 3.5, .largest_share = 0.5}}};
   plot_frames(std::vector{frame, frame}, std::vector{1.0, 2.0}, 0.5, {}, plots);
-  plot_frames(std::vector{frame}, std::vector{1.0}, 0.5, {}, plots);  // instead of those before
+  plot_frames(std::vector{frame}, std::vector{1.0}, 0.5, {}, plots);  // replaces the previous ones
   ASSERT_EQ(plot(plots, "overloaded").series[0].x.size(), 1u);
   EXPECT_NEAR(plot(plots, "overloaded").series[0].x[0], 10.0, 1e-12);
   EXPECT_EQ(plot(plots, "overloaded").series[0].y[0], 0.25);

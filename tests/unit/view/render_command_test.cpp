@@ -1,4 +1,4 @@
-/// The command line that draws what is shown.
+/// Command line that draws the picture shown.
 
 #include "view/render_command.h"
 
@@ -18,7 +18,7 @@ RenderRequest shown(const char* map) {
   return of;
 }
 
-/// With every setting that some map depends on.
+/// Returns a request with every setting that some map depends on.
 RenderRequest shown_with_all(const char* map) {
   RenderRequest of = shown(map);
   of.settings.theta_c_assumed = true;
@@ -49,7 +49,7 @@ TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
       "--joined neighbours --colours viridis,contrast --range 0.1,0.6 --turned --transparent --printed 8.6");
 }
 
-/// `talus render` refuses options that do nothing.
+/// `talus render` rejects options that have no effect.
 TEST(RenderCommand, leaves_out_what_the_map_does_not_depend_on) {
   RenderRequest of = shown_with_all("forces");
   of.since = radians(5.0);

@@ -1,4 +1,4 @@
-/// Playing a run file: frames at 0, 5 ... 25 deg, then two of a flow.
+/// Playback of a run file with frames at 0, 5 ... 25 deg, then two of a flow.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class ReplayOfBed : public testing::Test {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
     frames_ = std::make_shared<RunFrames>(folder_.path("run.h5"));
     replay_.emplace(frames_);
-    replay_->set_speed(5.0);  // a frame a second
+    replay_->set_speed(5.0);  // one frame per second
   }
   test::TemporaryFolder folder_;
   std::shared_ptr<RunFrames> frames_;
@@ -32,7 +32,7 @@ TEST_F(ReplayOfBed, moves_only_while_it_plays) {
   EXPECT_FALSE(replay_->advance(0.5));
   EXPECT_TRUE(replay_->advance(0.75));
   EXPECT_EQ(replay_->index(), 1u);
-  EXPECT_TRUE(replay_->advance(2.0));  // the quarter of a second counts
+  EXPECT_TRUE(replay_->advance(2.0));  // includes the remaining quarter of a second
   EXPECT_EQ(replay_->index(), 3u);
   replay_->play(false);
   EXPECT_FALSE(replay_->advance(10.0));
@@ -90,7 +90,8 @@ TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
   EXPECT_EQ(frames_->kept(5), nullptr) << "nobody has asked for it";
   EXPECT_EQ(frames_->frame(0), first);
   const auto third = frames_->kept(3);
-  for (int k = 0; k < 60000; ++k) frames_->frame(0);  // more often than there is room for frames of this bed
+  for (int k = 0; k < 60000; ++k)
+    frames_->frame(0);  // more often than the cache has room for frames of this bed
   EXPECT_EQ(frames_->kept(3), third) << "a frame that is asked for again takes no more room";
 }
 

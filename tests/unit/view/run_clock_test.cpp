@@ -5,12 +5,12 @@
 namespace talus::view {
 namespace {
 
-/// Frames at 0, 1, 2, 3 rad, a second apart from 10 s on, and two of a flow at 13.5 and 14 s.
+/// Returns frames at 0, 1, 2, 3 rad, one per second from 10 s on, and two of a flow at 13.5 and 14 s.
 RunInstants failed(double theta_c) {
   return {{0.0, 1.0, 2.0, 3.0, 3.0, 3.0}, {10.0, 11.0, 12.0, 13.0, 13.5, 14.0}, 4, theta_c};
 }
 
-/// Twice as slow, from 20 s on, without a flow.
+/// Returns a run that tilts half as fast, from 20 s on, without a flow.
 RunInstants unfailed() { return {{0.0, 0.5, 1.0, 1.5, 2.0}, {20.0, 21.0, 22.0, 23.0, 24.0}, 5, not_known}; }
 
 TEST(LinkedFrame, ByTheTilt) {

@@ -1,4 +1,4 @@
-/// What is drawn over the map: the bed made by hand, four grains overloaded in column 0.
+/// Marks drawn over the map of the hand-made bed, with four overloaded grains in column 0.
 
 #include "view/scene.h"
 
@@ -86,7 +86,7 @@ TEST(Scene, rings_the_grain) {
 
 TEST(Scene, draws_circles_through_the_periodic_edge) {
   const Drawn drawn;
-  Overlay overlay = selection_of(10);  // at (0.5, 1.5)
+  Overlay overlay = selection_of(10);  // grain at (0.5, 1.5)
   overlay.diameters = {3.0};
   const render::FrameView view = drawn.shown(overlay);
   const auto on_the_right = [](const render::Line& line) { return line.x0 > 8.9f && line.x1 > 8.9f; };
@@ -115,11 +115,12 @@ TEST(Scene, tells_l_c_from_other_circles) {
   EXPECT_FALSE(colour_at_distance(1.0) == colour_at_distance(2.0));
 }
 
-/// Column 0 of four grains that touch the columns beside it, one through the edge.
+/// Column 0 of four grains touches both neighbouring columns, one of them across the edge.
 TEST(Scene, outlines_the_cluster_and_leaves_its_grains) {
   Drawn drawn;
   for (Index i = 0; i < example::columns * example::rows; ++i)
-    if (i % example::columns != 0) drawn.frame.x[i] += 0.05;  // a gap on the right, closed on the left
+    if (i % example::columns != 0)
+      drawn.frame.x[i] += 0.05;  // a gap on the right; the left contact stays closed
   Overlay overlay;
   overlay.cluster = 0;
   const render::FrameView view = drawn.shown(overlay);

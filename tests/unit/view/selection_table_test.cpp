@@ -1,4 +1,4 @@
-/// Numbers of selected grains, and their table.
+/// Values of selected grains, and their table.
 
 #include "view/selection_table.h"
 

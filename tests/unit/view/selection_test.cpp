@@ -1,4 +1,4 @@
-/// Grains and contacts by their places, and what becomes of a selection.
+/// Finding grains and contacts by position, and combining selections.
 
 #include "view/selection.h"
 

@@ -1,4 +1,4 @@
-/// Themes by their names, and maps on a dark ground.
+/// Names of themes, and maps on a dark background.
 
 #include "view/theme.h"
 

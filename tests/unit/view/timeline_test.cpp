@@ -1,4 +1,4 @@
-/// What happened in a run, from rows and frames made by hand.
+/// Events of a run, from hand-made rows and frames.
 
 #include "view/timeline.h"
 
@@ -11,9 +11,8 @@
 namespace talus::view {
 namespace {
 
-/// Frames every 5 deg up to 25; rows every 0.4 deg, each ten steps after the one before. The volume is least
-/// at 8 deg, the surface moves by 1 D after 11.2 deg, a cluster spans from 10 deg on, and l_c jumps at 15
-/// deg.
+/// Frames every 5 deg up to 25 and rows every 0.4 deg, ten steps apart. The volume is smallest at 8 deg, the
+/// surface has moved by 1 D after 11.2 deg, a cluster spans from 10 deg on, and l_c jumps at 15 deg.
 struct ExampleRun {
   std::vector<ObservableRow> rows;
   std::vector<analysis::FrameRecord> values;
@@ -107,7 +106,7 @@ TEST(Timeline, of_a_run_that_goes_on_has_no_largest_jump_yet) {
             (std::vector<std::string>{"command 0", "dilation", "spans", "first slide"}));
 }
 
-/// The same, after the bed was tilted to 5 deg and back, in 30 frames and 30 rows more.
+/// The same run after the bed has been tilted to 5 deg and back, with 30 additional frames and rows.
 TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
   ExampleRun run;
   std::vector<double> tilts;
@@ -133,7 +132,7 @@ TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
   for (std::size_t k = 0; k < tilts.size(); ++k)
     run.source.times.push_back(k < 30 ? 0.1 * static_cast<double>(k)
                                       : 3.0 + 1.25 * static_cast<double>(k - 30));
-  const std::vector<Command> commands = {{195, CommandKind::push, 3, 0.1, 0.0}};  // while the tilt falls
+  const std::vector<Command> commands = {{195, CommandKind::push, 3, 0.1, 0.0}};  // while the tilt decreases
   run.source.commands = commands;
   run.source.command_rows = rows;
   const auto events = timeline_events(run.source);

@@ -1,4 +1,4 @@
-/// Two views of runs made by hand.
+/// Two views of hand-made runs.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
 TEST_F(TwoViews, a_frame_minus_another_one) {
   model_->state.beside = {.shown = true, .minus = radians(5.0)};
   model_->go_to(3);
-  const GrainValues none = model_->second().values();  // nothing is drawn yet
+  const GrainValues none = model_->second().values();  // nothing has been drawn yet
   EXPECT_TRUE(none.values.empty());
   EXPECT_NE(model_->second().annotated_map().title.find("15.00° minus 5.00°"), std::string::npos)
       << model_->second().annotated_map().title;

@@ -1,4 +1,4 @@
-/// The view of a run file made by hand.
+/// View of a hand-made run file.
 
 #include "view/view_model.h"
 
@@ -117,7 +117,7 @@ TEST_F(ViewOfUnfailedRun, has_no_angle_left) {
 
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
-  model_.reset();  // its thread reads the file that is opened again
+  model_.reset();  // its thread reads the file that will be opened again
   EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").has(Landmark::length_jump))
       << "nothing was worked out yet";
   model_.emplace(opened(path_));
@@ -159,7 +159,7 @@ TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
 TEST_F(ViewOfRun, works_out_curves_anew_for_another_threshold) {
   ASSERT_TRUE(wait_for_all());
   EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
-  model_->state.map.threshold_factor = 3.5;  // 1.2: nothing is
+  model_->state.map.threshold_factor = 3.5;  // the default of 1.2 overloads no grain
   EXPECT_TRUE(model_->update(0.0));
   ASSERT_TRUE(wait_for_all());
   EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.0);
@@ -169,21 +169,21 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   model_.reset();
   const io::RunFile run = io::RunFile::open(path_);
   analysis::Analysis analysis = runs::analyse_run(run, runs::parse_analysis_settings(single_grains), 1, {});
-  analysis.frames[3].thresholds[0].overloaded_fraction = 0.75;  // frame 3, first threshold: told apart
+  analysis.frames[3].thresholds[0].overloaded_fraction = 0.75;  // frame 3, first threshold: a distinct value
   io::store_analysis(path_, analysis, hash_text(state_hash(run.checkpoint().world)));
   model_.emplace(opened(path_));
-  model_->update(0.0);  // at once
+  model_->update(0.0);  // effective immediately
   ASSERT_EQ(plot(*model_, "overloaded").series[0].y.size(), 6u);
   EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.75);
   EXPECT_NEAR(plot(*model_, "lengths").series[1].y[3], std::sqrt(8.0), 1e-6);
   EXPECT_TRUE(model_->has(Landmark::length_jump));
   EXPECT_TRUE(model_->has(Landmark::percolation));
-  model_->state.map.threshold_factor = 1.5;  // not of the analysis
+  model_->state.map.threshold_factor = 1.5;  // not in the analysis
   model_->update(0.0);
   ASSERT_TRUE(wait_for_all());
   EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
   model_->state.map.threshold_factor = 1.0;
-  model_->state.map.joined_by_neighbours = true;  // not of the analysis
+  model_->state.map.joined_by_neighbours = true;  // not in the analysis
   model_->update(0.0);
   ASSERT_TRUE(wait_for_all());
   EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
@@ -222,7 +222,7 @@ TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise
   const double density = plot(*model_, "gamma").series[0].y.back();
   model_->state.map.l_min = 3.0;
   EXPECT_TRUE(model_->update(0.0));
-  // Grain 10 has nine grains within 1.5 D, three of them overloaded: Q = 3, P = 15.
+  // Grain 10 has nine grains within 1.5 D, three of which are overloaded: Q = 3, P = 15.
   EXPECT_NEAR(model_->frame().gamma[10], 0.2, 1e-12);
   EXPECT_NEAR(model_->inspection()->gamma, 0.2, 1e-12);
   EXPECT_EQ(model_->inspection()->state.ratio, 1.0) << "the grain alone";
@@ -291,7 +291,7 @@ TEST_F(ViewOfRun, has_room_for_all_frames) {
   EXPECT_NEAR(model_->first().part(100.0).y_max, 5.0, 1e-6) << "the third frame is higher";
 }
 
-/// Two groups of twelve grains: the right one alone, then both.
+/// Two groups of twelve grains: only the right one, then both.
 TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   model_.reset();
   std::vector<Frame> frames = {example::bed_frame(0.0, 0), example::bed_frame(5.0, 0)};
@@ -310,10 +310,12 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
     return std::ranges::find(view.discs, x, &render::Disc::x)->fill;
   };
   const std::vector<render::Colour> palette = pictures::cluster_palette();
-  // As in the frame before, once that has been met; until then this frame is the first.
+  // The colours follow from the previous frame once it has been processed; until then this frame is the
+  // first.
   EXPECT_TRUE(comes_true(model, [&] { return fill_at(6.5f) == palette[0]; }));
   EXPECT_TRUE(fill_at(1.5f) == palette[1]);
-  // By contacts each column is a cluster of its own, too small for a colour; colours of others do not count.
+  // Joined by contacts, each column is a separate cluster, too small for a colour; colours of the other rule
+  // do not count.
   model.state.map.joined_by_neighbours = false;
   EXPECT_TRUE(render::is_gray(fill_at(6.5f)));
   EXPECT_TRUE(render::is_gray(fill_at(0.5f)));
@@ -378,7 +380,7 @@ TEST_F(ViewOfRun, shows_the_same_frames_on_any_way) {
   };
   for (const std::size_t k : {0u, 1u, 2u, 4u, 6u, 5u, 4u, 2u, 0u, 7u}) expect_frame(k);
   model_->go_to(1);
-  model_->go_to(2);  // what is made ahead has other neighbourhoods from here on
+  model_->go_to(2);  // frames prepared from here on have other neighbourhoods
   model_->state.map.l_min = 3.0;
   model_->update(0.0);
   for (const std::size_t k : {3u, 4u, 3u}) expect_frame(k);

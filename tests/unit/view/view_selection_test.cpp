@@ -1,4 +1,4 @@
-/// What is selected in the view of a run made by hand.
+/// Selection in the view of a hand-made run.
 
 #include <gtest/gtest.h>
 
