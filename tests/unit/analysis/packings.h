@@ -1,5 +1,5 @@
 #pragma once
-/// Frames made by hand.
+/// Hand-made frames.
 
 #include <cstdint>
 
@@ -14,31 +14,31 @@ struct Packing {
   operator BedFrame() const { return {frame, statics}; }
 };
 
-/// No grains yet; mean diameter 1 m, friction 0.5.
+/// Returns a packing without grains; mean diameter 1 m, friction 0.5.
 Packing empty_packing(double length, bool periodic);
 /// Appends a free grain and returns its id.
 Index add_grain(Packing& packing, double x, double y, double radius = 0.5, Tensor2 moment = {});
-/// Appends a grain of the floor; after all free grains.
+/// Appends a floor grain; must follow all free grains.
 Index add_floor_grain(Packing& packing, double x, double y, double radius = 0.5);
-/// Appends a contact; the normal points to b, the force (fn, ft) acts on b. Sliding where |ft| = mu fn.
+/// Appends a contact; the normal points to b, and the force (fn, ft) acts on b. Sliding if |ft| = mu fn.
 void add_contact(Packing& packing, Index a, Index b, double fn, double ft = 0.0, int shift = 0);
-/// Internal moments from the contacts, with talus_stress.
+/// Computes internal moments from the contacts, with talus_stress.
 void moments_from_contacts(Packing& packing);
-/// gamma of all grains from their internal moments.
+/// Computes gamma of all grains from their internal moments.
 void gamma_from_moments(Packing& packing);
 
-/// Columns x rows grains of diameter 1 in a triangular lattice, a row at y = 1/2 first; each other row is
-/// moved by half a diameter, so that the lattice is whole across a period of `columns`.
+/// Returns columns x rows grains of diameter 1 in a triangular lattice, with the first row at y = 1/2. Every
+/// second row is shifted by half a diameter, so that the lattice is continuous across a period of `columns`.
 Packing triangular_lattice(Index columns, Index rows, bool periodic);
-/// Grains at random places, with random symmetric moments of positive trace. Coordinates are multiples of
-/// 1/1024 in [0, length) x [0, height), so that differences and images are exact.
+/// Returns grains at random places with random symmetric moments of positive trace. Coordinates are multiples
+/// of 1/1024 in [0, length) x [0, height), so that differences and images are exact.
 Packing random_packing(std::uint64_t seed, Index count, double length, double height, bool periodic);
 
-/// All x moved by `shift` modulo the length.
+/// Returns the packing with all x shifted by `shift` modulo the length.
 Packing moved(Packing packing, double shift);
-/// Turned by 90 deg: x' = -y, y' = x. Not for a periodic packing.
+/// Returns the packing turned by 90 deg: x' = -y, y' = x. Not for a periodic packing.
 Packing turned(Packing packing);
-/// x' = length - x, modulo the length where periodic.
+/// Returns the packing mirrored: x' = length - x, modulo the length if periodic.
 Packing mirrored(Packing packing);
 
 }  // namespace talus::test

@@ -184,7 +184,7 @@ TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {
   for (runs::RunView& run : groups_[1].runs) {
     for (std::size_t k = 0; k < 3; ++k)
       run.analysis.frames[k].stress_ratio = 1.0 + 0.3 * static_cast<double>(run.scenario.seed);
-    run.analysis.frames[1].tilt += radians(0.1);  // and another grid of tilts
+    run.analysis.frames[1].tilt += radians(0.1);  // gives the run a different grid of tilts
   }
   const auto figure = differences_over_tilt(groups_);
   ASSERT_TRUE(figure);

@@ -159,7 +159,7 @@ TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
 TEST_F(ViewOfRun, works_out_curves_anew_for_another_threshold) {
   ASSERT_TRUE(wait_for_all());
   EXPECT_NEAR(plot(*model_, "overloaded").series[0].y[3], 0.1, 1e-12);
-  model_->state.map.threshold_factor = 3.5;  // the default of 1.2 overloads no grain
+  model_->state.map.threshold_factor = 3.5;  // a threshold Q/P of 1.2, above all grains
   EXPECT_TRUE(model_->update(0.0));
   ASSERT_TRUE(wait_for_all());
   EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.0);

@@ -11,7 +11,7 @@ namespace {
 using test::add_contact, test::add_grain, test::empty_packing, test::Packing;
 using Places = std::vector<Index>;
 
-/// Three grains in a row, 0.5, 1.5, 2.5, without contacts; images 0.
+/// Returns three grains in a row, at 0.5, 1.5, 2.5, without contacts; images 0.
 Packing three_grains() {
   Packing packing = empty_packing(10.0, true);
   for (const double x : {0.5, 1.5, 2.5}) add_grain(packing, x, 0.5);
@@ -24,7 +24,7 @@ TEST(ContactChanges, tell_what_came_and_what_went) {
   add_contact(before, 0, 1, 1.0);
   add_contact(before, 1, 2, 1.0);
   add_contact(after, 0, 2, 2.0);
-  add_contact(after, 1, 2, 5.0, 2.5);  // its force and its status do not matter
+  add_contact(after, 1, 2, 5.0, 2.5);  // force and status do not matter
   const ContactChanges changes = contact_changes(before.frame, after.frame);
   EXPECT_EQ(changes.gained, (Places{0}));
   EXPECT_EQ(changes.lost, (Places{0}));
@@ -45,13 +45,13 @@ TEST(ContactChanges, of_a_frame_and_itself_are_none) {
 TEST(ContactChanges, a_pair_that_goes_through_the_edge_keeps_its_contact) {
   Packing before = three_grains(), after = three_grains();
   add_contact(before, 0, 1, 1.0);
-  // Grain 0 has gone out on the left and is back on the right: grain 1 is seen from it a period farther.
+  // Grain 0 has left on the left and re-entered on the right: seen from it, grain 1 is one period farther.
   after.frame.x[0] = 9.5;
   after.frame.image[0] = -1;
   add_contact(after, 0, 1, 1.0, 0.0, 1);
   EXPECT_TRUE(contact_changes(before.frame, after.frame).gained.empty());
   EXPECT_TRUE(contact_changes(before.frame, after.frame).lost.empty());
-  // And then grain 1 too.
+  // Now grain 1 has done so too.
   after.frame.x[1] = 9.9;
   after.frame.image[1] = -1;
   after.frame.contacts.shift[0] = 0;

@@ -14,14 +14,14 @@ namespace {
 
 using test::Packing;
 
-/// What one of the functions finds in a packing.
+/// Returns the result of one of the functions for a packing.
 FrameRecord found(void (*take)(const BedFrame&, FrameRecord&), const Packing& packing) {
   FrameRecord record;
   take(packing, record);
   return record;
 }
 
-/// A triangle on the floor, with a chain of two grains that hangs at it and a grain without contacts.
+/// Returns a triangle on the floor with an attached chain of two grains, and a grain without contacts.
 Packing triangle_with_chain() {
   Packing packing = test::empty_packing(10.0, false);
   const Index left = test::add_grain(packing, 2.0, 0.5);
@@ -47,7 +47,8 @@ TEST(Coordination, counts_ends_at_free_grains) {
   EXPECT_EQ(z.coordination_number_of_all, 11.0 / 6.0);
 }
 
-// The end of the chain has one contact; without it the link has one. The triangle keeps 3 * 2 + 1 ends.
+// The end of the chain has one contact; without it, the next grain has one. The triangle keeps 3 * 2 + 1
+// ends.
 TEST(Coordination, without_rattlers_takes_them_away_again_and_again) {
   const Packing packing = triangle_with_chain();
   const FrameRecord z = found(take_coordination, packing);
@@ -70,16 +71,16 @@ TEST(MobilisedFriction, is_one_where_contacts_slide) {
   EXPECT_EQ(histogram.outside, 0.0);
 }
 
-// Walls may be rougher than grains, or smooth: at them grains have other friction to mobilise.
+// Walls may be rougher or smoother than grains, so contacts with walls have a different friction to mobilise.
 TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_floor) {
   Packing packing = triangle_with_chain();
   packing.frame.contacts.ft = {0.3, 0.3, 0.0, 0.0, 0.0, 0.0};
   packing.frame.contacts.fn.assign(6, 1.0);
   packing.statics.wall_friction = 1.0;
   for (std::size_t c : {0U, 1U}) packing.frame.contacts.b[c] = packing.frame.grain_count();
-  packing.frame.contacts.nx[0] = -1.0;  // to the left wall
+  packing.frame.contacts.nx[0] = -1.0;  // with the left wall
   packing.frame.contacts.ny[0] = 0.0;
-  packing.frame.contacts.nx[1] = 0.0;  // to the floor
+  packing.frame.contacts.nx[1] = 0.0;  // with the floor
   packing.frame.contacts.ny[1] = -1.0;
   EXPECT_DOUBLE_EQ(mobilisation_of(packing, 0), 0.3);
   EXPECT_DOUBLE_EQ(mobilisation_of(packing, 1), 0.6);
@@ -88,7 +89,7 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
   EXPECT_EQ(mobilisation_of(packing, 0), 1.0) << "nothing keeps it from sliding";
 }
 
-/// A cross of grains around one: strong contacts along y, weak ones along x.
+/// Returns a central grain with four neighbours: strong contacts along y, weak ones along x.
 Packing cross(double strong, double weak) {
   Packing packing = test::empty_packing(10.0, false);
   test::add_grain(packing, 5.0, 5.0);
@@ -101,7 +102,8 @@ Packing cross(double strong, double weak) {
   return packing;
 }
 
-// Moments: strong 2 fn along y, weak 2 fn along x. Q of the whole 2 (3 - 1): strong 3/2 of it, weak -1/2.
+// Moments: strong 2 fn along y, weak 2 fn along x. Q of both is 2 (3 - 1), of which strong contacts give 3/2
+// and weak ones -1/2.
 TEST(Networks, share_the_stress) {
   const Packing packing = cross(3.0, 1.0);
   const FrameRecord result = found(take_networks, packing);
@@ -111,7 +113,8 @@ TEST(Networks, share_the_stress) {
   EXPECT_EQ(result.strong_share_of_deviator, 1.5);
   EXPECT_EQ(result.strong_stress_ratio, 1.0);
   EXPECT_EQ(result.weak_stress_ratio, 1.0);
-  // All strong contacts are across the bed, all weak ones along it: the amplitude of a single direction is 2.
+  // All strong contacts are across the bed and all weak ones along it; the amplitude of a single direction is
+  // 2.
   EXPECT_EQ(result.network_fabric_amplitude, (std::array<double, 2>{2.0, 2.0}));
   EXPECT_NEAR(result.network_fabric_angle[0], radians(90.0), 1e-12);
   EXPECT_EQ(result.network_fabric_angle[1], 0.0);
@@ -123,17 +126,17 @@ TEST(Networks, have_together_the_moments_of_the_grains) {
   packing.frame.contacts.ft = {0.1, -0.2, 0.3, 0.0, 0.5, -0.5};
   test::moments_from_contacts(packing);
   const Tensor2 whole = stress::sum_of_moments(packing.frame.internal_moment, 0, packing.statics.free_count);
-  // With all contacts strong but one, its share is known from the whole.
+  // If all contacts but one are strong, its share follows from the total.
   const FrameRecord result = found(take_networks, packing);
   double strong_trace = 0.0;
   for (Index c : {2, 5}) strong_trace += packing.frame.contacts.fn[c] * (c == 5 ? 0.5 : 1.0);
   EXPECT_NEAR(result.strong_share_of_mean_stress, strong_trace / (whole.xx + whole.yy), 1e-12);
 }
 
-// In the frame of a contact its moment is (fn, ft; 0, 0) times the branch: P = fn, Q = sqrt(fn^2 + ft^2).
+// Relative to a contact, its moment is (fn, ft; 0, 0) times the branch: P = fn, Q = sqrt(fn^2 + ft^2).
 TEST(Networks, count_friction) {
   Packing packing = triangle_with_chain();
-  packing.frame.contacts.fn = {1.0, 1.0, 9.0, 1.0, 1.0, 1.0};  // the strong one is 120 deg to the bed
+  packing.frame.contacts.fn = {1.0, 1.0, 9.0, 1.0, 1.0, 1.0};  // the strong contact is at 120 deg to the bed
   packing.frame.contacts.ft = {0.0, 0.0, 4.5, 0.0, 0.0, 0.0};
   EXPECT_NEAR(found(take_networks, packing).strong_stress_ratio, std::sqrt(1.25), 1e-12);
 }
@@ -143,14 +146,15 @@ TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
   for (Index c : {0, 4, 5}) packing.frame.contacts.status[c] = ContactStatus::sliding;
   const FrameRecord critical = found(take_critical_contacts, packing);
   EXPECT_EQ(critical.critical_share, 0.5);
-  // left-right and left-floor hang together at the left grain; link-end is alone. Both are pairs at
+  // left-right and left-floor are connected through the left grain; link-end is separate. Both are pairs at
   // distance 1.
   EXPECT_EQ(critical.critical_clusters, 2);
   EXPECT_EQ(critical.critical_mean, 1.5);
   EXPECT_EQ(critical.critical_weighted_mean, 5.0 / 3.0);
   EXPECT_EQ(critical.critical_largest, 2);
   EXPECT_NEAR(critical.critical_correlation_length, 1.0 / std::sqrt(2.0), 1e-12);
-  // Neighbours that share no contact do not join: the top grain touches both, with contacts that stick.
+  // Neighbouring contacts without a common contact are not joined: the top grain touches both, with sticking
+  // contacts.
   packing.frame.contacts.status[3] = ContactStatus::sliding;
   EXPECT_EQ(found(take_critical_contacts, packing).critical_largest, 2);
   packing.frame.contacts.status[1] = ContactStatus::sliding;

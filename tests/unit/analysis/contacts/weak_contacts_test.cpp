@@ -12,7 +12,7 @@ namespace {
 
 using test::Packing;
 
-/// Grain 0 in the middle with contacts in given directions (deg), all of which it has with grains of its own.
+/// Grain 0 in the middle, with contacts in the given directions (deg), each with a different grain.
 struct Star {
   Packing packing = test::empty_packing(100.0, false);
 
@@ -26,7 +26,7 @@ struct Star {
 
 const std::vector<double> halves = {0.0, 0.5, 1.0};
 
-// Two strong contacts at 0 deg, mean force 2.5.
+// Returns a star with two strong contacts at 0 deg; the mean force is 2.5.
 Star chain() {
   Star star;
   star.add(0.0, 5.0, 0.1);

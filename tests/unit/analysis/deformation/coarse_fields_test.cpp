@@ -39,7 +39,7 @@ void touch_left_wall(Packing& packing, std::initializer_list<Index> grains) {
   }
 }
 
-/// Contacts with forces at random between the 60 free grains, and with the others, that are closer than
+/// Adds contacts with random forces between free grains, and between these and other bodies, closer than
 /// `reach`.
 void touch(Packing& packing, double reach, Random& random) {
   const bool periodic = packing.statics.periodic;
@@ -52,7 +52,7 @@ void touch(Packing& packing, double reach, Random& random) {
     }
 }
 
-/// A lattice of 60 grains on a floor of ten, where all that are side by side touch.
+/// Returns a lattice of 60 grains on a floor of ten, in which all neighbours touch.
 Packing lattice_bed(bool periodic) {
   Packing packing = test::triangular_lattice(10, 6, periodic);
   for (int k = 0; k < 10; ++k) test::add_floor_grain(packing, k + 0.75, 0.5 - std::sqrt(0.75));
@@ -63,8 +63,8 @@ Packing lattice_bed(bool periodic) {
   return packing;
 }
 
-/// 60 grains above a floor of ten, with contacts and velocities at random; between walls also contacts with
-/// these.
+/// Returns 60 grains above a floor of ten, with random contacts and velocities; between walls, also contacts
+/// with the walls.
 Packing random_bed(bool periodic) {
   Packing packing = test::random_packing(3, 60, 10.0, 6.0, periodic);
   for (int k = 0; k < 10; ++k) test::add_floor_grain(packing, k + 0.5, -0.5);
@@ -79,7 +79,8 @@ Packing random_bed(bool periodic) {
   return packing;
 }
 
-/// Of a field over the plane, of a bed of length 10; over one period where it is periodic.
+/// Returns the integral of a field over the plane, for a bed of length 10; over one period if the bed is
+/// periodic.
 double integral(bool periodic, const std::function<double(double, double)>& value) {
   constexpr double spacing = 0.1;
   const double margin = periodic ? 0.0 : 3.0;
@@ -131,8 +132,8 @@ TEST(CoarseFields, sum_up_to_the_packings_own_values) {
   }
 }
 
-// With W(r - r_i) for what each grain and each boundary contact has, momentum is balanced everywhere, up to
-// walls and floor: the stress varies by the net forces on grains, less what the boundaries give.
+// With W(r - r_i) for each grain and each boundary contact, momentum is balanced everywhere up to walls and
+// floor: the divergence of the stress equals the net forces on grains minus the forces of the boundaries.
 TEST(CoarseFields, balance_momentum_up_to_the_boundaries) {
   for (const bool periodic : {true, false}) {
     const Packing packing = lattice_bed(periodic);
@@ -164,7 +165,7 @@ TEST(CoarseFields, balance_momentum_up_to_the_boundaries) {
   }
 }
 
-/// Grains at random places with v = v0 + G r.
+/// Returns grains at random places with v = v0 + G r.
 Packing sheared_bed(const Tensor2& gradient) {
   Packing packing = test::random_packing(9, 400, 20.0, 16.0, false);
   complete(packing);
@@ -208,7 +209,7 @@ TEST(CoarseFields, gradient_is_that_of_their_own_velocity) {
   EXPECT_NEAR(gradient.yx, (velocity(4.0 + h, 3.0).y - velocity(4.0 - h, 3.0).y) / (2.0 * h), 1e-6);
 }
 
-// The mean of what few grains show is that of many: the fit takes no part of it away.
+// The estimate from few grains agrees on average with that from many: the fit removes no part of it.
 TEST(CoarseFields, temperature_is_that_of_independent_velocities) {
   constexpr double deviation = 0.3;
   Packing packing = sheared_bed({0.1, 0.4, -0.3, 0.2});

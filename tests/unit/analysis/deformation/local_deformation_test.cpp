@@ -14,13 +14,13 @@ namespace {
 
 using test::Packing;
 
-/// With images, which packings leave out.
+/// Adds images, which packings omit.
 Packing with_images(Packing packing) {
   packing.frame.image.assign(packing.frame.x.size(), 0);
   return packing;
 }
 
-/// The frame with each grain at F r + shift of its place r.
+/// Returns the frame with each grain moved from r to F r + shift.
 Frame moved_by(const Frame& before, const Tensor2& f, double shift_x = 0.0, double shift_y = 0.0) {
   Frame now = before;
   for (std::size_t i = 0; i < before.x.size(); ++i) {
@@ -65,8 +65,8 @@ TEST(LocalDeformation, strains_are_those_of_the_stretch) {
   EXPECT_DOUBLE_EQ(area_strain({-0.5, 0.0, 0.0, 0.0}), -0.5);
 }
 
-// Four neighbours at right angles, 1 m away. Of a displacement e along x of the right one, the gradient takes
-// e / 2 as stretch; the left one does not move, so half of it is left at either side.
+// Four neighbours at right angles, 1 m away. If the right one moves by e along x, the gradient contains a
+// stretch of e / 2; because the left one does not move, a residual of e / 2 remains on each side.
 TEST(LocalDeformation, leaves_what_no_gradient_explains) {
   constexpr double e = 0.01;
   Packing bed = test::empty_packing(100.0, false);
@@ -86,7 +86,7 @@ TEST(LocalDeformation, takes_neighbours_within_two_diameters_as_they_were_before
   for (const auto& [x, y] : {std::pair(50.0, 50.0), {51.0, 50.0}, {50.0, 51.0}, {52.125, 50.0}})
     test::add_grain(bed, x, y);
   Frame now = bed.frame;
-  now.x[3] = 51.75;  // comes nearer only now
+  now.x[3] = 51.75;  // approaches only now
   EXPECT_NEAR(local_deformations(bed.frame, {now, bed.statics})[0].gradient.xx, 0.0, 1e-14);
   bed.frame.x[3] = 51.875;
   EXPECT_LT(local_deformations(bed.frame, {now, bed.statics})[0].gradient.xx, -0.01);
@@ -95,7 +95,8 @@ TEST(LocalDeformation, takes_neighbours_within_two_diameters_as_they_were_before
 TEST(LocalDeformation, is_unrolled_over_the_period) {
   Packing bed = with_images(test::triangular_lattice(12, 8, true));
   Frame now = bed.frame;
-  for (std::size_t i = 0; i < now.x.size(); ++i) {  // a simple shear that takes grains around the period
+  for (std::size_t i = 0; i < now.x.size();
+       ++i) {  // a simple shear that moves grains across the periodic edge
     now.x[i] += 2.0 * now.y[i];
     now.image[i] = static_cast<Index>(std::floor(now.x[i] / 12.0));
     now.x[i] -= 12.0 * now.image[i];
@@ -136,7 +137,7 @@ TEST(LocalDeformation, is_not_known_without_neighbours_that_span_the_plane) {
   EXPECT_TRUE(std::isnan(local_deformations(fewer.frame, bed)[0].nonaffine)) << "of other grains";
 }
 
-// The upper half of a lattice slides over the lower one.
+// The upper half of a lattice slides over the lower half.
 TEST(LocalDeformation, of_a_slip_is_localised) {
   constexpr double slip = 0.2;
   const Packing bed = with_images(test::triangular_lattice(20, 40, true));

@@ -1,4 +1,4 @@
-/// Bursts of a made-up series, and what moved between two frames made by hand.
+/// Bursts of a made-up series, and motion between two hand-made frames.
 
 #include "analysis/events/events.h"
 
@@ -45,7 +45,7 @@ TEST(Bursts, leave_quiet_steps_with_a_median) {
       std::isnan(quiet_velocity(std::vector<double>{2.0}, find_bursts(std::vector<double>{2.0}, 1.0, 1))));
 }
 
-/// Three free grains of 1, 2 and 3 kg/m and one of the floor, in a bed 10 m long.
+/// Three free grains of 1, 2 and 3 kg/m and a floor grain, in a bed 10 m long.
 struct TwoFrames {
   RunStatics statics;
   Frame before, after;
@@ -72,7 +72,7 @@ TEST(GravityWork, is_that_on_the_centre_of_mass) {
   TwoFrames of(true);
   of.after.x[0] += 0.6;
   of.after.y[1] -= 0.3;
-  of.after.x[3] += 5.0;  // the floor has no part in it
+  of.after.x[3] += 5.0;  // the floor does not count
   const Vec2 moved = mean_displacement(of.before, of.after, of.statics);
   EXPECT_NEAR(moved.x, 0.1, 1e-12);
   EXPECT_NEAR(moved.y, -0.1, 1e-12);

@@ -1,4 +1,4 @@
-/// Exponents by maximum likelihood, of samples whose law is known.
+/// Maximum-likelihood exponents of samples with a known law.
 
 #include "analysis/events/power_law.h"
 
@@ -12,7 +12,7 @@
 namespace talus::analysis {
 namespace {
 
-/// x = minimum (1 - u)^(-1 / (alpha - 1)): the inverse of the cumulative distribution.
+/// Samples x = minimum (1 - u)^(-1 / (alpha - 1)), the inverse of the cumulative distribution.
 std::vector<double> power_sample(double alpha, double minimum, int count, Random random) {
   std::vector<double> sample;
   for (int k = 0; k < count; ++k)
@@ -36,13 +36,13 @@ TEST(PowerLaw, of_a_few_values_is_what_the_formula_says) {
   EXPECT_NEAR(law.exponent, 1.0 + 10.0 / (45.0 * std::log(2.0)), 1e-12);
   EXPECT_NEAR(law.error, (law.exponent - 1.0) / std::sqrt(10.0), 1e-12);
   EXPECT_NEAR(law.share_from(4.0), std::pow(4.0, 1.0 - law.exponent), 1e-12);
-  // The law lies above the sample where it begins: all values are at or above the first, and nine above it.
+  // The law exceeds the sample at its lower end: all values are at least the first, and nine exceed it.
   EXPECT_GT(law.distance, 0.0);
   EXPECT_EQ(power_law_from(values, 3.0).count, 8);
 }
 
 TEST(PowerLaw, begins_where_a_sample_begins_to_follow_it) {
-  // Below 1 the sample is uniform, as small events are that are not all seen.
+  // Below 1 the sample is uniform, like small events that are only partly detected.
   std::vector<double> sample = power_sample(2.0, 1.0, 700, Random(3));
   Random random(4);
   for (int k = 0; k < 500; ++k) sample.push_back(random.uniform(0.0, 1.0));

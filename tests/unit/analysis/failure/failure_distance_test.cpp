@@ -11,8 +11,8 @@ namespace {
 
 using test::Packing;
 
-/// Two layers, of heights up to 1 and up to 2: below two grains on the floor, above one between them, and one
-/// that touches nothing. N = 3, M = 5.
+/// Returns two layers, of heights up to 1 and up to 2: two grains on the floor, one above and between them,
+/// and one without contacts. N = 3, M = 5.
 Packing two_layers() {
   Packing packing = test::empty_packing(10.0, false);
   const Index left = test::add_grain(packing, 2.0, 0.5);
@@ -21,22 +21,22 @@ Packing two_layers() {
   test::add_grain(packing, 8.0, 0.5);
   const Index floor = test::add_floor_grain(packing, 2.0, -0.5);
   test::add_contact(packing, left, right, 1.0);
-  test::add_contact(packing, left, top, 1.0, 0.5);  // critical: friction is 0.5
+  test::add_contact(packing, left, top, 1.0, 0.5);  // critical, because the friction is 0.5
   test::add_contact(packing, right, top, 1.0);
   test::add_contact(packing, left, floor, 1.0, -0.5);
-  test::add_contact(packing, right, floor + 1, 1.0);  // a wall has a number after all grains
+  test::add_contact(packing, right, floor + 1, 1.0);  // walls are numbered after all grains
   return packing;
 }
 
-// 2 M = 10 components of forces, 9 equations: one contact may be critical, 2 - 9/5 = 1/5 of them.
+// 2 M = 10 components of forces and 9 equations: 2 - 9/5 = 1/5 of the contacts may be critical.
 TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
   FrameRecord record;
   take_failure_distance(two_layers(), 2.0, record);
   EXPECT_NEAR(record.critical_bound, 0.2, 1e-15);
-  EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are: this is no equilibrium
+  EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are critical, so this is not an equilibrium
 }
 
-// 10 components less 5 of the contacts, which all are critical, and 6 equations: none of torques.
+// 10 components minus 5 for the contacts, which are all critical, and 6 equations without those of torques.
 TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
   Packing packing = two_layers();
   packing.statics.friction = packing.statics.wall_friction = 0.0;
@@ -52,7 +52,8 @@ TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
   EXPECT_NEAR(record.critical_bound, 2.0 - 7.0 / 5.0, 1e-15) << "the torque on one grain";
 }
 
-// Of the lower layer: the contact of its two grains, halves of two with the top, the floor and the wall.
+// The lower layer contains the contact of its two grains, half of each contact with the top grain, and those
+// with floor and wall.
 TEST(FailureDistance, counts_of_layers_add_up) {
   const std::vector<ForceCount> counts = count_forces(two_layers(), 2.0, 2);
   EXPECT_EQ(counts[0].grains, 2.0);
@@ -63,7 +64,7 @@ TEST(FailureDistance, counts_of_layers_add_up) {
   EXPECT_EQ(counts[1].critical, 0.5);
   EXPECT_EQ(counts[0].share(), 0.375);
   EXPECT_EQ(counts[0].share_of_bound(), 0.75);
-  EXPECT_TRUE(std::isnan(counts[1].share_of_bound()));  // 2 - 3 is no bound
+  EXPECT_TRUE(std::isnan(counts[1].share_of_bound()));  // 2 - 3 gives no bound
 }
 
 TEST(FailureDistance, grains_above_the_height_belong_to_the_last_layer) {

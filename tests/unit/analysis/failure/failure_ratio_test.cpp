@@ -1,4 +1,4 @@
-/// The shear stress of a packing just before it fails, over that of an infinite slope.
+/// Shear stress of a packing just before failure, relative to that of an infinite slope.
 
 #include "analysis/failure/failure_ratio.h"
 

@@ -1,4 +1,4 @@
-/// The last rise of tilts that go up and down.
+/// Last rise of tilts that go up and down.
 
 #include "analysis/failure/last_rise.h"
 

@@ -1,4 +1,4 @@
-/// Numbers of a run at places: a hand-made analysis of five frames, 5 deg apart.
+/// Values of a run at places, from a hand-made analysis of five frames, 5 deg apart.
 
 #include "analysis/failure/place.h"
 
@@ -59,7 +59,7 @@ TEST(NumberOfRun, is_not_known_where_the_run_does_not_get_there) {
 TEST(NumberOfRun, is_of_the_last_rise_and_as_if_tilted_to_one_side) {
   Analysis analysis = made_up();
   for (int k = 0; k < 5; ++k) analysis.frames[static_cast<std::size_t>(k)].tilt *= -1.0;
-  analysis.frames[0].tilt = radians(12.0);  // the other way first, then back to -5 deg and on
+  analysis.frames[0].tilt = radians(12.0);  // first the other way, then back to -5 deg and upwards
   EXPECT_EQ(overloaded(analysis, Place::start), 1.0);
   EXPECT_EQ(number_at(analysis, {&FrameRecord::sigma_t_over_n, Place::theta_c}), -0.1 * 3);
 }

@@ -1,4 +1,4 @@
-/// theta_d by its three estimators, on series made by hand.
+/// theta_d from its three estimators, for hand-made series.
 
 #include "analysis/failure/transition.h"
 
@@ -76,7 +76,7 @@ TEST(PercolationOnset, of_short_spells_is_none) {
   EXPECT_TRUE(std::isnan(percolation_onset(std::vector{0.0}, std::vector<Index>{1}, none).tilt));
 }
 
-/// A strain over 0 ... 20 deg in rows of 0.01 deg, with noise that alternates.
+/// Strain over 0 ... 20 deg in rows of 0.01 deg, with alternating noise.
 struct Strain {
   std::vector<double> tilt, value;
 };
@@ -125,7 +125,7 @@ TEST(GrowthExponent, of_a_power_law_is_its_power) {
   const std::vector<double> at = {0.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 21.0};
   std::vector<double> sizes;
   for (const double tilt : at) sizes.push_back(3.0 * std::pow(20.5 - tilt, -0.5));
-  sizes[0] = 1e6;  // out of the window
+  sizes[0] = 1e6;  // outside the window
   sizes[7] = 1e6;  // after theta_c
   sizes[3] = none;
   const GrowthExponent growth = growth_exponent(at, sizes, 20.5, 11.0);
@@ -135,8 +135,9 @@ TEST(GrowthExponent, of_a_power_law_is_its_power) {
   EXPECT_TRUE(std::isnan(growth_exponent(at, sizes, none, 9.0).error));
 }
 
-// x = ln 1, ln 2, ln 4, ln 8, ln 16: in units of ln 2 -2 ... 2 about its middle, of squares 10. One point in
-// the middle that is higher by ln 32 leaves the slope, and residuals 4 and -1 of each other: 20 / 3 / 10.
+// x = ln 1, ln 2, ln 4, ln 8, ln 16: in units of ln 2, -2 ... 2 about the middle, with a sum of squares of
+// 10. Raising the middle point by ln 32 keeps the slope and gives residuals of 4 for it and -1 for the
+// others: 20 / 3 / 10.
 TEST(GrowthExponent, has_the_standard_error_of_a_slope) {
   const std::vector<double> at = {-16.0, -8.0, -4.0, -2.0, -1.0};
   const GrowthExponent growth = growth_exponent(at, std::vector<double>{1.0, 1.0, 32.0, 1.0, 1.0}, 0.0, 16.0);

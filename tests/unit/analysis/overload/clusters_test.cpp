@@ -13,7 +13,7 @@ namespace {
 
 using Graph = std::vector<std::vector<Index>>;
 
-/// Gives `label` to all that hang together with `start` and have none.
+/// Assigns `label` to everything connected to `start` that has no label.
 Index flood(const Graph& graph, std::vector<Index>& labels, Index start, Index label) {
   std::vector<Index> open = {start};
   Index size = 0;
@@ -67,7 +67,7 @@ TEST(Clusters, are_those_of_a_flood_fill) {
       }
     }
     EXPECT_EQ(flooded, clusters.label);
-    // The larger first; of equal ones the one that begins first.
+    // Larger clusters first; among equal ones, the one that begins first.
     std::vector<std::pair<Index, std::ptrdiff_t>> order;
     for (Index k = 0; k < clusters.count(); ++k)
       order.emplace_back(-clusters.size[k], std::ranges::find(clusters.label, k) - clusters.label.begin());
@@ -97,7 +97,7 @@ TEST(Clusters, of_an_empty_set) {
   EXPECT_TRUE(std::isnan(correlation_length(clusters, {0.0, 0.0})));
 }
 
-/// Links from each of 0 ... 9 to the next, at x = 0.5 ... 9.5 in a period of 10.
+/// Returns links from each of 0 ... 9 to the next, at x = 0.5 ... 9.5 in a period of 10.
 std::vector<Link> ring() {
   std::vector<Link> links;
   for (Index i = 0; i + 1 < 10; ++i) links.push_back({i, i + 1, 0});
@@ -116,7 +116,7 @@ TEST(Clusters, that_go_around_the_period_wrap) {
     const Clusters clusters = find_clusters(in_set, ring(), x, 10.0);
     EXPECT_EQ(clusters.count(), 1);
     EXPECT_FALSE(clusters.wraps[0]);
-    // In one piece: nine grains, one beside the other.
+    // Unwrapped, the nine grains lie next to each other.
     double lowest = 1e9, highest = -1e9;
     for (Index i = 0; i < 10; ++i)
       if (in_set[i]) {
@@ -125,12 +125,12 @@ TEST(Clusters, that_go_around_the_period_wrap) {
       }
     EXPECT_EQ(highest - lowest, 8.0);
   }
-  // A loop through the edge and back through the same edge does not go around.
+  // A loop that crosses the edge and returns through it does not wrap around.
   EXPECT_FALSE(
       find_clusters({true, true, true}, {{0, 1, -1}, {0, 2, -1}, {1, 2, 0}}, {0.5, 9.5, 9.0}, 10.0).wraps[0]);
 }
 
-// Links in any order, so that roots meet with offsets on both sides.
+// Links in any order, so that merging roots have offsets on both sides.
 TEST(Clusters, wrap_whatever_the_order_of_links) {
   std::vector<double> x;
   for (Index i = 0; i < 10; ++i) x.push_back(i + 0.5);
@@ -148,8 +148,8 @@ TEST(Clusters, wrap_whatever_the_order_of_links) {
   }
 }
 
-// R^2 of two grains at a distance d is d^2/4, of one pair xi = d / sqrt(2). Pairs count with s^2 = 4, single
-// grains and clusters that wrap do not count.
+// R^2 of two grains at distance d is d^2/4, and for a single pair xi = d / sqrt(2). Pairs count with s^2 = 4;
+// single grains and wrapping clusters do not count.
 TEST(CorrelationLength, of_pairs) {
   const std::vector<double> x = {9.5, 0.5, 3.0, 3.0, 6.0};
   const std::vector<double> y = {0.0, 0.0, 0.0, 3.0, 5.0};

@@ -16,7 +16,7 @@ namespace {
 
 using test::Packing;
 
-/// Distance and id of all free grains, the nearest first: straight from the definition.
+/// Returns distance and id of all free grains, nearest first, directly from the definition.
 std::vector<std::pair<double, Index>> neighbours_of(const Packing& packing, Index centre) {
   std::vector<std::pair<double, Index>> near;
   for (Index i = 0; i < packing.statics.free_count; ++i) {
@@ -29,7 +29,7 @@ std::vector<std::pair<double, Index>> neighbours_of(const Packing& packing, Inde
   return near;
 }
 
-/// gamma_l from the sum over all grains within l/2.
+/// Returns gamma_l from the sum over all grains within l/2.
 double ratio_within(const Packing& packing, Index centre, double l) {
   Tensor2 sum;
   for (const auto& [distance, i] : neighbours_of(packing, centre)) {
@@ -111,7 +111,8 @@ TEST(CoarseGraining, gamma_of_neighbourhoods_equals_the_definition_to_the_last_b
   }
 }
 
-// A grain that carries nothing gets no gamma from its neighbours, and takes nothing from them.
+// A grain that carries nothing has no gamma, whatever its neighbours carry, and contributes nothing to
+// theirs.
 TEST(CoarseGraining, gamma_of_neighbourhoods_of_three_grains) {
   Packing packing = test::empty_packing(20.0, false);
   test::add_grain(packing, 5.0, 0.0, 0.5, {3.0, 0.0, 0.0, 1.0});
@@ -153,7 +154,7 @@ TEST(CoarseGraining, of_the_map_equals_the_definition_to_the_last_bit) {
   }
 }
 
-// Nobody else is needed where all are alike: gamma_l is the same at every l, and every grain is cut off.
+// In a uniform field gamma_l is the same at every l, so every grain is cut off.
 TEST(CoarseGraining, of_a_uniform_stress_field) {
   Packing packing = test::triangular_lattice(12, 12, true);
   for (Tensor2& moment : packing.frame.internal_moment) moment = {3.0, 0.5, 0.5, 1.0};
@@ -171,7 +172,7 @@ TEST(CoarseGraining, of_a_uniform_stress_field) {
   EXPECT_TRUE(std::isnan(above.mean) && std::isnan(above.largest));
 }
 
-// With n grains around a grain of Q = P = 1, among grains of P = 1 and Q = 0: gamma_l = 1/n.
+// n grains around a grain with Q = P = 1, among grains with P = 1 and Q = 0: gamma_l = 1/n.
 TEST(CoarseGraining, of_one_overloaded_grain_in_a_lattice) {
   Packing packing = test::triangular_lattice(20, 20, true);
   for (Tensor2& moment : packing.frame.internal_moment) moment = {0.5, 0.0, 0.0, 0.5};
@@ -195,7 +196,7 @@ TEST(CoarseGraining, of_a_checkerboard) {
     for (Index column = 0; column < 16; ++column)
       test::add_grain(packing, column, row, 0.5,
                       (row + column) % 2 == 0 ? Tensor2{1.0, 0.0, 0.0, 0.0} : Tensor2{1.0, 0.0, 0.0, 1.0});
-  // In the middle: Q = number of even, P = even + 2 odd. 1/1; 1/9 with 4 odd at 1; 5/13 with 4 even at
+  // In the middle: Q = number of even grains, P = even + 2 odd. 1/1; 1/9 with 4 odd at 1; 5/13 with 4 even at
   // sqrt(2).
   const Index middle = 8 * 16 + 8;
   EXPECT_EQ(graining(packing, 0.2, 8.0).length[middle], 2.0);
@@ -209,8 +210,8 @@ TEST(CoarseGraining, of_a_checkerboard) {
   EXPECT_EQ(curve.gamma[2], 5.0 / 13.0);
 }
 
-// A neighbourhood has all grains within l/2: it is not judged between grains of one distance. One neighbour
-// alone would bring gamma_l to 0, the four together bring it to 3/5.
+// A neighbourhood contains all grains within l/2 and is not evaluated between grains at equal distance. One
+// neighbour alone would reduce gamma_l to 0; the four together give 3/5.
 TEST(CoarseGraining, takes_grains_at_one_distance_together) {
   Packing packing = test::empty_packing(10.0, false);
   const Tensor2 along = {1.0, 0.0, 0.0, 0.0};
@@ -252,9 +253,9 @@ TEST(CoarseGraining, summary) {
   Packing packing = test::empty_packing(100.0, false);
   const Tensor2 along = {1.0, 0.0, 0.0, 0.0};
   const Tensor2 across = {0.0, 0.0, 0.0, 1.0};
-  test::add_grain(packing, 10.0, 0.0, 0.5, along);  // with the next one, l_c = 2
+  test::add_grain(packing, 10.0, 0.0, 0.5, along);  // with the next grain, l_c = 2
   test::add_grain(packing, 11.0, 0.0, 0.5, across);
-  test::add_grain(packing, 50.0, 0.0, 0.5, along);  // alone up to the cut of 8
+  test::add_grain(packing, 50.0, 0.0, 0.5, along);  // isolated up to the cut-off of 8
   const CoarseGraining result = graining(packing, 0.5, 8.0);
   EXPECT_EQ(result.overloaded, 3);
   EXPECT_EQ(result.cut_off, 1);

@@ -57,7 +57,7 @@ TEST(NeighbourLinks, are_all_pairs_closer_than_the_reach) {
 
 TEST(NeighbourLinks, of_a_triangular_lattice) {
   const Packing packing = test::triangular_lattice(10, 10, true);
-  // Three for each grain, but for the row on top, which has one.
+  // Three links per grain, except one per grain in the top row.
   EXPECT_EQ(neighbour_links(packing).size(), 3u * 90 + 10);
   EXPECT_TRUE(neighbour_links(packing, 0.99).empty());
 }

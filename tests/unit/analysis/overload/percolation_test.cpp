@@ -43,7 +43,8 @@ TEST(Spanning, of_a_triangular_lattice_begins_at_one_half) {
   }
 }
 
-// On a triangular lattice a cluster that crosses the bed blocks all others from crossing it the other way.
+// On a triangular lattice a cluster that crosses the bed prevents all others from crossing it in the other
+// direction.
 TEST(Spanning, of_a_row_and_of_a_column) {
   const Packing packing = test::triangular_lattice(12, 9, true);
   std::vector<bool> row(108, false), column(108, false);
@@ -103,7 +104,7 @@ TEST(BedEdges, are_where_the_bed_ends) {
   EXPECT_TRUE(ids(bed_edges(packing).left).empty());
 }
 
-/// Grains of a path from the floor upwards whose steps, one diameter long, have these angles (deg).
+/// Returns grains on a path upwards from the floor; its steps, one diameter long, have these angles (deg).
 Packing path(const std::vector<double>& angles, bool periodic = false) {
   Packing packing = test::empty_packing(20.0, periodic);
   double x = 10.0;
@@ -117,7 +118,7 @@ Packing path(const std::vector<double>& angles, bool periodic = false) {
   return packing;
 }
 
-/// The first grain stands on the floor, the last one is at the surface.
+/// Returns the first grain as floor contact and the last as surface.
 BedEdges ends_of(const Packing& packing) {
   const auto count = static_cast<std::size_t>(packing.statics.free_count);
   const std::vector<bool> none(count, false);
@@ -146,8 +147,8 @@ TEST(DirectedPaths, advance_with_every_step) {
   EXPECT_FALSE(along(path({60, 25, 60}), 60.0).spans);
 }
 
-// From the floor up to a summit, down one step to another grain, and from there up to the surface: all these
-// links are within 40 deg of the vertical, but no path may go down.
+// From the floor up to a summit, one step down to another grain, and from there up to the surface: all links
+// are within 40 deg of the vertical, but a path must not descend.
 TEST(DirectedPaths, do_not_turn_back) {
   const Packing packing = path({60, 60, 60, -60, 60, 60});
   EXPECT_TRUE(along(path({60, 60, 60, 60, 60}), 90.0, 40.0).spans);

@@ -15,8 +15,8 @@ namespace {
 
 using test::Packing;
 
-/// Disks of radius 0.3 to 0.6 at random without overlaps, until no more are found: no cell of theirs is open
-/// but at the upper and lower end.
+/// Returns disks of radius 0.3 to 0.6, placed at random without overlaps until no further ones fit, so that
+/// cells are open only at the upper and lower ends.
 Packing random_disks(bool periodic) {
   constexpr double length = 12.0, height = 9.0;
   Random random(11);
@@ -36,7 +36,8 @@ Packing random_disks(bool periodic) {
   return packing;
 }
 
-/// Areas of what has the least power to each grain, up to the largest, by points of a grid within the bed.
+/// Returns the areas in which each grain has the smallest power, up to the largest value, from a grid of
+/// points in the bed.
 std::vector<double> areas_by_points(const Packing& packing, double spacing) {
   const std::size_t count = packing.frame.x.size();
   const double length = packing.statics.length;
@@ -60,8 +61,7 @@ std::vector<double> areas_by_points(const Packing& packing, double spacing) {
   return areas;
 }
 
-// What is nearest to one grain is nearest to no other, and every point is nearest to one: so cells that have
-// these areas tile the bed.
+// Every point belongs to exactly one grain, so cells with these areas tile the bed.
 TEST(GrainCells, tile_the_bed) {
   for (const bool periodic : {true, false}) {
     const Packing packing = random_disks(periodic);
@@ -97,7 +97,7 @@ TEST(LocalSolidFraction, of_a_triangular_lattice) {
   const std::vector<double> fractions = local_solid_fractions(packing);
   for (std::size_t i = 10; i < 70; ++i) EXPECT_NEAR(fractions[i], pi / (2.0 * std::numbers::sqrt3), 1e-12);
   for (std::size_t i = 70; i < 80; ++i) EXPECT_TRUE(std::isnan(fractions[i])) << "at the free surface";
-  // The lowest row stands on a smooth floor: a corner less is cut away.
+  // The lowest row lies on a smooth floor, so one corner less is cut off.
   EXPECT_NEAR(fractions[0], 0.25 * pi / (0.5 + 0.25 * std::numbers::sqrt3), 1e-12);
   FrameRecord record;
   take_local_solid_fraction(packing, record);
@@ -106,8 +106,9 @@ TEST(LocalSolidFraction, of_a_triangular_lattice) {
   EXPECT_NEAR(record.local_solid_fraction_spread, (inner - lowest) * std::sqrt(6.0) / 7.0, 1e-12);
 }
 
-// Large and small disks in turn on a square lattice, each touching four of the others: the cell of a small
-// one is the square around it, that of a large one a square with its corners cut off at half the diagonal.
+// Alternating large and small disks on a square lattice, each touching four of the other size. The cell of a
+// small disk is its circumscribed square; that of a large one is a square whose corners are cut off at half
+// the diagonal.
 TEST(LocalSolidFraction, of_two_sizes_by_hand) {
   constexpr double large = 0.6, small = 0.4;
   Packing packing = test::empty_packing(8.0, true);
@@ -122,13 +123,13 @@ TEST(LocalSolidFraction, of_two_sizes_by_hand) {
   EXPECT_NEAR(local_solid_fractions(packing)[of_small], pi / 4.0, 1e-12);
 }
 
-// A grain in a box of two walls, a smooth floor and a neighbour above that reaches over its whole width.
+// A grain in a box of two walls, a smooth floor, and a neighbour above that covers its full width.
 TEST(LocalSolidFraction, walls_and_floor_are_edges) {
   Packing packing = test::empty_packing(1.25, false);
   test::add_grain(packing, 0.625, 0.5);
   test::add_grain(packing, 0.625, 1.75);
   EXPECT_NEAR(grain_cells(packing)[0].area(), 1.25 * 1.125, 1e-12);
-  test::add_floor_grain(packing, 0.625, -0.75);  // now there is no smooth floor
+  test::add_floor_grain(packing, 0.625, -0.75);  // replaces the smooth floor
   EXPECT_NEAR(grain_cells(packing)[0].area(), 1.25 * 1.25, 1e-12);
 }
 
@@ -139,18 +140,19 @@ TEST(LocalSolidFraction, of_a_grain_by_itself_is_not_known) {
   EXPECT_TRUE(local_solid_fractions(test::empty_packing(20.0, false)).empty());
 }
 
-// A ring of six disks holds a hole of the largest power; a wider one a hole that is no part of the bed.
+// A ring of six disks encloses a hole of the largest power; the hole of a wider ring is not part of the bed.
 TEST(LocalSolidFraction, holes_count_as_far_as_a_ring_of_six_has_them) {
   for (const auto& [ring, open] : {std::pair(6, false), {7, true}}) {
     Packing packing = test::empty_packing(40.0, false);
     const double radius = 0.5 / std::sin(pi / ring);
-    for (int shell = 0; shell < 3; ++shell)  // outer ones, so that the inner one is open to the hole at most
+    for (int shell = 0; shell < 3;
+         ++shell)  // outer shells, so that at most the inner one borders on the hole
       for (int k = 0; k < ring + 6 * shell; ++k) {
         const double angle = 2.0 * pi * (k + 0.5 * shell) / (ring + 6 * shell);
         test::add_grain(packing, 20.0 + (radius + 0.95 * shell) * std::cos(angle),
                         20.0 + (radius + 0.95 * shell) * std::sin(angle), 0.5);
       }
-    packing.statics.mean_diameter = 1.0 + 1e-9;  // a hair, for the rounding of the ring
+    packing.statics.mean_diameter = 1.0 + 1e-9;  // tolerance for the rounding of the ring
     EXPECT_EQ(std::isnan(local_solid_fractions(packing)[0]), open) << ring;
   }
 }

@@ -12,8 +12,8 @@ namespace {
 
 using test::Packing;
 
-/// Disks of weight 1 and radius 1/2 on top of each other on a floor grain: the k-th contact from above
-/// carries k weights.
+/// Returns disks of weight 1 and radius 1/2 stacked on a floor grain; the k-th contact from above carries k
+/// weights.
 Packing stack_of(Index count) {
   Packing packing = test::empty_packing(10.0, false);
   for (Index i = 0; i < count; ++i) test::add_grain(packing, 5.0, 0.5 + i);
@@ -24,7 +24,7 @@ Packing stack_of(Index count) {
   return packing;
 }
 
-// Each disk has M_yy = (force below + force above) / 2, so the sum of n is n^2 / 2.
+// Each disk has M_yy = (force below + force above) / 2, so the sum over n disks is n^2 / 2.
 TEST(PackingStress, of_a_stack) {
   const Packing packing = stack_of(4);
   const PackingStress stress = packing_stress(packing, 2.0);
@@ -44,27 +44,27 @@ TEST(BulkSolidFraction, of_a_square_lattice_is_a_quarter_of_pi_whatever_is_cut) 
   EXPECT_TRUE(std::isnan(bulk_solid_fraction(packing, 100.0))) << "nothing between";
 }
 
-/// A disk on two others of its size that it touches 30 deg from the vertical; they stand on the floor. They
-/// are held from the side by `side`.
+/// Returns a disk on two others of its size, which it touches at 30 deg to the vertical; they lie on the
+/// floor, and `side` holds them from the side.
 Packing arch() {
   Packing packing = test::empty_packing(10.0, false);
   const Index left = test::add_grain(packing, 4.5, 0.5);
   const Index right = test::add_grain(packing, 5.5, 0.5);
   const Index top = test::add_grain(packing, 5.0, 0.5 + std::sqrt(0.75));
-  const double fn = 0.5 / std::sqrt(0.75);  // of each, for a weight of 1
+  const double fn = 0.5 / std::sqrt(0.75);  // for each contact, with a weight of 1
   test::add_contact(packing, left, top, fn);
   test::add_contact(packing, right, top, fn);
   test::moments_from_contacts(packing);
   return packing;
 }
 
-// M of the keystone: 2 r fn (sin^2 30, cos^2 30): gamma = cos 60.
+// M of the keystone is 2 r fn (sin^2 30, cos^2 30), so gamma = cos 60.
 TEST(PackingStress, of_an_arch) {
   const Packing packing = arch();
   EXPECT_NEAR(packing.frame.gamma[2], 0.5, 1e-12);
   const double fn = 0.5 / std::sqrt(0.75);
   const PackingStress stress = packing_stress(packing, 1.0);
-  // The two feet together have as much as the keystone, and their shears cancel.
+  // The two feet together carry as much as the keystone, and their shears cancel.
   EXPECT_NEAR(stress.sigma.xx, 2.0 * fn * 0.25, 1e-12);
   EXPECT_NEAR(stress.sigma.yy, 2.0 * fn * 0.75, 1e-12);
   EXPECT_NEAR(stress.sigma.xy, 0.0, 1e-12);
@@ -124,7 +124,7 @@ TEST(SectionStress, goes_by_the_centres) {
   EXPECT_EQ(sections[1].yy, 3.0);
 }
 
-// As in the test of bed_volume: the upper half of a disk stands on average pi/4 r above its centre.
+// See the test of bed_volume: the upper half of a disk is on average pi/4 r above its centre.
 TEST(FrameVolume, is_the_area_below_the_surface) {
   for (const bool periodic : {false, true}) {
     Packing packing = test::empty_packing(10.0, periodic);

@@ -25,7 +25,7 @@ TEST(PairCorrelation, of_an_alternating_chain) {
   y.push_back(3.0);
   value.push_back(std::nan(""));
   const PairCorrelation result = pair_correlation(x, y, value, 4.5, 9, 20.0);
-  // Bins are half a diameter wide: distances 1, 2, 3, 4 are at the beginning of every other one.
+  // Bins are half a diameter wide: distances 1, 2, 3, 4 are at the beginning of every second bin.
   for (std::size_t bin = 0; bin < 9; ++bin) {
     EXPECT_NEAR(result.r[bin], 0.25 + 0.5 * static_cast<double>(bin), 1e-15);
     if (bin == 0 || bin % 2 == 1) {
@@ -39,7 +39,7 @@ TEST(PairCorrelation, of_an_alternating_chain) {
   EXPECT_EQ(pair_correlation(x, y, value, 4.5, 9, 0.0).pairs[2], 19.0);
 }
 
-/// The same, over all pairs of points.
+/// Computes the same over all pairs of points.
 PairCorrelation plain_correlation(const std::vector<double>& x, const std::vector<double>& y,
                                   const std::vector<double>& value, double largest, int bins, double period) {
   const auto count = static_cast<double>(value.size());
@@ -102,7 +102,8 @@ TEST(PairCorrelation, is_the_same_wherever_the_period_is_cut) {
   for (std::size_t bin = 0; bin < 10; ++bin) EXPECT_NEAR(one.value[bin], other.value[bin], 1e-12);
 }
 
-// What all grains at one depth share, the weight above, is no correlation: here each has its own random part.
+// A common value at each depth, the weight above, is not a correlation: here each grain also has an
+// independent random part.
 TEST(MeanStressCorrelation, is_not_that_of_depth) {
   Packing packing = test::empty_packing(24.0, true);
   Random random(13);

@@ -10,7 +10,7 @@
 namespace talus::analysis {
 namespace {
 
-/// Contacts of the given directions (deg) between grains of no matter which place, with f_n = 1, 2, ...
+/// Returns contacts with the given directions (deg) between grains at arbitrary places, with f_n = 1, 2, ...
 test::Packing contacts_at(const std::vector<double>& directions) {
   test::Packing packing = test::empty_packing(10.0, false);
   test::add_grain(packing, 0.0, 0.0);
@@ -37,8 +37,8 @@ TEST(FabricComponent, of_a_triangular_lattice) {
   EXPECT_NEAR(fabric_component(packing.frame, 2).amplitude, 0.0, 1e-12);
 }
 
-// A density 1 + a cos 2 (theta - theta_2) has the amplitude a: here two directions, 30 deg off 150 deg each
-// side.
+// A density 1 + a cos 2 (theta - theta_2) has amplitude a; here two directions lie 30 deg to either side of
+// 150 deg.
 TEST(FabricComponent, of_two_directions) {
   const test::Packing packing = contacts_at({120.0, 180.0});
   EXPECT_NEAR(fabric_component(packing.frame, 2).amplitude, 2.0 * std::cos(radians(60.0)), 1e-12);
@@ -51,8 +51,8 @@ TEST(FabricComponent, of_nothing_is_nan) {
 }
 
 TEST(DirectionPeaks, are_where_directions_concentrate) {
-  // Peaks at -3, 62 and 117 deg, each with some at its sides, a broad background, and a few at one place that
-  // are no peak.
+  // Peaks at -3, 62 and 117 deg, each with some spread, a broad background, and a few values at one place
+  // that are not a peak.
   std::vector<double> directions;
   for (int peak : {177, 62, 117})
     for (int side : {-6, -3, 0, 0, 0, 3, 6}) directions.push_back(peak + side);

@@ -12,7 +12,7 @@ namespace {
 
 using test::Packing;
 
-/// Two grains of radius 1/2, then two of radius 3/4; contacts between them have any direction.
+/// Returns two grains of radius 1/2, then two of radius 3/4; contacts between them have any direction.
 Packing two_pairs() {
   Packing packing = test::empty_packing(10.0, false);
   for (const double radius : {0.5, 0.5, 0.75, 0.75}) test::add_grain(packing, 2.0 * radius, 1.0, radius);
@@ -26,7 +26,7 @@ void add_directed(Packing& packing, Index a, double angle, double fn, double ft 
   packing.frame.contacts.ny.back() = std::sin(angle);
 }
 
-// Directions all around: sums of cosines are those of the integrals.
+// For directions all around, sums of cosines equal the integrals.
 TEST(Texture, of_forces_is_what_they_were_made_with) {
   Packing packing = two_pairs();
   const double axis = radians(70.0);
@@ -44,8 +44,8 @@ TEST(Texture, of_forces_is_what_they_were_made_with) {
   EXPECT_NEAR(texture.stress_ratio(), 0.25, 1e-12);
 }
 
-// Along the bed three contacts, longer than the others; 2 at 45 and at 135 deg, one across: sum of cosines 2
-// of 8, of lengths 3.5 of 9.5. With equal forces that is Gamma.
+// Three contacts along the bed, longer than the others; 2 at 45 and at 135 deg, one across. The sum of
+// cosines is 2 of 8, that of lengths 3.5 of 9.5. For equal forces this is Gamma.
 TEST(Texture, of_contacts_and_lengths) {
   Packing packing = two_pairs();
   for (int k = 0; k < 3; ++k) add_directed(packing, 2, 0.0, 1.0);

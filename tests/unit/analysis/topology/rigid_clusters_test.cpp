@@ -18,14 +18,14 @@ std::vector<Index> labels(Index bodies, const std::vector<Bond>& bonds) {
   return find_rigid_clusters(bodies, bonds).label;
 }
 
-/// The same by linear algebra: the rank of the matrix of constraints at random places, and which bodies have
-/// the same motion in all of its null space.
+/// Computes the same by linear algebra: the rank of the constraint matrix at random places, and the bodies
+/// with equal motion in all of its null space.
 RigidClusters by_linear_algebra(Index bodies, const std::vector<Bond>& bonds, Random& random) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * static_cast<Index>(bonds.size()), 3 * bodies);
   Index row = 0;
   for (const Bond& bond : bonds) {
     const double x = random.uniform(-1.0, 1.0), y = random.uniform(-1.0, 1.0);
-    for (int k = 0; k < bond.constraints; ++k, ++row) {  // no motion between the bodies at (x, y) along d
+    for (int k = 0; k < bond.constraints; ++k, ++row) {  // no relative motion of the bodies at (x, y) along d
       const double dx = random.uniform(-1.0, 1.0), dy = random.uniform(-1.0, 1.0);
       const Eigen::RowVector3d force(dx, dy, x * dy - y * dx);
       matrix.block<1, 3>(row, 3 * bond.a) -= force;
@@ -59,7 +59,7 @@ TEST(RigidClusters, three_grains_that_stick_are_rigid_and_four_in_a_ring_are_not
   EXPECT_EQ(labels(4, {{0, 1, 2}, {1, 2, 2}, {2, 3, 2}, {3, 0, 2}}), (std::vector<Index>{0, 1, 2, 3}));
 }
 
-// Each sliding contact takes one constraint away, so the triangle has one to few.
+// Each sliding contact removes one constraint, so the triangle lacks one.
 TEST(RigidClusters, a_contact_that_slides_makes_a_triangle_floppy) {
   const RigidClusters clusters = find_rigid_clusters(3, std::vector<Bond>{{0, 1, 2}, {1, 2, 2}, {2, 0, 1}});
   EXPECT_EQ(clusters.label, (std::vector<Index>{0, 1, 2}));
@@ -67,13 +67,14 @@ TEST(RigidClusters, a_contact_that_slides_makes_a_triangle_floppy) {
   EXPECT_EQ(clusters.redundant, 0);
 }
 
-// Two triangles at one grain are one body, for a body has three motions and no hinge of its own.
+// Two triangles that share a grain are one body, because a grain has three degrees of freedom and is not a
+// hinge.
 TEST(RigidClusters, that_share_a_grain_are_one) {
   EXPECT_EQ(labels(5, {{0, 1, 2}, {1, 2, 2}, {2, 0, 2}, {2, 3, 2}, {3, 4, 2}, {4, 2, 2}}),
             (std::vector<Index>{0, 0, 0, 0, 0}));
 }
 
-// 30 networks of 12 bodies, from a few constraints to more than enough.
+// 30 networks of 12 bodies, from too few constraints to more than enough.
 TEST(RigidClusters, agree_with_the_rank_of_the_constraint_matrix) {
   Random random(7);
   Index rigid = 0;
@@ -113,8 +114,8 @@ TEST(RigidClusters, are_not_counted_without_friction) {
     EXPECT_TRUE(std::isnan(value));
 }
 
-// Two grains side by side on the floor are a triangle with it; a third sits on them and slides at one; a
-// fourth touches the second only, and rolls.
+// Two adjacent grains on the floor form a triangle with it; a third lies on them and slides at one; a fourth
+// touches only the second, and rolls.
 TEST(RigidClusters, of_a_bed_stand_on_its_floor) {
   Packing packing = test::empty_packing(10.0, false);
   for (Index i = 0; i < 4; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);

@@ -16,7 +16,7 @@ namespace {
 
 using test::Packing;
 
-/// Two triangles with a bridge between them, which stand on a floor grain.
+/// Returns two triangles on a floor grain, connected by a bridge.
 Packing two_triangles() {
   Packing packing = test::empty_packing(10.0, false);
   for (Index i = 0; i < 7; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
@@ -52,7 +52,7 @@ TEST(Topology, counts_components_and_loops_above_each_threshold) {
   EXPECT_EQ(numbers(counts, &GraphCount::loops), (std::vector<Index>{2, 2, 2, 1, 0, 0, 0}));
 }
 
-// Four grains in a row that goes around.
+// Four grains in a row that wraps around the period.
 TEST(Topology, a_row_around_the_period_is_a_loop) {
   Packing packing = test::empty_packing(4.0, true);
   for (Index i = 0; i < 4; ++i) test::add_grain(packing, i + 0.5, 0.5);
@@ -71,7 +71,7 @@ TEST(Topology, thresholds_are_of_the_mean_force) {
   EXPECT_EQ(record.network_loops, (std::vector<double>{2.0, 2.0, 0.0}));
 }
 
-/// (birth, death), the earliest birth first, and of these the latest death first.
+/// Returns (birth, death) pairs, earliest birth first, and among equal births latest death first.
 std::vector<std::pair<double, double>> in_order(const std::vector<Lifetime>& lifetimes) {
   std::vector<std::pair<double, double>> pairs;
   for (const Lifetime& lifetime : lifetimes) pairs.emplace_back(lifetime.birth, lifetime.death);
@@ -88,7 +88,7 @@ TEST(Topology, a_component_dies_where_it_meets_an_older_one) {
   EXPECT_EQ(in_order(diagram.loops), (Pairs{{1.5, 0.0}, {1.0, 0.0}}));
 }
 
-// A row with forces 5 1 4 2 3: the component of 3 meets that of 4, which is older, and then that of 5.
+// In a row with forces 5 1 4 2 3, the component of 3 meets that of 4, which is older, and then that of 5.
 TEST(Topology, the_younger_of_two_components_dies) {
   Packing packing = test::empty_packing(10.0, false);
   for (Index i = 0; i < 6; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
