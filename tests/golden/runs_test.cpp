@@ -1,6 +1,6 @@
-/// Whole runs down to the last bit. The hashes below hold for every build of these sources: any number of
-/// threads, with and without optimisation or sanitizers, with AVX2 and without. A change that gives other
-/// bits is named in CHANGELOG.md, and puts the hashes here that it gives.
+/// Complete runs, compared bit for bit. The hashes below hold for every build of these sources: with any
+/// number of threads, with and without optimisation, sanitizers or AVX2. A change that alters bits must be
+/// listed in CHANGELOG.md and must update the hashes here.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace talus {
 namespace {
 
-/// Collapsed, brought nearly to rest and tilted by a twentieth of a degree.
+/// Returns a bed that collapses, comes almost to rest and is tilted by a twentieth of a degree.
 scenario::Scenario bed(double length, double depth) {
   scenario::Scenario scenario;
   scenario.bed.length = length;

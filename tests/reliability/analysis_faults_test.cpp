@@ -1,5 +1,5 @@
-/// Whatever happens at whichever call while an analysis is stored, the file holds the run, and the analysis
-/// before or after.
+/// Faults at any call while an analysis is stored: the file still holds the run, and the old or the new
+/// analysis.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -17,8 +17,8 @@
 namespace talus {
 namespace {
 
-constexpr int defect = 98;         // exit code of a child that saw what must not happen
-constexpr int calls_at_most = 60;  // of one store_analysis; the tests see that it takes fewer
+constexpr int defect = 98;         // exit code of a child that detected an error
+constexpr int calls_at_most = 60;  // limit for one store_analysis; the tests check that it takes fewer
 constexpr int done = 0;
 
 /// Stores an analysis in a child process under a fault, and returns the exit code of the child.
@@ -41,7 +41,7 @@ int store_under(const faults::Fault& fault, const std::string& path) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-/// Strikes every call in turn while the second analysis of a file replaces the first.
+/// Injects a fault at every call in turn while the second analysis of a file replaces the first.
 void strike_every_call(faults::Fault fault, const std::vector<int>& allowed_codes) {
   const example::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");

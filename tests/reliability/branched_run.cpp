@@ -16,7 +16,7 @@ namespace talus::hostile {
 namespace {
 
 constexpr std::int64_t to_the_end = 1'000'000;
-constexpr std::size_t left_at = 2;  ///< the frame
+constexpr std::size_t left_at = 2;  ///< frame of the parent
 
 scenario::Scenario bed() {
   scenario::Scenario scenario = test::small_tilted_bed(3.0);

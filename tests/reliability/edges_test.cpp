@@ -1,4 +1,4 @@
-/// What surrounds a command and is not its own: signals, pipes, memory, the user's settings, a terminal.
+/// Environment of a command: signals, pipes, memory, user settings, terminal.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -33,7 +33,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Whether `holds()` becomes true within ten seconds.
+/// Returns whether `holds()` becomes true within ten seconds.
 template <typename Condition>
 bool comes_true(const Condition& holds) {
   for (int wait = 0; wait < 2000; ++wait, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
@@ -41,7 +41,7 @@ bool comes_true(const Condition& holds) {
   return false;
 }
 
-/// A run and what is made of it, once for all tests.
+/// A run and files made from it, shared by all tests.
 class Edges : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -58,10 +58,10 @@ class Edges : public testing::Test {
     return run_talus(words, folder->path(), environment);
   }
 
-  /// How a command ends that is sent a signal while it works, and that it does so soon.
+  /// Returns the exit status of a command that receives a signal while it works; checks that it ends soon.
   static int end_by(const Words& words, int signal) {
     const pid_t process = start_talus(words, folder->path());
-    if (!wait_until_it_catches(process, SIGTERM)) return wait_for(process);  // it was faster
+    if (!wait_until_it_catches(process, SIGTERM)) return wait_for(process);  // it had already ended
     const auto begin = Clock::now();
     kill(process, signal);
     const bool ended = comes_true([process] { return has_ended(process); });
@@ -123,7 +123,7 @@ TEST_F(Edges, a_pipe_or_a_device_is_no_run_and_no_problem) {
     }
 }
 
-/// A gnuplot that says that it is there, and then takes its time.
+/// A gnuplot that reports its presence and then takes a long time.
 TEST_F(Edges, programs_that_were_started_end_with_the_command) {
   write_file(*folder, "gnuplot",
              "#!/bin/sh\ncase $1 in --version) exit 0;; esac\necho $$ > " + folder->path("started") +
@@ -172,8 +172,8 @@ std::string told_by(const std::string& path) try {
   return error.what();
 }
 
-/// Of a file that was changed and sealed again `check` tells, or every value in it is as it was. TALUS_TRIES
-/// makes more tries.
+/// For a file that was changed and sealed again, `check` reports the change, or every value is unchanged.
+/// TALUS_TRIES sets the number of tries.
 TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
   const hostile::Bytes good = hostile::read_bytes(folder->path("run.h5"));
   std::vector<std::string> paths = hostile::data_sets(good);
@@ -202,7 +202,7 @@ TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
   std::printf("%d changes: %d told, %d without effect\n", count, told, count - told);
 }
 
-/// While it lives this process, and those that it starts, have no more memory than so many bytes.
+/// Limits the memory of this process and its children to a number of bytes during its lifetime.
 struct MemoryLimit {
   explicit MemoryLimit(rlim_t bytes) {
     getrlimit(RLIMIT_AS, &before);

@@ -18,7 +18,7 @@ namespace {
 Fault armed;
 int counted = 0;
 char first_struck[256] = "";
-pid_t counting = 0;  ///< the process whose calls are counted: not its children
+pid_t counting = 0;  ///< process whose calls are counted, without its children
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool counts_here() { return counting == getpid(); }
 
 namespace {
 
-/// Counts a call; whether it is one that the fault is for.
+/// Counts a call; returns whether the fault applies to it.
 bool is_next() {
   if (!counts_here()) return false;
   ++counted;
@@ -59,7 +59,7 @@ bool strikes_reading(const char* call) {
 
 namespace {
 
-/// A kill can split a write.
+/// Writes only part of the data, as a kill can split a write.
 void split_write(int file, const void* data, size_t size) {
   if (counts_here() && armed.kind == Kind::kill && counted + 1 == armed.call)
     syscall(SYS_write, file, data, size / 2);
@@ -77,7 +77,7 @@ namespace {
 
 constexpr int max_files = 256;
 
-/// A file that was removed while it was open.
+/// File that was removed while it was open.
 struct KeptFile {
   char path[4096];
   struct stat status;
@@ -160,7 +160,7 @@ ssize_t write(int file, const void* data, size_t size) {
 ssize_t pwrite(int file, const void* data, size_t size, off_t at) {
   return strikes("pwrite") ? -1 : syscall(SYS_pwrite64, file, data, size, at);
 }
-int lock_file(int file, int operation) noexcept __asm__("flock");  // a struct has that name too
+int lock_file(int file, int operation) noexcept __asm__("flock");  // a struct has the same name
 int lock_file(int file, int operation) noexcept {
   return talus::faults::has_no_locks() || strikes("flock")
              ? -1

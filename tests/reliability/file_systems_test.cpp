@@ -1,4 +1,4 @@
-/// File systems that lack what a local disk has: locks, or the removal of files that are open.
+/// File systems without features of a local disk: locks, or the removal of open files.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::string> without_locks(int error) {
   std::vector<std::string> environment = with_fault("no-locks " + std::to_string(error));
-  environment.emplace_back("HDF5_USE_FILE_LOCKING=TRUE");  // as a site may have it
+  environment.emplace_back("HDF5_USE_FILE_LOCKING=TRUE");  // a possible setting of a site
   return environment;
 }
 

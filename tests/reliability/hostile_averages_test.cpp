@@ -1,5 +1,4 @@
-/// ensemble.h5 that is damaged, or that is whole and says what cannot be: refused with the place, or
-/// harmless.
+/// Damaged files ensemble.h5, and intact ones with impossible values: rejected with the place, or harmless.
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -40,7 +39,7 @@ void use(const std::string& path) {
   }
 }
 
-/// In a process of its own: HDF5 may crash on what is malformed and sealed again.
+/// Uses the file in a child process, because HDF5 may crash on malformed files that were sealed again.
 void use_apart(const std::string& path) {
   io::in_child_process(path, std::filesystem::file_size(path), [&path] {
     use(path);
@@ -100,7 +99,7 @@ TEST_F(HostileAverages, of_an_earlier_version_are_refused) {
   EXPECT_NE(said->find("recreate it with: talus ensemble average"), std::string::npos) << *said;
 }
 
-// HDF5 would follow it, and a reader that skips it would miss a variant.
+// HDF5 would follow the link, and a reader that skips it would miss a variant.
 TEST_F(HostileAverages, with_a_link_are_refused) {
   for (const bool external : {false, true}) {
     const std::string path = bad(good);

@@ -1,5 +1,5 @@
-/// Branches whose /branch is damaged, or whole and no state of their run: every command tells of it in one
-/// message, or does without.
+/// Branches whose /branch is damaged, or intact but impossible for their run: every command reports it in one
+/// message, or does not need it.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ class HostileBranch : public HostileFile<make_good> {
  protected:
   static test::Outcome talus(const Words& words) { return test::run_talus(words, folder->path()); }
 
-  /// The stopped branch with another start.
+  /// Returns the stopped branch with another start.
   static std::string with_start(const std::function<void(io::BranchOrigin&)>& change) {
     const std::string path = folder->path("changed.h5");
     store_with_start(folder->path("stopped.h5"), path, change);
@@ -45,7 +45,7 @@ class HostileBranch : public HostileFile<make_good> {
   }
 };
 
-/// In a process of its own, which may take no longer than a file of that size needs.
+/// Uses the branch in a child process, within the time that a file of that size needs.
 void use_apart(const std::string& path) {
   const std::string folder = io::run_folder(path);
   const std::string read = fs::exists(path) ? path : test::path_beginning(folder, "header_");
@@ -89,7 +89,7 @@ TEST_F(HostileBranch, that_was_stopped_goes_on_to_the_end_of_one_that_was_not) {
 }
 
 TEST_F(HostileBranch, each_data_set_of_another_make_is_refused_by_name) {
-  // One of these less is another start, as good, of which only the hashes of the pieces tell.
+  // Without one of these the start is different but valid; only the hashes of the parts reveal it.
   const auto may_be_missing = [](const std::string& path) {
     for (const char* name : {"/friction", "/drag_grain", "/tilt_rate", "/unconverged_in_a_row"})
       if (path.ends_with(name)) return true;
@@ -141,9 +141,9 @@ TEST_F(HostileBranch, sizes_and_values_of_chance_are_refused_or_harmless) {
   EXPECT_GT(refused, count / 2);
 }
 
-/// A start that no run of this scenario has, with the hashes that belong to it.
+/// Start that no run of this scenario has, with matching hashes.
 struct WrongStart {
-  const char* named;  ///< what the message names
+  const char* named;  ///< data set in the message
   std::function<void(io::BranchOrigin&)> change;
 };
 
@@ -269,12 +269,12 @@ TEST_F(HostileBranch, that_begins_with_no_state_of_its_run_is_refused_by_name) {
     const std::string path = with_start(wrong.change);
     const std::optional<std::string> message = refusal(path);
     ASSERT_TRUE(message) << "was accepted";
-    // A file of the folder, or the run, is what it begins with.
+    // The message begins with a file of the folder, or with the run.
     EXPECT_NE(message->find(std::string("data set ") + wrong.named), std::string::npos) << *message;
   }
 }
 
-/// One message, and nothing that a terminal obeys.
+/// Expects one message without terminal control sequences.
 void expect_told(const test::Outcome& outcome, bool refused) {
   EXPECT_EQ(outcome.exit_code, refused ? bad_data : done) << outcome.err;
   EXPECT_EQ(outcome.err.find_first_of("\x1b\a\r\x7f"), std::string::npos);
@@ -286,8 +286,8 @@ void expect_told(const test::Outcome& outcome, bool refused) {
   EXPECT_NE((outcome.err + outcome.out).find("/branch/"), std::string::npos) << outcome.err << outcome.out;
 }
 
-/// Of what cannot be read every command tells; of what can be read and is no state of the scenario those tell
-/// that use it.
+/// Unreadable data are reported by every command; readable data that are no state of the scenario are
+/// reported by the commands that use them.
 TEST_F(HostileBranch, is_told_by_every_command) {
   const auto in = [](const char* named, bool read, const std::function<void(io::BranchOrigin&)>& change) {
     SCOPED_TRACE(named);
@@ -351,7 +351,7 @@ TEST_F(HostileBranch, of_another_run_is_told_by_check_and_by_replay) {
   EXPECT_NE(talus({"replay", "changed.h5", "-q"}).exit_code, done);
 }
 
-/// What is left without it is a run like any other, and says what it lacks.
+/// The repaired run has no start, can be used like any other, and reports what is missing.
 TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   const std::string path = bad(spoilt(good, std::vector<Spoil>{{"/branch/vx", Harm::one_value, 2, 10, {}}}));
   const test::Outcome check = talus({"check", "bad.h5"});
@@ -375,7 +375,7 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
       << "what had been set before is not known any more";
 }
 
-/// A byte flipped, up to 4 KiB of zeros, or a cut.
+/// Flips a byte, writes up to 4 KiB of zeros, or truncates.
 Bytes damaged(Bytes bytes, int kind, Random& random) {
   const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
   if (kind == 0) bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
@@ -386,8 +386,8 @@ Bytes damaged(Bytes bytes, int kind, Random& random) {
   return bytes;
 }
 
-/// What is kept is what was written, and passes every check; another branch either begins with all that was
-/// in force, or does not begin.
+/// Expects the repaired data to equal the original and to pass every check; another branch either begins with
+/// all settings in effect, or does not begin.
 void expect_kept(const io::RunFile& kept, const io::RunFile& whole) {
   const session::RunCheck check = session::check_run(kept, {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();

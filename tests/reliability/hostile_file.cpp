@@ -102,7 +102,7 @@ void make_again(hid_t file, const Spoil& spoil, const Handle& type, const std::v
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (spoil.harm == Harm::values_in_another_file)
     H5Pset_external(creation.get(), "/proc/self/maps", 0, H5F_UNLIMITED);
-  if (spoil.harm == Harm::huge) {  // allocated late, chunk by chunk: as large as it says, and yet no bytes
+  if (spoil.harm == Harm::huge) {  // allocated late, chunk by chunk: nominally huge, but without data
     const std::vector<hsize_t> chunk(shape.size(), 1);
     H5Pset_chunk(creation.get(), static_cast<int>(shape.size()), chunk.data());
   }
@@ -122,7 +122,7 @@ void add_huge_attribute(hid_t set) {
   H5Awrite(attribute.get(), type.get(), std::vector<char>(60000, 'x').data());
 }
 
-/// Any type of numbers is written through doubles or 64-bit integers; texts byte by byte are not.
+/// Writes any type of number through doubles or 64-bit integers; texts are not written byte by byte.
 void overwrite(hid_t set, const Spoil& spoil) {
   const Handle type(H5Dget_type(set), H5Tclose), space(H5Dget_space(set), H5Sclose);
   const auto count = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space.get()));
@@ -146,7 +146,7 @@ void overwrite(hid_t set, const Spoil& spoil) {
 void spoil_one(hid_t file, const Spoil& spoil) {
   const char* path = spoil.path.c_str();
   Handle set(H5Dopen2(file, path, H5P_DEFAULT), H5Dclose);
-  if (set.get() < 0) return;  // harmed before
+  if (set.get() < 0) return;  // already damaged
   if (spoil.harm == Harm::one_value || spoil.harm == Harm::all_values) return overwrite(set.get(), spoil);
   if (spoil.harm == Harm::huge_attribute) return add_huge_attribute(set.get());
   const Handle own(H5Dget_type(set.get()), H5Tclose), space(H5Dget_space(set.get()), H5Sclose);
@@ -163,14 +163,14 @@ void spoil_one(hid_t file, const Spoil& spoil) {
   }
 }
 
-/// The kind of seal that a file has; empty where it has none.
+/// Returns the kind of seal that a file has; empty if it has none.
 std::string_view kind_of_seal(const Bytes& file) {
   for (const std::string_view kind : {io::run_seal, io::averages_seal})
     if (file.size() > io::seal_size && std::memcmp(file.data(), kind.data(), kind.size()) == 0) return kind;
   return {};
 }
 
-/// What HDF5 gives back is without the seal before it.
+/// Returns the image of an open file; HDF5 omits the seal in front of it.
 Bytes image_of(hid_t file, std::size_t before) {
   H5Fflush(file, H5F_SCOPE_LOCAL);
   const ssize_t size = H5Fget_file_image(file, nullptr, 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// HDF5 files that say what they should not: the right container, with data sets that are spoilt.
+/// HDF5 files with invalid content: a correct container with damaged data sets.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@ namespace talus::hostile {
 
 using Bytes = std::vector<std::byte>;
 
-/// What is done to a data set. It is taken away, or made again with what the name says; or it is left as it
-/// is, with another value (`bits`, or one of a few that ask for trouble) at one index or at all.
+/// Damage to a data set. It is removed, or recreated as the name says; or it stays, with another value
+/// (`bits`, or one of a few critical values) at one index or at all.
 enum class Harm : std::uint8_t {
   missing,
   group_instead,
@@ -41,25 +41,25 @@ std::string name_of(Harm harm);
 struct Spoil {
   std::string path;
   Harm harm = Harm::missing;
-  std::uint64_t index = 0;  ///< of the value, modulo how many there are
-  std::uint64_t bits = 0;   ///< below 32: one of the values that ask for trouble; else the value itself
-  std::string elsewhere = "/etc/passwd";  ///< the file that an external link leads to, to the same path
+  std::uint64_t index = 0;                ///< index of the value, modulo their number
+  std::uint64_t bits = 0;                 ///< below 32: one of the critical values; else the value itself
+  std::string elsewhere = "/etc/passwd";  ///< file to which an external link leads, with the same path
 };
 
-/// Paths of all data sets of an HDF5 file in memory.
+/// Returns the paths of all data sets of an HDF5 file in memory.
 std::vector<std::string> data_sets(const Bytes& file);
 
-/// One or two harms to data sets of `paths`; external links lead to `elsewhere`.
+/// Returns one or two random damages to data sets of `paths`; external links lead to `elsewhere`.
 std::vector<Spoil> spoils_of_chance(Random& random, std::span<const std::string> paths,
                                     const std::string& elsewhere);
 
-/// The hash of the values of all data sets, as they are stored.
+/// Returns the hash of the values of all data sets, as stored.
 std::uint64_t values_hash(const Bytes& file);
 
-/// The file with harm done; with its seal made right again where it has one.
+/// Returns the file with the damage done, sealed again if it has a seal.
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils);
 
-/// The bytes with a seal over them.
+/// Returns the bytes with a seal over them.
 Bytes sealed(Bytes file, std::string_view kind = io::run_seal);
 
 Bytes read_bytes(const std::string& path);

@@ -1,4 +1,4 @@
-/// Problem files of other programs, which no hash covers: HDF5 may fail on them, this process may not.
+/// Problem files of other programs, which no hash protects: HDF5 may fail on them, but this process must not.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Run files that are damaged, or that are whole and say what cannot be: refused with the place, or harmless.
+/// Damaged run files, and intact ones with impossible values: rejected with the place, or harmless.
 
 #include "reliability/hostile_run.h"
 
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 void open_run(const std::string& path) { io::RunFile::open(path); }
 
-/// In a process of its own: HDF5 may crash on what is malformed and sealed again, and the program then says
-/// so (src/app/program_end.cpp). A time that no file can need is a failure as well.
+/// Uses the file in a child process, because HDF5 may crash on malformed files that were sealed again; the
+/// program reports this (src/app/program_end.cpp). Taking longer than any file needs is also a failure.
 void use_apart(const std::string& path) {
   io::in_child_process(path, fs::file_size(path), [&path] {
     use_run(path);
@@ -44,14 +44,14 @@ TEST_F(HostileRun, is_the_good_one_to_begin_with) {
   EXPECT_EQ(refusal(bad(spoilt(good, {}))), std::nullopt);
 }
 
-/// What nobody reads, and so may be as it will.
+/// Returns whether a data set is read; others may have any content.
 bool is_read(const std::string& path) {
   for (const char* unread : {"/help/", "/h5md/", "/particles/grains/id", "/contents", "/frames/hash"})
     if (path.starts_with(unread)) return false;
   return !((path.starts_with("/particles/") && (path.ends_with("/step") || path.ends_with("/time"))));
 }
 
-/// Names that are the run's own: one of them less is another run, as good.
+/// Returns whether a name is optional: without it the run is different but valid.
 bool may_be_missing(const std::string& path) {
   for (const char* family :
        {"/provenance/", "/results/", "/analysis/parameters/", "/checkpoint/reals/friction"})
@@ -85,8 +85,8 @@ TEST_F(HostileRun, each_data_set_of_another_make_is_refused_by_name) {
 
 /// Values by their numbers in hostile_file.cpp.
 constexpr std::uint64_t nan = 0, infinite = 1, zero = 3, minus_one = 4, far_away = 5,
-                        far_away_still_float = 7;                // of floats
-constexpr std::uint64_t negative = 0, largest = 1, of_int8 = 6;  // of integers
+                        far_away_still_float = 7;                // for floats
+constexpr std::uint64_t negative = 0, largest = 1, of_int8 = 6;  // for integers
 
 TEST_F(HostileRun, values_that_cannot_be_are_refused_by_name) {
   const std::vector<std::pair<const char*, std::uint64_t>> cases = {
@@ -180,7 +180,7 @@ TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) {
   }
 }
 
-/// Addresses of lists of links that lie outside the file: HDF5 reads there, and crashes.
+/// Addresses of link lists outside the file, at which HDF5 reads and crashes.
 TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_the_program) {
   if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers report a crash themselves";
   const Bytes kept = read_bytes(test::source_folder() + "/tests/runs/schema_4.h5");

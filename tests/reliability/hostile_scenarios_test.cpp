@@ -1,4 +1,4 @@
-/// Every file of tests/scenarios/bad as a user meets it: exit code, message, and nothing left behind.
+/// Every file of tests/scenarios/bad as a user meets it: exit code, message, and no files left behind.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ std::size_t file_count(const TemporaryFolder& folder) {
 TEST(HostileScenarios, are_refused_by_talus_run_with_nothing_left_behind) {
   const TemporaryFolder folder;
   std::size_t count = 0;
-  run_talus({"--version"}, folder.path());  // which leaves what the tests themselves write
+  run_talus({"--version"}, folder.path());  // creates the files that the tests themselves write
   for (const auto& entry : fs::directory_iterator(bad)) {
     if (entry.path().extension() != ".toml") continue;
     const std::string name = entry.path().filename().string();
@@ -30,7 +30,7 @@ TEST(HostileScenarios, are_refused_by_talus_run_with_nothing_left_behind) {
     const std::size_t before = file_count(folder);
     const Outcome outcome = run_talus({"run", name, "-o", "run.h5"}, folder.path());
     EXPECT_EQ(outcome.exit_code, 65) << name;
-    // What begins as a run is not parsed (MistakenPath).
+    // A file that begins like a run is not parsed (MistakenPath).
     const std::string expected = name == "run_file.toml"
                                      ? "talus: error: run_file.toml is not a scenario but a complete run; "
                                        "talus info run_file.toml shows what it holds, and talus replay "

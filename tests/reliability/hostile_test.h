@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of bad files share: a good one, and bad ones made of it.
+/// Common parts of the tests of bad files: a good file, and bad ones made from it.
 
 #include <gtest/gtest.h>
 
@@ -14,14 +14,14 @@
 
 namespace talus::hostile {
 
-/// How often a test of chance tries: TALUS_TRIES, where that is set, as in the long version.
+/// Returns the number of tries of a random test: TALUS_TRIES if it is set, as in the long version.
 inline int tries(int usual) {
   const char* asked = std::getenv("TALUS_TRIES");
   return asked != nullptr ? std::atoi(asked) : usual;
 }
 
-/// The error of using a file, if there is one; it must begin with the file, and be one of bad data, or of the
-/// memory that HDF5 asked for in reading it.
+/// Returns the error of using a file, if any. Its message must begin with the file; the error must be about
+/// bad data, or about memory that HDF5 requested while reading.
 inline std::optional<std::string> refusal(const std::string& path, void (*use)(const std::string&)) {
   try {
     use(path);
@@ -37,7 +37,7 @@ inline std::optional<std::string> refusal(const std::string& path, void (*use)(c
   return std::nullopt;
 }
 
-/// Tests of a kind of file: `make` makes good.h5 in a folder, once for all of them.
+/// Tests of a kind of file: `make` creates good.h5 in a folder shared by all of them.
 template <void (*make)(const test::TemporaryFolder&)>
 class HostileFile : public testing::Test {
  protected:

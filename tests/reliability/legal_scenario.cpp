@@ -16,8 +16,8 @@ namespace {
 
 std::uint32_t whole(std::size_t count) { return static_cast<std::uint32_t>(count); }
 
-/// One in three is the lower end or next to it, one in three the upper end; others lie between, by their
-/// logarithm where the range spans decades.
+/// Returns one of three with equal probability: the lower end or its neighbour, the upper end, or a value
+/// between, chosen by its logarithm if the range spans decades.
 double number_in(const scenario::NumberRange& range, Random& random) {
   const double low = range.low_included ? range.low : std::max(1e-300, 1e-9 * std::min(range.high, 1.0));
   const double high = std::isinf(range.high) ? 1e300 : range.high;
@@ -84,7 +84,7 @@ scenario::Scenario small_bed(Random& random) {
   return scenario;
 }
 
-/// What decides how large the bed is.
+/// Returns whether a key determines the size of the bed.
 bool is_size(const scenario::ScenarioKey& key) {
   return scenario::full_name(key) == "bed.length" || scenario::full_name(key) == "bed.depth";
 }

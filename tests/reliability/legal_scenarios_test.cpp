@@ -1,6 +1,6 @@
-/// Scenarios of chance that the table of keys allows: each ends in a run or in a refusal that is documented,
-/// in time, and `talus check` calls each run whole, while it computes and when it is done. The long version
-/// takes TALUS_TRIES scenarios: .ci/full legal.
+/// Random scenarios that the table of keys allows. Each ends in time, in a run or in a documented error, and
+/// `talus check` accepts each run while it computes and when it is done. The long version uses TALUS_TRIES
+/// scenarios: .ci/full legal.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Whether a run may end so: docs/errors.md.
+/// Returns whether docs/errors.md documents this end of a run.
 bool is_documented(int code, const std::string& said) {
   if (code == 0) return true;
   const auto says = [&said](const char* words) { return said.find(words) != std::string::npos; };
@@ -43,7 +43,7 @@ class LegalScenarios : public testing::Test {
  protected:
   Outcome check() { return run_talus({"check", "run.h5", "--json"}, folder.path()); }
 
-  /// Runs a scenario to its end, or until it has taken far more than its estimate; checks it meanwhile.
+  /// Runs a scenario to its end, or until it has taken far longer than estimated; checks it meanwhile.
   int run(const std::string& name, double seconds) {
     const pid_t process = start_talus({"run", name, "-o", "run.h5", "-q", "--threads", "1"}, folder.path());
     const auto begin = Clock::now();
@@ -62,7 +62,7 @@ class LegalScenarios : public testing::Test {
     return wait_for(process);
   }
 
-  /// `check` in a folder of its own: the other one holds what the run says.
+  /// Runs `check` in another folder, because the run's folder holds its messages.
   Outcome look() { return run_talus({"check", folder.path("run.h5")}, aside.path()); }
 
   TemporaryFolder folder, aside;
@@ -84,7 +84,7 @@ TEST_F(LegalScenarios, end_in_a_sound_run_or_in_a_documented_refusal) {
     slowest = std::max(slowest, seconds_since(begin) / (1.0 + expected));
     const std::string said = errors_in(folder.path());
     ++codes[code];
-    if (code != 75 && !is_documented(code, said)) {  // 75: it took long, and was stopped
+    if (code != 75 && !is_documented(code, said)) {  // 75: it took long and was stopped
       const std::string kept = "legal-" + std::to_string(k) + ".toml";
       std::filesystem::copy_file(folder.path("legal.toml"), std::filesystem::temp_directory_path() / kept,
                                  std::filesystem::copy_options::overwrite_existing);

@@ -1,5 +1,5 @@
 #pragma once
-/// All commands that write a file or a folder, and the places that they are tried in.
+/// All commands that write a file or a folder, and the places in which they are tested.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
 constexpr int done = 0, usage = 64, refused = 73, io_error = 74;
-constexpr int block = 4;          // KiB, of a file system
+constexpr int block = 4;          // KiB, block of a file system
 constexpr int ample = 64 * 1024;  // KiB
 
 inline std::string content(const fs::path& path) {
@@ -39,21 +39,22 @@ inline std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// A command that writes: its words, of which "OUT" is the output. What it needs is in the folder above.
+/// Command that writes, with "OUT" as the output among its words. Its inputs are in the parent folder.
 struct Writer {
   std::string name;
-  std::string output;  ///< in the folder of outputs
+  std::string output;  ///< name in the folder of outputs
   Words words;
-  bool of_folder = false;  ///< the output is a folder
+  bool of_folder = false;  ///< whether the output is a folder
   bool is_movie = false;
 };
 
 inline bool decodes(const fs::path& movie) {
-  ::setenv("MOVIE", movie.c_str(), 1);  // a name may have quotes
+  ::setenv("MOVIE", movie.c_str(), 1);  // a name may contain quotes
   return std::system("ffmpeg -nostdin -v error -xerror -i \"file:$MOVIE\" -f null -") == 0;
 }
 
-/// Whether a file ends as its format says. What is written through memory is never torn anywhere else.
+/// Returns whether a file ends as its format requires. Files written through memory can only be torn at the
+/// end.
 inline bool has_its_end(const fs::path& file) {
   const std::string ending = file.extension().string(), bytes = content(file);
   if (ending == ".png") return bytes.ends_with("IEND\xAE\x42\x60\x82");
@@ -101,7 +102,7 @@ inline const std::vector<Writer>& writers() {
   return all;
 }
 
-/// Inputs of all writers, made once.
+/// Inputs of all writers, created once.
 class Outputs : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -114,9 +115,9 @@ class Outputs : public testing::Test {
       ASSERT_EQ(outcome.exit_code, done) << outcome.err;
     }
     std::string bytes = content(inputs_->path() / "f.h5");
-    bytes[100] = '?';  // of the seal
+    bytes[100] = '?';  // part of the seal
     write_file(*inputs_, "damaged.h5", bytes);
-    // What is mounted here is seen by this process and its children alone.
+    // Mounts made here are visible only to this process and its children.
     if (unshare(CLONE_NEWNS) == 0) mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
   }
   static void TearDownTestSuite() { inputs_.reset(); }
@@ -129,8 +130,8 @@ class Outputs : public testing::Test {
   Outcome talus(const Words& words) const { return run_talus(words, folder_.path()); }
   std::string path(const std::string& name) const { return folder_.path(name); }
 
-  /// All that is below a folder of outputs is whole, and nothing is there that has no name yet. What is left
-  /// of a run that was not finished can be resumed, or is not there.
+  /// Expects everything below a folder of outputs to be complete, without temporary files. Remains of an
+  /// unfinished run can be resumed, or are absent.
   static void expect_whole(const fs::path& folder) {
     for (auto entry = fs::recursive_directory_iterator(folder); entry != fs::recursive_directory_iterator();
          ++entry) {
@@ -149,8 +150,8 @@ class Outputs : public testing::Test {
     }
   }
 
-  /// Runs a writer below `place` and sees that it is either done, with all of `expected` there, or says that
-  /// it could not write. Returns whether it is done.
+  /// Runs a writer below `place`, and expects it either to succeed with all of `expected`, or to report that
+  /// it could not write. Returns whether it succeeded.
   bool is_done_or_said(const Writer& writer, const std::string& place,
                        const std::set<std::string>& expected) {
     const Outcome outcome = talus(with_output(writer.words, place + "/" + writer.output));
@@ -165,7 +166,7 @@ class Outputs : public testing::Test {
     return is_done;
   }
 
-  /// What a writer makes where nothing is in its way, and how large that is, in KiB.
+  /// Returns the files that a writer makes if nothing interferes, and their size in KiB.
   std::pair<std::set<std::string>, int> made_freely(const Writer& writer) {
     fs::create_directory(path("free"));
     const Outcome outcome = talus(with_output(writer.words, "free/" + writer.output));
@@ -179,7 +180,7 @@ class Outputs : public testing::Test {
     return {names, size};
   }
 
-  /// Sizes to try: each block, or in ctest the smallest, the middle and those about `size`.
+  /// Returns the sizes to try: each block or, in ctest, the smallest, the middle and those around `size`.
   static std::vector<int> sizes_about(int size) {
     std::vector<int> sizes;
     const bool all = tries(0, 1) > 0;

@@ -1,5 +1,5 @@
-/// What commands write is whole or absent on a disk of any size and under any limit. ctest tries a few sizes;
-/// with TALUS_RELIABILITY=1 every block up to the one that suffices.
+/// Outputs of commands are complete or absent, on a disk of any size and under any limit. ctest tries a few
+/// sizes; with TALUS_RELIABILITY=1, every block up to a sufficient size.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -13,12 +13,12 @@
 namespace talus::test {
 namespace {
 
-/// Runs a writer in a place of some KiB, with the names that it should make there; whether it was done.
+/// Runs a writer in a place of some KiB with the names expected there; returns whether it succeeded.
 using TryAt = std::function<bool(const Writer& writer, const std::set<std::string>& expected, int kib)>;
 
 class OutputsOfAllSizes : public Outputs {
  protected:
-  /// Tries all writers in places of growing sizes until they are done. Returns how often one was not.
+  /// Tries all writers in places of growing sizes until they succeed. Returns the number of failures.
   int count_too_small(const TryAt& try_at) {
     int tried = 0, too_small = 0;
     for (const Writer& writer : writers()) {
@@ -46,7 +46,7 @@ TEST_F(OutputsOfAllSizes, are_whole_or_absent_on_small_disks) {
   EXPECT_GT(full, 12);
 }
 
-/// Files may have no more than that many bytes, for as long as it lives.
+/// Limits the size of files to this many bytes during its lifetime.
 class SizeLimit {
  public:
   explicit SizeLimit(rlim_t bytes) {

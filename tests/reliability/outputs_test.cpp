@@ -1,4 +1,4 @@
-/// Commands replace nothing but what they may, wait for nothing, and leave nothing.
+/// Commands replace only what they may, do not block, and leave nothing behind.
 
 #include "reliability/outputs.h"
 
@@ -19,7 +19,7 @@
 namespace talus::test {
 namespace {
 
-/// Makes something that is no file under a name.
+/// Function that creates something other than a file under a name.
 using Make = std::function<void(const std::string&)>;
 
 const std::map<std::string, Make>& strange_kinds() {
@@ -43,7 +43,7 @@ const std::map<std::string, Make>& strange_kinds() {
   return kinds;
 }
 
-/// What is under a name, not followed.
+/// Returns the identity of the entry under a name, without following links.
 std::pair<ino_t, mode_t> identity(const std::string& name) {
   struct stat status {};
   EXPECT_EQ(lstat(name.c_str(), &status), 0);
@@ -86,7 +86,7 @@ TEST_F(Outputs, wait_for_nothing_that_has_the_name_of_a_lock_or_a_temporary_file
       make(there);
       const auto before = identity(there);
       const Outcome outcome = talus(with_output(writer.words, "place/" + writer.output));
-      // An empty folder is what a killed process leaves of a figure.
+      // A killed process leaves an empty folder of figures.
       if (writer.name == "figures" && kind == "a folder") {
         EXPECT_EQ(outcome.exit_code, done) << outcome.err;
       } else {
@@ -109,7 +109,7 @@ TEST_F(Outputs, never_replace_what_is_read) {
     fs::create_hard_link(path(input), path(other));
     fs::create_symlink(input, path(link));
     for (const std::string& output : {other, link, input}) {
-      if (!output.ends_with(ending)) continue;  // which a movie or a picture refuses by its name
+      if (!output.ends_with(ending)) continue;  // a movie or a picture rejects it by its name
       Words words = with_output(writer.words, output);
       words.emplace_back("--overwrite");
       const Outcome outcome = talus(words);
@@ -197,7 +197,7 @@ TEST_F(Outputs, have_no_empty_name) {
   }
 }
 
-/// Until it ends, commands are run as a user who is nobody. Needs root.
+/// Runs commands as an unprivileged user during its lifetime. Requires root.
 struct AsNobody {
   AsNobody() { EXPECT_EQ(setresuid(nobody, nobody, 0), 0); }
   ~AsNobody() { EXPECT_EQ(setresuid(0, 0, 0), 0); }
@@ -208,7 +208,7 @@ struct AsNobody {
 
 TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
-  const TemporaryFolder own;  // of the reader
+  const TemporaryFolder own;  // folder of the reader
   ASSERT_EQ(chown(own.path().c_str(), AsNobody::nobody, AsNobody::nobody), 0);
   ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);
   take_run(folder_, "new.h5", tiny_bed, {"--seed", "2"});
@@ -294,7 +294,7 @@ TEST_F(Outputs, a_full_disk_takes_no_run_away_that_is_overwritten) {
 
 TEST_F(Outputs, an_ensemble_on_a_full_disk_says_so) {
   const Words words = {"ensemble", "bed.toml", "--seeds", "1-2", "--jobs", "1", "-o", "disk/e"};
-  for (const int kib : {12, 20, 28, 36, 48}) {  // of the members' logs on, or of their checkpoints
+  for (const int kib : {12, 20, 28, 36, 48}) {  // from the logs of the members, or from their checkpoints
     SCOPED_TRACE(kib);
     const SmallDisk disk(folder_.path() / "disk", kib);
     if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
@@ -302,7 +302,7 @@ TEST_F(Outputs, an_ensemble_on_a_full_disk_says_so) {
     EXPECT_EQ(full.exit_code, io_error) << full.out << full.err;
     EXPECT_NE((full.out + full.err).find("o space"), std::string::npos) << full.out << full.err;
     ASSERT_TRUE(disk.resize(ample));
-    talus({"ensemble", "retry", "disk/e"});  // nothing to do where the ensemble was not begun
+    talus({"ensemble", "retry", "disk/e"});  // does nothing if the ensemble was not begun
     const Outcome more = talus(words);
     EXPECT_EQ(more.exit_code, done) << more.out << more.err;
   }

@@ -1,5 +1,5 @@
-/// A machine that loses its power while it computes: an ext4 file system on a loop device, shut down without
-/// writing what it still holds in memory.
+/// Loss of power during a computation: an ext4 file system on a loop device, shut down without writing the
+/// data still in memory.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -26,11 +26,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr unsigned long shut_down = 0x8004587d;  // EXT4_IOC_SHUTDOWN of the kernel
-constexpr unsigned without_log = 2;              // what is not on the disk is lost
+constexpr unsigned without_log = 2;              // data not on the disk are lost
 
 bool does(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
 
-/// A fresh file system that can lose its power.
+/// Fresh file system whose power can be cut.
 class Disk {
  public:
   explicit Disk(const TemporaryFolder& folder)
@@ -59,8 +59,8 @@ class Disk {
   bool ready_ = false;
 };
 
-/// Frames of commits that the run has been told are durable: only then it removes the checkpoint before the
-/// last two. -1 where that cannot be said at this moment.
+/// Returns the number of frames in commits that the run knows to be durable: only then does it remove the
+/// checkpoint before the last two. -1 if this cannot be determined at the moment.
 int durable_frames(const std::string& folder) {
   std::ifstream manifest(folder + "/manifest");
   int frames = 0;

@@ -1,18 +1,16 @@
-/// Faults in a program that knows nothing of them: this library is loaded before its own (LD_PRELOAD) and
-/// armed by its environment.
+/// Faults in an unmodified program: this library is loaded before its own (LD_PRELOAD) and controlled by its
+/// environment.
 ///     TALUS_FAULT="kill 12"        the process ends in call number 12 of faults.cpp; a write is split
 ///     TALUS_FAULT="error 5 12"     that call fails with errno 5
 ///     TALUS_FAULT="lasting 28 12"  that call and all later ones fail with errno 28
-///     TALUS_FAULT="no-locks 37"    the file system has no locks: all that lock fail with errno 37, in
-///                                  children too
-///     TALUS_FAULT="keeps-open"     a file that is removed while it is open keeps another name until then
+///     TALUS_FAULT="no-locks 37"    locking fails with errno 37, in children too
+///     TALUS_FAULT="keeps-open"     a file that is removed while open keeps another name until it is closed
 ///     TALUS_FAULT="memory 12"      allocation number 12 fails
 ///     TALUS_FAULT="no-memory 12"   that allocation and all later ones fail
-///     TALUS_FAULT="clock"          the clock of the day jumps by days at each look, the steady one by an
-///     hour
-///                                  at each hundredth
-///     TALUS_FAULT_COUNT=FILE       the numbers of calls and of allocations are written there at the end, and
-///                                  the call that failed
+///     TALUS_FAULT="clock"          the system clock jumps by days at each reading, and the steady clock by
+///                                  an hour at every hundredth
+///     TALUS_FAULT_COUNT=FILE       at the end, the numbers of calls and of allocations are written there,
+///                                  with the call that failed
 
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -86,7 +84,7 @@ __attribute__((destructor)) void tell_counts() {
 
 extern "C" {
 
-// How HDF5 reads a packed file: in many small calls, which the store itself does not make.
+// HDF5 reads a packed file in many small calls, which the store itself does not make.
 int open64(const char* path, int flags, ...) {
   return talus::faults::strikes_opening(path)
              ? -1

@@ -1,4 +1,4 @@
-/// Runs with damage of chance: what repair keeps of them is what was written, and passes every check.
+/// Runs with random damage: repaired data equal the original and pass every check.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ void damage(Bytes& bytes, Kind kind, Random& random) {
   std::fill_n(bytes.begin() + at, count, std::byte{0});
 }
 
-/// What was kept, over many repairs.
+/// Amounts of data kept over many repairs.
 struct Count {
   int repaired = 0, refused = 0, harmless = 0;
   std::size_t frames = 0, kept = 0;
@@ -63,7 +63,7 @@ class RepairOfChance : public testing::Test {
     folder = nullptr;
   }
 
-  /// Repairs a run and holds what comes out against the whole one.
+  /// Repairs a run and compares the result with the intact one.
   static void try_to_repair(const std::string& path, std::size_t frames, Count& count) {
     const std::string out = folder->path("out.h5");
     count.frames += frames;
@@ -89,7 +89,7 @@ class RepairOfChance : public testing::Test {
   }
 
   static inline test::TemporaryFolder* folder = nullptr;
-  static inline std::map<std::int64_t, std::string> frame_of;  ///< digest, by step
+  static inline std::map<std::int64_t, std::string> frame_of;  ///< digest by step
 };
 
 TEST_F(RepairOfChance, of_a_packed_file) {

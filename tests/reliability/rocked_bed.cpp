@@ -17,7 +17,7 @@ constexpr std::int64_t falling_steps = 400;
 constexpr std::int64_t quarter_swing = 2000;  // steps from tilt 0 to the steepest one
 constexpr double steepest = 35.0;             // deg, well above any angle of repose of these beds
 
-/// deg, after so many steps: 0, then a triangular wave.
+/// Returns the tilt (deg) after `steps` steps: 0, then a triangular wave.
 double tilt_after(std::int64_t steps) {
   const std::int64_t swung = std::max<std::int64_t>(0, steps - falling_steps);
   const std::int64_t phase = (swung + quarter_swing) % (4 * quarter_swing);  // 0 at -steepest
@@ -73,7 +73,7 @@ RockedRun rock(const RockedBed& bed, std::int64_t steps, int threads,
   Contacts before;
   for (std::int64_t k = 0; k < steps; ++k) {
     world.tilt = radians(tilt_after(k));
-    workspace.solver.accelerated.choice = {};  // all threads, whether they are worth it or not
+    workspace.solver.accelerated.choice = {};  // all threads, whether or not they pay off
     settings.solver.threads = alone_every > 0 && k % alone_every == 0 ? 1 : threads;
     dynamics::step(world, settings, workspace);
     run.changes += !same_pairs(world.contacts, before);

@@ -1,5 +1,5 @@
-/// Whatever happens at whichever call of a whole run, what was committed is kept, the message says what
-/// happened, and --resume alone brings the run to the same end.
+/// Faults at any call of a complete run: committed data are kept, the message describes the fault, and
+/// --resume alone brings the run to the same end.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -28,7 +28,7 @@ std::vector<std::string> resumed() {
   return words;
 }
 
-/// Names in a folder, but those of what the test itself writes.
+/// Returns the names in a folder, without those written by the test itself.
 std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -36,7 +36,7 @@ std::set<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-/// One bed, and its run as it is when nothing happens.
+/// A bed, and its undisturbed run.
 class RunFaults : public testing::Test {
  protected:
   RunFaults() {
@@ -46,8 +46,8 @@ class RunFaults : public testing::Test {
     frames_ = committed_frames(reference_folder_.path("run.h5"));
   }
 
-  /// Runs it under a fault in a folder of its own. What is committed must be whole, never less than after an
-  /// earlier fault, and must be brought to the same end.
+  /// Runs the bed under a fault in a separate folder. The committed data must be consistent, never less than
+  /// after an earlier fault, and must lead to the same end.
   Outcome strike(const std::string& fault) {
     const TemporaryFolder folder;
     write_file(folder, "bed.toml", tiny_bed);
@@ -73,11 +73,12 @@ class RunFaults : public testing::Test {
     EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"bed.toml", "run.h5"}));
   }
 
-  /// An error must end with a code of its kind and a message that names a file and the reason. It does no
-  /// harm only where a file that is not needed any more is to be removed. A full disk can be read.
+  /// Injects an error at every call. It must end with an exit code of its kind and a message that names a
+  /// file and the reason. It may be harmless only if an obsolete file was to be removed. A full disk remains
+  /// readable.
   void strike_every_call(const std::string& kind, int errno_value) {
     int refused = 0;
-    std::map<std::string, int> harmless;  // by the call that failed
+    std::map<std::string, int> harmless;  // key: the call that failed
     for (int call = 1; call <= counts_.calls; call += stride(counts_.calls, 12)) {
       const std::string fault = kind + " " + std::to_string(errno_value) + " " + std::to_string(call);
       SCOPED_TRACE(fault);
@@ -105,7 +106,7 @@ class RunFaults : public testing::Test {
 
   TemporaryFolder reference_folder_;
   Counts counts_;
-  std::string struck_;  ///< the call that failed last
+  std::string struck_;  ///< call that failed last
   std::string reference_;
   int frames_ = 0;
   int committed_before_ = 0;

@@ -1,4 +1,4 @@
-/// Whichever allocation fails, a run says so or does not need it, and can be resumed.
+/// For any failing allocation, a run reports it or does not need it, and can be resumed.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 namespace talus::test {
 namespace {
 
-/// A bed of which only the last steps are left: a start, some steps, commits, and the end.
+/// A bed reduced to its last steps: a start, some steps, commits, and the end.
 const char* const short_bed =
     "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[deposition]\nrest_velocity = 0.1\n"
     "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 0.1\n[output]\nframe_every = 0.06\nobservable_every = "
@@ -15,7 +15,7 @@ const char* const short_bed =
 
 const std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--quiet"};
 
-/// Fails allocation after allocation, each in a run of its own.
+/// Fails one allocation after the other, each in a separate run.
 void fail_every_allocation(const std::string& kind) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", short_bed);

@@ -1,4 +1,4 @@
-/// Runs that are killed, told to stop, told to checkpoint, started twice, or whose folder is taken away.
+/// Runs that are killed, stopped, asked to checkpoint, started twice, or whose folder is removed.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Waits until `holds()`; false after half a minute.
+/// Waits until `holds()`; returns false after half a minute.
 template <typename Condition>
 bool comes_true(const Condition& holds) {
   for (int wait = 0; wait < 6000; ++wait, pause(5))
@@ -36,7 +36,7 @@ bool comes_true(const Condition& holds) {
 
 bool is_running(pid_t process) { return waitpid(process, nullptr, WNOHANG) == 0; }
 
-/// A bed, its run as it is when nothing happens, and a place for runs that are disturbed.
+/// A bed, its undisturbed run, and a place for disturbed runs.
 class RunStops : public testing::Test {
  protected:
   RunStops() {
@@ -52,7 +52,7 @@ class RunStops : public testing::Test {
     return start_talus({"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--resume"}, folder_.path());
   }
 
-  /// Brings the run to its end by its name alone, if there is one, and takes it away.
+  /// Completes the run by its name alone, if it exists, and removes it.
   void finish() {
     std::vector<std::string> command = {"run", "--resume", "run.h5", "--threads", "1"};
     if (io::run_presence(run_) == io::RunPresence::none)
@@ -67,7 +67,7 @@ class RunStops : public testing::Test {
   TemporaryFolder folder_;
   const std::string run_ = folder_.path("run.h5");
   std::string whole_;
-  int milliseconds_ = 0;  ///< that the run takes
+  int milliseconds_ = 0;  ///< duration of the run
   Dice dice_{7};
 };
 
@@ -79,13 +79,14 @@ TEST_F(RunStops, ended_one_to_five_times_it_has_the_same_bits) {
     const int most = 1 + dice_.below(5);
     for (int end = 0; end < most; ++end) {
       const pid_t process = start_or_resume();
-      if (end == 0)  // once at least it has something to resume, however slow the machine
+      if (end == 0)  // ensures that there is something to resume at least once on a slow machine
         EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       else
         pause(dice_.below(milliseconds_ / 2));
       kill(process, signals[dice_.below(3)]);
       const int code = wait_for(process);
-      EXPECT_TRUE(code == -1 || code == 75 || code == 0) << code;  // -1: killed, or not listening yet
+      EXPECT_TRUE(code == -1 || code == 75 || code == 0)
+          << code;  // -1: killed, or the signal was not handled yet
       ends += code != 0;
     }
     finish();
@@ -100,7 +101,7 @@ TEST_F(RunStops, killed_at_a_random_time_it_loses_no_frame) {
   for (int k = 0; k < kills; ++k) {
     SCOPED_TRACE("kill " + std::to_string(k));
     const pid_t process = start_or_resume();
-    pause(dice_.below(milliseconds_));  // what is longer than a checkpoint brings the run forward
+    pause(dice_.below(milliseconds_));  // pauses longer than a checkpoint advance the run
     const std::size_t committed = io::run_presence(run_) == io::RunPresence::none
                                       ? 0
                                       : io::RunFile::open(run_).all_frame_tilts().size();
@@ -125,7 +126,7 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
   for (int k = 0; k < stops; ++k) {
     SCOPED_TRACE("stop " + std::to_string(k));
     const pid_t process = start_or_resume();
-    // It listens before it takes its lock, which tells whose it is.
+    // It handles signals before it takes its lock, which names its process.
     const std::string holder = "process " + std::to_string(process) + " ";
     EXPECT_TRUE(comes_true([&] {
       return text_of(run_ + ".run/lock").starts_with(holder) ||
@@ -146,7 +147,7 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
               stopped, longest);
 }
 
-/// A bed with a step that does not end, and then one that takes its steps without frames for a minute.
+/// A bed with a step that does not end, followed by steps without frames for a minute.
 const char* const endless_step =
     "[bed]\nlength = 100\ndepth = 30\n[solver]\nmethod = \"gauss-seidel\"\ntolerance = 1e-12\n"
     "moving_tolerance = 1e-12\nmax_iterations = 10000000\n[deposition]\nmethod = \"collapse\"\n"
@@ -174,7 +175,7 @@ class LongRun : public testing::Test {
 
 TEST_F(LongRun, leaves_at_once_when_told_twice) {
   const pid_t process = start(endless_step);
-  // The first grains touch after some hundred steps; the step in which they do does not end.
+  // The first grains touch after some hundred steps, in a step that does not end.
   for (std::string before = "?"; before != text_of(manifest_); pause(300)) {
     before = text_of(manifest_);
     kill(process, SIGUSR1);
@@ -186,7 +187,7 @@ TEST_F(LongRun, leaves_at_once_when_told_twice) {
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
   std::printf("the second signal took %.3f s\n", seconds_since(start));
-  EXPECT_EQ(committed_frames(run_), 0);  // opens it
+  EXPECT_EQ(committed_frames(run_), 0);  // opens the run
 }
 
 TEST_F(LongRun, takes_a_checkpoint_when_asked_and_goes_on) {
@@ -236,7 +237,7 @@ TEST_F(RunStops, of_two_writers_one_runs) {
   for (int k = 0; k < races; ++k) {
     SCOPED_TRACE("race " + std::to_string(k));
     std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1"};
-    if (k % 2 == 1) {  // for a run that was killed, and has left its lock
+    if (k % 2 == 1) {  // after a run that was killed and left its lock
       const pid_t killed = start_talus(command, folder_.path());
       EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       kill(killed, SIGKILL);

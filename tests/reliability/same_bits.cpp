@@ -1,6 +1,6 @@
-/// same_bits THREADS: runs the rocked beds on so many threads, and prints ten times the hash of all that each
-/// has gone through until then. same_bits libm: prints a hash of the C library's sines and the like, which
-/// differs between processors.
+/// same_bits THREADS: runs the rocked beds on this many threads, and prints ten times the hash of everything
+/// that each has gone through until then. same_bits libm: prints a hash of the C library's sines and similar
+/// functions, which differ between processors.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-/// The first thousands of steps of the rocked beds, against hashes that hold for every build and any number
-/// of threads. tests/reliability/same_bits takes all steps, with other compilers and flags. A change that
-/// gives other bits is named in CHANGELOG.md, and puts the hashes here that it gives.
+/// The first thousands of steps of the rocked beds, compared with hashes that hold for every build and any
+/// number of threads. tests/reliability/same_bits runs all steps, with other compilers and flags. A change
+/// that alters bits must be listed in CHANGELOG.md and must update the hashes here.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace talus::test {
 namespace {
 
-/// Compares a bed of rocked_beds() after some steps on each number of threads; at least `changes` of the
-/// steps must have brought other contacts, and `team` is the most threads that can work together.
+/// Compares a bed of rocked_beds() after some steps on each number of threads. At least `changes` of the
+/// steps must have changed contacts, and `team` is the largest number of threads that can work together.
 void expect_bits(std::size_t which, std::int64_t steps, const std::string& golden, std::int64_t changes,
                  int team) {
   const RockedBed bed = rocked_beds().at(which);
@@ -32,7 +32,7 @@ TEST(SameBits, walls_and_restitution) { expect_bits(1, 5000, "18d4afb3878f0328",
 TEST(SameBits, gauss_seidel) { expect_bits(2, 2000, "3a8b1ba81353dd03", 300, 1); }
 TEST(SameBits, threads_that_work_together) { expect_bits(3, 60, "22dd5c797b068e7c", 40, 2); }
 
-// While maps are drawn beside a run, its solver has fewer threads.
+// While maps are drawn during a run, its solver has fewer threads.
 TEST(SameBits, threads_that_come_and_go) {
   Hasher hash;
   const RockedRun run = rock(

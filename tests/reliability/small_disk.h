@@ -1,5 +1,5 @@
 #pragma once
-/// A file system in memory of a given size, for as long as it lives. Needs root.
+/// File system in memory of a given size, during its lifetime. Requires root.
 
 #include <sys/mount.h>
 
@@ -10,7 +10,7 @@ namespace talus::test {
 
 class SmallDisk {
  public:
-  /// Mounts it in a folder, which is made.
+  /// Mounts it in a folder, which is created.
   explicit SmallDisk(const std::filesystem::path& folder, int kib = 64) : folder_(folder) {
     std::filesystem::create_directory(folder_);
     mounted_ = mount("tmpfs", folder_.c_str(), "tmpfs", 0, size_of(kib).c_str()) == 0;
@@ -22,7 +22,7 @@ class SmallDisk {
   SmallDisk& operator=(const SmallDisk&) = delete;
 
   bool is_mounted() const { return mounted_; }
-  /// What follows return whether it worked.
+  /// The following functions return whether they succeeded.
   bool forbid_writing() const {
     return mount("tmpfs", folder_.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr) == 0;
   }

@@ -1,4 +1,4 @@
-/// Whatever happens at whichever call, what was committed is kept and the run can be brought to the same end.
+/// Faults at any call: committed data are kept, and the run can be brought to the same end.
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -19,14 +19,14 @@ namespace talus {
 namespace {
 
 constexpr int commits = 3;
-constexpr int defect = 98;  // exit code of a child that saw what must not happen
+constexpr int defect = 98;  // exit code of a child that detected an error
 
-/// What a child process tells its parent, in shared memory.
+/// Report of a child process to its parent, in shared memory.
 struct Told {
   int committed = 0;
   int calls = 0;
-  int begun = 0;   ///< calls up to the end of the first commit
-  int ending = 0;  ///< calls up to packing
+  int begun = 0;   ///< number of calls up to the end of the first commit
+  int ending = 0;  ///< number of calls up to packing
 };
 
 struct SharedTold {
@@ -37,7 +37,7 @@ struct SharedTold {
   Told* told;
 };
 
-/// Does it, and does it again where that throws.
+/// Performs an action, and repeats it if it throws.
 template <typename Action>
 void persist(const Action& action) {
   try {
@@ -47,7 +47,8 @@ void persist(const Action& action) {
   }
 }
 
-/// The whole run in one go, in place of what has its name; `again` repeats each call that throws once.
+/// Computes the entire run in place of what exists under its name; `again` repeats each call that throws,
+/// once.
 void compute(const std::string& path, bool again, Told& told) {
   const auto attempt = [again](const auto& action) { again ? persist(action) : action(); };
   std::optional<io::RunStore> store;
@@ -83,7 +84,7 @@ int compute_under(const faults::Fault& fault, bool again, const std::string& pat
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-/// Opens what a fault left, and returns how many commits it holds, all of them whole.
+/// Opens the remains after a fault, and returns how many commits they hold, all of them intact.
 int commits_in(const std::string& path) {
   if (io::run_presence(path) == io::RunPresence::none) return 0;
   const io::RunFile run = io::RunFile::open(path);
@@ -98,7 +99,7 @@ int commits_in(const std::string& path) {
   return found;
 }
 
-/// Brings what a fault left to its end, as `talus run --resume` does.
+/// Completes the remains after a fault, as `talus run --resume` does.
 void bring_to_end(const std::string& path, int found) {
   if (io::run_presence(path) == io::RunPresence::packed) return;
   io::RunHeader header;
@@ -111,7 +112,7 @@ void bring_to_end(const std::string& path, int found) {
   EXPECT_FALSE(std::filesystem::exists(io::run_folder(path))) << "leftovers";
 }
 
-/// Strikes every call of a run in turn.
+/// Injects a fault at every call of a run in turn.
 class StoreFaults : public testing::Test {
  protected:
   StoreFaults() {
@@ -145,7 +146,7 @@ class StoreFaults : public testing::Test {
   int calls_ = 0;
 };
 
-/// A run of another seed, whole or left after its first commit.
+/// Begins a run with another seed, complete or left after its first commit.
 void begin_old_run(const std::string& path, bool is_whole) {
   io::RunHeader header = example::header();
   ++header.seed;
@@ -154,8 +155,8 @@ void begin_old_run(const std::string& path, bool is_whole) {
   if (is_whole) old.pack();
 }
 
-/// What a kill has left of a run that replaces another: one of them is found, and the new one as soon as its
-/// file has the name. Returns whether it is the new one.
+/// Checks the remains after a kill during the replacement of a run: either run is found, and the new one as
+/// soon as its file has the name. Returns whether it is the new one.
 bool is_new_run_found(const std::string& path, const std::string& old, const std::string& reference) {
   EXPECT_NE(io::run_presence(path), io::RunPresence::none) << "neither is found";
   if (io::run_presence(path) == io::RunPresence::none) return false;
@@ -170,7 +171,7 @@ bool is_new_run_found(const std::string& path, const std::string& old, const std
   return true;
 }
 
-/// Kills at each call of the first commit and of packing: between them nothing is replaced.
+/// Kills at each call of the first commit and of packing; between them nothing is replaced.
 class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool> {
  protected:
   ReplacedRun() {
@@ -188,7 +189,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
     fs::copy(is_whole_ ? old_path_ : io::run_folder(old_path_), is_whole_ ? path_ : io::run_folder(path_));
   }
 
-  /// A kill after the rename has left the folder: the file stays what is found, also when it is analysed.
+  /// A kill after the rename has left the folder: the file is still found, also by an analysis.
   void expect_found_when_analysed() const {
     io::store_analysis(path_, example::analysis(2, 1), example::analysed_state());
     EXPECT_EQ(io::run_presence(path_), io::RunPresence::packed) << "hidden once it is analysed";
@@ -249,8 +250,8 @@ TEST_F(StoreFaults, one_error_at_every_call_and_a_second_attempt) {
   strike_every_call({.kind = faults::Kind::error, .errno_value = EIO}, true, {0});
 }
 
-/// A writer that is stopped at some call, and goes on when another has taken its run over: to whom its lock
-/// did not reach, as between machines.
+/// A writer that is stopped at some call and continues after another process, to which its lock is invisible,
+/// as between machines, has taken its run over.
 class TakenOver : public testing::Test {
  protected:
   TakenOver() { replaces_ = false; }
@@ -260,7 +261,7 @@ class TakenOver : public testing::Test {
            io::RunFile::open(path_).header().seed == example::header().seed;
   }
 
-  /// The successor commits once, and goes on when the other has woken.
+  /// Lets the successor commit once; it continues when the other has woken.
   static void take_over() {
     visited_ = true;
     if (is_complete()) return;
@@ -275,7 +276,8 @@ class TakenOver : public testing::Test {
     commit_next();
   }
 
-  static constexpr double mark = 777.0;  ///< in what the successor commits, which has other bytes by it
+  static constexpr double mark =
+      777.0;  ///< value in the successor's commits, which distinguishes their bytes
 
   static void commit_next() {
     io::Segment segment = example::segment(done_);
@@ -290,7 +292,7 @@ class TakenOver : public testing::Test {
     return static_cast<int>(checkpoint.world.step - example::checkpoint(0).world.step) + 1;
   }
 
-  /// `prepare` makes a store; `action` is visited at each of its calls in turn.
+  /// Visits each call of `action` in turn, on a store made by `prepare`.
   void visit_every_call(const std::function<std::optional<io::RunStore>()>& prepare,
                         const std::function<void(std::optional<io::RunStore>&)>& action) {
     int calls = 0, ousted = 0;
@@ -305,7 +307,7 @@ class TakenOver : public testing::Test {
         action(store);
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::cannot_create) << error.what();
-        // Within one process locks are seen, if the other one comes first.
+        // Within one process locks are visible if the other comes first.
         const std::string text = error.what();
         EXPECT_TRUE(text.find("another process has taken the run over") != std::string::npos ||
                     text.find("is being written by") != std::string::npos)
@@ -321,7 +323,7 @@ class TakenOver : public testing::Test {
     EXPECT_GT(ousted, 5) << "of " << calls;
   }
 
-  /// Of two, the last one that took the lock goes on; the other is refused, and leaves what is there.
+  /// Of the two, the last that took the lock continues; the other is rejected and leaves the files unchanged.
   void finish(std::optional<io::RunStore>& store, bool packs) {
     try {
       commit_next();
@@ -339,7 +341,7 @@ class TakenOver : public testing::Test {
         std::ranges::count(run.all_observables(), mark, [](const ObservableRow& row) { return row[0]; }),
         marked_);
     store.reset();
-    if (packs) {  // which takes longer than all else
+    if (packs) {  // packing takes longest
       successor_->pack();
       EXPECT_EQ(commits_in(path_), done_);
       EXPECT_FALSE(std::filesystem::exists(io::run_folder(path_))) << "leftovers";
@@ -390,7 +392,7 @@ TEST_F(TakenOver, when_it_resumes_it_leaves_the_run_of_its_successor_whole) {
       });
 }
 
-/// In place of another run, whose file hides the folder or not, as its manifest says.
+/// The run replaces another one, whose file hides the folder or not, as its manifest says.
 TEST_F(TakenOver, when_it_packs_it_leaves_the_run_of_its_successor_whole) {
   begin_old_run(old_path_, true);
   replaces_ = true;

@@ -11,7 +11,7 @@
 namespace talus::test {
 namespace {
 
-/// 0 where only few tries are asked for.
+/// Returns the value of TALUS_RELIABILITY; 0 for few tries.
 double thoroughness() {
   const char* text = std::getenv("TALUS_RELIABILITY");
   return text == nullptr ? 0.0 : std::atof(text);

@@ -1,5 +1,5 @@
 #pragma once
-/// Whole runs of the program that are disturbed, and what is asked of them afterwards.
+/// Complete runs of the program that are disturbed, and checks of the results.
 
 #include <string>
 
@@ -8,44 +8,46 @@
 
 namespace talus::test {
 
-/// How often something is tried: `few` times in ctest. With the variable TALUS_RELIABILITY set to a number,
-/// that number times `many`: 1 for the figures of docs/reliability.md.
+/// Returns the number of tries: `few` in ctest; if the variable TALUS_RELIABILITY is a number, that number
+/// times `many`: 1 gives the figures of docs/reliability.md.
 int tries(int few, int many);
 
-/// Every how manieth of `count` cases is tried: `few` of them in ctest, all with TALUS_RELIABILITY=1.
+/// Returns the stride through `count` cases: about `few` of them are tried in ctest, and all with
+/// TALUS_RELIABILITY=1.
 int stride(int count, int few);
 
-/// A bed of 30 grains that is computed in a tenth of a second, with 8 frames.
+/// Bed of 30 grains with 8 frames, computed in a tenth of a second.
 extern const char* const tiny_bed;
-/// One of 96 grains that takes about a second, with 13 frames.
+/// Bed of 96 grains with 13 frames, which takes about a second.
 extern const char* const small_bed;
 
-/// Everything that a run holds but its provenance and its times: frames with contacts, observables, steps,
-/// commands, results, final state. Equal for equal bits. `complete` of its last character: folder or file.
+/// Returns a digest of everything in a run except its provenance and its times: frames with contacts,
+/// observables, steps, commands, results, final state. Equal for equal bits. `complete` in its last
+/// character: folder or file.
 std::string digest(const std::string& run);
 
-/// The same of a frame alone.
+/// Returns the digest of a single frame.
 std::string frame_digest(const Frame& frame);
 
-/// The frames that are committed in the folder of a run or in its file; 0 where there is no run. Reads and
-/// verifies all of it.
+/// Returns the number of frames committed in the folder of a run or in its file; 0 if there is no run. Reads
+/// and verifies everything.
 int committed_frames(const std::string& run);
 
-/// The environment in which a fault strikes (preload.cpp).
+/// Returns the environment that injects a fault (preload.cpp).
 std::vector<std::string> with_fault(const std::string& fault);
 
-/// Calls to the system, and allocations, of a command.
+/// Numbers of system calls and of allocations of a command.
 struct Counts {
   int calls = 0;
   int allocations = 0;
-  std::string struck;  ///< the call that a fault made fail, and its path; empty without one
+  std::string struck;  ///< call that a fault made fail, and its path; empty if there was none
 };
-/// Of one without a fault.
+/// Counts those of a command without a fault.
 Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFolder& folder);
-/// From the file that TALUS_FAULT_COUNT named.
+/// Reads the file named by TALUS_FAULT_COUNT.
 Counts read_counts(const std::string& path);
 
-/// A number in 0 ... bound - 1 from a sequence that is the same each time.
+/// Reproducible sequence of numbers in 0 ... bound - 1.
 class Dice {
  public:
   explicit Dice(unsigned seed) : state_(seed) {}

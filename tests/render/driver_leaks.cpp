@@ -1,4 +1,4 @@
-/// The software drivers keep what they allocate until the process ends; that is no leak of ours.
+/// Suppresses leaks of the software drivers, which keep their allocations until the process ends.
 
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {

@@ -1,6 +1,6 @@
 #pragma once
-/// Comparison with pictures that were looked at. It says only that something changed: where the change is
-/// wanted, copy the file that the message names over the golden one.
+/// Comparison with pictures that were inspected by eye. It only detects a change; if the change is intended,
+/// copy the file named in the message over the golden one.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 namespace talus::test {
 
-/// Compares with tests/golden/NAME.png, and leaves the picture beside the tests.
+/// Compares with tests/golden/NAME.png, and leaves the picture next to the tests.
 inline void expect_golden(const render::Image& image, const std::string& name) {
   const std::string drawn = std::string(test::build_folder() + "/").append(name).append(".png");
   render::write_png(drawn, image);
@@ -25,7 +25,7 @@ inline void expect_golden(const render::Image& image, const std::string& name) {
   double difference = 0.0;
   for (std::size_t k = 0; k < image.pixels.size(); ++k)
     difference += std::abs(int{image.pixels[k]} - int{golden.pixels[k]});
-  // Processors without AVX round otherwise; one disc that moved is several times above this.
+  // Processors without AVX round differently; one displaced disc exceeds this several times.
   EXPECT_LT(difference / (255.0 * static_cast<double>(image.pixels.size())), 0.0005) << "see " << drawn;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Maps of packings made by hand: D = 1 m, grains of 2 kg/m^2, gravity 10 m/s^2.
+/// Maps of hand-made packings: D = 1 m, grains of 2 kg/m^2, gravity 10 m/s^2.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace talus::test {
 
-/// What packings leave out and maps need: angles, images, velocities, masses.
+/// Adds data that packings omit and maps need: angles, images, velocities, masses.
 inline void complete(Packing& packing) {
   const std::size_t count = packing.frame.x.size();
   packing.frame.angle.assign(count, 0.0);
@@ -25,7 +25,7 @@ inline void complete(Packing& packing) {
     packing.statics.mass.push_back(2.0 * pi * radius * radius);
 }
 
-/// Free grains of radius 0.5 side by side above y = 0, with these gamma.
+/// Returns adjacent free grains of radius 0.5 above y = 0, with these gamma.
 inline Packing row_of_grains(const std::vector<double>& gamma, bool periodic = false) {
   Packing packing = empty_packing(static_cast<double>(gamma.size()), periodic);
   for (std::size_t i = 0; i < gamma.size(); ++i) add_grain(packing, 0.5 + static_cast<double>(i), 0.5);
@@ -34,7 +34,7 @@ inline Packing row_of_grains(const std::vector<double>& gamma, bool periodic = f
   return packing;
 }
 
-/// Gamma_c = sin 30 deg = 0.5; gamma is that of single grains.
+/// Returns settings with Gamma_c = sin 30 deg = 0.5 and gamma of single grains.
 inline pictures::MapSettings settings_of(const std::string& layers) {
   pictures::MapSettings settings;
   settings.l_min = 0.0;
@@ -43,8 +43,8 @@ inline pictures::MapSettings settings_of(const std::string& layers) {
   return settings;
 }
 
-/// Of the map of gamma (paper, Fig. 10): 0 is white, up to 0.05 and where a grain carries nothing; 1 is
-/// black, from 2 gamma_c on; linear between.
+/// Returns the shade in the map of gamma (paper, Fig. 10): 0 is white, up to 0.05 and if a grain carries
+/// nothing; 1 is black, from 2 gamma_c on; linear between.
 inline double gamma_shade(double gamma, double gamma_c) {
   return std::isnan(gamma) ? 0.0 : std::clamp((gamma - 0.05) / (2.0 * gamma_c - 0.05), 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
 /// Prints the hash of one picture, so that a test can compare processes with different settings: picture_hash
-/// [auto|osmesa|egl]. Where there is no context, it says why and leaves with the exit code of the error.
+/// [auto|osmesa|egl]. Without a context it reports the reason and exits with the exit code of the error.
 
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads a PNG whole, for comparison.
+/// Reads an entire PNG for comparison.
 
 #include <png.h>
 
@@ -12,7 +12,7 @@
 
 namespace talus::test {
 
-/// A gray, RGB or RGBA picture of 8 bits, from a file or from memory.
+/// Returns a gray, RGB or RGBA picture of 8 bits, from a file or from memory.
 inline render::Image finish_reading_png(png_image& png) {
   const int channels = static_cast<int>(PNG_IMAGE_PIXEL_CHANNELS(png.format));
   if (channels == 2) throw std::runtime_error("gray with alpha is not expected");

@@ -1,5 +1,5 @@
 #pragma once
-/// A target that draws nothing and remembers what it was asked to draw: for tests without OpenGL.
+/// Target that draws nothing and records the requests, for tests without OpenGL.
 
 #include <vector>
 
@@ -10,14 +10,14 @@ namespace talus::test {
 struct Recording {
   int width = 0, height = 0, begun = 0, ended = 0;
   render::PixelFormat format = render::PixelFormat::gray;
-  std::vector<std::vector<render::Disc>> discs;  ///< of each draw, in order
+  std::vector<std::vector<render::Disc>> discs;  ///< one entry per draw, in order
   std::vector<std::vector<render::Line>> lines;
   std::vector<render::Window> disc_windows, line_windows;
   std::vector<render::Area> areas;
   std::vector<render::PlacedText> texts;
 };
 
-/// Fills the recording of its owner. Pictures come out blank.
+/// Fills the recording of its owner; its pictures are blank.
 class RecordingTarget final : public render::ImageTarget {
  public:
   explicit RecordingTarget(Recording& recording) : recording_(recording) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// Made-up views with all that a picture can have, for tests that need no map.
+/// Made-up views with all elements of a picture, for tests that need no map.
 
 #include <cmath>
 
@@ -8,12 +8,12 @@
 
 namespace talus::test {
 
-/// A colour bar with three ticks.
+/// Returns a colour bar with three ticks.
 inline render::Bar sample_bar(render::ColourMap map) {
   return {"γ = q/p", render::colour_ramp(map), {{0.0, "0.05"}, {0.46, "Γ_c = 0.34"}, {1.0, "2Γ_c = 0.69"}}};
 }
 
-/// Discs of 1 cm on a square lattice, in the colours of a map, with the furniture of a map of a bed.
+/// Returns discs of 1 cm on a square lattice, in the colours of a map, with legend, title and caption.
 inline render::FrameView sample_view(int columns = 40, int rows = 10,
                                      render::ColourMap map = render::ColourMap::gray) {
   render::FrameView view;
@@ -34,7 +34,7 @@ inline render::FrameView sample_view(int columns = 40, int rows = 10,
   return view;
 }
 
-/// A curve that ends at an event.
+/// Returns a curve that ends at an event.
 inline render::Trace sample_trace(const std::string& title) {
   render::Trace trace;
   trace.title = title;
@@ -53,7 +53,7 @@ inline render::Trace sample_trace(const std::string& title) {
   return trace;
 }
 
-/// Two layers with their legends, lines, a hatched floor, a wall, two traces.
+/// Returns two layers with their legends, lines, a hatched floor, a wall, and two traces.
 inline render::FrameView full_view(int columns = 40, int rows = 10) {
   render::FrameView view = sample_view(columns, rows, render::ColourMap::viridis);
   view.title = "Stress ratio γ of each grain, and its force chains";

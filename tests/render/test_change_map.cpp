@@ -1,4 +1,4 @@
-/// Maps of a frame minus another one.
+/// Maps of the difference between two frames.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using test::extent_of, test::Packing, test::row_of_grains, test::settings_of;
 
-/// Three grains side by side in a periodic bed of 3 D, the frame at 7 deg and its reference at 5 deg.
+/// Three adjacent grains in a periodic bed of 3 D: the frame at 7 deg, and its reference at 5 deg.
 struct Changed {
   Packing now, before;
 
@@ -125,7 +125,7 @@ TEST(ChangeMap, GainedContactsAreWholeLinesAndLostOnesStubs) {
 TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
   Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   test::add_contact(changed.before, 0, 2, 1.0, 0.0, -1);  // grain 2 to the left of grain 0
-  changed.now.frame.x[0] = 2.9;                           // out on the left: now it is seen on the right
+  changed.now.frame.x[0] = 2.9;                           // has left on the left and is now on the right
   changed.now.frame.image[0] = -1;
   changed.now.frame.x[2] = 2.0;
   const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
@@ -137,7 +137,7 @@ TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
 TEST(ChangeMap, ALostContactPointsThroughTheEdgeThatItsGrainHasLeftThrough) {
   Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   test::add_contact(changed.before, 0, 2, 1.0);  // grain 2 to the right of grain 0, in the same image
-  changed.now.frame.x[0] = 2.9;                  // out on the left
+  changed.now.frame.x[0] = 2.9;                  // has left on the left
   changed.now.frame.image[0] = -1;
   changed.now.frame.x[2] = 2.0;
   const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));

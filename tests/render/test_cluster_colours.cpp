@@ -16,7 +16,7 @@ using test::map_of;
 using test::Packing;
 using test::settings_of;
 
-/// Grains in a row, one letter each; grains with the same letter are a cluster, a dot is in none.
+/// Returns grains in a row, one letter each; equal letters form a cluster, and dots are in none.
 analysis::Clusters clusters_of(const std::string& letters) {
   std::vector<std::pair<Index, char>> sizes;
   for (const char letter : std::set<char>(letters.begin(), letters.end()))
@@ -40,7 +40,7 @@ TEST(ClusterColours, KeepTheirsWhileClustersGrowAndShrink) {
   const auto first = colours.next(clusters_of(times(20, 'a') + times(15, 'b') + times(15, '.')));
   ASSERT_EQ(first.size(), 2u);
   EXPECT_NE(first[0].palette_index, first[1].palette_index);
-  // b becomes the larger one.
+  // Now b is the larger one.
   const auto second = colours.next(clusters_of(times(12, 'a') + times(8, '.') + times(30, 'b')));
   EXPECT_EQ(second[0].track, first[1].track);
   EXPECT_EQ(second[0].palette_index, first[1].palette_index);
@@ -59,7 +59,7 @@ TEST(ClusterColours, AMergerTakesTheColourOfTheLarger) {
 TEST(ClusterColours, TheLargestPieceOfASplitKeepsTheColour) {
   pictures::ClusterColours colours;
   const auto whole = colours.next(clusters_of(times(40, 'a')));
-  // The second piece is the larger cluster now, but it has less of the old one.
+  // The second piece is now the larger cluster, but contains less of the old one.
   const auto pieces = colours.next(clusters_of(times(22, 'a') + "." + times(17, 'b') + times(20, 'b')));
   ASSERT_EQ(pieces.size(), 2u);
   EXPECT_EQ(pieces[1].track, whole[0].track);
@@ -90,7 +90,7 @@ TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
   std::set<int> used;
   for (const pictures::ClusterColour& colour : first) used.insert(colour.palette_index);
   EXPECT_EQ(used.size(), static_cast<std::size_t>(palette)) << "all colours before any twice";
-  const int least = first.back().palette_index;  // of the smallest cluster
+  const int least = first.back().palette_index;  // colour of the smallest cluster
   const auto second = colours.next(clusters_of(letters + times(10, 'z')));
   EXPECT_EQ(second.back().palette_index, least);
 }
@@ -115,7 +115,7 @@ TEST(ClusterPalette, IsDarkerThanWhiteAndOfDifferentColours) {
   }
 }
 
-/// L* of CIELAB, 0 ... 100, of a colour of sRGB.
+/// Returns L* of CIELAB, 0 ... 100, of an sRGB colour.
 double lightness(const Colour& colour) {
   const auto linear = [](double channel) {
     const double c = channel / 255.0;
@@ -128,15 +128,15 @@ double lightness(const Colour& colour) {
 
 TEST(ClusterPalette, OfContrastIsToldApartInGrayPrint) {
   std::vector<Colour> all = pictures::cluster_palette(pictures::ClusterPalette::contrast);
-  all.push_back(gray(0.4));  // of small clusters
+  all.push_back(gray(0.4));  // colour of small clusters
   all.push_back(white);
   std::ranges::sort(all, {}, lightness);
   for (std::size_t k = 1; k < all.size(); ++k)
     EXPECT_GT(lightness(all[k]), lightness(all[k - 1]) + 10.0) << k;
 }
 
-/// A column of three overloaded grains from floor to surface with a force between them, twelve more in a row
-/// at the bottom that join by forces, and beside it three grains that are not overloaded.
+/// Returns a column of three overloaded grains from floor to surface with a force between them, twelve more
+/// in a row at the bottom, joined by forces, and three grains next to it that are not overloaded.
 Packing bed_with_clusters() {
   Packing packing = test::empty_packing(20.0, false);
   for (int k = 0; k < 12; ++k) test::add_grain(packing, 4.5 + k, 0.5);
@@ -152,7 +152,7 @@ Packing bed_with_clusters() {
 
 TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
   Packing packing = bed_with_clusters();
-  test::add_grain(packing, 10.0, 3.0);  // above the row, so that it does not reach the surface
+  test::add_grain(packing, 10.0, 3.0);  // above the row, so that the row does not reach the surface
   for (int k = 0; k < 14; ++k) test::add_grain(packing, 4.0 + k, 3.0);
   packing.frame.gamma.resize(packing.frame.x.size(), 0.1);
   test::complete(packing);

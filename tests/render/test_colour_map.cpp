@@ -21,8 +21,8 @@ struct Known {
   Colour colour;
 };
 
-/// Published values: viridis ends at #440154 and #fde725, with #21918c in between; cividis at (0, 34, 78) and
-/// (254, 232, 56).
+/// Published values: viridis ends at #440154 and #fde725, with #21918c in the middle; cividis ends at (0, 34,
+/// 78) and (254, 232, 56).
 TEST(ColourMap, HasKnownColours) {
   for (const Known& known : {Known{ColourMap::gray, 0.0, white},
                              {ColourMap::gray, 1.0, black},

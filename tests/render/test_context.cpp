@@ -18,7 +18,7 @@ struct Outcome {
   std::string text;
 };
 
-/// What picture_hash says in a process of its own: a process uses one kind of context.
+/// Runs picture_hash in a separate process, because a process uses one kind of context.
 Outcome picture_hash(const std::string& environment, const std::string& kind) {
   const std::string command = environment + " '" + test::build_folder() + "/picture_hash' " + kind;
   std::FILE* pipe = popen(command.c_str(), "r");
@@ -29,7 +29,7 @@ Outcome picture_hash(const std::string& environment, const std::string& kind) {
   return outcome;
 }
 
-/// A folder of libraries that cannot be loaded, searched before the system's.
+/// Folder of libraries that cannot be loaded, searched before the system's.
 class BrokenLibraries {
  public:
   explicit BrokenLibraries(const std::vector<std::string>& names) {
@@ -86,8 +86,8 @@ TEST(Context, WithoutADriverEglSaysWhatToInstall) {
   EXPECT_NE(outcome.text.find("libegl-mesa0"), std::string::npos) << outcome.text;
 }
 
-/// Variables that Mesa, its drivers and libEGL read, with values that make a driver crash, draw nothing, draw
-/// something else or write to the terminal. Some have several: each is tried.
+/// Variables read by Mesa, its drivers and libEGL, with values that make a driver crash, draw nothing or
+/// something else, or write to the terminal. If a variable has several values, each is tried.
 const std::vector<std::vector<std::string>> driver_settings = {
     {"GALLIUM_DRIVER=swr", "GALLIUM_DRIVER=softpipe", "GALLIUM_DRIVER=d3d12", "GALLIUM_DRIVER=zink"},
     {"LIBGL_ALWAYS_SOFTWARE=0", "LIBGL_ALWAYS_SOFTWARE=no"},
@@ -134,7 +134,7 @@ TEST(Context, NoVariableChangesWhatIsDrawn) {
       return outcome.exit_code == 0 && outcome.text == plain.text;
     };
     for (std::size_t value = 0; value < 4; ++value) {
-      std::string environment;  // all variables at once; one by one only to find that which does harm
+      std::string environment;  // all variables at once; one by one only to find the cause of a failure
       for (const auto& settings : driver_settings) environment += settings[value % settings.size()] + " ";
       if (is_as_plain(environment)) continue;
       ADD_FAILURE() << kind << ": the picture differs with " << environment;

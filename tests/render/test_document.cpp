@@ -1,5 +1,5 @@
-/// Pictures as PDF and SVG: what is in them. That they look like the PNG,
-/// tests/python/test_vector_pictures.py sees.
+/// Contents of pictures as PDF and SVG. tests/python/test_vector_pictures.py checks that they look like the
+/// PNG.
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Frames every 0.25 deg to 17.25 deg, and one where the slope failed.
+/// Returns frames every 0.25 deg up to 17.25 deg, and one at which the slope failed.
 std::vector<double> run_tilts() {
   std::vector<double> tilts;
   for (int k = 0; k <= 69; ++k) tilts.push_back(radians(0.25 * k));
@@ -101,7 +101,7 @@ TEST(FrameChoice, NamesSortAndTellFramesApart) {
   EXPECT_THROW(pictures::angle_decimals({0.1, 0.1}, {0, 1}), Error);
 }
 
-/// Up to 2 deg, held, down to -1 deg, and up to 3 deg, by 0.5 deg a frame.
+/// Returns tilts up to 2 deg, held, down to -1 deg, and up to 3 deg, by 0.5 deg per frame.
 std::vector<double> cycled_tilts() {
   std::vector<double> tilts;
   for (const double tilt : {0.0,  0.5,  1.0,  1.5, 2.0, 2.0, 2.0, 1.5, 1.0, 0.5, 0.0,

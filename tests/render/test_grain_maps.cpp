@@ -1,5 +1,5 @@
-/// The maps of what grains are, how contacts hold them, how their neighbourhoods deform, and of the bed as a
-/// continuum, against packings made by hand.
+/// Maps of grain properties, of contacts, of local deformation, and of continuum fields, checked with
+/// hand-made packings.
 
 #include <gtest/gtest.h>
 
@@ -25,14 +25,14 @@ pictures::MapSettings in_gray(const std::string& layers, double low, double high
   return settings;
 }
 
-/// 0 is white, 1 is black; to a step of the 255.
+/// Expects a shade from 0 (white) to 1 (black), within one of 255 steps.
 testing::AssertionResult is_shade(const Colour& fill, double shade) {
   const double found = 1.0 - luma(fill) / 255.0;
   if (std::fabs(found - shade) < 1.01 / 255.0) return testing::AssertionSuccess();
   return testing::AssertionFailure() << "the shade is " << found << " instead of " << shade;
 }
 
-/// Of the grain of a packing; there are images in the view of a periodic one.
+/// Returns the fill of a grain of a packing; the view of a periodic packing contains images.
 Colour fill_of(const FrameView& view, const Packing& packing, std::size_t grain) {
   for (const Disc& disc : view.discs)
     if (disc.x == static_cast<float>(packing.frame.x[grain]) &&
@@ -63,7 +63,7 @@ TEST(SizeMap, GoesFromTheSmallestToTheLargest) {
   EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "size").discs[0].fill, viridis(0.5)) << "all of one size";
 }
 
-/// Twenty-four grains on top of each other at each of two places.
+/// Returns twenty-four grains on top of each other at each of two places.
 Packing two_columns() {
   Packing packing = test::empty_packing(40.0, true);
   for (const double x : {5.0, 15.0})
@@ -95,13 +95,13 @@ TEST(DyedMap, GrainsKeepTheColoursOfTheirLayerAndColumn) {
       << "a grain that came later is where it is now";
 }
 
-/// 0, 1 and 2 in a row that touch, the first at a floor of one grain; 3 touches nothing. Friction is 0.5.
+/// Returns 0, 1 and 2 touching in a row, the first on a floor grain; 3 has no contact. Friction is 0.5.
 Packing held() {
   Packing packing = row_of_grains({0.1, 0.1, 0.1, 0.1});
   const Index floor = test::add_floor_grain(packing, 0.5, -0.5);
   test::complete(packing);
-  test::add_contact(packing, 0, 1, 1.0, 0.5);   // mobilised fully
-  test::add_contact(packing, 1, 2, 2.0, -0.5);  // to one half
+  test::add_contact(packing, 0, 1, 1.0, 0.5);   // fully mobilised
+  test::add_contact(packing, 1, 2, 2.0, -0.5);  // half mobilised
   test::add_contact(packing, 0, floor, 4.0, 0.0);
   return packing;
 }
@@ -141,7 +141,7 @@ TEST(RigidMap, TellsTheLargestClusterFromOthers) {
   EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "rigid").title, "No rigid cluster");
 }
 
-/// A lattice, and how it was 2 degrees earlier: sheared by 0.1 since.
+/// A lattice, and its state 2 degrees earlier: it has been sheared by 0.1 since.
 struct Sheared {
   Sheared() : now(test::triangular_lattice(12, 8, true)) {
     test::complete(now);
@@ -174,7 +174,7 @@ TEST(StrainMaps, ShowTheDeformationOfNeighbourhoods) {
 
 TEST(StrainMaps, NonaffineIsTheRootOfTheMeanSquareThatIsLeft) {
   Sheared sheared;
-  sheared.now.frame.x[40] += 0.3;  // in the bulk: for itself, all of its neighbours have moved
+  sheared.now.frame.x[40] += 0.3;  // in the bulk: relative to it, all its neighbours have moved
   const pictures::MapSettings settings = in_gray("nonaffine", 0.03, 3.0);
   const FrameView view = sheared.map(settings, false);
   EXPECT_TRUE(is_shade(fill_of(view, sheared.now, 40), 0.5));
@@ -209,7 +209,7 @@ TEST(FieldMaps, AreCoarseGrainedOverTheLengthAsked) {
   EXPECT_THROW(map_of(packing, wide), Error) << "wider than the bed";
 }
 
-// A row along x that is pressed with 20 N: over its surroundings, 20 N for each square of grains and rows.
+// A row along x under 20 N: averaged over its surroundings, 20 N per square of grains and rows.
 TEST(FieldMaps, PressureIsInRhoGD) {
   Packing packing = test::empty_packing(20.0, true);
   for (int row = 0; row < 20; ++row)

@@ -1,4 +1,4 @@
-/// Pictures put beside each other.
+/// Pictures placed side by side.
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,8 @@ using test::expect_tidy;
 using test::full_view;
 using test::sample_view;
 
-/// The views of a product: plain, with all furniture, turned, with parts left out as in a panel.
+/// Returns views with combinations of options: plain, with all elements, turned, and with parts omitted as in
+/// a panel.
 std::vector<std::pair<std::string, FrameView>> views_of(int columns, int rows) {
   FrameView turned = full_view(columns, rows);
   turned.turn = 0.2;
@@ -37,7 +38,8 @@ TEST(Layout, NothingOverlapsAtAnyWidthInAnyBed) {
   for (auto [columns, rows] : {std::pair{200, 46}, {50, 10}, {20, 40}, {4, 3}})
     for (const auto& [name, view] : views_of(columns, rows))
       for (int width : {200, 320, 400, 801, 1600, 4000, 8000}) {
-        if (width * (rows + columns) > 14000 * columns) continue;  // higher than a picture may be
+        if (width * (rows + columns) > 14000 * columns)
+          continue;  // exceeds the permitted height of a picture
         expect_tidy(lay_out(view, width, font),
                     name + " of " + std::to_string(columns) + " columns at " + std::to_string(width) + " px");
       }
@@ -113,7 +115,7 @@ TEST(Layout, HasRoomForEveryTurnUpToTheLargest) {
         EXPECT_GE(corner.y, box.y - 1e-9) << turn;
         EXPECT_LE(corner.y, box.bottom() + 1e-9) << turn;
       }
-    // Downslope, the bed falls to the right by its tilt.
+    // The bed falls to the right by its tilt, downslope.
     const Point a = layout.bed.camera.project(view.x_min, 0.0),
                 b = layout.bed.camera.project(view.x_max, 0.0);
     EXPECT_NEAR(std::atan2(b.y - a.y, b.x - a.x), turn, 1e-9);
@@ -161,7 +163,7 @@ TEST(Layout, TracesStandWhereTheirValuesAre) {
   const Box& box = trace.box;
   const Trace sample = test::sample_trace("");
   EXPECT_NEAR(trace.mark.x, box.x + box.width * sample.mark / 20.0, 1e-9);
-  const double between = 0.5 * (sample.y[45] + sample.y[46]);  // at 11.375
+  const double between = 0.5 * (sample.y[45] + sample.y[46]);  // midpoint, at 11.375
   const double slope = (sample.y[46] - sample.y[45]) / 0.25;
   EXPECT_NEAR(trace.mark.y, box.bottom() - box.height * (between + slope * (11.46 - 11.375)) / 2.0, 1e-9);
   EXPECT_NEAR(trace.event, box.x + box.width * 19.0 / 20.0, 1e-9);

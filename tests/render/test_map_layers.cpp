@@ -1,4 +1,4 @@
-/// The maps of stresses, motion and contacts, against packings made by hand.
+/// Maps of stresses, motion and contacts, checked with hand-made packings.
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ TEST(PressureMap, RangeGoesByTheDepthOfTheBed) {
 
 TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
   Packing packing = row_of_grains({1.0, 1.0, 1.0, 0.0, 0.0});
-  // Two grains that are loaded across cancel their deviators; the third is alone within 1 D.
+  // Two grains loaded in perpendicular directions cancel their deviators; the third is alone within 1 D.
   packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
   pictures::MapSettings settings = with_range("coarse", 0.0, 1.0);
   settings.length = 2.5;
@@ -76,13 +76,13 @@ TEST(CoarseMap, IsWhiteAtZeroAndBlackAtOneAndAHalfGammaC) {
   EXPECT_EQ(ticks[2].label, "0.75");
 }
 
-/// A bed, and how it was 2 degrees earlier.
+/// A bed, and its state 2 degrees earlier.
 struct Moved {
   Packing before, now;
 };
 
-/// Two grains in a periodic bed of length 2; the second moved by (0.3, 0.4) D and turned by +20 deg, the
-/// first through the right edge by 0.8 D.
+/// Two grains in a periodic bed of length 2; the second has moved by (0.3, 0.4) D and turned by +20 deg, the
+/// first has moved by 0.8 D through the right edge.
 Moved moved_grains() {
   Moved moved{row_of_grains({0.1, 0.1}, true), row_of_grains({0.1, 0.1}, true)};
   moved.before.frame.x = {1.8, 1.0};
@@ -97,7 +97,7 @@ Moved moved_grains() {
   return moved;
 }
 
-/// Of the two grains, without copies.
+/// Returns the fills of the two grains, without images.
 std::vector<Colour> fills_of(const FrameView& view) {
   std::vector<Colour> fills;
   for (const Disc& disc : view.discs)
@@ -159,7 +159,7 @@ TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
   EXPECT_NEAR(length(rate.lines.back()), 0.41 * 5.0 * 0.5 / 2.0, 0.01) << "the head, of over two degrees";
 }
 
-/// One grain that runs away makes the others no dots, and its arrow crosses no picture.
+/// One fast grain does not reduce the other arrows to dots, and its arrow does not cross the picture.
 TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
   Packing packing = row_of_grains(std::vector<double>(200, 0.1));
   Frame before = packing.frame;
@@ -177,7 +177,7 @@ TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
   EXPECT_FLOAT_EQ(length_at(0.5), 0.0f) << "too short to be seen";
 }
 
-/// In the range that all pictures of a run have, a frame in which little moves has short arrows.
+/// In the common range of all pictures of a run, a frame with little motion has short arrows.
 TEST(DisplacementArrows, OfOneRangeCanBeCompared) {
   Moved moved = moved_grains();
   moved.now.frame.image[0] = 0;
@@ -214,8 +214,8 @@ TEST(RotationMap, IsWhiteAtZeroAndCounterClockwisePositive) {
   EXPECT_EQ(fills_of(map_of(moved.now, "rotation"))[1], colour(0.5));
 }
 
-/// Three grains between walls, forces 1, 2, 3 and 10; the last at the left wall, which is body 3 (there is no
-/// floor).
+/// Returns three grains between walls with forces 1, 2, 3 and 10, the last at the left wall, which is body 3
+/// (there is no floor).
 Packing chain() {
   Packing packing = row_of_grains({0.1, 0.1, 0.1});
   test::add_contact(packing, 0, 1, 3.0, 1.0);
@@ -238,8 +238,8 @@ TEST(ForcesMap, LinesAreAsWideAsForcesAreLargeTheStrongOnesAbove) {
   const FrameView view = map_of(chain(), "forces");
   EXPECT_EQ(view.discs[0].fill, white);
   ASSERT_EQ(view.lines.size(), 3u);
-  const Line& weak = view.lines[0];  // 1, below the mean 2
-  const Line& wall = view.lines[1];  // 2, not above the mean
+  const Line& weak = view.lines[0];  // force 1, below the mean of 2
+  const Line& wall = view.lines[1];  // force 2, not above the mean
   const Line& strong = view.lines[2];
   EXPECT_FLOAT_EQ(weak.x0, 1.5f);
   EXPECT_FLOAT_EQ(weak.x1, 2.5f);
@@ -253,7 +253,8 @@ TEST(ForcesMap, LinesAreAsWideAsForcesAreLargeTheStrongOnesAbove) {
   EXPECT_EQ(wall.colour, weak.colour);
 }
 
-/// Printed in gray, a line over filled grains is told from grains of any shade, by itself or by its border.
+/// Printed in gray, a line over filled grains is distinguishable from grains of any shade, by itself or by
+/// its border.
 TEST(LinesOverGrains, AreSeenOnAnyShadeOfGray) {
   for (const char* layers : {"gamma+forces", "pressure+critical", "clusters+forces", "rotation+forces"}) {
     SCOPED_TRACE(layers);

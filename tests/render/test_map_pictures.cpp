@@ -1,4 +1,4 @@
-/// Every map as a picture, beside one that was looked at.
+/// Every map as a picture, compared with one that was inspected by eye.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace talus::render {
 namespace {
 
-/// A lattice of 30 x 8 grains above a row of floor grains, with forces, spins and displacements that vary in
+/// Lattice of 30 x 8 grains above a row of floor grains, with forces, spins and displacements that vary in
 /// space.
 struct Scene {
   test::Packing packing = test::triangular_lattice(30, 8, true);
@@ -29,7 +29,7 @@ Scene make_scene() {
   const auto force = [&] { return random.uniform(0.1, 3.0); };
   for (Index i = 0; i < free_count; ++i) {
     const Index row = i / columns, column = i % columns;
-    // One draw a statement: compilers evaluate arguments in an order of their own.
+    // One draw per statement, because the evaluation order of arguments depends on the compiler.
     if (column + 1 < columns) {
       const double tangential = 0.3 * force();
       test::add_contact(packing, i, i + 1, force(), tangential);

@@ -19,7 +19,7 @@ using test::settings_of;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const double gamma_c = sine(radians(30.0));
 
-/// One free grain of radius 0.5 at (x, 5) in a periodic bed of length 10.
+/// Returns one free grain of radius 0.5 at (x, 5) in a periodic bed of length 10.
 Packing one_grain(double x) {
   Packing packing = test::empty_packing(10.0, true);
   test::add_grain(packing, x, 5.0);

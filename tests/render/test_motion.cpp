@@ -1,4 +1,4 @@
-/// Ranges that fit how far grains have moved and turned.
+/// Ranges that fit the displacements and rotations of the grains.
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@ namespace {
 using test::Packing;
 using test::row_of_grains;
 
-/// A hundred grains; grain i has moved by i + 1 thousandths of D and turned by as many degrees, to the left
-/// and to the right in turn.
+/// Hundred grains, of which grain i has moved by i + 1 thousandths of D and turned by as many degrees,
+/// alternately to the left and to the right.
 struct Moved {
   Moved() : now(row_of_grains(std::vector<double>(100, 0.1))), before(now.frame) {
     for (Index i = 0; i < 100; ++i) {

@@ -10,7 +10,7 @@
 namespace talus::render {
 namespace {
 
-/// One colour, that gets lighter.
+/// Returns a frame of one colour that becomes lighter with k.
 Image frame(int width, int height, int channels, int k) {
   Image image{width, height, channels, {}};
   for (int pixel = 0; pixel < width * height; ++pixel)
@@ -32,7 +32,7 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-/// Another PATH while it lives.
+/// Sets PATH during its lifetime.
 class SearchPath {
  public:
   explicit SearchPath(const std::string& path) : before_(std::getenv("PATH")) {
@@ -46,7 +46,7 @@ class SearchPath {
   std::string before_;
 };
 
-/// A program called ffmpeg that does what the shell script says.
+/// Writes a program called ffmpeg that executes the shell script.
 void write_false_ffmpeg(const std::string& path, const std::string& script) {
   std::ofstream(path) << "#!/bin/sh\n" << script << "\n";
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
@@ -107,7 +107,7 @@ TEST(Movie, SaysThatFfmpegIsMissing) {
 TEST(Movie, ReportsWhatFfmpegSaysAndLeavesNothing) {
   const test::TemporaryFolder folder, tools;
   const SearchPath here(tools.path("") + ":/usr/bin:/bin");
-  // One that reads all and fails at its end, and one that leaves at once while frames are still coming.
+  // One reads everything and fails at its end, and one exits at once while frames are still written.
   for (const char* script :
        {"cat >/dev/null; echo encoder on strike >&2; exit 1", "echo encoder on strike >&2; exit 1"}) {
     write_false_ffmpeg(tools.path("ffmpeg"), script);

@@ -17,7 +17,7 @@
 namespace talus::render {
 namespace {
 
-/// Runs of equal pixels, and pixels that all differ.
+/// Returns a picture with runs of equal pixels, and pixels that all differ.
 Image pattern(int width, int height, int channels = 1) {
   Image image{width, height, channels, {}};
   for (int y = 0; y < height; ++y)
@@ -159,7 +159,7 @@ TEST(Png, SaysWhereItCannotBeCreated) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-/// Files of this process may not grow beyond a size while it lives.
+/// Limits the size of files of this process during its lifetime.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

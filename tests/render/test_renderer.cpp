@@ -16,7 +16,7 @@ namespace {
 using test::full_view;
 using test::sample_view;
 
-/// The pixel at (x, y) as a colour.
+/// Returns the pixel at (x, y) as a colour.
 Colour pixel(const Image& image, double x, double y) {
   const std::size_t place =
       static_cast<std::size_t>(std::floor(y)) * image.row_bytes() +
@@ -28,7 +28,7 @@ Colour pixel(const Image& image, double x, double y) {
 
 int gray_at(const Image& image, double x, double y) { return pixel(image, x, y).red; }
 
-/// A bed of 10 x 4 m with the discs given and the furniture of a map.
+/// Returns a bed of 10 x 4 m with the given discs, and with legend, title and caption.
 FrameView view_of(std::vector<Disc> discs) {
   FrameView view = sample_view();
   view.discs = std::move(discs);
@@ -234,7 +234,7 @@ TEST(Renderer, ClearGroundUnderTheSamePicture) {
   EXPECT_GT(nothing, clear.width * clear.height / 10);
 }
 
-/// What the bed of a view should look like: discs with their rims as cairo fills them.
+/// Returns the expected picture of a view's bed: discs with their rims as filled by cairo.
 std::vector<Colour> drawn_by_cairo(const FrameView& view, const Window& bed) {
   const int width = static_cast<int>(bed.box.width), height = static_cast<int>(bed.box.height);
   cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
@@ -286,7 +286,7 @@ std::vector<Colour> drawn_by_cairo(const FrameView& view, const Window& bed) {
   return pixels;
 }
 
-/// Mean absolute difference of the bed to what cairo draws, as a share of the range.
+/// Returns the mean absolute difference between the bed and cairo's drawing, as a share of the range.
 double difference_to_cairo(const FrameView& view, int width) {
   Renderer renderer = osmesa_renderer();
   const Image image = renderer.draw(view, width);
@@ -330,7 +330,7 @@ TEST(Renderer, DrawsTheSameBitsAgain) {
   std::vector<std::uint8_t> first;
   for (int context = 0; context < 2; ++context) {
     Renderer renderer = osmesa_renderer();
-    renderer.draw(sample_view(), 640);  // what was drawn before leaves no trace
+    renderer.draw(sample_view(), 640);  // earlier drawings leave no trace
     const Image image = renderer.draw(view, 800);
     if (context == 0) first = image.pixels;
     EXPECT_EQ(image.pixels, first);

@@ -16,7 +16,7 @@ FrameView curves_alone() {
   return view;
 }
 
-/// The part of a sheet that a view takes, px.
+/// Returns the part of a sheet that a view occupies, px.
 Box extent_of(const Layout& layout) {
   Box box = layout.bed.box.width > 0.0 ? layout.bed.box : layout.traces.at(0).box;
   const auto include = [&box](const Box& other) {
@@ -63,7 +63,7 @@ TEST(Sheet, RowsStandBelowEachOtherWithLevelBeds) {
     EXPECT_EQ(sheet.views[row].layout.bed.box.y, sheet.views[row + 1].layout.bed.box.y);
   for (const PlacedView& placed : sheet.views) EXPECT_EQ(placed.layout.em, sheet.views[0].layout.em);
   EXPECT_EQ(sheet.views[1].layout.bed.box.x - sheet.views[0].layout.bed.box.x, 800.0);
-  // The camera has moved with its window: the lower left corner of the bed is that of the window.
+  // The camera moves with its window: the lower left corner of the bed is that of the window.
   const Window& bed = sheet.views[3].layout.bed;
   EXPECT_NEAR(bed.camera.project(bed.x_min, bed.y_min).x, bed.box.x, 1e-9);
   EXPECT_NEAR(bed.camera.project(bed.x_min, bed.y_min).y, bed.box.bottom(), 1e-9);

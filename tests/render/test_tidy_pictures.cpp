@@ -1,5 +1,5 @@
-/// No label is ever cut, or printed over another: every map and panel, of beds from one grain to 2500 D, at
-/// every width. Most of it is checked by the boxes of the layout, and these by the ink of pictures.
+/// No label is clipped or overlaps another, in every map and panel, for beds from one grain to 2500 D, at
+/// every width. Most checks use the boxes of the layout; the boxes are checked by the ink of pictures.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 using test::untidy;
 
-/// A few grains that touch, spread over a bed of that size: a layout depends on the extent of a bed, hardly
-/// on its grains.
+/// A few touching grains spread over a bed of that size; a layout depends on the extent of the bed, and
+/// hardly on its grains.
 struct Bed {
   test::Packing packing;
   Frame before;
@@ -49,7 +49,7 @@ FrameView view_of(const Bed& bed, const pictures::MapSettings& settings) {
                             bed.extent);
 }
 
-/// With the longest titles and captions that there are.
+/// Returns settings with the longest titles and captions.
 pictures::MapSettings longest_settings(const std::string& layers) {
   pictures::MapSettings settings = test::settings_of(layers);
   settings.theta_c_assumed = true;
@@ -58,8 +58,8 @@ pictures::MapSettings longest_settings(const std::string& layers) {
   return settings;
 }
 
-/// The pictures that options make of a map: as it is, turned, with traces, for print, as the upper part of a
-/// panel.
+/// Returns the pictures that options make of a map: unchanged, turned, with traces, for print, and as the
+/// upper part of a panel.
 std::vector<std::pair<std::string, FrameView>> variants(const FrameView& plain,
                                                         const pictures::MapSettings& settings) {
   std::vector<std::pair<std::string, FrameView>> all = {{"plain", plain}};
@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, FrameView>> variants(const FrameView& plain,
   return all;
 }
 
-/// The layout is tidy and its letters can be read; a picture that would be higher than one may be is refused.
+/// Expects a tidy layout with legible letters; a picture above the permitted height is rejected.
 void expect_readable(const FrameView& view, int width, const std::string& what) {
   static const Font font = embedded_font();
   try {
@@ -166,7 +166,7 @@ TEST(TidyPictures, of_one_grain_and_of_many) {
   }
 }
 
-/// Rows of two maps at growing angles, as panels have them.
+/// Returns rows of two maps at increasing angles, as in panels.
 std::vector<std::vector<FrameView>> panel_of(const Bed& bed, const std::vector<std::string>& maps,
                                              bool turned, bool traced) {
   std::vector<std::vector<FrameView>> rows;
@@ -260,7 +260,7 @@ TEST(TidyPictures, rows_of_a_turned_panel_are_as_high_as_their_turn) {
       }
 }
 
-/// How many pixels of a picture are inked outside of all boxes of its layout, and at its very edges.
+/// Numbers of inked pixels outside all boxes of the layout, and at the very edges of a picture.
 struct Ink {
   int outside = 0, at_edges = 0;
 };

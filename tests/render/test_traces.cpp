@@ -66,7 +66,7 @@ TEST(Trace, VolumeStrainIsInPercent) {
   EXPECT_EQ(labels_of(trace.y_ticks), (std::vector<std::string>{"−0.4", "−0.2", "0.0", "0.2"}));
 }
 
-/// Ranges that can be drawn, with ticks within them.
+/// Expects ranges that can be drawn, with ticks inside them.
 void expect_drawable(const Trace& trace) {
   EXPECT_LT(trace.x_min, trace.x_max);
   EXPECT_LT(trace.y_min, trace.y_max);

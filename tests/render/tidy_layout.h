@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a picture is laid out so that it can be read.
+/// Checks whether the layout of a picture is legible.
 
 #include <gtest/gtest.h>
 
@@ -15,17 +15,17 @@ namespace talus::test {
 struct NamedBox {
   render::Box box;
   std::string name;
-  int part = 0;  ///< boxes of one part may touch: a bar and its ticks
+  int part = 0;  ///< boxes of one part may touch, such as a bar and its ticks
 };
 
 inline render::Box grown(const render::Box& box, double by) {
   return {box.x - by, box.y - by, box.width + 2.0 * by, box.height + 2.0 * by};
 }
 
-/// px: the width of the lines of the furniture.
+/// Returns the width (px) of the lines of axes and legends.
 inline double line_width(const render::Layout& layout) { return std::max(1.0, std::round(layout.em / 12.0)); }
 
-/// All that is drawn, with its lines, ticks and walls.
+/// Returns everything drawn, with lines, ticks and walls.
 inline std::vector<NamedBox> all_boxes(const render::Layout& layout) {
   const double line = line_width(layout), tick = std::round(0.3 * layout.em);
   std::vector<NamedBox> boxes = {{layout.bed.box, "bed"}};
@@ -43,7 +43,7 @@ inline std::vector<NamedBox> all_boxes(const render::Layout& layout) {
   for (const render::PlacedText& text : layout.texts) add(text.box, "text \"" + text.text + "\"");
   for (const render::PlacedSwatch& swatch : layout.swatches) add(swatch.box, "swatch");
   for (const render::PlacedTrace& trace : layout.traces) {
-    const double disc = 0.3 * layout.em;  // of the mark, which may stand at the edge of the frame
+    const double disc = 0.3 * layout.em;  // size of the mark, which may lie at the edge of the frame
     render::Box drawn = grown(trace.box, line);
     if (!std::isnan(trace.mark.y)) {
       drawn.x = std::min(drawn.x, trace.mark.x - disc);
@@ -63,7 +63,8 @@ inline std::string text_of(const render::Box& box) {
          ", " + std::to_string(box.bottom()) + ")";
 }
 
-/// Whether a box has no part in the bed, which may be turned: it lies beyond one of the sides of the other.
+/// Returns whether a box does not overlap the bed, which may be turned: one of the sides of either separates
+/// them.
 inline bool clear_of_bed(const render::Box& box, const render::Window& bed) {
   const auto bed_x = [&](const render::Point& p) {
     return (bed.camera.cosine * (p.x - bed.camera.origin_x) + bed.camera.sine * (p.y - bed.camera.origin_y)) /
@@ -84,8 +85,8 @@ inline bool clear_of_bed(const render::Box& box, const render::Window& bed) {
          all([&](const render::Point& p) { return bed_y(p) > bed.y_max; });
 }
 
-/// What is wrong with a layout: what lies outside of the picture, over something else, or, of texts on one
-/// line, so near to the next that they read as one. Empty where nothing is.
+/// Returns the faults of a layout: parts outside the picture, overlaps, and texts on one line so close that
+/// they read as one. Empty if there are none.
 inline std::string untidy(const render::Layout& layout) {
   constexpr double between_texts = 0.35;  // em
   std::string wrong;

@@ -5,12 +5,12 @@
 
 namespace talus::test {
 
-/// How large the arrays of an analysis are, by the letters of its shapes.
+/// Sizes of the arrays of an analysis, by the letters of its shapes.
 struct AnalysisSizes {
   std::size_t frames = 1, thresholds = 0, grains = 1, sections = 1, bins = 1, layers = 1, events = 0;
 };
 
-/// All of its size, and NaN or 0.
+/// Returns an analysis of these sizes, filled with NaN or 0.
 inline analysis::Analysis blank_analysis(const AnalysisSizes& of,
                                          std::span<const analysis::Quantity> table = analysis::quantities()) {
   analysis::Analysis analysis;

@@ -1,11 +1,11 @@
 #pragma once
-/// How a call ends.
+/// Exit codes of calls.
 
 #include "base/errors.h"
 
 namespace talus::test {
 
-/// The exit code of the Error that a call throws, `done` where it throws none.
+/// Returns the exit code of the Error that a call throws, or `done` if it throws none.
 template <typename Call>
 ExitCode exit_code_of(const Call& call) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-/// Keys as the documents list them.
+/// Rows of keys as the documentation lists them.
 
 #include <filesystem>
 #include <fstream>
@@ -10,13 +10,13 @@
 
 namespace talus {
 
-/// The row of a key with this default.
+/// Returns the row of a key with this default.
 inline std::string row_text(const scenario::KeyHead& key, const std::string& by_default) {
   return "| `" + scenario::full_name(key) + "` | " + (key.unit.empty() ? "-" : key.unit) + " | `" +
          by_default + "` | " + scenario::range_text(key) + " | " + key.help + " |\n";
 }
 
-/// All rows of keys on a page of the documents.
+/// Returns all rows of keys on a page of the documentation.
 inline std::string rows_of(const std::string& path) {
   std::string rows;
   std::ifstream page(std::filesystem::path(test::source_folder()) / path);

@@ -1,16 +1,15 @@
 #pragma once
-/// Where the sources and the build are. The values are in a source of their own, written by CMake: as
-/// definitions on the command line they would keep another clone from finding any test in the cache of the
-/// compiler.
+/// Paths of the sources and the build. CMake writes the values into a separate source: as definitions on the
+/// command line they would prevent another clone from using the compiler cache.
 
 #include <string>
 
 namespace talus::test {
 
-std::string source_folder();  ///< of the checkout
-std::string build_folder();   ///< of this build
-std::string talus_program();  ///< the path of `talus`
+std::string source_folder();  ///< root of the checkout
+std::string build_folder();   ///< root of this build
+std::string talus_program();  ///< path of `talus`
 std::string
-faults_library();  ///< the path of what makes calls to the system fail (tests/reliability/preload.cpp)
+faults_library();  ///< path of the library that makes system calls fail (tests/reliability/preload.cpp)
 
 }  // namespace talus::test

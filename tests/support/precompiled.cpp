@@ -1,1 +1,1 @@
-// The owner of the precompiled headers; it has nothing to say of its own.
+// Source file that owns the precompiled headers.

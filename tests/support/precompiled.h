@@ -1,4 +1,4 @@
-/// What nearly every test includes: read by the compiler once for all of them.
+/// Headers that nearly every test includes, compiled once for all tests.
 
 #include <gtest/gtest.h>
 

@@ -20,8 +20,8 @@
 namespace talus::test {
 namespace {
 
-/// Adds a line to the file that the variable TALUS_CALLS names, if there is one: which commands were called,
-/// and how they ended (tests/cli/calls_cover).
+/// Appends a line to the file named by the variable TALUS_CALLS, if it is set: commands called, and how they
+/// ended (tests/cli/calls_cover).
 void note(const std::string& line) {
   const char* path = std::getenv("TALUS_CALLS");
   if (path == nullptr) return;

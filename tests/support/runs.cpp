@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the runs that this program makes. Those of earlier programs are removed.
+/// Returns the folder of the runs that this program makes; removes those of other builds of the program.
 fs::path folder_of_runs() {
   Hasher program;
   program.add_array(text_of(talus_program()));
@@ -25,7 +25,8 @@ fs::path folder_of_runs() {
   return mine;
 }
 
-/// Under a name of this process first: another one may make the same run at the same time.
+/// Makes the run under a name of this process first, because another process may make the same run at the
+/// same time.
 void make_run(const std::string& scenario, const std::vector<std::string>& arguments, const fs::path& path) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", scenario);

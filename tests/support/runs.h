@@ -1,5 +1,6 @@
 #pragma once
-/// Complete runs for tests that only read one, or change a copy of it: made once, whichever tests need them.
+/// Complete runs for tests that only read one or change a copy of it; each is made once and shared by all
+/// tests.
 
 #include <filesystem>
 #include <string>
@@ -9,12 +10,12 @@
 
 namespace talus::test {
 
-/// The packed file of the run that `talus run bed.toml`, with more arguments, makes of this scenario. The
-/// first test that needs it makes it; it is kept in the build folder until the program changes. Not to be
-/// changed.
+/// Returns the packed file of the run that `talus run bed.toml`, with further arguments, makes of this
+/// scenario. The first test that needs it makes it; it is kept in the build folder until the program changes.
+/// Must not be modified.
 std::filesystem::path kept_run(const std::string& scenario, const std::vector<std::string>& arguments = {});
 
-/// Puts a copy of it in the folder and returns its path.
+/// Copies it into the folder and returns the path of the copy.
 std::string take_run(const TemporaryFolder& folder, const std::string& name, const std::string& scenario,
                      const std::vector<std::string>& arguments = {});
 

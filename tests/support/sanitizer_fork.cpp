@@ -1,6 +1,6 @@
-/// Processes that AddressSanitizer of clang before 18 can fork while they have threads: a child inherits the
-/// locks of its allocator as they are, and waits for ever for one that another thread held (seen once in 300
-/// forks beside a thread that allocates). Later versions do what stands here by themselves.
+/// Processes that AddressSanitizer of clang before 18 can fork while they have threads. A child inherits the
+/// locks of the sanitizer's allocator and waits for ever for a lock that another thread held (seen once in
+/// 300 forks while another thread allocated). Later versions handle this themselves.
 
 #include <pthread.h>
 

@@ -1,12 +1,11 @@
 #pragma once
-/// A bed so small that a run of it takes some ten milliseconds.
+/// Very small bed, for runs that take some ten milliseconds.
 
 #include "scenario/scenario.h"
 
 namespace talus::test {
 
-/// 30 grains that collapse onto a rough floor, soon called at rest; what differs from test to test is the
-/// tilt.
+/// Returns 30 grains that collapse onto a rough floor and soon count as at rest; tests differ in the tilt.
 inline scenario::Scenario small_bed() {
   scenario::Scenario scenario;
   scenario.bed.length = 10.0;
@@ -16,7 +15,7 @@ inline scenario::Scenario small_bed() {
   return scenario;
 }
 
-/// The same, tilted to `end_angle` (deg) by 0.4 deg a step.
+/// Returns the same bed, tilted to `end_angle` (deg) by 0.4 deg per step.
 inline scenario::Scenario small_tilted_bed(double end_angle) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.rate = 20.0;

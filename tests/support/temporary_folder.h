@@ -1,5 +1,5 @@
 #pragma once
-/// A folder for one test.
+/// Folder for one test.
 
 #include <unistd.h>
 
@@ -10,11 +10,11 @@
 
 namespace talus::test {
 
-/// A fresh folder that is removed with everything in it.
+/// Fresh folder that is removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    // In memory where there is such a place: some tests make many small files durable.
+    // In memory if possible, because some tests make many small files durable.
     std::filesystem::path place = "/dev/shm";
     if (access(place.c_str(), W_OK) != 0) place = std::filesystem::temp_directory_path();
     std::string name = (place / "talus-test-XXXXXX").string();
@@ -35,8 +35,8 @@ class TemporaryFolder {
   std::filesystem::path folder_;
 };
 
-/// The path of what is called so in a folder, with whatever follows: the store ends the names of a run's
-/// files with a mark of their writer.
+/// Returns the path of the entry whose name begins with `name`: the store appends a mark of the writer to the
+/// names of a run's files.
 inline std::string path_beginning(const std::filesystem::path& folder, const std::string& name) {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder, none))

@@ -1,4 +1,4 @@
-/// Any text as the manifest of a run folder, as it is and with the hash that makes it whole.
+/// Any text as the manifest of a run folder, unchanged and with a matching hash.
 
 #include "io/manifest.h"
 

@@ -1,4 +1,4 @@
-/// What a child process may send of a problem file that HDF5 has made nonsense of: decoded, checked, solved.
+/// Any bytes that a child process may send for a problem file that HDF5 misread: decoded, checked, solved.
 
 #include <cstdint>
 #include <cstdlib>

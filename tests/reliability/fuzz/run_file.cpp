@@ -1,6 +1,5 @@
-/// A run file with harm done to a few of its data sets, sealed again, and then used in every way: read,
-/// continued, analysed. The input is a list of harms (hostile_file.h), so that HDF5 has nothing to stumble
-/// over.
+/// A run file with damage to a few data sets, sealed again and then used in every way: read, continued,
+/// analysed. The input is a list of damages (hostile_file.h), so that the container stays valid for HDF5.
 
 #include "io/run_file.h"
 
@@ -36,7 +35,7 @@ struct GoodRun {
   std::vector<std::string> paths;
 };
 
-/// Data set, harm, index, and one byte or eight of value.
+/// Decodes data set, kind of damage, index, and one or eight bytes of value.
 Spoil spoil_of(const std::uint8_t* record, const std::vector<std::string>& paths) {
   Spoil spoil;
   spoil.path = paths[record[0] % paths.size()];
@@ -58,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Bytes bad = spoilt(good.bytes, spoils);
   write_bytes(path, bad);
   try {
-    use_run(io::RunFile::of_bytes(bad, path), path);  // with no child process for each input
+    use_run(io::RunFile::of_bytes(bad, path), path);  // without a child process for each input
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) std::abort();
   }

@@ -1,5 +1,4 @@
-/// Any text as a scenario: refused with places, or accepted and then the same when it is written out and read
-/// again.
+/// Any text as a scenario: rejected with places, or accepted and then identical after writing and reading it.
 
 #include "scenario/scenario.h"
 
@@ -13,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   talus::scenario::Scenario scenario;
   try {
-    // The first byte in two halves: the text is a file, or a setting of the command line.
+    // The parity of the first byte decides whether the text is a file or a setting of the command line.
     scenario = size > 0 && data[0] % 2 == 1 ? talus::scenario::parse_scenario("", "f.toml", {text.substr(1)})
                                             : talus::scenario::parse_scenario(text, "f.toml");
   } catch (const talus::LocatedError& error) {

@@ -1,4 +1,4 @@
-/// The analysis of a run as text, and as JSON: all that its table has, under the names of the table.
+/// Analysis of a run as text and as JSON, with everything in its table under the names of the table.
 
 #include "app/analysis_report.h"
 

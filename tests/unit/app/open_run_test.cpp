@@ -1,4 +1,4 @@
-/// What is said of a run that cannot be taken up.
+/// Messages on runs that cannot be opened.
 
 #include "app/open_run.h"
 

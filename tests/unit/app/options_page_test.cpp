@@ -1,4 +1,5 @@
-/// docs/options.md: which commands share an option, by the parser; and that it means the same in all.
+/// docs/options.md lists the commands that share an option, as the parser has them, and shared options have
+/// the same meaning everywhere.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ void collect(const CommandPage& page, std::map<std::string, SharedOption>& optio
   for (const CommandPage& command : page.commands) collect(command, options);
 }
 
-/// The options that two commands or more have.
+/// Returns the options that at least two commands have.
 std::map<std::string, SharedOption> shared_options() {
   CLI::App app;
   add_commands(app);
@@ -50,7 +51,7 @@ std::string table_of(const std::map<std::string, SharedOption>& options) {
     for (const std::string& value : shared.values)
       if (!value.empty()) head += (head == name ? " " : " or ") + value;
     for (std::size_t bar = head.find('|'); bar != std::string::npos; bar = head.find('|', bar + 2))
-      head.insert(bar, 1, '\\');  // or it ends the cell
+      head.insert(bar, 1, '\\');  // an unescaped bar would end the cell
     table += fmt::format("| `{}` | {} |\n", head, joined(shared.commands, ", "));
   }
   return table;
@@ -63,11 +64,11 @@ TEST(OptionsPage, has_the_table_of_the_parser) {
   EXPECT_NE(page.find(table), std::string::npos) << "docs/options.md is to have this table:\n" << table;
 }
 
-/// A frame, a threshold or a key is written in the same way everywhere.
+/// A frame, a threshold or a key has the same syntax everywhere.
 TEST(OptionsPage, shared_options_have_one_kind_of_value) {
   const std::map<std::string, SharedOption> options = shared_options();
   const std::map<std::string, std::set<std::string>> kinds = {
-      {"--at", {"DEG,...", "DEG"}},  // several frames, and one
+      {"--at", {"DEG,...", "DEG"}},  // several frames, or one
       {"--theta-c", {"DEG"}},       {"--threshold", {"FACTOR"}}, {"--l-min", {"D"}},
       {"--frames", {"K,K-K,..."}},  {"--set", {"KEY=VALUE"}},    {"--every", {"DEG"}}};
   for (const auto& [name, values] : kinds) {

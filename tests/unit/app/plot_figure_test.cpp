@@ -1,4 +1,4 @@
-/// Plots of the window as figures: their tables, and what the script is told.
+/// Plots of the window as figures: their tables and the parameters of their script.
 
 #include "app/plot_figure.h"
 

@@ -1,4 +1,4 @@
-/// Where main has no say: missing memory is told as such, any other crash is left as it is.
+/// Ends of the program outside main: lack of memory is reported, and any other crash stays a crash.
 
 #include "app/program_end.h"
 
@@ -23,7 +23,7 @@ namespace {
 constexpr bool sanitizers_report_crashes = sanitizes_addresses || sanitizes_threads;
 const auto out_of_memory = testing::ExitedWithCode(71);
 
-/// The exit code of an exception that main caught.
+/// Returns the exit code of an exception caught by main.
 template <typename Exception>
 int code_of(const Exception& exception) {
   try {
@@ -71,7 +71,7 @@ TEST(ProgramEnd, of_another_crash_is_the_crash) {
     EXPECT_EXIT(crash_after(0, signal), testing::KilledBySignal(signal), "") << signal;
 }
 
-/// Its result depends on all of the stack, so that no compiler makes a loop of it.
+/// The result depends on the entire stack, so that the compiler cannot turn the recursion into a loop.
 int sink(volatile int* above) {
   if (*above < 0) return 0;
   volatile int here[1024] = {*above};
@@ -92,7 +92,7 @@ TEST(ProgramEnd, of_a_recursion_without_end_is_told_from_a_stack_of_its_own) {
 TEST(ProgramEnd, by_exit_or_terminate_after_a_failed_allocation_is_that_of_missing_memory) {
   const auto leave = [] {
     errno = ENOMEM;
-    std::exit(-1);  // as HDF5 does
+    std::exit(-1);  // HDF5 does this
   };
   const auto terminate = [](int error) {
     errno = error;

@@ -1,4 +1,4 @@
-/// Lines of progress fit the terminal, and keep what matters most.
+/// Progress lines fit the terminal and keep the most important parts.
 
 #include "app/progress.h"
 

@@ -49,7 +49,7 @@ TEST(Leftovers, all_else_stays) {
   for (const char* name : {"map.png.talus.part", "fig04.talus.part", "fig05.talus.part"})
     fs::create_directory(folder.path(name));
   make("fig04.talus.part/fig04.gp");
-  make("fig04.talus.part/notes");  // so it is somebody else's
+  make("fig04.talus.part/notes");  // marks the folder as foreign
   fs::create_directory(folder.path("fig05.talus.part/fig05-more"));
   const std::set<std::string> before = names_in(folder.path());
   clear_leftovers(folder.path().string());
@@ -91,7 +91,7 @@ TEST(Leftovers, are_left_to_who_clears_the_folder_already) {
   EXPECT_FALSE(fs::exists(folder.path("map.png.talus.part")));
 }
 
-/// Two clear away without end what two others make, leave and make again.
+/// Two threads clean up continuously while two others create, abandon and recreate files.
 TEST(Leftovers, are_told_from_what_is_just_being_made) {
   const test::TemporaryFolder folder;
   std::atomic<bool> ended = false;
@@ -105,7 +105,7 @@ TEST(Leftovers, are_told_from_what_is_just_being_made) {
       ASSERT_TRUE(is_named(path, *held)) << "it was taken away, attempt " << k;
       std::this_thread::yield();
       ASSERT_TRUE(is_named(path, *held)) << "it was taken away while it was written, attempt " << k;
-    }  // left as by a kill: the lock is free, the name there
+    }  // state after a kill: the lock is free, the name remains
   };
   std::thread first(clear), second(clear);
   std::thread files(make, folder.path("map.png.talus.part"), create_locked);

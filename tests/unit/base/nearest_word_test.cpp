@@ -1,4 +1,4 @@
-/// "Did you mean".
+/// Suggestions ("did you mean").
 
 #include "base/nearest_word.h"
 

@@ -64,7 +64,7 @@ TEST(OutputFile, is_written_by_one_at_a_time) {
   EXPECT_EQ(fs::file_size(path), 2u);
 }
 
-/// The code of the refusal of an output, `done` where it is accepted.
+/// Returns the exit code with which an output is rejected, or `done` if it is accepted.
 ExitCode code_of(const std::string& path, const OutputRule& rule = {}) {
   return test::exit_code_of([&] { output_target(path, rule); });
 }

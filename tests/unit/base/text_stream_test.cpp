@@ -17,7 +17,7 @@ TEST(TextStream, reads_what_the_text_has) {
   EXPECT_FALSE(stream >> end) << "the end of the text is no error";
 }
 
-/// A buffer of which nothing can be read for want of memory.
+/// Buffer in which every read fails for lack of memory.
 class NoMemory : public std::stringbuf {
   int_type underflow() override { throw std::bad_alloc(); }
 };

@@ -1,4 +1,4 @@
-/// Tables as text: aligned, CSV, Markdown.
+/// Tables as aligned text, CSV and Markdown.
 
 #include "base/text_table.h"
 

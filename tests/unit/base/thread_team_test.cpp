@@ -16,7 +16,7 @@
 namespace talus {
 namespace {
 
-/// Calls what(team) without a team, and with those of some sizes.
+/// Calls what(team) without a team, and with teams of several sizes.
 template <class Do>
 void with_teams(const Do& what) {
   what(nullptr);
@@ -62,14 +62,15 @@ TEST(ThreadTeam, waits_for_all_between_two_parts_of_a_task) {
   }
 }
 
-// Threads that are there already must be let go, or their destructors end the program.
+// Threads already started must be joined, or their destructors would end the program.
 TEST(ThreadTeam, that_the_system_has_no_threads_for_is_an_error) {
   if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers reserve memory beyond any limit";
   const auto make = [] {
     std::ifstream pages("/proc/self/statm");
     rlim_t size = 0;
     pages >> size;
-    size = size * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);  // a few stacks of threads
+    size =
+        size * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{64} << 20);  // stacks for a few threads
     const rlimit limit = {size, size};
     setrlimit(RLIMIT_AS, &limit);
     try {

@@ -1,4 +1,4 @@
-// Nothing that a terminal obeys comes through.
+// Terminal control sequences are removed.
 
 #include "base/visible_text.h"
 

@@ -42,7 +42,7 @@ TEST(Detection, an_overlap_is_a_negative_gap) {
   EXPECT_DOUBLE_EQ(contacts.gap[0], -0.25);
 }
 
-// A grain meets a plane along the plane's inward normal: n points from the grain into the plane.
+// At a plane, n points from the grain into the plane, opposite to the plane's inward normal.
 TEST(Detection, planes_come_after_the_grains_and_their_normal_points_into_them) {
   World world;
   world.boundary.length = 10.0;
@@ -59,7 +59,7 @@ TEST(Detection, planes_come_after_the_grains_and_their_normal_points_into_them) 
   EXPECT_EQ(contacts.gap, (std::vector<double>{0.25, 0.25, 0.5}));
 }
 
-// a touches b + shift * length: both orders of a pair across the edge.
+// a touches b + shift * length, for both orders of a pair across the edge.
 TEST(Detection, the_shift_brings_b_next_to_a) {
   for (const bool first_left : {true, false}) {
     World world;
@@ -99,7 +99,7 @@ TEST(Detection, normals_are_unit_and_lead_to_the_other_centre) {
   }
 }
 
-// More candidates than are framed at once, and planes between them.
+// More candidates than are processed at once, with planes among them.
 TEST(Detection, a_team_finds_the_contacts_of_one_thread) {
   World world = test::random_cloud(5, 900, true, 30.0 * radius);
   world.boundary.planes = {{{0.0, 1.0}, 4.0 * radius, false}};

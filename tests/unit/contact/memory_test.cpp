@@ -15,7 +15,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 
-/// Contacts of the pairs given, contact c with the forces (c + 1, -c - 1).
+/// Returns contacts of the given pairs; contact c has the forces (c + 1, -c - 1).
 Contacts contacts_of(const Pairs& pairs) {
   Contacts contacts;
   contacts.resize(pairs.size());
@@ -45,7 +45,7 @@ TEST(Memory, of_nothing_is_nothing) {
   EXPECT_EQ(none.count(), 0);
 }
 
-// In a bed of a few grains' length a pair meets through two images: each has its own force.
+// In a bed a few grains long, a pair touches through two images, each with its own force.
 TEST(Memory, images_of_one_pair_are_matched_in_their_order) {
   const Contacts previous = contacts_of({{0, 1}, {0, 1}, {0, 2}});
   Contacts both = contacts_of({{0, 1}, {0, 1}, {1, 2}});
@@ -56,7 +56,7 @@ TEST(Memory, images_of_one_pair_are_matched_in_their_order) {
   EXPECT_EQ(one.fn, (std::vector<double>{1, 3}));
 }
 
-// In parts that begin anywhere, also between the images of a pair.
+// Parts may begin anywhere, also between the images of a pair.
 TEST(Memory, of_a_team_is_that_of_one_thread) {
   Random random(7);
   for (int round = 0; round < 50; ++round) {
@@ -102,7 +102,7 @@ TEST(Memory, of_random_sets_is_a_lookup_by_pair) {
   }
 }
 
-// A pair that meets across the edge is the same pair after one of the two has wrapped.
+// A pair across the edge remains the same pair after one grain has wrapped.
 TEST(Memory, a_grain_that_wraps_around_the_edge_keeps_its_forces) {
   World world;
   world.boundary.periodic = true;

@@ -17,7 +17,7 @@ namespace {
 using test::radius;
 using Key = std::tuple<Index, Index, int>;
 
-/// All pairs with a gap below `margin`, by trying every pair through every image; sorted.
+/// Returns all pairs with a gap below `margin`, sorted, found by testing every pair through every image.
 std::vector<Key> brute_force(const Grains& grains, const Boundary& boundary, double margin) {
   std::vector<Key> keys;
   for (Index a = 0; a < grains.free_count; ++a) {
@@ -44,7 +44,7 @@ std::vector<Key> keys_of(const Contacts& contacts) {
   return keys;
 }
 
-/// A cloud with glued grains below it and, where it is not periodic, walls and a plane.
+/// Returns a cloud with glued grains below it and, if it is not periodic, walls and a plane.
 World crowded_world(std::uint64_t seed, bool periodic, double length, Index count = 80) {
   World world = test::random_cloud(seed, count, periodic, length);
   for (double x = radius; x < length; x += 2.0 * radius)
@@ -55,7 +55,7 @@ World crowded_world(std::uint64_t seed, bool periodic, double length, Index coun
   return world;
 }
 
-/// Moves the free grains along their velocities, of up to 1 m/s each way, and keeps x in the period.
+/// Moves the free grains with their velocities, up to 1 m/s in each direction, and keeps x in the period.
 void drift(World& world, double duration) {
   Grains& grains = world.grains;
   for (Index i = 0; i < grains.free_count; ++i) {
@@ -73,8 +73,8 @@ void expect_same(const Contacts& found, const Contacts& expected) {
   EXPECT_EQ(found.gap, expected.gap);
 }
 
-/// One list through many small moves, a large one and a change of the margin: what it finds is what brute
-/// force finds, and the same to the last bit as through a list made at the moment, by a team or alone.
+/// Uses one list through many small moves, a large one, and a change of the margin. It finds what brute force
+/// finds, bit-identical to a list made from scratch, with or without a team.
 void follow_a_list(bool periodic, double length, Index count) {
   ThreadTeam team(3);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -103,7 +103,7 @@ TEST(NeighbourList, finds_what_brute_force_finds_in_a_periodic_bed) {
   follow_a_list(true, 14.0 * radius, 80);
 }
 
-// With fewer than three columns of cells a grain meets its neighbours through several images.
+// With fewer than three columns of cells, a grain meets its neighbours through several images.
 TEST(NeighbourList, finds_all_images_in_short_periodic_beds) {
   for (double length : {3.0, 4.5, 6.0, 7.5, 9.0}) follow_a_list(true, length * radius, 20);
 }
@@ -186,7 +186,7 @@ TEST(NeighbourList, is_made_anew_where_many_grains_have_moved) {
   EXPECT_EQ(list.renewals, 0);
 }
 
-/// Drops a free grain somewhere, behind those that there are.
+/// Adds a free grain at a random place, after the existing ones.
 void let_arrive(World& world, Random& random) {
   Grains& grains = world.grains;
   World alone;
@@ -201,8 +201,8 @@ void let_arrive(World& world, Random& random) {
   ++grains.free_count;
 }
 
-// The farthest that two grains can approach each other unseen: one that has just moved, and one that had
-// moved away from it before, but not far, and comes back.
+// The worst case for two approaching grains: one has just moved; the other had moved away from it by a small
+// distance and now returns.
 TEST(NeighbourList, sees_a_grain_coming_that_had_moved_the_other_way) {
   for (const bool moved_is_first : {true, false}) {
     World world;
@@ -227,8 +227,8 @@ TEST(NeighbourList, sees_a_grain_coming_that_had_moved_the_other_way) {
   }
 }
 
-// A few grains are fast, many go to and fro within the skin, and one arrives now and then: the pairs of few
-// are listed anew, and what the list finds is what a list of the moment and brute force find.
+// A few grains are fast, many oscillate within the skin, and one arrives occasionally. The pairs of the few
+// are relisted, and the list agrees with one made from scratch and with brute force.
 TEST(NeighbourList, lists_the_pairs_of_a_few_grains_anew) {
   for (const bool periodic : {false, true})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -251,7 +251,8 @@ TEST(NeighbourList, lists_the_pairs_of_a_few_grains_anew) {
                              : i % 2     ? 0.04 * radius * (round % 2 ? 1.0 : -1.0)
                                          : 0.0;
           grains.x[i] += way;
-          if (i % 20 == 10) grains.y[i] += (round % 4 < 2 ? 0.04 : -0.04) * radius;  // up to far, and beyond
+          if (i % 20 == 10)
+            grains.y[i] += (round % 4 < 2 ? 0.04 : -0.04) * radius;  // up to the limit, and beyond
           if (periodic)
             grains.x[i] -= std::floor(grains.x[i] / world.boundary.length) * world.boundary.length;
         }

@@ -11,9 +11,8 @@
 namespace talus {
 namespace {
 
-// O'Neill's own output for seed 42 and the default stream: pcg-cpp,
-// test-high/expected/check-pcg32_oneseq.out, first round: six numbers, then 65 coins (below 2), then 33 rolls
-// of a die (below 6, plus 1).
+// O'Neill's output for seed 42 and the default stream: pcg-cpp, test-high/expected/check-pcg32_oneseq.out,
+// first round: six numbers, then 65 coins (below 2), then 33 rolls of a die (below 6, plus 1).
 TEST(Random, gives_the_published_pcg32_sequence) {
   Random random(42);
   for (std::uint32_t expected :
@@ -27,8 +26,8 @@ TEST(Random, gives_the_published_pcg32_sequence) {
   EXPECT_EQ(rolls, "413366513443225413331464661612366");
 }
 
-// Golden values, of the sequence above taken two by two in exact arithmetic: should they change, every
-// published seed would mean another bed.
+// Golden values: pairs of the sequence above in exact arithmetic. If they changed, every published seed would
+// give a different bed.
 TEST(Random, uniform_keeps_its_golden_sequence) {
   Random random(1);
   for (double expected :
@@ -51,7 +50,7 @@ TEST(Random, uniform_stays_in_range_with_the_moments_of_a_uniform_law) {
   EXPECT_LT(high, 1.0);
   EXPECT_LT(low, 1e-4);
   EXPECT_GT(high, 1.0 - 1e-4);
-  const double sigma = std::sqrt(1.0 / 12.0 / count);  // of the mean
+  const double sigma = std::sqrt(1.0 / 12.0 / count);  // standard deviation of the mean
   EXPECT_NEAR(sum / count, 0.5, 4.0 * sigma);
   EXPECT_NEAR(square / count, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / count));
 }
@@ -75,7 +74,7 @@ TEST(Random, below_hits_each_value_equally_often) {
   for (int hit : hits) EXPECT_NEAR(hit, count / bound, 4.0 * sigma);
 }
 
-// Of a bound that is 3/4 of 2^32, a plain remainder would give the lowest third half of all draws.
+// For a bound of 3/4 of 2^32, a plain remainder would put half of all draws into the lowest third.
 TEST(Random, below_is_without_bias_for_a_large_bound) {
   constexpr std::uint32_t third = 1u << 30;
   constexpr int count = 10'000;

@@ -1,4 +1,4 @@
-/// Means over seeds, their errors, and what is concluded from them.
+/// Means over seeds, their errors, and conclusions from them.
 
 #include "core/statistics.h"
 
@@ -76,12 +76,12 @@ TEST(Summary, has_the_interval_of_a_bootstrap_that_covers_the_mean_as_often_as_i
     for (int v = 0; v < count; ++v) values.push_back(random.uniform());
     const Summary found = summary_of(values, resamples);
     if (found.low <= 0.5 && 0.5 <= found.high) ++covered;
-    // The deviation within the sample, with n, is that of what is drawn from it.
+    // resampling has the deviation of the sample with n in the denominator
     const double expected = 2 * 1.96 * found.statistics.error * std::sqrt((count - 1.0) / count);
     width += (found.high - found.low) / expected / samples;
   }
   EXPECT_NEAR(width, 1.0, 0.03);
-  // 95 %, a little less for 30 values, and 1.1 % of noise.
+  // 95 %, slightly less for 30 values, with a noise of 1.1 %
   EXPECT_GT(covered, 0.91 * samples);
   EXPECT_LT(covered, 0.985 * samples);
 }
@@ -121,7 +121,7 @@ TEST(StudentT, has_its_known_values) {
 }
 
 TEST(PairedDifference, of_round_off_has_no_error) {
-  // Shares of 500 grains: each seed has 20 grains less, and each subtraction another last digit.
+  // Fractions of 500 grains: each seed has 20 grains fewer, and each subtraction rounds differently.
   const Statistics found =
       paired_difference(std::vector{0.152, 0.164, 0.236, 0.31}, std::vector{0.192, 0.204, 0.276, 0.35});
   EXPECT_NEAR(found.mean, -0.04, 1e-15);

@@ -12,7 +12,7 @@ constexpr int samples = 20'001;
 
 double sample_angle(int i) { return -pi / 2 + pi * i / (samples - 1); }
 
-/// The distance from |value| to the next larger double.
+/// Returns the distance from |value| to the next larger double.
 double unit_in_last_place(double value) {
   const double size = std::abs(value);
   return std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
@@ -26,7 +26,7 @@ TEST(Trigonometry, sine_is_within_two_units_in_the_last_place) {
   }
 }
 
-// Near pi/2 the cosine is a small difference of terms of order one: there the units are those of such terms.
+// Near pi/2 the cosine is a small difference of terms of order one, whose rounding unit applies there.
 TEST(Trigonometry, cosine_is_within_two_units_in_the_last_place_of_a_half) {
   for (int i = 0; i < samples; ++i) {
     const double angle = sample_angle(i);
@@ -55,7 +55,7 @@ TEST(Trigonometry, has_exact_symmetries_and_values) {
   }
 }
 
-// The bits that every machine must give, at 20 degrees and at a slope of 0.36.
+// Bits required on every machine, at 20 degrees and at a slope of 0.36.
 TEST(Trigonometry, keeps_its_bits) {
   EXPECT_EQ(sine(radians(20.0)), 0x1.5e3a8748a0bf5p-2);
   EXPECT_EQ(cosine(radians(20.0)), 0x1.e11f642522d1cp-1);

@@ -14,7 +14,7 @@
 namespace talus {
 namespace {
 
-/// Two free grains in contact, one floor grain, one plane, every field with a value of its own.
+/// Returns two free grains in contact, a floor grain and a plane, with a different value in every field.
 World small_world() {
   World world;
   add_disk(world.grains, {0.1, 0.2}, 0.05, 2500.0, false);
@@ -38,7 +38,7 @@ World small_world() {
 
 using Change = std::pair<std::string, std::function<void(World&)>>;
 
-/// One smallest change for each field on which the next step depends.
+/// Returns the smallest change of each field on which the next step depends.
 std::vector<Change> changes_of_state() {
   std::vector<Change> changes;
   auto nudge = [](double& value) { value = std::nextafter(value, 1e300); };
@@ -86,7 +86,7 @@ TEST(StateHash, sees_the_last_bit_of_every_field) {
   }
 }
 
-// The frame and the gap of a contact follow from the positions: the next detection computes them again.
+// Normal, tangent and gap of a contact follow from the positions; the next detection recomputes them.
 TEST(StateHash, leaves_out_what_follows_from_the_rest) {
   World world = small_world();
   world.contacts.nx[0] = 0.5;
@@ -103,7 +103,8 @@ TEST(StateHash, is_that_of_the_value_not_of_the_object) {
 }
 
 TEST(Hash, agrees_with_xxh3_and_with_itself_in_pieces) {
-  EXPECT_EQ(hash_text(hash_bytes({})), "2d06800538d394c2");  // XXH3_64bits of nothing, xxHash specification
+  EXPECT_EQ(hash_text(hash_bytes({})),
+            "2d06800538d394c2");  // XXH3_64bits of empty input, xxHash specification
   EXPECT_EQ(parse_hash("2d06800538d394c2"), 0x2d06800538d394c2u);
   for (const char* bad : {"", "2d06800538d394c", "2d06800538d394cx", "2d06800538d394c20"})
     EXPECT_EQ(parse_hash(bad), 0u);

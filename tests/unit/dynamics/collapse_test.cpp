@@ -11,7 +11,7 @@
 namespace talus::dynamics {
 namespace {
 
-/// Smallest gap between any two grains, through the periodic images too.
+/// Returns the smallest gap between any two grains, including periodic images.
 double smallest_gap(const World& world) {
   const Grains& g = world.grains;
   double smallest = 1e300;
@@ -61,8 +61,8 @@ TEST(LooseBed, has_the_grains_asked_for_at_rest_above_the_floor_and_inside_the_w
   }
 }
 
-// Uniform in [0.8, 1.2] D: mean D, variance (0.4 D)^2 / 12. With 2000 grains the mean has a standard error of
-// 0.0026 D, the variance one of 0.00024 D^2: four of each are allowed.
+// Uniform in [0.8, 1.2] D: mean D, variance (0.4 D)^2 / 12. With 2000 grains the standard error of the mean
+// is 0.0026 D and that of the variance 0.00024 D^2; four standard errors are allowed.
 TEST(LooseBed, sizes_are_uniform_between_the_smallest_and_the_largest) {
   const BedPlan plan = plan_of(true, 60.0, 2000);
   const World world = make_loose_bed(plan);
@@ -113,7 +113,7 @@ TEST(LooseBed, fills_its_lattice_with_the_solid_fraction_asked_for) {
   }
 }
 
-// A square cell as wide as the largest grain: 0.25 pi <d^2> / Dmax^2, with <d^2> = D^2 + (0.4 D)^2 / 12.
+// A square cell as wide as the largest grain gives 0.25 pi <d^2> / Dmax^2, with <d^2> = D^2 + (0.4 D)^2 / 12.
 TEST(LooseBed, the_largest_solid_fraction_is_that_of_one_grain_in_each_cell) {
   EXPECT_NEAR(largest_initial_solid_fraction(1.5), 0.25 * pi * (1.0 + 0.16 / 12.0) / 1.44, 1e-15);
   EXPECT_NEAR(largest_initial_solid_fraction(1.0), 0.25 * pi, 1e-15);

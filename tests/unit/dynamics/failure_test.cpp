@@ -14,10 +14,10 @@ constexpr double diameter = 0.01;
 constexpr double gravity = 9.81;
 const FlowRule rule =
     flow_rule(diameter, gravity, {.periodic = true, .length = 100 * diameter, .planes = {}});
-/// Slowest velocity that is a flow, m/s.
+/// Lowest velocity of a flow, m/s.
 const double threshold = rule.velocity;
 
-/// Follows `velocity` for `count` steps from `tilt` on, 0.001 rad a step; returns the tilt after them.
+/// Applies `velocity` for `count` steps of 0.001 rad from `tilt` on; returns the final tilt.
 double follow(SurfaceFlow& flow, double velocity, double tilt, int count) {
   for (int k = 0; k < count; ++k, tilt += 1e-3) follow_surface(flow, velocity, tilt, h, rule);
   return tilt;
@@ -45,7 +45,7 @@ TEST(Failure, a_burst_that_stops_is_forgotten) {
   EXPECT_FALSE(flow.flowing);
   EXPECT_EQ(flow.displacement, 0.0);
   EXPECT_EQ(flow.onset_tilt, 0.0);
-  // What it moved does not count for the next.
+  // Displacement before a pause does not count towards the next flow.
   follow(flow, fast, 0.2, steps_to_failure(fast) - 1);
   EXPECT_FALSE(flow.failed);
 }
@@ -108,7 +108,8 @@ TEST(SurfaceVelocity, is_the_mean_along_x_of_the_free_grains_above) {
   World world = test::column(4);
   add_disk(world.grains, {0.3, 1.0}, test::radius, test::density, true);
   world.grains.vx = {8.0, 4.0, 2.0, 1.0, 100.0};
-  EXPECT_DOUBLE_EQ(surface_velocity(world.grains, world.grains.y[1]), 1.5);  // centres above, not at
+  EXPECT_DOUBLE_EQ(surface_velocity(world.grains, world.grains.y[1]),
+                   1.5);  // only centres above the height count
   EXPECT_DOUBLE_EQ(surface_velocity(world.grains, -1.0), 15.0 / 4.0);
   EXPECT_EQ(surface_velocity(world.grains, 2.0), 0.0);
   EXPECT_EQ(surface_velocity(Grains{}, 0.0), 0.0);

@@ -16,12 +16,12 @@ namespace {
 constexpr double h = 1e-3;
 constexpr double tolerance = 1e-4;
 
-/// A disk above the plane y = 0 with the gap and the velocity given, and its contact problem.
+/// Disk above the plane y = 0 with the given gap and velocity, and its contact problem.
 struct Scene {
   World world = test::disk_on_plane(0.0);
   ContactLawParameters law;
   solver::ContactProblem problem;
-  std::vector<double> fn, ft;  ///< remembered forces of its first contacts, N; others have none
+  std::vector<double> fn, ft;  ///< remembered forces of the first contacts, N; the others have none
 
   explicit Scene(double gap, double vy = 0.0) {
     world.grains.y[0] += gap;
@@ -35,8 +35,8 @@ struct Scene {
     std::copy(ft.begin(), ft.end(), contacts.ft.begin());
     form_problem(world, contacts, law, h, tolerance, problem);
   }
-  /// Gives the contact with the plane the force whose error, as the tolerance allows it, gives the disk this
-  /// velocity in a step.
+  /// Gives the contact with the plane a force whose error, at the given tolerance, changes the velocity of
+  /// the disk by this amount in a step.
   Scene& remembering(double noise_velocity) {
     fn = {noise_velocity / (tolerance * h * world.grains.inverse_mass[0])};
     return *this;
@@ -82,7 +82,8 @@ TEST(FormProblem, a_share_of_an_overlap_is_taken_back) {
   EXPECT_EQ(scene.normal_constant(), 0.0);
 }
 
-// 0.25 of 2e-4 - 1e-5, in 1e-3 s, are 0.0475 m/s; 0.25 of what is beyond ten allowed overlaps, 0.025 m/s.
+// 0.25 of 2e-4 - 1e-5 in 1e-3 s gives 0.0475 m/s; 0.25 of the excess over ten allowed overlaps gives 0.025
+// m/s.
 TEST(FormProblem, an_overlap_is_taken_back_as_slowly_as_it_may_arise) {
   Scene scene(-2e-4);
   scene.law.overlap_correction = 0.25;
@@ -106,7 +107,7 @@ TEST(FormProblem, an_allowed_overlap_stays) {
   EXPECT_EQ(scene.remembering(0.1).normal_constant(), 0.0);
 }
 
-// All of 2e-4 in 1e-3 s are 0.2 m/s; what is beyond a twentieth of an allowed overlap, 0.1 m/s.
+// The full 2e-4 in 1e-3 s gives 0.2 m/s; the excess over a twentieth of an allowed overlap gives 0.1 m/s.
 TEST(FormProblem, a_small_gap_that_bears_load_closes_as_slowly_as_it_may_arise) {
   Scene scene(2e-4);
   scene.law.allowed_overlap = 2e-3;
@@ -117,7 +118,7 @@ TEST(FormProblem, a_small_gap_that_bears_load_closes_as_slowly_as_it_may_arise) 
 }
 
 // With forces of 3 N along and 4 N across the contact with the plane, the error of an impulse is 5e-4 N h.
-// The glued grain, with a gap and without a force, does not count.
+// The glued grain has a gap and no force, and does not count.
 TEST(FormProblem, the_error_of_an_impulse_is_relative_to_the_rms_of_those_that_bear_load) {
   Scene scene(-2e-4);
   add_disk(scene.world.grains, {0.1 + 2.2 * test::radius, test::radius}, test::radius, test::density, true);
@@ -134,7 +135,7 @@ TEST(FormProblem, the_error_of_an_impulse_is_relative_to_the_rms_of_those_that_b
   EXPECT_GT(scene.problem.cn[1 - plane], 0.1);
 }
 
-// Restitution asks for U_n >= -e U_n-, so c_n = e U_n-: at 1 m/s and e = 0.5 that is -0.5.
+// Restitution requires U_n >= -e U_n-, so c_n = e U_n-: -0.5 at 1 m/s and e = 0.5.
 TEST(FormProblem, restitution_enters_where_the_contact_closes_within_the_step) {
   Scene closes(2e-4, -1.0);
   closes.law.restitution = 0.5;
@@ -148,7 +149,7 @@ TEST(FormProblem, restitution_enters_where_the_contact_closes_within_the_step) {
   EXPECT_EQ(parts.normal_constant(), 0.0);
 }
 
-// c_t = e_t U_t-, U_t of the plane seen from the disk: along t = (1, 0), -v_x - r omega.
+// c_t = e_t U_t-, with U_t of the plane seen from the disk: along t = (1, 0), -v_x - r omega.
 TEST(FormProblem, tangential_restitution_enters_where_the_contact_closes) {
   Scene scene(0.0, -1.0);
   scene.world.grains.vx[0] = 2.0;
@@ -190,7 +191,7 @@ TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
   }
 }
 
-// Sweeps of large beds go by columns, so contacts must not go past the next one.
+// Large beds are swept by columns, so contacts must connect only neighbouring columns.
 TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   const World world = test::random_cloud(5, 20'000, true, 300.0 * test::radius);
   Contacts contacts;
@@ -237,7 +238,7 @@ TEST(FormProblem, a_small_bed_has_no_columns) {
   contact::NeighbourList list;
   contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
   solver::ContactProblem problem;
-  problem.column = {1, 2, 3};  // of a larger one before
+  problem.column = {1, 2, 3};  // left over from a larger problem
   problem.columns = 4;
   form_problem(world, contacts, {}, h, tolerance, problem);
   EXPECT_TRUE(problem.column.empty());
@@ -254,7 +255,7 @@ TEST(FormProblem, walls_have_the_friction_of_walls) {
   ASSERT_EQ(scene.problem.contact_count(), 3);
   EXPECT_EQ(scene.problem.mu, (std::vector<double>{0.4, 0.4, 0.1}));
   EXPECT_FALSE(scene.problem.resists_rolling());
-  scene.law.rolling_friction = 0.2;  // of grains and floor; walls do not resist rolling
+  scene.law.rolling_friction = 0.2;  // between grains and with the floor; walls do not resist rolling
   scene.form_now();
   EXPECT_EQ(scene.problem.rolling_friction, (std::vector<double>{0.2, 0.2, 0.0}));
 }

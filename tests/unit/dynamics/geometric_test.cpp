@@ -17,7 +17,8 @@ constexpr double round_off = 1e-12;  // D
 BedPlan plan_of(double size_ratio, bool periodic, bool rough, std::uint64_t seed) {
   BedPlan plan;
   plan.size_ratio = size_ratio;
-  plan.length = (seed % 2 == 0 ? 10.0 : 12.3) * plan.mean_diameter;  // a whole number of grains, or not
+  plan.length =
+      (seed % 2 == 0 ? 10.0 : 12.3) * plan.mean_diameter;  // an integer or non-integer number of grains
   plan.grain_count = 120;
   plan.periodic = periodic;
   plan.rough_floor = rough;
@@ -25,7 +26,8 @@ BedPlan plan_of(double size_ratio, bool periodic, bool rough, std::uint64_t seed
   return plan;
 }
 
-/// Sizes from one to four, with and without walls, rough and smooth floors, several seeds.
+/// Runs the test for size ratios from one to four, with and without walls, with rough and smooth floors, and
+/// with several seeds.
 void for_all_plans(const std::function<void(const BedPlan&)>& test) {
   for (const double size_ratio : {1.0, 1.5, 4.0})
     for (const bool periodic : {true, false})
@@ -87,7 +89,7 @@ TEST(GeometricBed, a_grain_that_always_rolls_is_held_on_both_sides) {
   });
 }
 
-// Each is where a vertical fall meets what was there before it, and nothing else has moved.
+// Each grain lies where a vertical fall meets the earlier bodies, and nothing else has moved.
 TEST(GeometricBed, grains_that_never_roll_are_deposited_ballistically) {
   for_all_plans([](const BedPlan& plan) {
     const World world = make_geometric_bed(plan, {.critical_angle = radians(90.0)});

@@ -1,4 +1,4 @@
-/// Binary impacts in their discrete form: two disks that just touch at the midpoint (test::two_disks), so the
+/// Binary impacts in discrete form: two disks that just touch at the midpoint (test::two_disks), so that the
 /// lever arms meet at one point and the gap term vanishes.
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 using test::radius;
 
-/// Relative velocity at the contact of disks 0 and 1 with normal n from 0 to 1, written down anew.
+/// Relative velocity at the contact of disks 0 and 1 with normal n from 0 to 1, computed independently.
 struct Relative {
   double normal, tangential;
 };
@@ -71,7 +71,7 @@ TEST_P(Impact, conserves_momentum_and_angular_momentum) {
     }
 }
 
-// Both moments of a contact act: on one grain and its opposite on the other.
+// Both moments of a contact act: one on a grain and the opposite one on the other.
 TEST_P(Impact, conserves_angular_momentum_where_grains_resist_rolling) {
   for (double mu_r : {0.1, 5.0}) {
     World world = test::two_disks(0.4, {1.3, 0.2}, {-0.4, 0.5});
@@ -90,7 +90,7 @@ TEST_P(Impact, conserves_angular_momentum_where_grains_resist_rolling) {
   }
 }
 
-// Without friction the loss is that of Newton: (1 - e^2) / 2 m U_n^2, m = m_a m_b / (m_a + m_b).
+// Without friction the loss follows Newton: (1 - e^2) / 2 m U_n^2, m = m_a m_b / (m_a + m_b).
 TEST_P(Impact, loses_the_energy_that_restitution_says) {
   for (double e : {0.0, 0.5, 1.0}) {
     World world = test::two_disks(-0.3, {1.3, 0.2}, {-0.4, 0.5});
@@ -110,7 +110,7 @@ TEST_P(Impact, equal_elastic_disks_trade_velocities) {
   EXPECT_NEAR(world.grains.vx[1], 2.0, 1e-13);
 }
 
-// A contact that sticks leaves with U_t+ = -e_t U_t-.
+// A sticking contact separates with U_t+ = -e_t U_t-.
 TEST_P(Impact, tangential_restitution_turns_the_slip_around) {
   for (double et : {-1.0, 0.0, 0.4, 1.0}) {
     World world = test::two_disks(0.4, {1.3, 0.2}, {-0.4, 0.5});
@@ -121,7 +121,7 @@ TEST_P(Impact, tangential_restitution_turns_the_slip_around) {
   }
 }
 
-// A contact that slides: |P_t| = mu P_n against the slip, P_n = (1 + e) m |U_n|.
+// At a sliding contact, |P_t| = mu P_n against the slip, with P_n = (1 + e) m |U_n|.
 TEST_P(Impact, friction_is_bounded_by_coulomb) {
   const double e = 0.5;
   const double friction = 0.1;
@@ -147,7 +147,7 @@ TEST_P(Impact, a_falling_disk_bounces_off_the_plane) {
   EXPECT_NEAR(world.grains.vy[0], 0.7, 1e-13);
 }
 
-// The gap+/h rule: a plastic impact from a gap ends where the disks touch at the next midpoint.
+// gap+/h rule: a plastic impact across a gap ends with the disks in contact at the next midpoint.
 TEST_P(Impact, a_plastic_impact_closes_the_gap_first) {
   World world = test::disk_on_plane(0.0);
   world.gravity = 0.0;
@@ -173,10 +173,10 @@ TEST_P(Impact, disks_that_part_feel_nothing) {
   EXPECT_EQ(world.contacts.fn[0], 0.0);
 }
 
-// A cloud of disks without gravity, whose velocity before the step is the free velocity: the contacts work
-// P . U+ - P . W P / 2, where Signorini and Coulomb leave P . U+ <= 0 for e = 0, and a binary impact takes
-// (1 - e^2) of the normal part. Newton's law has no such bound where impacts with e near 1 and friction
-// happen together (Kane's paradox), so e = 1 goes without friction here.
+// A cloud of disks without gravity, whose velocity before the step is the free velocity. The contacts do the
+// work P . U+ - P . W P / 2, with P . U+ <= 0 by Signorini and Coulomb for e = 0; a binary impact removes (1
+// - e^2) of the normal part. Newton's law has no such bound when impacts with e near 1 and friction occur
+// together (Kane's paradox), so e = 1 is tested without friction.
 TEST_P(Impact, a_cloud_of_disks_never_gains_energy) {
   for (const auto& [e, friction] : {std::pair{0.0, 0.0}, {0.0, 0.5}, {0.5, 0.0}, {0.5, 0.5}, {1.0, 0.0}})
     for (std::uint64_t seed : {1, 2}) {

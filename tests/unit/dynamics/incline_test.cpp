@@ -1,6 +1,6 @@
-/// One disk on an incline, in the discrete form of the law. Velocities are piecewise constant in
-/// acceleration: v_k = k h a, and the two half moves of a step add up to the trapezoid, x_k = x_0 + a (k h)^2
-/// / 2. The disk touches the plane from the first midpoint on, so both hold to round-off.
+/// One disk on an incline, in the discrete form of the law. The acceleration is constant, so v_k = k h a, and
+/// the two half moves of a step form the trapezoidal rule, x_k = x_0 + a (k h)^2 / 2. The disk touches the
+/// plane from the first midpoint on, so both hold to round-off.
 
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ class Incline : public testing::TestWithParam<solver::SolverKind> {
     EXPECT_NEAR(world.grains.y[0], radius, 1e-15);
   }
 
-  /// Force of the plane on the disk: the normal points into the plane, so f_n carries the weight and the
-  /// tangent (1, 0) shows along the plane: f_t is the friction on the plane, downslope.
+  /// Checks the force of the disk on the plane: the normal points into the plane, so f_n carries the weight;
+  /// the tangent (1, 0) points along the plane, so f_t is the friction on the plane, downslope.
   void expect_forces(const World& world, double fn, double ft) {
     ASSERT_EQ(world.contacts.count(), 1);
     const double scale = test::weight(world);
@@ -100,8 +100,8 @@ TEST_P(Incline, a_free_disk_slides_and_turns_beyond_it) {
   }
 }
 
-// On a plane l = r. Without sliding the disk stays where r F = m g r sin is within mu_r r f_n; the moment on
-// the plane is clockwise, that on the disk against its rolling.
+// On a plane l = r. Without sliding the disk stays at rest if r F = m g r sin is at most mu_r r f_n; the
+// moment on the plane is clockwise, and that on the disk opposes rolling.
 TEST_P(Incline, a_disk_that_resists_rolling_stays_up_to_the_angle_of_rolling_friction) {
   constexpr double rolling_friction = 0.3;
   for (double share : {0.0, 0.5, 0.999}) {
@@ -130,14 +130,14 @@ TEST_P(Incline, a_disk_that_resists_rolling_rolls_beyond_it) {
   }
 }
 
-// Where mu_r >= mu the disk slides before it rolls, and does not turn while the moment can hold it.
+// If mu_r >= mu the disk slides before it rolls, and does not turn while the moment can hold it.
 TEST_P(Incline, a_disk_that_resists_rolling_more_than_sliding_slides_without_turning) {
   const double tilt = std::atan(1.5 * friction);
   const World world = after_steps(tilt, true, 2.0 * friction);
   expect_motion(world, world.gravity * (sine(tilt) - friction * cosine(tilt)), 0.0);
 }
 
-// Without a floor below, v and x follow free fall by the same trapezoid.
+// Without contact, v and x follow free fall by the same trapezoidal rule.
 TEST_P(Incline, a_disk_above_the_plane_falls_freely) {
   World world = test::disk_on_plane(radians(20.0));
   world.grains.y[0] = 1.0;

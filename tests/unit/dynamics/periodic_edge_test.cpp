@@ -1,4 +1,4 @@
-/// The periodic edge is no place: what happens across it happens as in the middle.
+/// Events across the periodic edge proceed as in the middle of the bed.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ class PeriodicEdge : public testing::TestWithParam<solver::SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, PeriodicEdge, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
 
-/// An impact of two disks, moved so that it happens around x in a bed of period 1.
+/// Returns an impact of two disks, moved to the neighbourhood of x in a bed of period 1.
 World impact_around(double x) {
   World world = test::two_disks(0.3, {1.0, 0.2}, {-0.7, 0.1});
   world.boundary.periodic = true;
@@ -50,12 +50,11 @@ TEST_P(PeriodicEdge, an_impact_across_it_conserves_momentum_and_is_as_in_the_mid
   }
 }
 
-// A pair that flies on together: one of them is beyond the edge at the end of a step, and was not at its
-// midpoint.
+// A pair that flies on together: one grain is beyond the edge at the end of a step, but not at its midpoint.
 TEST_P(PeriodicEdge, contacts_name_the_image_that_they_are_at_when_the_step_ends) {
   const StepSettings settings = test::exact_step(GetParam());
   World world = impact_around(0.5);
-  const double lead = 0.4 * settings.h;  // m, at 1 m/s: passes within the second half of the step only
+  const double lead = 0.4 * settings.h;  // m, at 1 m/s: crosses in the second half of the step
   const double distance = world.grains.x[1] - world.grains.x[0];
   for (const int direction : {1, -1})
     for (const Index leading : {0, 1}) {
@@ -94,7 +93,7 @@ TEST_P(PeriodicEdge, a_grain_that_passes_it_comes_in_at_the_other_side) {
   EXPECT_EQ(world.grains.image, (std::vector<Index>{3, -3}));
 }
 
-// The same disk, rolling: across the edge it keeps its contact force and its motion.
+// A rolling disk keeps its contact force and its motion across the edge.
 TEST_P(PeriodicEdge, a_stack_moves_across_it_without_a_jolt) {
   const StepSettings settings = test::exact_step(GetParam());
   World middle = test::column(3);
@@ -119,8 +118,8 @@ TEST_P(PeriodicEdge, a_stack_moves_across_it_without_a_jolt) {
     EXPECT_NEAR(edge.contacts.fn[c], middle.contacts.fn[c], 1e-8 * test::weight(edge));
 }
 
-// A crowd that falls in a periodic box without a floor: forces within it and gravity across leave the
-// momentum along x alone, whatever the solver has reached.
+// Grains that fall in a periodic box without a floor: internal forces and gravity perpendicular to x conserve
+// the momentum along x, whatever the residual of the solver.
 TEST_P(PeriodicEdge, a_falling_crowd_keeps_its_momentum_along_x) {
   BedPlan plan = test::bed_plan(true, 60, 6, 3);
   plan.rough_floor = false;

@@ -30,7 +30,8 @@ World bare_floor(const BedPlan& plan) {
   return world;
 }
 
-/// Smallest gap between a free grain and what it can fall on, through the periodic images too, m.
+/// Returns the smallest gap between a free grain and the bodies onto which it can fall, including periodic
+/// images, m.
 double smallest_gap(const World& world, Index grain) {
   const Grains& g = world.grains;
   double smallest = std::numeric_limits<double>::infinity();
@@ -91,8 +92,8 @@ TEST(ArrivedBy, counts_the_first_grain_at_time_0_and_one_more_after_each_interva
   EXPECT_EQ(arrived_by(0.0, quarter, 0), 0);
 }
 
-// A grain that goes on down by the half step's fall touches something, and nothing before: so the heights of
-// all are those of the first body on their vertical lines.
+// After a further fall of half a step the grain touches a body, and none before: the heights follow from the
+// first body on each vertical line.
 TEST(LetArrive, a_grain_stands_half_a_step_of_its_fall_above_what_it_touches_first) {
   for (const bool periodic : {true, false})
     for (const bool rough : {true, false}) {
@@ -140,7 +141,7 @@ TEST(LetArrive, does_nothing_before_the_next_is_due_and_after_the_last) {
 }
 
 TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
-  const BedPlan plan = plan_of(false, true, 3);  // 10 floor grains, planes 10 and 11 behind them
+  const BedPlan plan = plan_of(false, true, 3);  // 10 floor grains, followed by planes 10 and 11
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
   let_arrive(arrivals, rule, h, world);
@@ -175,7 +176,7 @@ TEST(WithAllArrivals, lists_those_on_their_way_behind_the_free_grains) {
   for (Index i = 0; i < 5; ++i) EXPECT_EQ(all.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
   EXPECT_EQ(all.mass[1], world.grains.mass[1]);
   EXPECT_EQ(all.x[5], world.grains.x[2]);
-  EXPECT_EQ(with_all_arrivals(world.grains, {}, rule.density).count(), 12);  // of a bed that is not poured
+  EXPECT_EQ(with_all_arrivals(world.grains, {}, rule.density).count(), 12);  // for a bed that is not poured
 }
 
 void pour_steps(const std::vector<Arrival>& arrivals, int steps, World& world, StepWorkspace& workspace) {
@@ -186,7 +187,7 @@ void pour_steps(const std::vector<Arrival>& arrivals, int steps, World& world, S
   }
 }
 
-// The workspace of a copy is a new one; nothing of a poured bed is in it.
+// The workspace of a copy is empty and contains nothing of the poured bed.
 TEST(Pour, a_copied_bed_goes_on_with_the_same_bits) {
   for (const bool periodic : {true, false}) {
     const BedPlan plan = plan_of(periodic, true);
@@ -202,7 +203,7 @@ TEST(Pour, a_copied_bed_goes_on_with_the_same_bits) {
   }
 }
 
-// A step finds it touching at its midpoint: the plane takes its speed at once, and it stays on the plane.
+// The grain touches at the midpoint of the step: the plane stops it at once, and it stays on the plane.
 TEST(Pour, a_grain_that_arrives_touches_in_its_first_step) {
   const BedPlan plan = plan_of(true, false, 1);
   const std::vector<Arrival> arrivals = pour_arrivals(plan);

@@ -13,7 +13,7 @@ namespace {
 constexpr double length = 20.0;
 constexpr double exact = 1e-14;
 
-/// Discs on or above the plane y = 0, in a box whose ends are joined or walls.
+/// Returns discs on or above the plane y = 0, in a box that is periodic or has walls.
 DiscGrid box(bool periodic, const std::vector<PlacedDisc>& discs) {
   Boundary boundary{.periodic = periodic, .length = length, .planes = {}};
   if (!periodic)
@@ -33,7 +33,7 @@ TEST(Rolling, a_grain_falls_onto_the_plane_where_nothing_is_in_its_way) {
   expect_at({7.0, 0.5}, resting_place(box(true, {{3.0, 0.5, 0.5}}), {7.0, 0.5}));
 }
 
-// Side by side with all radii equal, the three centres are an equilateral triangle of side 2 r.
+// For equal radii, the three centres form an equilateral triangle of side 2 r.
 TEST(Rolling, a_grain_on_two_equal_ones_side_by_side_ends_at_the_apex_of_the_triangle) {
   const DiscGrid bed = box(true, {{9.5, 0.5, 0.5}, {10.5, 0.5, 0.5}});
   for (const double x : {9.5001, 9.7, 9.99, 10.0, 10.2, 10.4999})
@@ -46,15 +46,14 @@ TEST(Rolling, and_so_it_does_across_the_periodic_edge) {
     expect_at({0.25, 0.5 + std::sqrt(3.0) / 2.0}, resting_place(bed, {x, 0.5}));
 }
 
-// It falls off at the equator, where it is a sum of radii from the axis of the grain below.
+// The grain detaches at the equator, at a distance of the sum of radii from the axis of the grain below.
 TEST(Rolling, a_grain_rolls_off_a_larger_one_and_falls_from_its_equator) {
   const DiscGrid bed = box(true, {{10.0, 1.0, 1.0}});
   expect_at({11.25, 0.25}, resting_place(bed, {10.1, 0.25}));
   expect_at({8.75, 0.25}, resting_place(bed, {9.9, 0.25}));
 }
 
-// A larger one comes to the plane first: centres 0.75 apart in height, 2.25 along the line of centres... each
-// touches the plane, so their distance along it is 2 sqrt(r R).
+// The larger grain reaches the plane first. Both touch the plane, so their distance along it is 2 sqrt(r R).
 TEST(Rolling, a_larger_grain_rolls_off_a_smaller_one_down_to_the_plane) {
   const DiscGrid bed = box(true, {{10.0, 0.25, 0.25}});
   expect_at({10.0 + 2.0 * std::sqrt(0.25 * 1.0), 1.0}, resting_place(bed, {10.1, 1.0}));
@@ -67,14 +66,16 @@ TEST(Rolling, a_wall_holds_a_grain_from_the_other_side) {
   expect_at({length - 0.5, height}, resting_place(bed, {length - 0.6, 0.5}));
 }
 
-// Three in a row, each lower than the one before: it rolls over the second to the far side of the third.
+// Three grains in a row, each lower than the previous one: the grain rolls over the second to the far side of
+// the third.
 TEST(Rolling, a_grain_rolls_from_one_grain_to_the_next) {
   const DiscGrid bed = box(true, {{9.0, 2.5, 0.5}, {9.75, 1.8, 0.5}, {10.5, 1.2, 0.5}});
   expect_at({11.5, 0.5}, resting_place(bed, {9.1, 0.5}));
 }
 
 TEST(Rolling, an_overhanging_grain_stops_one_that_rolls_underneath) {
-  // On the first, in touch with the second above and to the right: the circles of reach 1 about both cross.
+  // On the first grain, in contact with the second above and to the right: the two circles of radius 1
+  // intersect.
   const DiscGrid bed = box(true, {{10.0, 3.0, 0.5}, {11.5, 3.6, 0.5}});
   const Vec2 place = resting_place(bed, {9.99, 0.5});  // rolls off to the left, for comparison
   expect_at({9.0, 0.5}, place);
@@ -84,7 +85,7 @@ TEST(Rolling, an_overhanging_grain_stops_one_that_rolls_underneath) {
   EXPECT_LT(held.x, 11.5);
 }
 
-// sin 30 deg = 1/2: with a reach of 1, half a length from the axis.
+// sin 30 deg = 1/2: with centres 1 apart, the limit is 1/2 from the axis.
 TEST(Rolling, a_grain_stays_where_it_has_fallen_up_to_the_critical_angle) {
   const DiscGrid bed = box(true, {{10.0, 0.5, 0.5}});
   for (const double side : {-1.0, 1.0}) {
@@ -93,13 +94,14 @@ TEST(Rolling, a_grain_stays_where_it_has_fallen_up_to_the_critical_angle) {
     expect_at({inside, 0.5 + std::sqrt(1.0 - across * across)}, resting_place(bed, {inside, 0.5, 0.5}));
     expect_at({10.0 + side, 0.5}, resting_place(bed, {outside, 0.5, 0.5}));
   }
-  expect_at({11.0, 0.5}, resting_place(bed, {10.0, 0.5, 0.0}));  // without one not even at the top
+  expect_at({11.0, 0.5},
+            resting_place(bed, {10.0, 0.5, 0.0}));  // without a critical angle it rolls even from the top
 }
 
-// What rolls over the second has not fallen on it.
+// A grain that rolls over the second has not fallen on it.
 TEST(Rolling, the_critical_angle_does_not_hold_a_grain_that_rolls) {
   const DiscGrid bed = box(true, {{9.0, 2.5, 0.5}, {9.9, 1.8, 0.5}});
-  const double steep = 0.6;  // of a fall at 9.7: across 0.7 on the first; on the second less than 0.6
+  const double steep = 0.6;  // released at 9.7: offset 0.7 on the first grain, less than 0.6 on the second
   expect_at({10.9, 0.5}, resting_place(bed, {9.7, 0.5, steep}));
 }
 

@@ -12,7 +12,7 @@ class Statics : public testing::TestWithParam<solver::SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, Statics, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
 
-// Forces of a column follow from equilibrium alone: the contact below disk i carries i and all above it.
+// Forces in a column follow from equilibrium: the contact below disk i carries i and all disks above it.
 TEST_P(Statics, a_column_carries_the_weight_above_each_contact) {
   const Index count = 10;
   World world = test::column(count);
@@ -31,7 +31,7 @@ TEST_P(Statics, a_column_carries_the_weight_above_each_contact) {
   }
 }
 
-// Two disks on the plane bear a third in the hollow: each of its contacts, at 30 degrees to the vertical,
+// Two disks on the plane carry a third between them: each of its contacts, at 30 degrees to the vertical,
 // carries f_n cos 30 + f_t sin 30 = m g / 2; the lower disks rest on the plane with 3/2 m g each.
 TEST_P(Statics, three_disks_in_a_heap_balance) {
   World world = test::disk_on_plane(0.0);

@@ -34,7 +34,7 @@ TEST(Step, a_copied_world_goes_on_with_the_same_bits) {
   }
 }
 
-// Without the forces of the last step the future is another: they are state.
+// The forces of the last step are part of the state: without them the result differs.
 TEST(Step, forgotten_forces_change_the_bits) {
   const StepSettings settings = test::bed_step(1e-6);
   World world = test::fallen_bed(falling_plan(true), settings, 200);
@@ -46,7 +46,8 @@ TEST(Step, forgotten_forces_change_the_bits) {
   EXPECT_NE(state_hash(forgetful), state_hash(world));
 }
 
-// Gaps up to `margin`, doubled until it exceeds itself by what velocities can close in a step: 2 h (v + g h).
+// Gaps up to `margin`, which doubles until it exceeds the distance that velocities can close in a step, 2 h
+// (v + g h).
 TEST(Step, lists_pairs_up_to_a_gap_that_changes_by_doubling) {
   StepSettings settings = test::bed_step(1e-8);
   const auto listed = [&settings](double gap, double velocity) {
@@ -130,7 +131,7 @@ TEST(Step, forces_obey_the_contact_law) {
   EXPECT_GT(carrying, 36);
 }
 
-// A world that cannot be computed is refused, and stays as it was.
+// A world that cannot be computed is rejected and stays unchanged.
 TEST(Step, a_velocity_that_is_not_finite_is_an_error_that_leaves_the_world_alone) {
   World world = test::fallen_bed(falling_plan(true), test::bed_step(), 50);
   world.gravity = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-/// Values of members read back from ensemble.h5, and what they tell of an analysis.
+/// Values of members read back from ensemble.h5, and the analysis parameters that they record.
 
 #include "ensemble/averages_reader.h"
 
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A member with frames at 0, 1, 2 ... deg, and one 0.25 deg before theta_c.
+/// Returns a member with frames at 0, 1, 2 ... deg, and one 0.25 deg before theta_c.
 MemberResult member(std::uint64_t seed, double theta_c) {
   MemberResult result{seed, {"00000000000000ab", "0.1.0", 1.0, {{"theta_c", "deg", theta_c}}}, {}};
   for (int k = 0; k < theta_c - 0.25; ++k) result.series.theta.push_back(k);
@@ -50,7 +50,7 @@ TEST(ReadAverages, gives_members_back_at_the_points_of_both_grids) {
   EXPECT_EQ(second.seed, 2u);
   EXPECT_EQ(second.numbers.state_hash, "00000000000000ab");
   EXPECT_EQ(number_called(second.numbers, "theta_c"), 4.5);
-  // No point of a grid is at 4.25 deg: at 4 deg the last value is known, at 4.5 deg none.
+  // No grid point is at 4.25 deg: the last known value is at 4 deg, and there is none at 4.5 deg.
   EXPECT_EQ(second.series.theta, (std::vector{0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0}));
   ASSERT_EQ(second.series.series.size(), 2u);
   const MemberResult original = member(2, 4.5);
@@ -95,7 +95,7 @@ TEST(ReadAverages, of_slopes_that_stand_has_no_angle_left) {
   EXPECT_EQ(member_of(variant, 0).series.theta, (std::vector{0.0, 1.0, 2.0}));
 }
 
-/// A file of one variant with two seeds and values of theta_c.
+/// Writes a file of one variant with two seeds and values of theta_c.
 template <typename T>
 void write_angles(const std::string& path, io::ElementType type, const char* shape,
                   const std::vector<T>& values) {

@@ -1,4 +1,4 @@
-/// Averages over the members of an ensemble, on common grids of tilt.
+/// Averages over the members of an ensemble, on common tilt grids.
 
 #include "ensemble/averages.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// A member whose z falls from 4 by 1 each degree, with frames at 0, 1, 2 ... deg up to theta_c.
+/// Returns a member whose z decreases from 4 by 1 per degree, with frames at 0, 1, 2 ... deg up to theta_c.
 MemberResult member(std::uint64_t seed, double theta_c, double z = 4.0) {
   MemberResult result{seed, {"hash", "0.1.0", 1.0, {{"theta_c", "deg", theta_c}}}, {}};
   result.series.series = {{"contacts/coordination_number", "1", {}}};

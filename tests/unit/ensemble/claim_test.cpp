@@ -1,4 +1,4 @@
-/// Claims: one process has a member, and what is left of a dead one is taken over.
+/// Claims: one process owns a member, and the claim of a dead process is taken over.
 
 #include "ensemble/claim.h"
 
@@ -16,9 +16,9 @@
 namespace talus::ensemble {
 namespace {
 
-const ClaimTimes quick{0.06};  // a heartbeat each 5 ms; dead after 60 ms
+const ClaimTimes quick{0.06};  // a heartbeat every 5 ms; dead after 60 ms
 
-/// A claim as a worker of another machine leaves it, with so many heartbeats.
+/// Writes a claim of a worker on another machine, with `beats` heartbeats.
 void write_foreign_claim(const std::string& path, int beats) {
   std::ofstream(path) << "process 1 on host far, boot another\n" << std::string(beats, '.');
 }
@@ -70,11 +70,12 @@ TEST(Claim, is_alive_as_long_as_its_process_on_this_machine) {
   ClaimWatch watch{quick, {}};
   {
     const std::optional<Claim> claim = Claim::take(run, {}, quick);
-    std::this_thread::sleep_for(std::chrono::milliseconds(80));  // longer than a foreign claim would live
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(80));  // longer than the lifetime of a foreign claim
     EXPECT_EQ(claim_state(run, 0, watch), ClaimState::alive);
     std::filesystem::copy_file(claim_path(run, 0), folder.path("left"));
   }
-  std::filesystem::rename(folder.path("left"), claim_path(run, 0));  // as a kill leaves it: without a lock
+  std::filesystem::rename(folder.path("left"), claim_path(run, 0));  // state after a kill: without a lock
   EXPECT_EQ(claim_state(run, 0, watch), ClaimState::dead);
 }
 
@@ -97,7 +98,7 @@ TEST(Claim, of_another_holder_counts_from_its_own_first_heartbeat) {
   write_foreign_claim(claim_path(run, 0), 30);
   EXPECT_EQ(claim_state(run, 0, watch), ClaimState::unknown);
   std::this_thread::sleep_for(std::chrono::milliseconds(80));
-  // Its worker has given it back meanwhile, and another one has taken it.
+  // Meanwhile its worker has released it, and another has taken it.
   std::ofstream(claim_path(run, 0)) << "process 2 on host farther, boot third\n.";
   EXPECT_EQ(claim_state(run, 0, watch), ClaimState::unknown);
 }
@@ -134,7 +135,7 @@ TEST(Claim, is_lost_to_one_of_a_higher_number) {
   const test::TemporaryFolder folder;
   const std::string run = folder.path("seed-1.h5");
   std::optional<Claim> claim = Claim::take(run, {}, quick);
-  write_foreign_claim(claim_path(run, 1), 0);  // whose worker has not yet removed the one before
+  write_foreign_claim(claim_path(run, 1), 0);  // its worker has not yet removed the previous one
   EXPECT_FALSE(claim->beat());
 }
 
@@ -143,7 +144,7 @@ TEST(Claim, lives_as_long_as_a_process_that_its_worker_has_started) {
   const std::string run = folder.path("seed-1.h5");
   const std::optional<Claim> claim = Claim::take(run, {}, quick);
   const int file = open(claim_path(run, 0).c_str(), O_RDONLY | O_CLOEXEC);
-  // What counts is the descriptor that children inherit.
+  // The claim is held by the descriptor, which children inherit.
   int inherited = 0;
   for (int k = 3; k < 64; ++k) {
     struct stat here {

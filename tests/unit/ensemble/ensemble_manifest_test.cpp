@@ -1,4 +1,4 @@
-/// Manifests: begun, read back, extended, and refused where they say something else.
+/// Manifests: created, read back, extended, and rejected if they contradict the request.
 
 #include "ensemble/ensemble_manifest.h"
 
@@ -41,7 +41,7 @@ class EnsembleManifestTest : public testing::Test {
   static std::string hash_of(const std::string& text) {
     return hash_text(hash_bytes(std::as_bytes(std::span(text))));
   }
-  /// Puts these lines in the place of the manifest, with a hash that fits.
+  /// Replaces the manifest by these lines, with a matching hash.
   void replace_manifest(const std::string& lines) const {
     const std::string text = "talus ensemble 1\n" + lines;
     std::ofstream(manifest_path(ensemble)) << text << "hash " << hash_of(text) << "\n";
@@ -248,8 +248,8 @@ TEST_F(EnsembleManifestTest, loses_a_variant_that_only_fails_to_a_command_withou
     return all;
   };
   const EnsemblePlan plan = plan_of(read_ensemble(ensemble), ensemble);
-  record_failure(plan.members[1].path, {65, "bad"});  // of 0.4
-  record_failure(plan.members[2].path, {65, "bad"});  // of 0.5
+  record_failure(plan.members[1].path, {65, "bad"});  // member with 0.4
+  record_failure(plan.members[2].path, {65, "bad"});  // member with 0.5
   io::write_text(plan.members[5].path, "done");
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.4"}));
   EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is wanted, and a member of 0.5 is done";
@@ -351,7 +351,7 @@ TEST_F(EnsembleManifestTest, whose_scenario_was_changed_is_refused) {
 
 TEST_F(EnsembleManifestTest, keeps_the_scenarios_that_it_began_with_as_they_were_written) {
   extend_ensemble(ensemble, wanted({1}));
-  // As an earlier version wrote it: the same values, other words.
+  // State written by another version: the same values in different words.
   const std::string scenario_file = ensemble + "/scenarios/scenario.toml",
                     text = text_of(scenario_file) + "# x\n";
   std::ofstream(scenario_file) << text;

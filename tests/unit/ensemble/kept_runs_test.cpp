@@ -1,4 +1,4 @@
-/// Frames that go once their members are done.
+/// Frames that are deleted once their members are done.
 
 #include "ensemble/kept_runs.h"
 
@@ -50,7 +50,7 @@ TEST(KeptRuns, have_no_other_name) {
 
 class DroppedFrames : public testing::Test {
  protected:
-  /// A plan of members with the files of the first `count` of them.
+  /// Returns a plan of members, with the files of the first `count` of them.
   EnsemblePlan plan(const std::string& folder, std::size_t count) {
     EnsembleManifest manifest = manifest_with("");
     manifest.variants[0].scenario = test::small_tilted_bed(1.0);

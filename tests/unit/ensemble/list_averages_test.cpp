@@ -1,4 +1,4 @@
-/// Distributions and other lists of members, and averages that keep no member.
+/// Distributions and other lists of members, and averages without single members.
 
 #include "ensemble/list_averages.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Frames at 0, 1, 2 ... deg up to theta_c with the densities {d + theta, 10 d + theta}.
+/// Returns frames at 0, 1, 2 ... deg up to theta_c with the densities {d + theta, 10 d + theta}.
 MemberLists member(double theta_c, double d) {
   MemberLists lists{
       {}, {{"gamma/edge", "1", "edges", 3, {0.0, 0.5, 1.0}}}, {{"gamma/density", "1", "pdf", 2, {}}}};
@@ -90,7 +90,7 @@ TEST(ListAverages, stand_in_the_file_with_their_bins) {
   EXPECT_NEAR(values("over_tilt/gamma/density/deviation", "5 2")[0], std::sqrt(2.0), 1e-12);
 }
 
-/// Every list of the table of quantities has numbers of its own.
+/// Returns an analysis with different numbers in every list of the table of quantities.
 analysis::Analysis filled_analysis() {
   analysis::Analysis analysis =
       test::blank_analysis({.frames = 3, .thresholds = 2, .sections = 4, .bins = 5});

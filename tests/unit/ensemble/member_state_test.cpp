@@ -1,4 +1,4 @@
-/// How far members are, from the names of files.
+/// Progress of members, from the names of files.
 
 #include "ensemble/member_state.h"
 
@@ -19,11 +19,11 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   const EnsemblePlan plan =
       plan_ensemble({1, 2, 3, 4}, {{"a", "", {}}, {"b", "", {}}}, folder.path().string());
   touch(folder.path("a/seed-1.h5"));
-  touch(folder.path("a/seed-1.claim-0"));  // its worker has not given it back yet
+  touch(folder.path("a/seed-1.claim-0"));  // its worker has not released it yet
   touch(folder.path("a/seed-2.failed"));
   touch(folder.path("a/seed-3.claim-2"));
   touch(folder.path("a/seed-3.claim-10"));
-  touch(folder.path("a/seed-4.csv"));  // as earlier versions left them
+  touch(folder.path("a/seed-4.csv"));  // leftover of an earlier file layout
   std::filesystem::create_directory(folder.path("a/seed-4.h5.run"));
   std::filesystem::create_directory(folder.path("a/seed-2.h5"));
   const std::vector<MemberState> states = look_at_members(plan);

@@ -1,4 +1,4 @@
-/// The pool: its processes are this test program, which is told which of its tests to run.
+/// Pool of processes, which are instances of this test program that run one test each.
 
 #include "ensemble/pool.h"
 
@@ -56,7 +56,7 @@ TEST(Pool, passes_a_signal_on_and_says_that_it_was_stopped) {
   EXPECT_EQ(asked, 1);
 }
 
-// Somebody else may take the status of a child, or a parent may have ignored SIGCHLD.
+// Other code may reap a child, or the parent may have ignored SIGCHLD.
 TEST(Pool, does_not_wait_for_a_job_that_nobody_can_tell_the_end_of) {
   const test::TemporaryFolder folder;
   const auto before = std::signal(SIGCHLD, SIG_IGN);

@@ -1,4 +1,4 @@
-/// What the folder of an ensemble tells of its jobs, and when a task is not queued again.
+/// Jobs found in the folder of an ensemble, and conditions under which a task is not queued again.
 
 #include "ensemble/slurm_jobs.h"
 

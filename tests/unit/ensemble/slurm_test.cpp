@@ -1,4 +1,4 @@
-/// Ensembles as job arrays: the script of a task, the words of Slurm's commands, and what these print.
+/// Ensembles as job arrays: the script of a task, arguments of Slurm's commands, and their output.
 
 #include "ensemble/slurm.h"
 

@@ -1,4 +1,4 @@
-/// When an ensemble knows enough.
+/// Stopping criterion of ensembles.
 
 #include "ensemble/until.h"
 
@@ -36,7 +36,7 @@ TEST(Precision, is_reached_where_the_mean_of_every_variant_is_known_so_well) {
     numbers.insert(numbers.end(), {member_with(theta_c), member_with(theta_c)});
   EXPECT_TRUE(is_reached({"theta_c", 0.32}, plan, numbers));
   EXPECT_FALSE(is_reached({"theta_c", 0.31}, plan, numbers));
-  numbers.back() = {};  // one of variant b is not done: four values are too few
+  numbers.back() = {};  // one member of variant b is not done, and four values are too few
   EXPECT_FALSE(is_reached({"theta_c", 10.0}, plan, numbers));
   EXPECT_FALSE(is_reached({"theta_d/lc_jump[1]", 10.0}, plan, numbers)) << "no member has a value";
 }

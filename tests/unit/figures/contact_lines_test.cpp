@@ -63,7 +63,7 @@ TEST(ContactLines, EndAtAWall) {
   test::add_grain(packing, 1.5, 1.0);
   test::add_contact(packing, 0, 1, 1.0);
   FrameContacts& contacts = packing.frame.contacts;
-  contacts.b[0] = 2;  // the first plane
+  contacts.b[0] = 2;  // first plane
   contacts.px[0] = 0.0;
   const std::vector<ContactLine> lines = contact_lines({packing.frame, packing.statics});
   ASSERT_EQ(lines.size(), 1u);

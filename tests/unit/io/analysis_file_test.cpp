@@ -1,4 +1,4 @@
-/// The analysis of a run in its file: what is stored is what is read, and the run beside it stays as it is.
+/// Analysis stored with a run: it is read back exactly, and the run stays unchanged.
 
 #include "io/analysis_file.h"
 
@@ -97,7 +97,7 @@ TEST_F(AnalysisFile, replaces_an_analysis_without_a_trace) {
   EXPECT_TRUE(example::file_text(path_) == once);
 }
 
-/// The bytes of a run file with nothing in /analysis but another version.
+/// Returns the bytes of a run file whose /analysis contains nothing but another version.
 std::vector<std::byte> with_another_version(const std::string& path) {
   hdf5::Writer writer({}, seal_size, read_file(path), path);
   writer.write_scalar("/analysis/version", analysis_version - 1);
@@ -172,7 +172,7 @@ TEST(Quantities, have_their_values_in_the_order_of_their_shape) {
   EXPECT_EQ(analysis::number_of(mean, analysis.frames[1], 1), analysis.frames[1].thresholds[1].lc_mean);
 }
 
-/// The table with a row more: a quantity is known to a file by its row alone.
+/// Returns the table with an additional row: a file knows a quantity only by its row.
 std::vector<analysis::Quantity> with_made_up_quantity() {
   std::vector<analysis::Quantity> table = analysis::quantities();
   table.push_back(

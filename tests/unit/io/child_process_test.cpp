@@ -1,4 +1,4 @@
-/// Work that ends its process does not end this one.
+/// Work that ends its process does not end the parent.
 
 #include "io/child_process.h"
 
@@ -18,7 +18,7 @@
 namespace talus::io {
 namespace {
 
-/// A lock on a run is held by whoever has its file open.
+/// A lock on a run is held by every process that has its file open.
 TEST(ChildProcess, holds_no_file_of_its_parent) {
   const Descriptor file(::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 100));
   ASSERT_GE(file.get(), 100);
@@ -28,7 +28,7 @@ TEST(ChildProcess, holds_no_file_of_its_parent) {
   EXPECT_EQ(open.at("open"), std::vector{std::byte{0}});
 }
 
-/// What a child does, and how that ends.
+/// Returns how a child that does this ends.
 std::string end_of(const std::function<std::vector<std::byte>()>& work) {
   try {
     Parcels found = in_child_process("p.h5", 0, [&] { return Parcels{{"bytes", work()}}; });

@@ -1,4 +1,4 @@
-/// Damage is found before it is interpreted, and named.
+/// Damage is detected before data are interpreted, and the damaged file is named.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Opening `path` must fail with bad_data and a message that names `file`.
+/// Expects opening `path` to fail with bad_data and a message that names `file`.
 void expect_refused(const std::string& path, const std::string& file, const std::string& how) {
   try {
     RunFile::open(path);
@@ -26,7 +26,7 @@ void expect_refused(const std::string& path, const std::string& file, const std:
   }
 }
 
-/// Flips a bit at sampled positions, cuts the file at some, and adds a byte.
+/// Flips a bit at sampled positions, truncates the file at some, and appends a byte.
 void damage_everywhere(const std::string& path, const std::string& file, std::size_t samples) {
   const std::string good = example::file_text(file);
   for (std::size_t k = 0; k < samples; ++k) {
@@ -98,7 +98,7 @@ TEST(Damage, a_foreign_file_is_not_taken_for_a_run) {
   expect_refused(folder.path("run.h5"), "run.h5: is not a Talus run file", "a foreign file");
 }
 
-/// A file whose hash is right but whose data sets are not ours.
+/// A file with a correct hash but foreign data sets.
 TEST(Damage, shapes_and_types_are_checked_against_the_schema) {
   hdf5::Writer writer({{'N', 3}, {'G', 3}});
   writer.write("/particles/grains/radius", std::vector<double>{1, 2, 3});

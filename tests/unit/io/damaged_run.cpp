@@ -14,8 +14,8 @@
 namespace talus::example {
 namespace {
 
-/// Where the values of a row of a data set, or those of a chunk, lie in a file: HDF5 counts chunks from
-/// behind the seal.
+/// Position of a row of a data set, or of a chunk, in a file; HDF5 counts chunk offsets from the end of the
+/// seal.
 struct Place {
   std::size_t offset = 0, size = 0;
 };

@@ -1,4 +1,4 @@
-/// docs/file_format.md and the Python package hold the table of data sets as the code has it.
+/// docs/file_format.md and the Python package agree with the table of data sets in the code.
 
 #include <gtest/gtest.h>
 

@@ -26,7 +26,7 @@ analysis::Analysis analysis(std::uint64_t thresholds, int serial) {
     analysis::Values values = analysis::values_of(quantity, analysis);
     std::visit(
         [&]<typename T>(std::vector<T>& numbers) {
-          // The first element keeps what it was made with: NaN, of a number that may be none.
+          // The first element keeps its initial value, which is NaN for optional numbers.
           for (std::size_t i = 1; i < numbers.size(); ++i) numbers[i] = static_cast<T>(next++);
         },
         values);

@@ -100,7 +100,7 @@ io::Checkpoint checkpoint(int k) {
   for (auto* field : {&contacts.nx, &contacts.ny, &contacts.gap, &contacts.fn, &contacts.ft})
     *field = numbers(random, contacts.a.size(), -1.0, 1.0);
   for (std::size_t i = 0; i < contacts.a.size(); ++i) {
-    contacts.b[i] = grain_count + 1;  // the second plane
+    contacts.b[i] = grain_count + 1;  // second plane
     contacts.shift[i] = -1;
   }
   c.world.tilt = random.uniform();

@@ -1,5 +1,5 @@
 #pragma once
-/// A small run with a value of its own in every field, for the tests of the run store.
+/// Small run with a different value in every field, for the tests of the run store.
 
 #include <string>
 
@@ -14,12 +14,12 @@ inline constexpr Index grain_count = 6;
 inline constexpr Index free_grain_count = 4;
 
 io::RunHeader header();
-/// Commit number k holds k % 3 frames, at ascending tilts, 2 rows of observables, 5 of steps and k / 2
+/// Returns commit number k with k % 3 frames at ascending tilts, 2 rows of observables, 5 of steps and k / 2
 /// commands.
 io::Segment segment(int k);
 io::Checkpoint checkpoint(int k);
 
-/// A store with the commits 0 ... count - 1.
+/// Returns a store with the commits 0 ... count - 1.
 io::RunStore store_with_commits(const std::string& path, int count);
 
 std::string file_text(const std::string& path);

@@ -1,4 +1,4 @@
-/// A packed file as somebody else's reader sees it: h5py, on its own, with the H5MD conventions.
+/// Packed file read by an independent reader: h5py, with the H5MD conventions.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ TEST(H5py, reads_a_packed_file_and_finds_it_valid) {
   const std::string path = folder.path("run.h5");
   example::store_with_commits(path, 5).pack();
 
-  // What the example run holds, for the script to compare.
+  // Contents of the example run, for comparison in the script.
   const Segment first = example::segment(1), last = example::segment(4);
   std::ostringstream expected;
   expected.precision(17);

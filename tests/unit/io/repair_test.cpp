@@ -1,4 +1,4 @@
-/// What is whole of a damaged run is kept, and nothing else.
+/// Repair keeps the intact parts of a damaged run, and nothing else.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ bool mention(const std::vector<std::string>& lines, const std::string& text) {
                              [&](const std::string& line) { return line.find(text) != std::string::npos; });
 }
 
-/// Equal values, one without a value equal to another.
+/// Compares values, with NaN equal to NaN.
 bool same(const std::vector<double>& one, const std::vector<double>& other) {
   return std::ranges::equal(one, other,
                             [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
@@ -47,7 +47,7 @@ ExitCode code_of(const RepairRequest& request, std::string* message = nullptr) {
   return ExitCode::done;
 }
 
-/// A packed run of 3 frames and 10 rows of steps, whole and damaged.
+/// Packed run of 3 frames and 10 rows of steps, intact and damaged.
 class RepairFile : public testing::Test {
  protected:
   RepairFile() {
@@ -90,7 +90,7 @@ TEST_F(RepairFile, keeps_all_frames_but_the_damaged_one) {
 }
 
 TEST_F(RepairFile, sees_a_value_that_is_another_and_could_be) {
-  example::spoil_data_set(bad_, "/frames/time");  // of frame 0: a finite number
+  example::spoil_data_set(bad_, "/frames/time");  // frame 0; the value remains finite
   EXPECT_EQ(damaged_pieces(bad_).size(), 1U);
   repair();
   EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);
@@ -181,7 +181,7 @@ TEST_F(RepairFile, reads_past_a_cut_and_a_lost_seal) {
 
 TEST_F(RepairFile, of_another_version_is_refused) {
   std::string text = example::file_text(bad_);
-  text[100] = 'x';  // the seal
+  text[100] = 'x';  // damages the seal
   example::write_text(bad_, text);
   EXPECT_TRUE(damaged_pieces(bad_).empty());
   example::set_version(bad_, 3);
@@ -200,7 +200,7 @@ TEST_F(RepairFile, replaces_nothing_unasked) {
   EXPECT_EQ(code_of({folder_.path("none.h5"), out_, true}), ExitCode::missing_input);
 }
 
-/// A run of four commits of 5 steps each, still in its folder.
+/// Run of four commits of 5 steps each, still in its folder.
 class RepairFolder : public testing::Test {
  protected:
   RepairFolder() {
@@ -226,7 +226,7 @@ class RepairFolder : public testing::Test {
     example::write_text(file(name), text.substr(0, text.size() / 4));
   }
   RepairReport repair() { return repair_run({run_, out_, false}); }
-  /// The frames of these commits, and nothing else.
+  /// Expects exactly the frames of these commits.
   void expect_frames_of(const std::vector<int>& commits) {
     const RunFile run = RunFile::open(out_);
     EXPECT_TRUE(run.complete());
@@ -296,7 +296,7 @@ TEST_F(RepairFolder, keeps_the_frames_beside_a_broken_segment) {
 TEST_F(RepairFolder, keeps_the_frames_beside_a_damaged_one) {
   example::spoil_data_set(file("segment_000003"), "/particles/grains/angle/value", 1);
   EXPECT_TRUE(mention(repair().lost, name_of("segment_000003") + ": frame 1, at 1.750 deg"));
-  EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);  // of commits 1 and 2
+  EXPECT_EQ(RunFile::open(out_).all_frame_tilts().size(), 2U);  // frames of commits 1 and 2
 }
 
 TEST_F(RepairFolder, without_its_header_is_refused) {

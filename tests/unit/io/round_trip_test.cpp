@@ -1,4 +1,4 @@
-/// What is written is what is read, from the folder and from the packed file.
+/// Data written are read back identically, from the folder and from the packed file.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int commits = 5;  // frames: 0 + 1 + 2 + 0 + 1
 
-/// Equal to the last bit, after rounding to single precision; NaN equals NaN.
+/// Expects bit-identical values after rounding to single precision; NaN equals NaN.
 void expect_rounded(const std::vector<double>& read, const std::vector<double>& written, const char* name) {
   ASSERT_EQ(read.size(), written.size()) << name;
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -56,7 +56,7 @@ void expect_same_contacts(const FrameContacts& read, const FrameContacts& writte
   expect_rounded(read.ft, written.ft, "ft");
 }
 
-/// A frame of which only the positions were read.
+/// Checks a frame of which only the positions were read.
 void expect_positions(const Frame& read, const Frame& whole) {
   EXPECT_EQ(read.step, whole.step);
   EXPECT_EQ(read.time, whole.time);
@@ -66,7 +66,7 @@ void expect_positions(const Frame& read, const Frame& whole) {
   EXPECT_TRUE(read.gamma.empty() && read.contacts.a.empty()) << "more was read than is asked for";
 }
 
-/// The bits of all that a frame holds in single precision; a NaN has its own.
+/// Returns the bits of everything that a frame holds in single precision, including those of NaN.
 std::vector<std::uint64_t> bits_of(const Frame& frame) {
   std::vector<std::uint64_t> bits;
   const FrameContacts& c = frame.contacts;
@@ -174,7 +174,7 @@ TEST(RoundTrip, of_a_packed_file) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("run.h5.run")));
 }
 
-/// Frames and rows of observables, one of each at these tilts.
+/// Returns frames and rows of observables, one of each at each of these tilts.
 Segment segment_at(const std::vector<double>& tilts) {
   Segment segment;
   Frame frame = example::segment(1).frames.front();

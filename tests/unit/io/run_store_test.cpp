@@ -1,4 +1,4 @@
-/// Who may write where, and what is refused.
+/// Access to run stores, and rejected requests.
 
 #include "io/run_store.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The error that `action` throws; fails the test where it throws none.
+/// Returns the error thrown by `action`; fails the test if none is thrown.
 template <typename Action>
 Error error_of(const Action& action) {
   try {
@@ -54,7 +54,7 @@ TEST(RunStore, a_second_writer_is_refused_and_told_whose_the_run_is) {
               std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(RunFile::open(path).frame_count(), 0u);  // nothing was touched
+  EXPECT_EQ(RunFile::open(path).frame_count(), 0u);  // nothing was changed
 }
 
 TEST(RunStore, a_run_is_told_from_a_scenario_by_what_it_holds) {
@@ -135,7 +135,7 @@ TEST(RunStore, what_was_never_committed_does_not_exist) {
   RunHeader header;
   Checkpoint checkpoint;
   EXPECT_EQ(error_of([&] { RunStore::resume(path, header, checkpoint); }).code(), ExitCode::missing_input);
-  example::store_with_commits(path, 1);  // create takes the folder over
+  example::store_with_commits(path, 1);  // create takes over the folder
   EXPECT_EQ(run_presence(path), RunPresence::folder);
 }
 
@@ -157,7 +157,7 @@ TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
                                              "segment_000001", "segment_000002"}));
 }
 
-/// How many filters (shuffle, deflate) the angles of the grains go through in a file.
+/// Returns the number of filters (shuffle, deflate) on the angles of the grains in a file.
 int filters_of_angles(const std::string& path) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t set = H5Dopen2(file, "/particles/grains/angle/value", H5P_DEFAULT);
@@ -191,7 +191,7 @@ TEST(RunStore, a_frame_of_another_size_is_refused_as_a_defect) {
   Segment segment = example::segment(1);
   segment.frames[0].gamma.pop_back();
   EXPECT_EQ(error_of([&] { store.commit(segment, example::checkpoint(1)); }).code(), ExitCode::internal);
-  store.commit(example::segment(1), example::checkpoint(1));  // the failed commit left nothing in the way
+  store.commit(example::segment(1), example::checkpoint(1));  // the failed commit left no obstacle
   EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 1u);
 }
 

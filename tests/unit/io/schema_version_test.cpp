@@ -1,4 +1,4 @@
-/// Run files of another version of the schema are refused.
+/// Run files of another schema version are rejected.
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -14,7 +14,7 @@ namespace {
 
 class SchemaVersion : public testing::Test {
  protected:
-  /// A run without commands.
+  /// Writes a run without commands.
   SchemaVersion() {
     RunStore store = RunStore::create(path_, example::header(), false);
     store.commit(example::segment(1), example::checkpoint(1));

@@ -1,4 +1,4 @@
-/// Forces of frozen beds: those that are unique, those that are not, and that all of them are forces.
+/// Forces of frozen beds: unique and non-unique ones, all of which satisfy balance and contact law.
 
 #include "problems/admissible_forces.h"
 
@@ -32,7 +32,7 @@ RunStatics statics_of(const World& world, double length, double friction) {
   return statics;
 }
 
-/// Some 30 grains at rest on a rough floor.
+/// Returns about 30 grains at rest on a rough floor.
 const FrozenBed& small_bed() {
   static const FrozenBed bed = [] {
     const dynamics::StepSettings settings = test::bed_step(tolerance);
@@ -42,7 +42,7 @@ const FrozenBed& small_bed() {
   return bed;
 }
 
-/// A grain that rests on two glued ones, the line to each at 30 deg from the vertical; as remembered, without
+/// Returns a grain on two glued ones, each at 30 deg to the vertical; the remembered forces are those without
 /// friction.
 FrozenBed grain_on_two(double friction) {
   World world;
@@ -59,8 +59,8 @@ FrozenBed grain_on_two(double friction) {
   return bed;
 }
 
-/// Largest force or torque over radius that is left on a free grain, over its weight; summed here over the
-/// contacts, by nothing that the solver uses.
+/// Returns the largest residual force, or torque over radius, on a free grain, relative to its weight; summed
+/// over the contacts without code of the solver.
 double imbalance(const World& world) {
   const Grains& grains = world.grains;
   std::vector<double> x(grains.radius.size() + 8, 0.0), y = x, torque = x;
@@ -72,7 +72,7 @@ double imbalance(const World& world) {
     y[a] -= fy;
     x[b] += fx;
     y[b] += fy;
-    torque[a] -= c.ft[k];  // over the radius
+    torque[a] -= c.ft[k];  // divided by the radius
     torque[b] -= c.ft[k];
   }
   double worst = 0.0;
@@ -130,7 +130,7 @@ TEST(AdmissibleForces, without_friction_there_is_one) {
   }
 }
 
-// By symmetry and balance f_n cos 30 + f_t sin 30 = m g / 2 with the same f_n and |f_t| on both sides: one
+// By symmetry and balance f_n cos 30 + f_t sin 30 = m g / 2 with equal f_n and |f_t| on both sides: one
 // number is free, within |f_t| <= mu f_n.
 TEST(AdmissibleForces, with_friction_a_grain_on_two_has_a_line_of_them) {
   const FrozenBed bed = grain_on_two(0.5);
@@ -206,7 +206,7 @@ TEST(AdmissibleForces, starts_from_the_memory_are_shares_of_it) {
   EXPECT_GT(largest - least, 1.5);
 }
 
-// A grain that nothing holds falls by g h in the step.
+// An unsupported grain falls by g h in the step.
 TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
   World world = test::column(2);
   world.grains.y[1] += 0.5 * test::radius;
@@ -224,7 +224,7 @@ TEST(AdmissibleForces, a_grain_that_is_let_go_is_told) {
 
 TEST(AdmissibleForces, open_contacts_carry_nothing) {
   World world = test::column(2);
-  world.grains.y[1] += 0.001 * test::radius;  // a candidate contact, open
+  world.grains.y[1] += 0.001 * test::radius;  // an open candidate contact
   FrozenBed bed = freeze(std::move(world), test::exact_step(solver::SolverKind::accelerated), mean_diameter);
   ASSERT_EQ(bed.step.problem.contact_count(), 2);
   bed.step.guess.pn.assign(2, 1e-3);

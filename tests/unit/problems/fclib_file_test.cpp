@@ -1,5 +1,5 @@
-/// Problem files: what is written is read back, what cannot be accepted is named, the page tells what is
-/// there.
+/// Problem files: reading returns what was written, invalid parts are named, and the page documents the data
+/// sets.
 
 #include "problems/fclib_file.h"
 
@@ -16,7 +16,7 @@
 namespace talus::problems {
 namespace {
 
-/// Two contacts, W not symmetric, a guess, and no data sets of Talus' own.
+/// Returns two contacts, with W not symmetric, a guess, and without data sets specific to Talus.
 FclibProblem example() {
   FclibProblem problem;
   problem.title = "two contacts";
@@ -44,7 +44,7 @@ FclibProblem with_bodies() {
 
 const std::vector<double> guess_u = {0.0, 1.0, 2.0, 3.0};
 
-/// Reading the problem must fail with bad_data and just this message after the name of the file.
+/// Expects reading the problem to fail with bad_data and exactly this message after the name of the file.
 void expect_refused(const FclibProblem& problem, const std::string& message) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("bad.h5");
@@ -85,7 +85,8 @@ TEST(FclibFile, a_solution_changes_nothing_else) {
   const test::TemporaryFolder folder;
   write_fclib(folder.path("p.h5"), with_bodies(), guess_u);
   write_fclib_solution(folder.path("p.h5"), folder.path("s.h5"), {1, 2, 3, 4}, {5, 6, 7, 8});
-  write_fclib_solution(folder.path("s.h5"), folder.path("s.h5"), {4, 3, 2, 1}, {8, 7, 6, 5});  // in its place
+  write_fclib_solution(folder.path("s.h5"), folder.path("s.h5"), {4, 3, 2, 1},
+                       {8, 7, 6, 5});  // replaces the file
   const FclibProblem read = read_fclib(folder.path("s.h5"));
   EXPECT_EQ(read.value, example().value);
   EXPECT_EQ(read.guess_r, example().guess_r);

@@ -27,8 +27,8 @@ solver::LocalSolution zero(const solver::LocalProblem& problem) {
   return solution;
 }
 
-/// A small packing; closing gaps and overlaps of the size of the error of the steps before keeps it solvable
-/// to any tolerance.
+/// Returns a small packing. Closing gaps and overlaps of the size of earlier residuals make it solvable to
+/// any tolerance.
 test::FrozenStep packing(std::uint64_t seed) {
   const dynamics::StepSettings settings = test::bed_step(1e-8);
   World world = test::fallen_bed(test::bed_plan(seed % 2 == 0, 24, 6, seed), settings, 100);
@@ -39,7 +39,8 @@ test::FrozenStep packing(std::uint64_t seed) {
   return frozen;
 }
 
-/// W = G G^T of random blocks along a chain of contacts, with normal and tangent coupled everywhere.
+/// Returns W = G G^T from random blocks along a chain of contacts, with normal and tangent coupled
+/// everywhere.
 solver::LocalProblem coupled_chain(std::uint64_t seed, Index contacts) {
   Random random(seed);
   const Index unknowns = 2 * contacts;
@@ -47,7 +48,7 @@ solver::LocalProblem coupled_chain(std::uint64_t seed, Index contacts) {
   for (std::vector<double>& row : g)
     for (int k = 0; k < 6; ++k) row.push_back(random.uniform(-1.0, 1.0));
   std::vector<solver::MatrixEntry> entries;
-  // Row i of G holds columns 2 (i / 2) ... 2 (i / 2) + 5: contacts up to two apart overlap.
+  // Row i of G has columns 2 (i / 2) ... 2 (i / 2) + 5, so contacts up to two apart overlap.
   for (Index i = 0; i < unknowns; ++i)
     for (Index j = std::max(0, i - 5); j < std::min(unknowns, i + 6); ++j) {
       double sum = i == j ? 1.0 : 0.0;
@@ -145,7 +146,7 @@ TEST_P(LocalSolver, has_nothing_to_do_without_contacts) {
   EXPECT_TRUE(report.converged);
 }
 
-/// That momentum takes less than a quarter of the sweeps from the guess.
+/// Expects momentum to need less than a quarter of the sweeps from the guess.
 void expect_saved_sweeps(const solver::LocalProblem& problem, const solver::LocalSolution& guess) {
   solver::LocalSolution plain = guess, fast = guess;
   const int sweeps = solve(problem, settings_of(solver::SolverKind::gauss_seidel, 1e-8), plain).iterations;
@@ -166,7 +167,7 @@ TEST(LocalSolvers, momentum_saves_sweeps_of_friction) {
   solver::ContactProblem row;
   constexpr Index count = 20;
   for (Index i = 0; i < count; ++i) test::add_body(row, 1.0, 0.1, 0.0, 0.0, i == 0 ? 1.0 : 0.0);
-  row.inverse_mass.assign(count, 0.0);  // they can turn only
+  row.inverse_mass.assign(count, 0.0);  // they can only rotate
   for (Index i = 0; i + 1 < count; ++i) test::add_contact(row, i, i + 1, 1.0, 0.0, 0.5);
   const solver::LocalProblem problem = solver::local_problem(row);
   solver::LocalSolution pressed = zero(problem);

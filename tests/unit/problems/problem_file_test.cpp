@@ -1,4 +1,4 @@
-/// The problem of a step, through a file and back.
+/// Problem of a step, written to a file and read back.
 
 #include "problems/problem_file.h"
 
@@ -21,7 +21,7 @@ const char* const tiny_bed =
     "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.02\nstep = 0.01\n[output]\nframe_every = "
     "0.01\n";
 
-/// A run of the bed, complete or with its last commit only.
+/// Writes a run of the bed, complete or only up to its last commit.
 std::string tiny_run(const test::TemporaryFolder& folder) {
   const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   session::Session session(scenario);
@@ -35,7 +35,7 @@ std::string tiny_run(const test::TemporaryFolder& folder) {
   return folder.path("run.h5");
 }
 
-/// A bed on its way down: contacts that open, stick and slide.
+/// Returns a falling bed, with contacts that open, stick and slide.
 StepProblem falling_bed() {
   dynamics::StepSettings settings = test::bed_step(1e-8);
   settings.law.restitution = 0.5;
@@ -143,7 +143,7 @@ TEST(ProblemFile, bodies_that_solvers_cannot_take_are_refused) {
   EXPECT_THROW(read_problem(folder.path("p.h5")), Error);
 }
 
-// The last frame is the state of the checkpoint: its problem is the one that the next step would solve.
+// The last frame is the state of the checkpoint, so its problem is that of the next step.
 TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
   const test::TemporaryFolder folder;
   const io::RunFile run = io::RunFile::open(tiny_run(folder));
@@ -162,7 +162,7 @@ TEST(StepProblem, of_the_last_frame_is_that_of_the_next_step) {
   expect_same_bits(step.guess.pn, workspace.solution.pn);
 }
 
-// The tolerance of a step is that of the velocities before it, as in the run.
+// The tolerance of a step follows from the velocities before it, as in the run.
 TEST(StepProblem, has_the_tolerance_that_the_run_asks) {
   const test::TemporaryFolder folder;
   const io::RunFile run = io::RunFile::open(tiny_run(folder));
@@ -177,7 +177,7 @@ TEST(StepProblem, has_the_tolerance_that_the_run_asks) {
   }
 }
 
-// The step after frame 1 was taken by the run: its forces are those of frame 2, up to the error of the
+// The run has taken the step after frame 1, so its forces are those of frame 2, up to the error of the
 // solver.
 TEST(StepProblem, of_a_frame_in_single_precision_is_nearly_solved_by_its_memory) {
   const test::TemporaryFolder folder;
@@ -202,9 +202,10 @@ TEST(StepProblem, weight_is_carried_by_what_does_not_move) {
   step.problem.ny = {1.0, -1.0, -0.8};
   step.problem.mu = {0.5, 0.5, 0.5};
   solver::ContactSolution solution;
-  solution.pn = {5.0, 8e-3, 10e-3};  // between the two grains: not carried by the floor
+  solution.pn = {5.0, 8e-3, 10e-3};  // between the two grains, and thus not carried by the floor
   solution.pt = {0.0, 0.0, 1e-3};
-  // Floor on grain 0: 8 N up. On grain 1: (10 (0.6, 0.8) - 1 (0.8, -0.6)) N, 8.6 N up. Of a weight of 20 N.
+  // The floor pushes grain 0 up with 8 N, and grain 1 with (10 (0.6, 0.8) - 1 (0.8, -0.6)) N, 8.6 N upwards.
+  // The weight is 20 N.
   EXPECT_NEAR(carried_weight(step, solution), 16.6 / 20.0, 1e-14);
 }
 

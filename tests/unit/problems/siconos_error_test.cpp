@@ -11,7 +11,7 @@
 namespace talus::problems {
 namespace {
 
-/// Two contacts, with W divided by `stiffness`.
+/// Returns two contacts, with W divided by `stiffness`.
 solver::LocalProblem two_contacts(double stiffness) {
   const double w[4][4] = {
       {2.0, 0.3, 0.5, 0.1}, {0.3, 4.0, -0.2, 0.6}, {0.5, -0.2, 3.0, -0.4}, {0.1, 0.6, -0.4, 5.0}};
@@ -21,7 +21,7 @@ solver::LocalProblem two_contacts(double stiffness) {
   return solver::local_problem(entries, {{-1.0, 0.4}, {-0.2, 0.7}}, {0.5, 0.3});
 }
 
-// Expected values are those that fc2d_compute_error of Siconos 4.4.0 returns, with its norm set to || q ||.
+// Expected values were computed by fc2d_compute_error of Siconos 4.4.0, with its norm set to || q ||.
 TEST(SiconosError, is_that_of_siconos) {
   const solver::LocalProblem problem = two_contacts(1.0);
   EXPECT_NEAR(siconos_error(problem, {{0.6, -0.1}, {0.2, 0.05}}), 0.28263343185959744, 1e-15);
@@ -29,7 +29,7 @@ TEST(SiconosError, is_that_of_siconos) {
   EXPECT_NEAR(siconos_error(problem, {{60.0, -10.0}, {20.0, 5.0}}), 0.40709574386144221, 1e-15);
   EXPECT_NEAR(siconos_error(problem, {{0.001, 0.0}, {0.0, 0.0001}}), 0.70220113596808331, 1e-15);
   EXPECT_NEAR(siconos_error(problem, {{-0.3, 0.2}, {0.1, -0.4}}), 0.66449070474440519, 1e-15);
-  // Impulses that outweigh the velocities.
+  // Impulses that dominate the velocities.
   EXPECT_NEAR(siconos_error(two_contacts(100.0), {{60.0, -10.0}, {20.0, 5.0}}), 0.021113953450337751, 1e-15);
 }
 

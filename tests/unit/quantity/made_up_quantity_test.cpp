@@ -1,5 +1,5 @@
-/// A quantity of grains that is added to the table of quantities, and nowhere else, is a map, a column of an
-/// export, a value of the window, and a name in conditions.
+/// A grain quantity added only to the table of quantities becomes a map, a column of an export, a value in
+/// the window, and a name in conditions.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// Every file of tests/scenarios/bad is refused with the message beside it.
+/// Every file of tests/scenarios/bad is rejected with the message stored next to it.
 
 #include <gtest/gtest.h>
 

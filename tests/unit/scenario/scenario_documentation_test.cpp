@@ -1,4 +1,4 @@
-/// docs/scenario.md holds the table of keys as the code has it; the scenarios of assets/ are those of the
+/// docs/scenario.md agrees with the table of keys in the code, and the scenarios of assets/ are those of the
 /// paper.
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(ScenarioKeys, are_documented_as_they_are) {
   for (const ScenarioKey& key : scenario_keys()) expected += row_text(key, toml_text(key.get(Scenario{})));
   for (const CommandKey& key : command_keys()) {
     std::string row = row_text(key, "-");
-    expected += row.replace(row.find("`-`"), 3, "-");  // none has a default
+    expected += row.replace(row.find("`-`"), 3, "-");  // none of them has a default
   }
   EXPECT_EQ(rows_of("docs/scenario.md"), expected) << "the table of docs/scenario.md must be:\n" << expected;
 }
@@ -37,7 +37,8 @@ TEST(ScenarioKeys, stand_once_and_admit_their_defaults) {
 
 Scenario asset(const std::string& name) { return read_scenario(root + "/assets/scenarios/" + name); }
 
-/// mu = 0.5, size ratio 1.5, no restitution, H = 40 D, rough floor, 1 deg/s, 0.001 deg per step, to repose.
+/// Returns a bed with mu = 0.5, size ratio 1.5, no restitution, H = 40 D, rough floor, 1 deg/s, 0.001 deg per
+/// step, run to repose.
 Scenario paper_bed(BedBoundary boundary, double length) {
   Scenario scenario;
   scenario.grains.size_ratio = 1.5;

@@ -1,4 +1,4 @@
-/// Reading scenarios: values, settings of the command line, files.
+/// Reading scenarios: values, settings on the command line, files.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 namespace talus::scenario {
 namespace {
 
-/// The message with which `read` fails; empty where it does not.
+/// Returns the message with which `read` fails; empty if it does not fail.
 std::string message_of(const std::function<void()>& read) {
   try {
     read();
@@ -56,7 +56,7 @@ TEST(ReadScenario, repose_takes_the_end_angle_away) {
 
 TEST(ReadScenario, the_ends_of_a_range_belong_to_it) {
   EXPECT_EQ(message_of("[contact]\nfriction = 0\nrestitution = 1\ntangential_restitution = -1\n"), "");
-  // Time steps that are the ends of their range but for round-off.
+  // Time steps at the ends of their range, except for round-off.
   EXPECT_EQ(message_of("[tilt]\nrate = 0.1\nstep = 1e-6\n"), "");
   EXPECT_EQ(message_of("[tilt]\nrate = 4.1\nstep = 0.041\n[output]\nobservable_every = 1\n"), "");
   EXPECT_EQ(message_of("[bed]\nlength = 10\n"), "");
@@ -102,7 +102,7 @@ TEST(Settings, of_text_need_no_quotes_where_they_are_no_toml) {
 TEST(Rules, a_file_and_the_method_that_reads_it_come_together) {
   EXPECT_EQ(message_of("[deposition]\nmethod = 'file'\nfile = 'bed.csv'\n"), "");
   EXPECT_EQ(message_of("[deposition]\nfile = ''\n"), "");
-  // A file has as many grains as it has, whatever the scenario says of its depth.
+  // A bed file determines the number of grains, whatever depth the scenario specifies.
   EXPECT_EQ(message_of("[bed]\nlength = 1e5\n[deposition]\nmethod = 'file'\nfile = 'bed.csv'\n"), "");
 }
 

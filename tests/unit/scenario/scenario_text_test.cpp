@@ -1,4 +1,4 @@
-/// A scenario written out reads back as the same, bit for bit.
+/// A scenario that is written and read back is bit-identical.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 Scenario read_back(const Scenario& scenario) { return parse_scenario(resolved_toml(scenario), "resolved"); }
 
-/// A value in the range of the key that is not its default.
+/// Returns a value in the range of the key that differs from its default.
 KeyValue other_value(const ScenarioKey& key) {
   if (const auto* choices = std::get_if<Choices>(&key.range)) return choices->names.back();
   if (std::holds_alternative<IntegerRange>(key.range)) return std::int64_t{3};
@@ -48,8 +48,8 @@ TEST(ScenarioKeys, each_sets_its_own_field_only) {
   }
 }
 
-/// All fields, each with another value than its default. A field that is new in Scenario stops this from
-/// compiling: give it a key, and a value here.
+/// Returns a scenario in which all fields differ from their defaults. A field added to Scenario breaks the
+/// compilation of this function: it requires a key, and a value here.
 Scenario all_fields_changed() {
   Scenario scenario;
   auto& [seed, grains, contact, bed, deposition, tilt, solver, output, guards, commands] = scenario;
@@ -125,7 +125,7 @@ TEST(ResolvedScenario, reads_back_extreme_values) {
   const Scenario all = all_fields_changed();
   for (const ScenarioKey& key : scenario_keys())
     EXPECT_NE(key.get(all), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
-  // One scenario has either of these.
+  // A scenario can have only one of these.
   Scenario with_end = all, with_program = all;
   with_end.tilt.program.clear();
   with_program.tilt.end_angle.reset();

@@ -1,4 +1,4 @@
-/// [[command]]: reading, settings, and what is written back. What is refused is in tests/scenarios/bad.
+/// [[command]]: reading, settings, and writing. tests/scenarios/bad has the rejected ones.
 
 #include "scenario/scripted_command.h"
 

@@ -1,4 +1,4 @@
-/// tilt.program: what phrases say, which tilt a step has, and what is refused where.
+/// tilt.program: meaning of its phrases, the tilt of each step, and rejected programmes.
 
 #include "scenario/tilt_program.h"
 
@@ -89,7 +89,7 @@ TEST(ProgramPhrase, with_another_word_or_a_number_out_of_range_is_none) {
 TEST(TiltProgram, goes_to_its_angles_exactly_and_by_whole_steps_between_them) {
   const TiltProgram program = program_of({"to 0.0105", "hold 0.003", "to 0.005 at 2", "by 0.001"});
   const double step = radians(0.001);
-  // 0.0105 deg are ten or eleven steps of 0.001 deg: half a step is rounded away from zero.
+  // 0.0105 deg correspond to ten or eleven steps of 0.001 deg: half a step is rounded away from zero.
   ASSERT_EQ(program.segments().size(), 4u);
   const std::int64_t up = program.segments()[0].steps;
   EXPECT_TRUE(up == 10 || up == 11);

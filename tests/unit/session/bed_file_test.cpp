@@ -27,14 +27,14 @@ dynamics::BedPlan plan_of(bool periodic = true, bool rough = true) {
   return plan;
 }
 
-/// A table in a folder of its own.
+/// Table in a separate folder.
 struct Table {
   explicit Table(const std::string& text) : path(folder.path("bed.csv")) { std::ofstream(path) << text; }
   test::TemporaryFolder folder;
   std::string path;
 };
 
-/// The message without the name of the folder.
+/// Returns the message without the name of the folder.
 std::string message_of(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
                        ExitCode code) {
   try {
@@ -183,7 +183,7 @@ TEST(BedOfFile, says_what_a_missing_one_is_needed_for) {
   }
 }
 
-/// A run of 30 grains that is not complete: of each of its three frames another grain lies higher.
+/// Incomplete run of 30 grains; in each of its three frames a different grain is raised.
 struct StoredRun {
   StoredRun() : path(folder.path("run.h5")) {
     scenario::Scenario scenario = test::small_bed();
@@ -196,7 +196,7 @@ struct StoredRun {
       world.step = k;
       world.tilt = 0.01 * k;
       world.grains.y[29 - k] += 0.05;
-      world.grains.x[29 - k] = 0.1 - 1e-12;  // the period itself in single precision
+      world.grains.x[29 - k] = 0.1 - 1e-12;  // equals the period in single precision
       segment.frames.push_back(make_frame(world, session.law()));
     }
     store.commit(segment, session.checkpoint(0.0));

@@ -1,4 +1,4 @@
-/// A run that begins with a frame of another one, and grains that are dragged.
+/// Runs that begin with a frame of another run, and grains that are dragged.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ void record(Session& session, const RunOrigin& origin, const std::string& path,
   ASSERT_EQ(replay(session, &store, commands, to_the_end, {}), RunEnd::complete);
 }
 
-/// A run with a change of friction and a rate of the tilt on its way.
+/// Records a run during which friction and rate of tilt change.
 void record_run(const std::string& path, std::span<const Command> commands = {}) {
   Session session(test::small_tilted_bed(3.0));
   record(session, {}, path, commands);
@@ -103,7 +103,7 @@ TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
       << "strains are counted from where the run counted them";
 }
 
-/// At each frame the schedule is that which a session has there.
+/// The schedule at each frame is that of a session at this point.
 TEST(Branch, knows_how_the_run_stood_at_each_frame) {
   const test::TemporaryFolder folder;
   Session session(test::small_tilted_bed(3.0));
@@ -167,7 +167,7 @@ TEST(Branch, of_a_branch_goes_on) {
             static_cast<std::int64_t>(std::lround(degrees(branch.frame(2).tilt) / 0.02)));
 }
 
-/// A run of a scenario, recorded whole.
+/// Records a complete run of a scenario.
 io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path,
                      std::span<const Command> commands = {}) {
   Session session(scenario);
@@ -175,7 +175,7 @@ io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path
   return io::RunFile::open(path);
 }
 
-/// A branch of it at frame k, recorded to its end.
+/// Records a branch of it at frame k to its end.
 io::RunFile recorded_branch(const io::RunFile& run, const std::string& path, std::size_t k) {
   const io::BranchOrigin origin = origin_at(run, "run.h5", k);
   Session session(runs::stored_scenario(run.header(), "run.h5"), origin.start);
@@ -224,7 +224,7 @@ TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
       << "or any friction would do";
 }
 
-/// Also where the branch has no command of its own.
+/// Also if the branch has no command.
 TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
   const test::TemporaryFolder folder;
   Session session(test::small_tilted_bed(3.0));
@@ -282,7 +282,7 @@ World one_grain() {
   return world;
 }
 
-/// A free grain comes to where gravity and spring balance, a tenth of D below, without swinging past it.
+/// A free grain reaches the balance of gravity and spring, a tenth of D below, without overshoot.
 TEST(Drag, brings_a_grain_to_where_it_is_held) {
   World world = one_grain();
   const Drag drag{0, 19 * diameter, 8 * diameter};  // two D to the left, across the edge

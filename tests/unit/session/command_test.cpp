@@ -1,4 +1,4 @@
-/// What commands do to worlds laid out by hand and to a session, and what is refused.
+/// Effects of commands on hand-made worlds and on a session, and rejected commands.
 
 #include "session/command.h"
 
@@ -19,7 +19,8 @@ namespace {
 constexpr double diameter = 0.01;
 using Ids = std::vector<Index>;
 
-/// Two layers of ten touching disks: ids 0 ... 9 at the floor, 10 ... 19 on them; contacts up each column.
+/// Returns two layers of ten touching disks: ids 0 ... 9 at the floor, 10 ... 19 on top of them, with
+/// contacts along each column.
 World layers(bool periodic) {
   World world;
   world.boundary.periodic = periodic;
@@ -37,7 +38,7 @@ World layers(bool periodic) {
   return world;
 }
 
-/// Smallest gap between two disks, across the edge of a periodic bed as well.
+/// Returns the smallest gap between two disks, also across the edge of a periodic bed.
 double smallest_gap(const World& world) {
   const Grains& grains = world.grains;
   double smallest = std::numeric_limits<double>::infinity();
@@ -54,14 +55,14 @@ double smallest_gap(const World& world) {
 TEST(Drop, finds_the_grains_that_nothing_covers) {
   World world = layers(true);
   EXPECT_EQ(surface_grains(world), (Ids{10, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
-  world.grains.x[19] = 0.5 * diameter;  // over grain 10: that one is covered, 9 comes to light
+  world.grains.x[19] = 0.5 * diameter;  // covers grain 10 and exposes grain 9
   world.grains.y[19] = 5.0 * diameter;
   EXPECT_EQ(surface_grains(world), (Ids{9, 11, 12, 13, 14, 15, 16, 17, 18, 19}));
 }
 
 TEST(Drop, takes_the_farthest_around_a_periodic_bed) {
   World world = layers(true);
-  drop_grains(world, 3, 2.5 * diameter, 4.0 * diameter);  // at grain 12: 17 is opposite
+  drop_grains(world, 3, 2.5 * diameter, 4.0 * diameter);  // at grain 12; grain 17 is opposite
   for (const Index lifted : {16, 17, 18}) EXPECT_GE(world.grains.y[lifted], 6.5 * diameter) << lifted;
   for (Index i = 0; i < 16; ++i) EXPECT_LT(world.grains.y[i], 2.0 * diameter) << i;
 }
@@ -103,7 +104,7 @@ TEST(Drop, falls_from_the_height_asked_for) {
   EXPECT_NEAR(world.grains.y[17] - 0.5 * diameter, 6.0 * diameter, 0.011 * diameter) << "2 D of bed, and 4 D";
 }
 
-/// Unwrapped, a grain goes the shortest way: less than half the bed.
+/// Unwrapped, a grain moves the shorter way: less than half the bed.
 TEST(Drop, counts_the_turns_of_a_periodic_bed) {
   for (const double x : {-1.0, 0.0, 0.2, 2.5, 9.8, 23.0}) {
     World world = layers(true);
@@ -165,24 +166,25 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
     scenario.bed.boundary = boundary;
     Session session(scenario);
     const std::uint64_t before = state_hash(session.world());
-    std::vector<Command> refused = {{0, CommandKind::push, -1, 0.1, 0.0},
-                                    {0, CommandKind::push, 30, 0.1, 0.0},  // 30 free grains: a floor grain
-                                    {0, CommandKind::push, 3, nan, 0.0},
-                                    {0, CommandKind::push, 3, 0.0, infinite},
-                                    {0, CommandKind::push, 3, limit, 0.0},
-                                    {0, CommandKind::push, 3, 0.8 * limit, -0.8 * limit},
-                                    {0, CommandKind::drop, 0, 0.05, 0.0},
-                                    {0, CommandKind::drop, 1001, 0.05, 0.0},
-                                    {0, CommandKind::drop, 3, nan, 0.0},
-                                    {0, CommandKind::drop, 3, 0.05, -0.001},
-                                    {0, CommandKind::drop, 3, 0.05, 1.001},
-                                    {0, CommandKind::drop, 29, 0.05, 0.1},
-                                    {0, CommandKind::friction, -1, -0.1, 0.0},
-                                    {0, CommandKind::friction, -1, 10.1, 0.0},
-                                    {0, CommandKind::friction, -1, nan, 0.0},
-                                    {0, CommandKind::tilt_rate, -1, -0.1, 0.0},
-                                    {0, CommandKind::tilt_rate, -1, 101.0, 0.0},
-                                    {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
+    std::vector<Command> refused = {
+        {0, CommandKind::push, -1, 0.1, 0.0},
+        {0, CommandKind::push, 30, 0.1, 0.0},  // 30 free grains, so this is a floor grain
+        {0, CommandKind::push, 3, nan, 0.0},
+        {0, CommandKind::push, 3, 0.0, infinite},
+        {0, CommandKind::push, 3, limit, 0.0},
+        {0, CommandKind::push, 3, 0.8 * limit, -0.8 * limit},
+        {0, CommandKind::drop, 0, 0.05, 0.0},
+        {0, CommandKind::drop, 1001, 0.05, 0.0},
+        {0, CommandKind::drop, 3, nan, 0.0},
+        {0, CommandKind::drop, 3, 0.05, -0.001},
+        {0, CommandKind::drop, 3, 0.05, 1.001},
+        {0, CommandKind::drop, 29, 0.05, 0.1},
+        {0, CommandKind::friction, -1, -0.1, 0.0},
+        {0, CommandKind::friction, -1, 10.1, 0.0},
+        {0, CommandKind::friction, -1, nan, 0.0},
+        {0, CommandKind::tilt_rate, -1, -0.1, 0.0},
+        {0, CommandKind::tilt_rate, -1, 101.0, 0.0},
+        {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
     if (boundary == scenario::BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
     for (const Command& command : refused)
       EXPECT_EQ(refusal(session, command), ExitCode::usage) << command_text(command);
@@ -221,7 +223,7 @@ TEST(Push, adds_to_the_velocity) {
   EXPECT_EQ(session.world().grains.vx[2], before.vx[2]);
 }
 
-/// A column on a plane that is suddenly without friction slides at g sin(theta).
+/// A column on a plane that suddenly has no friction slides at g sin(theta).
 TEST(Friction, holds_from_the_next_step_on) {
   scenario::Scenario scenario = small_bed();
   scenario.bed.floor = scenario::BedFloor::smooth;
@@ -261,7 +263,7 @@ TEST(Friction, holds_in_the_deposition_and_after_it) {
   EXPECT_EQ(session.law().wall_friction, 0.5);
 }
 
-// What is kept after an error must be what a resumed run and a replay come to.
+// The state kept after an error must be the one that a resumed run and a replay reach.
 TEST(FailedStep, leaves_the_session_as_it_was) {
   Session session = tilting(small_bed());
   for (int k = 0; k < 10; ++k) session.advance();
@@ -303,7 +305,7 @@ TEST(TiltRate, of_a_deposition_is_that_with_which_the_tilt_begins) {
   EXPECT_NEAR(degrees(session.world().tilt), 0.005, 1e-12);
 }
 
-/// Rows lie 20 steps apart; commands come between them, some of which set the rate.
+/// Rows are 20 steps apart; commands lie between them, and some of them set the rate.
 TEST(TiltBefore, is_that_of_the_bed_when_the_command_was_given_to_the_last_digit) {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
   scenario.output.observable_every = 0.4;

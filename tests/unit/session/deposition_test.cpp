@@ -1,4 +1,4 @@
-/// How grains get into the bed: poured beds stepped, stopped and taken up.
+/// Deposition of grains: poured beds that are stepped, interrupted and resumed.
 
 #include "session/deposition.h"
 
@@ -14,7 +14,7 @@
 namespace talus::session {
 namespace {
 
-/// 30 grains that arrive within 0.19 s; tilted by 0.05 deg.
+/// Returns a scenario with 30 grains that arrive within 0.19 s, tilted to 0.05 deg.
 scenario::Scenario poured_bed(scenario::BedBoundary boundary = scenario::BedBoundary::periodic) {
   scenario::Scenario scenario = test::small_tilted_bed(0.5);
   scenario.bed.boundary = boundary;
@@ -82,7 +82,7 @@ TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
 
 TEST(PouredRun, tilts_when_all_have_arrived_even_if_those_before_are_at_rest) {
   scenario::Scenario scenario = poured_bed();
-  scenario.deposition.rate = 0.05;  // 64 steps from one grain to the next, and 50 are rest
+  scenario.deposition.rate = 0.05;  // 64 steps between grains, and 50 count as rest
   Session session(scenario);
   advance_to_tilt(session);
   EXPECT_EQ(session.world().grains.free_count, 30);
@@ -132,7 +132,7 @@ TEST(PouredRun, taken_up_after_any_step_ends_with_the_same_bits) {
 
 TEST(PouredRun, has_its_time_to_come_to_rest_after_the_last_arrival) {
   scenario::Scenario scenario = poured_bed();
-  scenario.deposition.max_time = 0.02;  // the arrivals alone take ten times that
+  scenario.deposition.max_time = 0.02;  // the arrivals alone take ten times as long
   Session session(scenario);
   EXPECT_THROW(advance_to_tilt(session), Error);
   EXPECT_GE(session.world().time, end_of_arrivals(scenario) + 0.02);

@@ -24,7 +24,7 @@ std::string message_about(const std::string& text, int frame = 0) {
   return "accepted";
 }
 
-/// Grains as "x y radius", one after the other.
+/// Formats grains as "x y radius", one after the other.
 std::string grains_of(const BedTable& table) {
   std::string text;
   for (const TableGrain& grain : table.grains)
@@ -148,7 +148,7 @@ TEST(YadeText, has_the_columns_of_its_format) {
   EXPECT_EQ(grains_of(bed_of("#format x_y_z_r_attrs\n# x y z r speed\n1 2 0 0.5 7\n")), "1 2 0.5, ");
 }
 
-/// Whatever is cut off or changed, the reader gives grains or a message.
+/// For any truncation or change, the reader returns grains or a message.
 TEST(Dumps, that_are_damaged_end_in_a_message_or_in_grains) {
   const std::string texts[] = {
       "ITEM: UNITS\nsi\n" + snapshot("id xs y zu radius", "1 0.1 1 1 0.5\n2 0.3 2 1 0.5\n") +

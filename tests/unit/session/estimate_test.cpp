@@ -1,4 +1,4 @@
-/// What `talus check` expects of a run.
+/// Estimates of `talus check` for a run.
 
 #include "session/estimate.h"
 

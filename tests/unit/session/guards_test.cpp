@@ -1,4 +1,4 @@
-/// What no sound run does is noticed: the run stops with a whole state, or goes on and says so.
+/// Guards detect what no sound run does: the run stops in a consistent state, or continues with a warning.
 
 #include "session/guards.h"
 
@@ -20,7 +20,7 @@ Session run_to_end(const scenario::Scenario& scenario) {
   return session;
 }
 
-/// The message of the guard that stops the run, and its step.
+/// Returns the message of the guard that stops the run, and the step.
 std::pair<std::string, std::int64_t> stopped_by(const scenario::Scenario& scenario) {
   Session session(scenario);
   try {

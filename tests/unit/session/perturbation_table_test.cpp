@@ -1,4 +1,4 @@
-/// The trials of a run as they are stored, and back.
+/// Trials of a run, stored and read back.
 
 #include "session/perturbation_table.h"
 
@@ -24,7 +24,7 @@ PerturbationTable example() {
   return table;
 }
 
-/// A run that is under way, with the rows of the trials of a table.
+/// Run in progress, with the trials of a table.
 class StoredTrials : public testing::Test {
  protected:
   void store(const PerturbationTable& table) {

@@ -1,4 +1,4 @@
-/// Patches and pushes on grains placed by hand, and the search of a threshold that is known.
+/// Patches and pushes on hand-placed grains, and the search for a known threshold.
 
 #include "session/perturbation.h"
 
@@ -13,7 +13,8 @@ namespace {
 
 constexpr double diameter = 0.01;
 
-/// Three layers of ten disks, one above the other: ids 0 ... 9 at the floor, 20 ... 29 at the surface.
+/// Returns three layers of ten disks on top of each other: ids 0 ... 9 at the floor, 20 ... 29 at the
+/// surface.
 World layers(bool periodic) {
   World world;
   world.boundary.periodic = periodic;
@@ -72,7 +73,7 @@ Trial trial(double strength, TrialEnd end) {
   return made;
 }
 
-/// A bed that every push of at least `threshold` sets off.
+/// Searches in a bed that every push of at least `threshold` destabilises.
 std::vector<Trial> search(double threshold) {
   return search_threshold([=](double strength) {
     return trial(strength, strength >= threshold ? TrialEnd::avalanche : TrialEnd::rest);

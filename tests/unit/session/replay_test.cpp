@@ -1,4 +1,4 @@
-/// A run follows from its scenario and its commands: replayed, resumed, interrupted.
+/// A run is determined by its scenario and its commands: replayed, resumed, interrupted.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 scenario::Scenario small_bed() { return test::small_tilted_bed(1.0); }
 
-/// Does what a user might, at these steps: in the deposition, twice at one step, and in the tilt.
+/// Gives commands at certain steps: during deposition, twice at one step, and during the tilt.
 void meddle(Session& session, std::int64_t step, std::int64_t tilt_began) {
   if (step == 20) session.apply({0, CommandKind::push, 4, 0.2, 0.3});
   if (step == 40) session.apply({0, CommandKind::friction, -1, 0.3, 0.0});
@@ -31,8 +31,8 @@ void meddle(Session& session, std::int64_t step, std::int64_t tilt_began) {
   if (step == tilt_began + 40) session.apply({0, CommandKind::friction, -1, 0.7, 0.0});
 }
 
-/// The run of the small bed with these commands, up to its end or so many steps. With a store it is committed
-/// every `commit_every` steps, and there the session is made anew from its checkpoint.
+/// Runs the small bed with these commands, to its end or for a number of steps. With a store, it commits
+/// every `commit_every` steps and recreates the session from its checkpoint.
 struct Meddled {
   std::optional<Session> session;
   std::vector<Command> commands;
@@ -95,7 +95,7 @@ TEST(Replay, of_a_run_that_was_resumed_again_and_again_gives_the_same_bits) {
   EXPECT_EQ(state_hash(again.world()), state_hash(stored.checkpoint().world));
 }
 
-/// The last command was given after the last step: its effect is in the checkpoint.
+/// The last command was given after the last step, so that its effect is only in the checkpoint.
 TEST(Replay, of_a_run_that_was_left_gives_the_same_bits) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
@@ -139,7 +139,8 @@ TEST(Replay, stops_when_asked) {
   EXPECT_EQ(session.world().step, 3);
 }
 
-/// A bed that does not come to rest in time ends with an error after a whole step: so it is stored.
+/// A bed that does not come to rest in time ends with an error after a complete step, and is stored in this
+/// state.
 TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
   scenario::Scenario scenario = small_bed();
   scenario.deposition.max_time = 0.05;
@@ -152,7 +153,7 @@ TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
   EXPECT_THROW(replay(farther, nullptr, {}, session.world().step + 1, {}), Error);
 }
 
-/// The problem of the step after a frame goes by what the commands before it have made of the scenario.
+/// The problem of the step after a frame takes earlier commands into account.
 TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
@@ -177,7 +178,7 @@ TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
   EXPECT_NEAR(degrees(problems::problem_after_frame(run, 3).scales.tilt - run.frame(3).tilt), 0.01, 1e-9);
 }
 
-/// Values that a run without commands does not have: a checkpoint without them is one of an older Talus.
+/// A run without commands stores no such values.
 TEST(Checkpoint, has_what_commands_changed_and_only_that) {
   Session session(small_bed());
   const auto count = [](const Session& of) {

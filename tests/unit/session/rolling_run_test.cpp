@@ -1,4 +1,4 @@
-/// A run whose contacts resist rolling: its files, its memory, its check, and what refuses it.
+/// Run whose contacts resist rolling: its files, its memory, its check, and requests that reject it.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ scenario::Scenario rolling_bed(double rolling_friction = 0.2) {
 
 io::RunHeader header_of(const Session& session) { return run_header(session, {"", {}, "", 1}); }
 
-/// Carries a run through, to a packed file.
+/// Carries a run through to a packed file.
 std::uint64_t carried_through(const scenario::Scenario& scenario, const std::string& path) {
   Session session(scenario);
   io::RunStore store = io::RunStore::create(path, header_of(session), false);
@@ -69,7 +69,7 @@ TEST(RollingRun, that_rolls_freely_stores_none) {
   EXPECT_NE(text_of(folder.path("rolling.h5")).find("/checkpoint/contact_moment"), std::string::npos);
 }
 
-// Commits after each frame, and goes on from the files.
+// Commits after each frame and continues from the files.
 TEST(RollingRun, resumed_from_its_files_gives_the_same_bits) {
   const test::TemporaryFolder folder;
   const scenario::Scenario scenario = rolling_bed();

@@ -1,4 +1,4 @@
-/// A run that is whole passes; what cannot be is found and named.
+/// An intact run passes; impossible values are found and named.
 
 #include "session/run_check.h"
 
@@ -28,13 +28,13 @@ Session run_of(const scenario::Scenario& scenario) {
   return run;
 }
 
-/// What a run of the small bed records, made once.
+/// Returns a finished run of the small bed, computed once.
 const Session& finished_run() {
   static const Session session = run_of(checked_bed());
   return session;
 }
 
-/// The check of a run file into which something was written that is not so.
+/// Checks a run file in which something has been changed.
 RunCheck check_with(const std::function<void(io::Segment&)>& change,
                     const Session& session = finished_run()) {
   const test::TemporaryFolder folder;
@@ -72,7 +72,7 @@ TEST(RunCheck, a_run_is_whole) {
 struct Damage {
   const char* name;
   std::function<void(io::Segment&)> done;
-  const char* fault;  ///< in what is found
+  const char* fault;  ///< expected in the finding
 };
 
 const Damage damages[] = {
@@ -118,7 +118,7 @@ TEST_P(RunCheckFinds, what_cannot_be) {
 INSTANTIATE_TEST_SUITE_P(all, RunCheckFinds, testing::ValuesIn(damages),
                          [](const auto& damage) { return damage.param.name; });
 
-/// Moves a grain of the first contact of two grains almost onto the other.
+/// Moves a grain of the first contact between two grains almost onto the other.
 void overlap_two_grains(io::Segment& segment) {
   Frame& frame = segment.frames[1];
   const FrameContacts& contacts = frame.contacts;
@@ -146,7 +146,7 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
   const auto is_told = [](double rest_velocity, double factor) {
     scenario::Scenario scenario = checked_bed();
     scenario.deposition.rest_velocity = rest_velocity;
-    // All forces of the flat bed: the weight is out of balance by 1 - factor.
+    // Scales all forces of the flat bed, which unbalances the weight by 1 - factor.
     const auto scale_forces = [factor](io::Segment& s) {
       Frame& frame = s.frames[0];
       for (std::size_t c = 0; c < frame.contacts.fn.size(); ++c) {

@@ -1,4 +1,4 @@
-/// What clients are told while a run is carried through.
+/// Notifications to clients during a run.
 
 #include "session/run.h"
 
@@ -15,7 +15,7 @@ const char* const tiny_bed =
     "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[tilt]\nend_angle = 0.05\nstep = 0.01\n[output]\nframe_every = "
     "0.02\n";
 
-/// The state in which the bed ends.
+/// Returns the final state of the bed.
 std::uint64_t carried_through(const std::string& path, const RunControl& control) {
   const scenario::Scenario scenario = scenario::parse_scenario(tiny_bed, "tiny.toml");
   Session session(scenario);

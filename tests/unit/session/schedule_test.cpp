@@ -1,4 +1,4 @@
-/// The schedule of a run to and from its checkpoint: one table of names, each value of which counts.
+/// Schedule of a run, stored in and read from its checkpoint by a table of names; every value matters.
 
 #include "session/schedule.h"
 
@@ -14,7 +14,7 @@
 namespace talus::session {
 namespace {
 
-/// Every value is another number.
+/// Returns a schedule in which every value differs.
 Schedule full_schedule() {
   Schedule s;
   s.phase = Phase::flow;

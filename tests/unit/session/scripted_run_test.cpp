@@ -1,5 +1,5 @@
-/// Commands of a scenario: when they are carried out, that they are those of a driver to the last bit, and
-/// that a run with them is resumed, replayed and branched.
+/// Commands of a scenario: the steps at which they are applied, bit-identity with commands of a driver, and
+/// resuming, replaying and branching.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ scenario::Scenario scripted_bed() {
   return scenario;
 }
 
-/// To its end; every so many steps made anew from its checkpoint, if at all.
+/// Runs to the end, optionally recreating the session from its checkpoint every `resume_every` steps.
 Session run_through(const scenario::Scenario& scenario, std::vector<Command>& commands, int resume_every = 0,
                     int threads = 1) {
   Session session(scenario);
@@ -59,7 +59,7 @@ TEST(ScriptedRun, has_the_bits_of_one_that_is_driven) {
   const std::int64_t began = driven.world().step;
   driven.apply({0, CommandKind::push, 7, 0.0, 0.5});
   while (driven.world().tilt < radians(1.05) - 1e-9) {
-    // 75.4 steps of 1 ms after the tilt began, which is later.
+    // 75.4 steps of 1 ms after the beginning of the tilt, which is later.
     ASSERT_LT(driven.world().step, began + 75);
     driven.advance();
   }

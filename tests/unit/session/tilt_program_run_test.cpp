@@ -1,5 +1,4 @@
-/// A run with a programme of the tilt: the tilt of every step, what is recorded, resumed and replayed, and
-/// how it ends.
+/// Run with a tilt programme: the tilt of every step, recording, resuming, replaying, and its end.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@
 namespace talus::session {
 namespace {
 
-/// By 0.02 deg a step of 1 ms; held, lowered slowly, and tilted to the other side.
+/// Returns a bed tilted by 0.02 deg per step of 1 ms: held, lowered slowly, and tilted to the other side.
 scenario::Scenario programmed_bed(std::vector<std::string> program = {"to 1", "hold 0.03", "to 0.2 at 10",
                                                                       "to -0.5", "2 times"}) {
   scenario::Scenario scenario = test::small_tilted_bed(1.0);
@@ -93,7 +92,8 @@ TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
   std::vector<std::int64_t> steps;
   const std::int64_t begin = run.positions(0).step;
   for (std::size_t k = 0; k < run.frame_count(); ++k) steps.push_back(run.positions(k).step - begin);
-  // Every 25 steps, as 0.5 deg are; and the ends of the parts, of 50, 30, 80, 35, 75, 30, 80 and 35 steps.
+  // Every 25 steps, which is 0.5 deg, and at the ends of the parts of 50, 30, 80, 35, 75, 30, 80 and 35
+  // steps.
   std::vector<std::int64_t> expected;
   for (std::int64_t k = 0; k <= 415; k += 25) expected.push_back(k);
   for (const std::int64_t end : {50, 80, 160, 195, 270, 300, 380, 415}) expected.push_back(end);
@@ -113,7 +113,7 @@ TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
   const scenario::Scenario scenario = programmed_bed();
   Session whole(scenario);
   run_through(whole);
-  // The tilt begins at 0: its steps 60 (held), 100 (slowly down), 180 (below 0 soon), 193, 194 and 195 (a
+  // The tilt begins at 0. Its steps are 60 (held), 100 (slowly down), 180 (soon below 0), 193, 194 and 195 (a
   // turn).
   Session begun(scenario);
   begin_tilt(begun);
@@ -174,7 +174,7 @@ TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
   EXPECT_EQ(state_hash(resumed.world()), state_hash(session.world()));
 }
 
-/// A bed without friction flows as soon as it is tilted.
+/// Returns a bed without friction, which flows as soon as it is tilted.
 scenario::Scenario slippery_bed(std::vector<std::string> program) {
   scenario::Scenario scenario = programmed_bed(std::move(program));
   scenario.contact.friction = 0.0;
@@ -239,7 +239,7 @@ TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_l
     EXPECT_TRUE(std::isnan(found) || (found >= radians(1.0) - 1e-9 && found <= radians(2.0) + 1e-9)) << found;
 }
 
-/// The problem of the step after a frame has the tilt that the run gave it.
+/// The problem of the step after a frame has the tilt of the run.
 TEST(StepProblem, of_a_run_with_a_programme_is_that_of_its_next_step) {
   const test::TemporaryFolder folder;
   const scenario::Scenario scenario = programmed_bed();

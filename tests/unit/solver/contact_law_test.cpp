@@ -21,7 +21,7 @@ TEST(ContactLaw, inside_the_cone_a_contact_sticks) {
   expect_impulse(admissible(2.0, 1.0, 0.5), 2.0, 1.0);
 }
 
-// Coulomb's cone is cut along the tangent: sliding must not change the normal impulse.
+// The impulse is projected onto Coulomb's cone along the tangent: sliding must not change the normal impulse.
 TEST(ContactLaw, outside_the_cone_it_slides_with_the_same_normal_impulse) {
   expect_impulse(admissible(2.0, 5.0, 0.5), 2.0, 1.0);
   expect_impulse(admissible(2.0, -5.0, 0.5), 2.0, -1.0);
@@ -42,7 +42,7 @@ TEST(ContactLaw, is_a_projection) {
     }
 }
 
-// P' = admissible(P - U / W): U_n = -1 m/s at w_n = 2 kg asks for 2 N s more.
+// P' = admissible(P - U / W): U_n = -1 m/s at w_n = 2 kg requires 2 N s more.
 TEST(ContactLaw, solving_a_contact_stops_the_relative_velocity) {
   expect_impulse(solve_contact(1.0, 0.25, -1.0, -0.5, 2.0, 0.5, 0.5), 3.0, 0.5);
   expect_impulse(solve_contact(1.0, 0.25, 1.0, -0.5, 2.0, 0.5, 0.5), 0.0, 0.0);

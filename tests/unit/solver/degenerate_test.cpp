@@ -1,5 +1,5 @@
-/// Problems at the edge of the theory: without contacts, hyperstatic, jammed, badly conditioned, or without
-/// any solution. Each solver ends converged or says what is left; no number is ever undefined.
+/// Problems at the limits of the theory: without contacts, hyperstatic, jammed, ill-conditioned, or without a
+/// solution. Each solver converges or reports the residual; no number is ever undefined.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace talus::solver {
 namespace {
 
 constexpr double tolerance = 1e-8;
-constexpr double fall = 9.81 * test::time_step;  ///< m/s, what gravity gives in one step
+constexpr double fall = 9.81 * test::time_step;  ///< m/s, gain of velocity by gravity in one step
 
 // ---- worlds ----
 
@@ -26,7 +26,8 @@ ContactProblem problem_of(const World& world, double friction = 0.5) {
   return test::next_problem(world, test::bed_step(tolerance, friction)).problem;
 }
 
-/// A world in gravity with the smooth plane y = 0 and, at x = 0 and x = length, walls or a periodic edge.
+/// Returns a world with gravity, the smooth plane y = 0 and, at x = 0 and x = length, walls or a periodic
+/// edge.
 World empty_box(double length, bool periodic) {
   World world;
   world.boundary.periodic = periodic;
@@ -45,7 +46,7 @@ World all_floor() {
   return world;
 }
 
-/// Equal disks on the sites of a lattice, each touching all its neighbours: many more contacts than needed.
+/// Returns equal disks on a lattice, each touching all its neighbours: a strongly hyperstatic packing.
 World crystal(bool hexagonal, bool periodic) {
   constexpr Index columns = 8, rows = 8;
   const double spacing = 2.0 * test::radius;
@@ -61,7 +62,7 @@ World crystal(bool hexagonal, bool periodic) {
   return world;
 }
 
-/// Between walls that open by `opening` on each side (0: parallel), one disk on its way down.
+/// Returns one falling disk between walls that open by `opening` on each side (0: parallel).
 World wedged(double opening, double overlap) {
   World world;
   const Vec2 right{std::cos(opening), std::sin(opening)};
@@ -78,7 +79,7 @@ World light_between_floor_and_heavy(double mass_ratio) {
   return world;
 }
 
-/// A column, a disk far from it, and one that only just does not touch the plane.
+/// Returns a column, a disk far from it, and one that almost touches the plane.
 World rattlers_beside_a_column() {
   World world = test::column(10);
   add_disk(world.grains, {0.5, 0.5}, test::radius, test::density, false);
@@ -86,7 +87,8 @@ World rattlers_beside_a_column() {
   return world;
 }
 
-/// Two disks that touch each other on both sides of a period, one on the plane, one pressed down on it.
+/// Returns two disks that touch each other on both sides of a period; one lies on the plane, and the other is
+/// pressed onto the first.
 World pair_that_meets_twice() {
   World world = empty_box(4.0 * test::radius, true);
   for (double x : {1.0, 3.0})
@@ -96,7 +98,7 @@ World pair_that_meets_twice() {
   return world;
 }
 
-/// Disks at random places of a box that has room for a third of them; two have the same centre.
+/// Returns disks at random places of a box with room for a third of them; two have the same centre.
 World crushed() {
   World world = test::random_cloud(3, 30, false, 6.0 * test::radius);
   world.grains.x[1] = world.grains.x[0];
@@ -104,7 +106,7 @@ World crushed() {
   return world;
 }
 
-// ---- what must hold ----
+// ---- checks ----
 
 bool finite(const ContactSolution& solution) {
   for (const auto* field : {&solution.pn, &solution.pt, &solution.vx, &solution.vy, &solution.omega})
@@ -113,8 +115,8 @@ bool finite(const ContactSolution& solution) {
   return true;
 }
 
-/// Solves from the guess in `solution`; the answer is finite and admissible, and what the report says of it
-/// is true.
+/// Solves from the guess in `solution`, and checks that the result is finite and admissible and that the
+/// report is correct.
 SolverReport solve_honestly(SolverKind kind, const ContactProblem& problem, ContactSolution& solution,
                             int max_iterations = 5000) {
   SCOPED_TRACE(test::name_of(kind));
@@ -140,7 +142,7 @@ SolverReport solve_honestly(SolverKind kind, const ContactProblem& problem, Cont
   return report;
 }
 
-/// Largest difference of velocities, m/s; rotation counts with its rim velocity.
+/// Returns the largest difference of velocities, m/s; rotation counts by its rim velocity.
 double difference(const ContactProblem& problem, const ContactSolution& one, const ContactSolution& other) {
   double largest = 0.0;
   for (Index i = 0; i < problem.body_count(); ++i)
@@ -161,14 +163,14 @@ ContactSolution rest(const ContactProblem& problem) {
   return solution;
 }
 
-/// Who must reach the tolerance. The others may, and say so when they do not.
+/// Solvers that must reach the tolerance. The others may fail, but must report it.
 enum class Converges { nobody, accelerated, both };
 
 struct Degenerate {
   std::string name;
   ContactProblem problem;
   Converges converges = Converges::both;
-  bool rests = false;  ///< the solution is to stay at rest
+  bool rests = false;  ///< whether the solution must remain at rest
 };
 
 void PrintTo(const Degenerate& degenerate, std::ostream* out) { *out << degenerate.name; }
@@ -188,12 +190,12 @@ TEST_P(DegenerateProblem, ends_converged_or_says_what_is_left) {
     EXPECT_LT(difference(problem, swept, accelerated), 1e-5 * scale);
   }
   if (GetParam().rests) {
-    // A column adds up the errors of all its contacts.
+    // The errors of all contacts in a column add up.
     EXPECT_LT(difference(problem, accelerated, rest(problem)), 1e-3 * fall);
   }
 }
 
-// What touches nothing falls freely, to the last bit, whatever goes on beside it.
+// Bodies without contact fall freely, bit for bit, independently of the others.
 TEST_P(DegenerateProblem, bodies_without_contact_fall_freely) {
   const ContactProblem& problem = GetParam().problem;
   std::vector<bool> touched(problem.vx.size(), false);
@@ -210,7 +212,7 @@ TEST_P(DegenerateProblem, bodies_without_contact_fall_freely) {
   }
 }
 
-// Impulses die out by factors, so that a guess may be next to nothing; or it was made for another load.
+// The guess may be almost zero, because impulses decay geometrically, or belong to another load.
 TEST_P(DegenerateProblem, a_guess_of_any_size_does_no_harm) {
   const ContactProblem& problem = GetParam().problem;
   for (double size : {1e-310, 1e-49, 1e-20, 1e6}) {

@@ -15,7 +15,7 @@ RelativeVelocity after(const DelassusBlock& w, Impulse p, RelativeVelocity b) {
           b.tangential + w.tn * p.normal + w.tt * p.tangential};
 }
 
-/// Signorini and Coulomb for one contact, to round-off.
+/// Expects one contact to satisfy Signorini and Coulomb to round-off.
 void expect_lawful(Impulse p, RelativeVelocity u, double mu) {
   constexpr double small = 1e-12;
   EXPECT_GE(p.normal, 0.0);
@@ -50,7 +50,7 @@ TEST(LocalLaw, coupled_cases_by_hand) {
   EXPECT_NEAR(forward.tangential, -1.0, 1e-15);
 }
 
-// Wherever there is one solution it is found, whatever impulse the contact had before.
+// A unique solution is found from any initial impulse of the contact.
 TEST(LocalLaw, random_coupled_contacts_obey_the_law) {
   Random random(4);
   int carrying = 0;
@@ -76,14 +76,14 @@ TEST(LocalLaw, coupling_of_round_off_counts_as_none) {
   EXPECT_TRUE(local_contact({1.0, 1e-9, 0.0, 3.0}, 0.5).coupled);
 }
 
-// Between two bodies that do not move any impulse is a solution: it stays.
+// Between two immobile bodies any impulse is a solution and stays unchanged.
 TEST(LocalLaw, a_contact_that_nothing_moves_keeps_its_impulse) {
   const Impulse p = solve_local_contact(local_contact({}, 0.5), {2.0, 0.5}, {-1.0, 1.0});
   EXPECT_EQ(p.normal, 2.0);
   EXPECT_EQ(p.tangential, 0.5);
 }
 
-// For so much friction and coupling no case fits; the answer is still an impulse that the law admits.
+// For such strong friction and coupling no case fits; the result is still an admissible impulse.
 TEST(LocalLaw, without_a_solution_the_impulse_is_admissible) {
   const LocalContact contact = local_contact({1.0, -2.0, -2.0, 1.0}, 3.0);
   for (double bt : {-1.0, 0.0, 1.0}) {

@@ -8,8 +8,8 @@
 namespace talus::solver {
 namespace {
 
-/// Column d of W by its meaning: the velocities that a unit impulse gives, over those without it. The bodies
-/// are moved one by one, no product H^T M^-1 H is formed.
+/// Computes column d of W from its definition: the difference of velocities with and without a unit impulse.
+/// The bodies are moved one by one, without forming H^T M^-1 H.
 std::vector<RelativeVelocity> column_of_W(const ContactProblem& problem, Index d, bool tangential) {
   ContactSolution push = test::no_guess(problem);
   (tangential ? push.pt : push.pn)[d] = 1.0;
@@ -29,7 +29,7 @@ DelassusBlock block_at(const LocalProblem& local, Index c, Index d) {
   return {};
 }
 
-/// Rows ascend, and each has its diagonal block where `diagonal` says.
+/// Expects columns of each row to ascend, and each row to have its diagonal block where `diagonal` states.
 void expect_well_formed(const LocalProblem& local) {
   ASSERT_EQ(local.row_begin.size(), local.mu.size() + 1);
   for (Index c = 0; c < local.contact_count(); ++c) {
@@ -76,7 +76,7 @@ TEST(LocalProblem, relative_velocities_are_those_of_the_bodies) {
   }
 }
 
-// A floor that does not move carries no push from one contact to the next.
+// An immobile floor transmits no impulse from one contact to the next.
 TEST(LocalProblem, contacts_of_a_fixed_body_do_not_feel_each_other) {
   ContactProblem problem;
   test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
@@ -88,7 +88,7 @@ TEST(LocalProblem, contacts_of_a_fixed_body_do_not_feel_each_other) {
 }
 
 TEST(LocalProblem, entries_of_any_order_become_block_rows) {
-  // Two contacts; the block (1, 0) is given in two parts, the diagonal of contact 1 not at all.
+  // Two contacts; block (1, 0) is given in two parts, and the diagonal of contact 1 is missing.
   const LocalProblem local =
       local_problem({{3, 0, 0.25}, {0, 0, 2.0}, {2, 1, 7.0}, {1, 1, 3.0}, {0, 1, 0.5}, {3, 0, 0.5}},
                     {{1.0, 2.0}, {3.0, 4.0}}, {0.5, 0.25});
@@ -100,7 +100,7 @@ TEST(LocalProblem, entries_of_any_order_become_block_rows) {
   EXPECT_EQ(block_at(local, 1, 0).tn, 0.75);
   EXPECT_EQ(block_at(local, 1, 0).nt, 7.0);
   EXPECT_EQ(block_at(local, 1, 1).nn, 0.0);
-  // u = W p + q by hand for p = (1, 10) at the first contact, (100, 1000) at the second.
+  // u = W p + q by hand for p = (1, 10) at the first contact and (100, 1000) at the second.
   const std::vector<Impulse> p = {{1.0, 10.0}, {100.0, 1000.0}};
   EXPECT_EQ(relative_velocity(local, p, 0).normal, 1.0 + 2.0 + 5.0);
   EXPECT_EQ(relative_velocity(local, p, 0).tangential, 2.0 + 30.0);

@@ -1,4 +1,4 @@
-/// The mean of iterates, which ends solves that go round in circles.
+/// Mean of iterates, which ends solves that are in a limit cycle.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(MeanOfIterates, is_that_of_all_values_since_the_first) {
     average_impulses(problem, 0, 1, at, count, mean);
   };
   take(1, 100.0, 100.0);
-  take(1, 1.0, 4.0);  // as the first again: what was before is forgotten
+  take(1, 1.0, 4.0);  // equal to the first: earlier iterates are discarded
   take(2, 2.0, -4.0);
   take(3, 6.0, 3.0);
   const std::vector<double> normal = {3.0, 0.0, 6.0}, tangential = {0.0, 1.0, -1.0};
@@ -33,7 +33,7 @@ TEST(MeanOfIterates, is_that_of_all_values_since_the_first) {
   }
 }
 
-/// Random contacts, sorted by their first body as the solver wants them.
+/// Returns random contacts, sorted by their first body as the solver requires.
 ContactProblem sorted_problem(std::uint64_t seed, Index bodies, Index contacts) {
   const ContactProblem drawn = test::random_problem(seed, bodies, contacts);
   std::vector<std::size_t> order(drawn.a.size());
@@ -50,7 +50,7 @@ ContactProblem sorted_problem(std::uint64_t seed, Index bodies, Index contacts) 
   return problem;
 }
 
-/// Impulses and iterations of a problem that does not end before means are taken.
+/// Returns impulses and iterations of a problem that does not converge before means are taken.
 ContactSolution solved(const ContactProblem& problem, int threads, AcceleratedOutcome& outcome) {
   AcceleratedWorkspace workspace;
   ContactSolution solution = test::no_guess(problem);
@@ -58,7 +58,7 @@ ContactSolution solved(const ContactProblem& problem, int threads, AcceleratedOu
   return solution;
 }
 
-// 580 iterations have one mean.
+// 580 iterations contain one mean.
 TEST(MeanOfIterates, has_the_same_bits_on_any_number_of_threads) {
   const ContactProblem problem = sorted_problem(1, 1500, 2000);
   AcceleratedOutcome one, three;
@@ -70,13 +70,13 @@ TEST(MeanOfIterates, has_the_same_bits_on_any_number_of_threads) {
   EXPECT_EQ(alone.pt, in_team.pt);
 }
 
-/// The step of a bed that falls, which goes round in circles.
+/// Returns a step of a falling bed whose iterates form a limit cycle.
 test::FrozenStep step_in_circles() {
   const dynamics::StepSettings settings = test::bed_step(1e-6);
   return test::next_problem(test::fallen_bed(test::bed_plan(false, 150, 16, 21), settings, 128), settings);
 }
 
-// Without the mean the solve stays at 6e-5, however many iterations it has.
+// Without the mean, the residual of the solve stays at 6e-5 for any number of iterations.
 TEST(MeanOfIterates, ends_a_step_that_goes_round_in_circles) {
   test::FrozenStep frozen = step_in_circles();
   AcceleratedWorkspace workspace;
@@ -86,7 +86,7 @@ TEST(MeanOfIterates, ends_a_step_that_goes_round_in_circles) {
   EXPECT_GT(outcome.iterations, 512) << "before means are taken";
 }
 
-// Where the mean is better, and where it is not and the last of the iterates stays.
+// One case in which the mean is better, and one in which it is not and the last iterate stays.
 TEST(MeanOfIterates, leaves_the_impulses_whose_residual_is_told) {
   const test::FrozenStep frozen = step_in_circles();
   for (int most = 512 + 16; most <= 1024; most += 16) {

@@ -1,4 +1,4 @@
-/// Both solvers on dozens of small packings, on their way down and at rest.
+/// Both solvers on dozens of small packings, falling and at rest.
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace talus::solver {
 namespace {
 
-/// The packing of a seed: periodic or walled, with and without friction, moving or at rest, and every fifth
-/// with restitution as its first grains reach the floor.
+/// Returns the packing of a seed: periodic or walled, with and without friction, moving or at rest. Every
+/// fifth has restitution, at the moment when its first grains reach the floor.
 test::FrozenStep packing(std::uint64_t seed) {
   dynamics::StepSettings settings = test::bed_step(1e-8, seed % 4 == 0 ? 0.0 : 0.5);
   settings.law.restitution = seed % 5 == 0 ? 0.5 : 0.0;
@@ -21,8 +21,8 @@ test::FrozenStep packing(std::uint64_t seed) {
   World world = test::fallen_bed(plan, settings, 75 + 25 * static_cast<int>(seed % 5));
   world.tilt = 0.02 * static_cast<double>(seed % 6);
   test::FrozenStep frozen = test::next_problem(world, settings);
-  // Loops of contacts fit up to the error of the steps before. Closing gaps and overlaps of that size keeps
-  // the problem solvable to any tolerance: a loop that does not fit drains or loads its forces sweep by
+  // Loops of contacts close up to the residuals of earlier steps. Closing gaps and overlaps of that size keep
+  // the problem solvable to any tolerance; otherwise a loop that does not close gains or loses force in every
   // sweep.
   for (double& cn : frozen.problem.cn)
     if (std::fabs(cn) < 2e-8 / settings.h) cn = 0.0;
@@ -47,7 +47,7 @@ class Packing : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Packing, testing::Range(1, 61));
 
-// Forces of a frictional packing are not unique, its velocities are.
+// Forces of a frictional packing are not unique, but velocities are.
 TEST_P(Packing, solvers_agree_on_velocities) {
   const test::FrozenStep frozen = packing(static_cast<std::uint64_t>(GetParam()));
   ASSERT_GT(frozen.problem.contact_count(), 10);
@@ -70,7 +70,7 @@ TEST_P(Packing, solvers_agree_on_velocities) {
   RecordProperty("sweeps", std::to_string(first.iterations) + "/" + std::to_string(second.iterations));
 }
 
-// No state hides in a workspace: a second solve, and one after other problems, give the same bits.
+// A workspace hides no state: repeating a solve, also after other problems, is bit-identical.
 TEST_P(Packing, the_same_problem_has_the_same_bits) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   const test::FrozenStep frozen = packing(seed);
@@ -92,13 +92,13 @@ TEST_P(Packing, the_same_problem_has_the_same_bits) {
   }
 }
 
-// What a workspace keeps for the same contacts is not used where anything else has changed.
+// Data that a workspace keeps for the same contacts are not used if anything else has changed.
 TEST_P(Packing, the_same_contacts_of_other_bodies_have_the_same_bits) {
   const test::FrozenStep frozen = packing(static_cast<std::uint64_t>(GetParam()));
   const SolverSettings settings = settings_of(SolverKind::accelerated, 1e-8, 100);
   for (auto field : {&ContactProblem::mu, &ContactProblem::inverse_mass, &ContactProblem::inverse_inertia,
                      &ContactProblem::lever})
-    // All alike, or every other one.
+    // Change all entries, or every second one.
     for (const std::size_t stride : {1U, 2U}) {
       ContactProblem other = frozen.problem;
       for (std::size_t i = 0; i < (other.*field).size(); i += stride) (other.*field)[i] *= 0.9;
@@ -116,8 +116,8 @@ TEST_P(Packing, the_same_contacts_of_other_bodies_have_the_same_bits) {
     }
 }
 
-/// The largest difference of velocities between the two solvers, both to 1e-10; `alike` is whether the
-/// accelerated one knew the contacts for alike.
+/// Returns the largest difference of velocities between the two solvers, both to 1e-10; `alike` is set to
+/// whether the accelerated one recognised the contacts as alike.
 double difference_of_solvers(const ContactProblem& problem, const ContactSolution& guess, bool& alike) {
   SolverWorkspace workspace;
   ContactSolution reference = guess, accelerated = guess;
@@ -131,7 +131,7 @@ double difference_of_solvers(const ContactProblem& problem, const ContactSolutio
        0.5 * dynamics::BedPlan{}.mean_diameter * largest_difference(reference.omega, accelerated.omega)});
 }
 
-// Sweeps take a shorter way where all contacts have the same friction and all bodies are disks.
+// Sweeps use a faster path if all contacts have the same friction and all bodies are disks.
 TEST(UnlikeContacts, are_solved_to_the_velocities_of_the_reference) {
   const double admissible = 1e-6 * 9.81 * test::time_step;
   for (const std::uint64_t seed : {3U, 5U, 6U}) {
@@ -150,7 +150,7 @@ TEST(UnlikeContacts, are_solved_to_the_velocities_of_the_reference) {
   }
 }
 
-// The residual is that of the bodies, whatever rows the sweeps give them.
+// The residual is that of the bodies, whatever rows the sweeps assign to them.
 TEST(Columns, are_solved) {
   const ContactProblem problem = test::columns_problem(3, 100, 60);
   SolverWorkspace workspace;

@@ -10,8 +10,8 @@
 namespace talus::solver {
 namespace {
 
-/// The problem in dense form, written down from the definitions: U = W P + b, W = H^T M^-1 H,
-/// b = H^T v_free + c. Row 2 c of H^T is the normal, row 2 c + 1 the tangent; columns 3 i + (x, y, rotation).
+/// Problem in dense form, from the definitions: U = W P + b, W = H^T M^-1 H, b = H^T v_free + c. Row 2 c of
+/// H^T is the normal, row 2 c + 1 the tangent; columns 3 i + (x, y, rotation).
 struct DenseProblem {
   Eigen::MatrixXd Ht, W;
   Eigen::VectorXd inverse_mass, free_velocity, c, b;
@@ -40,7 +40,7 @@ DenseProblem dense(const ContactProblem& problem) {
     d.Ht.block(2 * k, 3 * b, 1, 2) = n;
     d.Ht.block(2 * k + 1, 3 * a, 1, 2) = -t;
     d.Ht.block(2 * k + 1, 3 * b, 1, 2) = t;
-    // The contact point of a disk sits at +r n on a and at -r n on b: both rim velocities go with -r omega.
+    // The contact point is at +r n on a and at -r n on b, so both rim velocities contribute -r omega.
     d.Ht(2 * k + 1, 3 * a + 2) = -problem.lever[a];
     d.Ht(2 * k + 1, 3 * b + 2) = -problem.lever[b];
     d.c.segment(2 * k, 2) << problem.cn[k], problem.ct[k];
@@ -97,7 +97,8 @@ TEST(Problem, solid_disks_are_three_times_softer_along_the_tangent) {
   EXPECT_DOUBLE_EQ(w.tangential, 2.1);
 }
 
-// Signs: b leaves a along n, moves along t, and turning counter-clockwise both rims move against it.
+// Signs: b moves away from a along n, and along t; counter-clockwise rotation moves both rims in the negative
+// direction.
 TEST(Problem, relative_velocities_have_the_signs_of_the_convention) {
   ContactProblem problem;
   test::add_body(problem, 1.0, 0.25, 1.0, 0.0, 3.0);
@@ -121,7 +122,7 @@ TEST(Problem, impulses_push_b_along_the_normal_and_a_back) {
   velocities_from_impulses(problem, solution);
   EXPECT_EQ(solution.vx, (std::vector<double>{0.5, -0.25}));
   EXPECT_EQ(solution.vy, (std::vector<double>{-4.0, 2.0}));
-  // Torque -r P_t on both: I = m r^2 / 2 = 0.25 and 0.125.
+  // Both torques are -r P_t, with I = m r^2 / 2 = 0.25 and 0.125.
   EXPECT_EQ(solution.omega, (std::vector<double>{-2.0, -2.0}));
 }
 

@@ -18,7 +18,8 @@ Residual residual_at(const ContactProblem& problem, const std::vector<double>& p
   return natural_map_residual(problem, solution);
 }
 
-// A disk of 2 kg stopped from 1 m/s: P_n = 2. It slides at 0.6 m/s, w_t = m / 3: P_t = 0.4 stops the slip.
+// A disk of 2 kg is stopped from 1 m/s: P_n = 2. It slides at 0.6 m/s with w_t = m / 3, so P_t = 0.4 stops
+// the slip.
 TEST(Residual, is_zero_at_a_solution) {
   const ContactProblem problem = test::one_contact(0.6, 0.5);
   const Residual solved = residual_at(problem, {2.0}, {0.4});
@@ -33,7 +34,7 @@ TEST(Residual, is_the_change_of_a_jacobi_step_over_the_impulse) {
   EXPECT_NEAR(residual.largest, residual.eta, 1e-15);
 }
 
-// At P = (1.5, 0) with mu = 0.1 friction ends at mu P'_n = 0.2.
+// At P = (1.5, 0) with mu = 0.1 friction is limited to mu P'_n = 0.2.
 TEST(Residual, knows_the_cone_of_the_next_normal_impulse) {
   const Residual residual = residual_at(test::one_contact(0.6, 0.1), {1.5}, {0.0});
   EXPECT_NEAR(residual.eta, std::hypot(0.5, 0.2) / 1.5, 1e-15);
@@ -45,12 +46,13 @@ TEST(Residual, of_no_impulse_is_measured_by_the_one_that_is_missing) {
 
 TEST(Residual, is_zero_where_nothing_touches) {
   ContactProblem problem = test::one_contact(0.0, 0.5);
-  problem.cn[0] = 1.5;  // the gap closes at 1.5 m/s only
+  problem.cn[0] = 1.5;  // the gap closes only at 1.5 m/s
   EXPECT_EQ(residual_at(problem, {0.0}, {0.0}).eta, 0.0);
   EXPECT_EQ(natural_map_residual({}, {}).eta, 0.0);
 }
 
-// Two separate disks, one solved, one short of 1 N s: the largest share is that one's, eta adds squares.
+// Two separate disks, one solved and one lacking 1 N s: the largest contribution is the latter's, and eta
+// sums squares.
 TEST(Residual, names_the_largest_share) {
   ContactProblem problem = test::one_contact(0.0, 0.5);
   test::add_body(problem, 2.0, 0.1, 0.0, -1.0, 0.0);
@@ -63,7 +65,7 @@ TEST(Residual, names_the_largest_share) {
   EXPECT_NEAR(residual.largest, 1.0 / norm, 1e-15);
 }
 
-// The same problem with other units of mass, length and time has the same residual.
+// The residual does not change with the units of mass, length and time.
 TEST(Residual, does_not_depend_on_units) {
   const ContactProblem problem = test::random_problem(2, 12, 25);
   ContactProblem scaled = problem;

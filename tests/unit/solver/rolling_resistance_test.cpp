@@ -12,8 +12,8 @@
 namespace talus::solver {
 namespace {
 
-/// A disk of 2 kg and radius 0.1 falls at 1 m/s on a fixed one of radius 0.2 along which it slides at 0.6
-/// m/s: P_n = 2, l = 0.3. Friction is enough that it does not slide on.
+/// Returns a disk of 2 kg and radius 0.1 that falls at 1 m/s on a fixed one of radius 0.2 and slides along it
+/// at 0.6 m/s: P_n = 2, l = 0.3. Friction is strong enough to stop the slip.
 ContactProblem disk_that_rolls(double mu_r) {
   ContactProblem problem = test::one_contact(0.6, 1.0);
   problem.rolling_friction = {mu_r};
@@ -45,8 +45,8 @@ class RollingResistance : public testing::TestWithParam<SolverKind> {
 INSTANTIATE_TEST_SUITE_P(Solvers, RollingResistance, testing::ValuesIn(test::both_solvers),
                          [](const auto& parameter) { return test::name_of(parameter.param); });
 
-// It rolls clockwise, so that U_r > 0 and P_r = -mu_r P_n. With v = -r omega, m (0.6 - v) = P_t and I omega =
-// -r P_t - l P_r: 3/2 v = 0.6 - mu_r (l / r) P_n / m.
+// The disk rolls clockwise, so that U_r > 0 and P_r = -mu_r P_n. With v = -r omega, m (0.6 - v) = P_t and I
+// omega = -r P_t - l P_r: 3/2 v = 0.6 - mu_r (l / r) P_n / m.
 TEST_P(RollingResistance, slows_a_disk_that_rolls) {
   const ContactProblem problem = disk_that_rolls(0.1);
   ContactSolution solution = test::no_guess(problem);
@@ -131,7 +131,7 @@ TEST(RollingResidual, is_zero_at_a_solution) {
   EXPECT_NEAR(residual_at(disk_that_rolls(0.3), 2.0, 1.2, -0.4).eta, 0.0, 1e-15);
 }
 
-// U_r = l (-omega): from P_r = -0.1, with the velocities that this gives, solving takes it to its bound.
+// U_r = l (-omega): starting from P_r = -0.1 and the resulting velocities, solving moves it to its bound.
 TEST(RollingResidual, counts_what_is_missing_of_a_rolling_impulse) {
   const ContactProblem problem = disk_that_rolls(0.1);
   ContactSolution solution;
@@ -139,7 +139,7 @@ TEST(RollingResidual, counts_what_is_missing_of_a_rolling_impulse) {
   solution.pt = {0.8};
   solution.pr = {-0.1};
   velocities_from_impulses(problem, solution);
-  // omega = (-0.08 + 0.03) / 0.01 = -5: U_t = -0.2 + 0.5 and w_t = 2 / 3 take P_t to 1.
+  // omega = (-0.08 + 0.03) / 0.01 = -5: U_t = -0.2 + 0.5, and w_t = 2 / 3 moves P_t to 1.
   const double dt = 0.2, dr = -0.1;
   EXPECT_NEAR(natural_map_residual(problem, solution).eta,
               std::hypot(dt, dr) / std::sqrt(2.0 * 2.0 + 0.8 * 0.8 + 0.1 * 0.1), 1e-14);
@@ -161,7 +161,7 @@ test::FrozenStep packing(int seed) {
   World world = test::fallen_bed(plan, settings, 75 + 25 * (seed % 5));
   world.tilt = 0.04 * (seed % 6);
   test::FrozenStep frozen = test::next_problem(world, settings);
-  for (double& cn : frozen.problem.cn)  // as in packings_test.cpp
+  for (double& cn : frozen.problem.cn)  // see packings_test.cpp
     if (std::fabs(cn) < 2e-8 / settings.h) cn = 0.0;
   return frozen;
 }
@@ -191,7 +191,8 @@ TEST_P(RollingPacking, solvers_agree_on_velocities) {
   RecordProperty("sweeps", std::to_string(iterations[0]) + "/" + std::to_string(iterations[1]));
 }
 
-// What a workspace keeps of contacts that roll freely, or resist less, is not used where they resist.
+// Data that a workspace keeps for contacts with free or weaker-resisted rolling are not used for contacts
+// that resist it.
 TEST_P(RollingPacking, the_same_problem_has_the_same_bits) {
   const test::FrozenStep frozen = packing(GetParam());
   SolverSettings settings;

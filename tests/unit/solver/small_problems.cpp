@@ -51,7 +51,7 @@ solver::ContactProblem random_problem(std::uint64_t seed, Index bodies, Index co
   while (problem.contact_count() < contacts) {
     const auto a = static_cast<Index>(random.below(count));
     const auto b = static_cast<Index>(random.below(count));
-    if (a >= b || a % 5 == 4) continue;  // two fixed bodies have no contact
+    if (a >= b || a % 5 == 4) continue;  // there is no contact between two fixed bodies
     const double angle = random.uniform(-pi, pi);
     add_contact(problem, a, b, std::cos(angle), std::sin(angle), 0.5, random.uniform(-0.1, 0.1),
                 random.uniform(-0.1, 0.1));
@@ -63,8 +63,7 @@ solver::ContactProblem columns_problem(std::uint64_t seed, Index columns, Index 
   Random random(seed);
   solver::ContactProblem problem;
   problem.columns = columns;
-  std::vector<Index> next(
-      static_cast<std::size_t>(columns));  // in a shuffled order, another one for each layer
+  std::vector<Index> next(static_cast<std::size_t>(columns));  // in shuffled order, different for each layer
   std::iota(next.begin(), next.end(), 0);
   std::vector<std::vector<Index>> ids(next.size());
   for (Index layer = 0; layer < bodies_each; ++layer) {
@@ -90,7 +89,7 @@ solver::ContactProblem columns_problem(std::uint64_t seed, Index columns, Index 
   }
   std::ranges::sort(pairs);
   for (const auto& [a, b] : pairs) {
-    const double angle = random.uniform(0.25, 0.75) * pi;  // upwards, from the lower one
+    const double angle = random.uniform(0.25, 0.75) * pi;  // upwards from the lower one
     add_contact(problem, a, b, std::cos(angle), std::sin(angle), 0.5, random.uniform(0.0, 0.01));
   }
   return problem;

@@ -46,7 +46,8 @@ TEST_P(Solve, bodies_without_contacts_keep_their_free_velocity) {
   EXPECT_EQ(solution.omega, problem.omega);
 }
 
-// A disk of 2 kg falls at 1 m/s on a fixed body: P_n = 2, P_t = 0.4 stops its slip of 0.6 m/s (w_t = m/3).
+// A disk of 2 kg falls at 1 m/s on a fixed body: P_n = 2, and P_t = 0.4 stops its slip of 0.6 m/s (w_t =
+// m/3).
 TEST_P(Solve, one_contact_that_sticks) {
   const ContactProblem problem = test::one_contact(0.6, 0.5);
   ContactSolution solution = test::no_guess(problem);
@@ -59,7 +60,7 @@ TEST_P(Solve, one_contact_that_sticks) {
   EXPECT_NEAR(solution.omega[0], -4.0, 1e-10);  // clockwise: v + r omega = 0
 }
 
-// With mu = 0.1 friction ends at P_t = 0.2: v_x = 0.6 - 0.1, omega = -0.2 r / I.
+// With mu = 0.1 friction is limited to P_t = 0.2: v_x = 0.6 - 0.1, omega = -0.2 r / I.
 TEST_P(Solve, one_contact_that_slides) {
   const ContactProblem problem = test::one_contact(0.6, 0.1);
   ContactSolution solution = test::no_guess(problem);
@@ -94,7 +95,7 @@ TEST_P(Solve, a_fixed_body_may_be_on_either_side) {
   EXPECT_EQ(solution.vy[1], 0.0);
 }
 
-// 40 disks, each on a fixed body of its own: as many problems of one contact.
+// 40 disks, each on a separate fixed body: 40 independent problems of one contact.
 TEST_P(Solve, contacts_that_share_only_fixed_bodies_do_not_feel_each_other) {
   ContactProblem problem;
   for (Index i = 0; i < 40; ++i) test::add_body(problem, 1.0 + i, 0.1, 0.01 * i, -1.0, 0.0);
@@ -105,8 +106,8 @@ TEST_P(Solve, contacts_that_share_only_fixed_bodies_do_not_feel_each_other) {
   for (Index i = 0; i < 40; ++i) EXPECT_NEAR(solution.pn[i], 1.0 + i, 1e-9);
 }
 
-// A disk that is hit gets so fast that it would run beyond the gap to a fixed one, though it was at rest, and
-// the gap closes at 3 m/s only: that contact is not among those swept at first.
+// A disk at rest is hit and becomes so fast that it would cross the gap to a fixed disk, which closes only at
+// 3 m/s. That contact is not among those swept at first.
 TEST_P(Solve, a_contact_that_closes_late_is_found) {
   ContactProblem problem;
   test::add_body(problem, 1.0, 0.1, 10.0, 0.0, 0.0);
@@ -122,7 +123,7 @@ TEST_P(Solve, a_contact_that_closes_late_is_found) {
   EXPECT_NEAR(solution.pn[1], 4.0, 1e-10);
 }
 
-// n disks stopped in a row by a fixed one: contact k carries the momentum of all behind it.
+// n disks in a row are stopped by a fixed one: contact k carries the momentum of all disks behind it.
 TEST_P(Solve, a_row_of_disks_adds_up_its_momentum) {
   ContactProblem problem;
   for (Index i = 0; i < 8; ++i) test::add_body(problem, 1.0, 0.1, 1.0, 0.0, 0.0);
@@ -142,7 +143,8 @@ TEST_P(Solve, says_so_when_it_did_not_converge) {
   EXPECT_FALSE(report.converged);
   EXPECT_LE(report.iterations, 1);
   EXPECT_GT(report.residual.eta, 1e-3);
-  EXPECT_DOUBLE_EQ(report.residual.eta, natural_map_residual(problem, solution).eta);  // sums in other orders
+  EXPECT_DOUBLE_EQ(report.residual.eta,
+                   natural_map_residual(problem, solution).eta);  // the sums have different orders
 }
 
 TEST_P(Solve, its_residual_and_velocities_are_those_of_its_impulses) {
@@ -184,8 +186,8 @@ TEST_P(Solve, starts_from_the_guess) {
   EXPECT_LE(solve_to(problem, warm, 1e-8).iterations, 1);
 }
 
-// Impulses of 2 and 3 kg falling at 1 m/s, one above the other: the first sweep sees 2 (free fall together
-// needs nothing between them), then all of 5 must pass the floor, of which body 0 first stops its own.
+// Bodies of 2 and 3 kg fall at 1 m/s, one above the other. In the first sweep their common contact needs no
+// impulse, and then the floor stops the momentum of body 0, 2; later the floor must carry all of 5.
 TEST(GaussSeidel, a_sweep_solves_contact_by_contact_in_their_order) {
   ContactProblem problem;
   test::add_body(problem, 2.0, 0.1, 0.0, -1.0, 0.0);
@@ -198,7 +200,8 @@ TEST(GaussSeidel, a_sweep_solves_contact_by_contact_in_their_order) {
   gauss_seidel_sweep(problem, solution);
   EXPECT_DOUBLE_EQ(solution.pn[0], 0.0);
   EXPECT_DOUBLE_EQ(solution.pn[1], 2.0);
-  // Now body 0 rests and body 1 falls on it at 1 m/s: W_nn = 1/2 + 1/3, so 1.2 passes between them.
+  // Now body 0 is at rest and body 1 falls on it at 1 m/s: W_nn = 1/2 + 1/3, so the impulse between them is
+  // 1.2.
   gauss_seidel_sweep(problem, solution);
   EXPECT_DOUBLE_EQ(solution.pn[0], 1.2);
   EXPECT_DOUBLE_EQ(solution.pn[1], 3.2);

@@ -1,4 +1,4 @@
-// The fast kernels against each other, bit for bit, and against the same arithmetic written plainly.
+// Fast kernels compared bit for bit with each other and with the same arithmetic in plain form.
 
 #include "solver/sweep_kernels.h"
 
@@ -27,19 +27,19 @@ struct Scene {
 
   Index groups() const { return static_cast<Index>(contacts.size()); }
   Index rows() const { return static_cast<Index>(velocity.size()); }
-  /// Of contacts of any kind.
+  /// Arrays of contacts of any kind.
   ContactArrays contact_arrays() {
     return {contacts.data(), increment.data(), last_move.data(), velocity.data(), 0.0F, unlike.data()};
   }
-  /// Of contacts that are alike.
+  /// Arrays of contacts that are alike.
   ContactArrays alike_arrays() {
     return {contacts.data(), increment.data(), last_move.data(), velocity.data(), friction};
   }
   BodyArrays body_arrays() { return {velocity.data(), before.data()}; }
 };
 
-/// Contacts between random disks, none of which is twice among groups that are swept side by side: open,
-/// sticking and sliding ones.
+/// Returns contacts between random disks, none of which occurs twice among groups that are swept together:
+/// open, sticking and sliding ones.
 Scene random_scene(Index groups, Index bodies) {
   Random random(7);
   const auto uniform = [&] { return static_cast<float>(2.0 * random.uniform() - 1.0); };
@@ -92,7 +92,7 @@ Scene random_scene(Index groups, Index bodies) {
   return scene;
 }
 
-/// The same with a friction of its own for each contact, between bodies that are harder to turn.
+/// Returns the same with a different friction for each contact, and bodies with larger moments of inertia.
 Scene scene_of_others(Index groups, Index bodies) {
   Scene scene = random_scene(groups, bodies);
   for (std::size_t g = 0; g < scene.contacts.size(); ++g)
@@ -104,7 +104,7 @@ Scene scene_of_others(Index groups, Index bodies) {
   return scene;
 }
 
-/// Bodies, then contacts, some sweeps long, in two shares each.
+/// Runs sweeps over bodies, then contacts, in two parts each.
 void run(Scene& scene, const SweepKernels& kernels) {
   for (int k = 0; k < 5; ++k) {
     const Index half = scene.groups() / 2;
@@ -117,7 +117,7 @@ void run(Scene& scene, const SweepKernels& kernels) {
   }
 }
 
-/// The contact in a lane, with the velocities that the ones before it leave.
+/// Solves the contact in a lane, with the velocities left by the preceding contacts.
 void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
   const ContactGroup& group = scene.contacts[g];
   const UnlikeGroup& own = scene.unlike[g];
@@ -206,7 +206,7 @@ TEST(SweepKernels, give_the_same_bits_where_they_read_ahead) {
   EXPECT_EQ(near.sums.change, ahead.sums.change);
 }
 
-/// The same contacts, which resist rolling.
+/// The same contacts with rolling resistance.
 struct RollingScene {
   Scene scene;
   std::vector<RollingGroup> groups;

@@ -1,4 +1,4 @@
-// In which order contacts are swept, on random graphs of contacts.
+// Order in which contacts are swept, on random contact graphs.
 
 #include "solver/sweep_order.h"
 
@@ -25,8 +25,8 @@ struct Graph {
   std::vector<std::uint8_t> moves, swept;
 };
 
-/// Contacts of each body with some of the `reach` next ones; every tenth body does not move, every seventh
-/// contact is not swept.
+/// Returns contacts of each body with some of the `reach` next ones; every tenth body is immobile, and every
+/// seventh contact is not swept.
 Graph graph(Index bodies, Index contacts_each, Index reach) {
   Random random(11);
   Graph graph;
@@ -49,7 +49,7 @@ Graph graph(Index bodies, Index contacts_each, Index reach) {
   return graph;
 }
 
-/// The same of the columns of a ring.
+/// Returns the same for the columns of a ring.
 Graph ring(Index columns, Index bodies_each) {
   Graph graph{test::columns_problem(5, columns, bodies_each), {}, {}, {}};
   graph.first_a.assign(graph.problem.vx.size() + 1, 0);
@@ -61,7 +61,7 @@ Graph ring(Index columns, Index bodies_each) {
   return graph;
 }
 
-/// By a team, the last member first: none may need what another one leaves.
+/// Returns the order made by a team, last member first: no member may need the results of another.
 SweepOrder order_of(const Graph& graph, int size = 1) {
   SweepOrder order;
   begin_order(graph.problem, graph.first_a, size, order);
@@ -75,7 +75,7 @@ SweepOrder order_of(const Graph& graph, int size = 1) {
   return order;
 }
 
-/// A graph that only the test that wants it makes: the program begins anew for each test.
+/// Graph created only by the test that uses it, because the program is restarted for each test.
 struct NamedGraph {
   const char* name;
   Graph (*make)();
@@ -95,7 +95,7 @@ class OrderOfSweep : public testing::TestWithParam<NamedGraph> {
   const Graph graph_ = GetParam().make();
   const SweepOrder order_ = order_of(graph_);
 
-  /// Does something with each contact that is swept, and each of its bodies that moves.
+  /// Calls a function for each swept contact with each of its mobile bodies.
   template <typename Do>
   void for_each_end(const Do& what) const {
     for (Index c = 0; c < graph_.problem.contact_count(); ++c)
@@ -186,7 +186,7 @@ TEST_P(OrderOfSweep, has_one_row_for_each_body_that_moves) {
   });
 }
 
-// So that each part can extrapolate the bodies that its contacts change.
+// This allows each part to extrapolate the bodies that its contacts change.
 TEST_P(OrderOfSweep, has_the_rows_that_a_part_changes_in_its_domain_and_in_runs_of_the_two_next_to_it) {
   const Index domains = order_.domain_count();
   ASSERT_EQ(order_.first_row.size(), static_cast<std::size_t>(SweepOrder::runs * domains) + 1);
@@ -204,7 +204,7 @@ TEST_P(OrderOfSweep, has_the_rows_that_a_part_changes_in_its_domain_and_in_runs_
   });
 }
 
-// What it extrapolates must not be what another part of its phase does.
+// Parts of the same phase must not extrapolate the same bodies.
 TEST_P(OrderOfSweep, has_all_rows_of_an_even_domain_in_one_run) {
   for (Index domain = 0; domain < order_.domain_count(); domain += 2) {
     const auto all = order_.rows_of_domain(domain);
@@ -220,7 +220,7 @@ TEST(OrderOfSweep, fills_its_groups_on_a_large_bed) {
   EXPECT_GT(static_cast<double>(swept), 0.9 * lane_count * order_of(large).group_count());
 }
 
-// So that several sweeps can run through the bed as a wave.
+// This allows several sweeps to run through the bed as a wave.
 TEST(OrderOfSweep, of_columns_is_a_ring) {
   const Graph large = ring(100, 80);
   const SweepOrder order = order_of(large);
@@ -242,7 +242,7 @@ TEST(OrderOfSweep, of_columns_is_a_ring) {
     const Index in_a = domain_of_row(order.row_a[c]), in_b = domain_of_row(order.row_b[c]);
     const Index apart = std::abs(in_a - in_b);
     EXPECT_TRUE(apart <= 1 || apart == domains - 1) << in_a << " and " << in_b;
-    // A domain is of columns next to each other.
+    // A domain consists of adjacent columns.
     for (const auto& [body, domain] : {std::pair(a, in_a), std::pair(b, in_b)})
       EXPECT_NEAR((large.problem.column[body] + 0.5) / 100.0, (domain + 0.5) / domains, 0.6 / domains);
     ++contacts[static_cast<std::size_t>(in_a)];
@@ -251,7 +251,7 @@ TEST(OrderOfSweep, of_columns_is_a_ring) {
     EXPECT_NEAR(of_domain * domains, std::ranges::count(large.swept, 1), 0.2 * 100 * 80 * 3);
 }
 
-// Few columns, as of a tall bed: 27 000 contacts would make six domains.
+// A tall bed with few columns: by its size, 27 000 contacts, it would have six domains.
 TEST(OrderOfSweep, of_columns_has_two_of_them_in_a_domain_at_least) {
   const SweepOrder order = order_of(ring(10, 800));
   EXPECT_EQ(order.domain_count(), 4);
@@ -266,7 +266,7 @@ TEST(OrderOfSweep, with_too_few_columns_goes_by_the_order_of_the_bodies) {
 TEST(OrderOfSweep, with_a_contact_across_columns_is_no_ring) {
   Graph graph = ring(100, 80);
   const Index far = 50;
-  // The first contact of a body that moves, with one of a column half the ring away.
+  // Connects the first contact of a mobile body with a column half the ring away.
   const auto moving = std::ranges::find_if(graph.problem.a, [&](Index a) { return graph.moves[a] != 0; });
   const auto c = static_cast<std::size_t>(moving - graph.problem.a.begin());
   graph.swept[c] = 1;

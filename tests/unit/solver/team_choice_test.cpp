@@ -1,4 +1,4 @@
-/// Windows of work whose costs are made up.
+/// Choice between team and single thread, for windows of work with made-up costs.
 
 #include "solver/team_choice.h"
 
@@ -10,13 +10,13 @@
 namespace talus::solver {
 namespace {
 
-constexpr double window = 0.05;  // s: more than one needs
+constexpr double window = 0.05;  // s, sufficient length of a window
 
 struct Share {
   int team = 0, alone = 0;
 };
 
-/// How many windows are spent each way where a unit of work costs so much, s.
+/// Returns how many windows run each way if a unit of work has these costs, s.
 Share work(TeamChoice& choice, int windows, double in_team, double alone) {
   Share share;
   for (int k = 0; k < windows; ++k) {
@@ -47,7 +47,7 @@ TEST(TeamChoice, follows_what_changes) {
   EXPECT_TRUE(choice.in_team());
 }
 
-/// One window of those alone is slow by chance: the team that is on trial next does not pay for that.
+/// One window of a single thread is slow by chance, which does not favour the team on trial.
 TEST(TeamChoice, one_slow_window_changes_nothing) {
   TeamChoice choice;
   work(choice, 1000, 4.0, 2.0);
@@ -60,9 +60,10 @@ TEST(TeamChoice, one_slow_window_changes_nothing) {
   }
 }
 
-/// Other processes leave a team alone for one window by chance: it stays on trial, and does not pay.
+/// Other processes happen to leave a team undisturbed for one window: it stays on trial, and does not pay
+/// off.
 TEST(TeamChoice, one_lucky_window_of_a_trial_changes_nothing) {
-  constexpr double shortest = 0.02;  // s, of a window
+  constexpr double shortest = 0.02;  // s, duration of a window
   TeamChoice choice;
   work(choice, 1000, 20.0, 2.0);
   int trials = 0, windows = 0, of_trial = 0;
@@ -77,7 +78,7 @@ TEST(TeamChoice, one_lucky_window_of_a_trial_changes_nothing) {
   EXPECT_EQ(windows, 3 * trials) << "the lucky one, and two until it is made up for";
 }
 
-/// Slower than one thread on a quiet machine, and still the faster of the two.
+/// The team is slower than one thread on a quiet machine, and still the faster choice.
 TEST(TeamChoice, seldom_tries_what_did_not_pay) {
   TeamChoice choice;
   work(choice, 100, 1.0, 1.8);
@@ -85,7 +86,7 @@ TEST(TeamChoice, seldom_tries_what_did_not_pay) {
   EXPECT_TRUE(choice.in_team());
 }
 
-/// What alone cost when it was tried last may not hold any more.
+/// The cost of a single thread in its last trial may be outdated.
 TEST(TeamChoice, tries_again_what_was_once_faster) {
   TeamChoice choice;
   work(choice, 100, 1.0, 1.8);
@@ -113,7 +114,7 @@ TEST(TeamChoice, judges_by_nothing_less_than_time_and_work) {
   }
 }
 
-/// While a bed is poured, the problems are now too small for a team and now not.
+/// While a bed is poured, the problem size alternates around the threshold for a team.
 TEST(TeamOfSolve, and_what_was_learnt_of_it_stay_over_a_problem_that_needs_none) {
   AcceleratedWorkspace workspace;
   const auto solve_with = [&](const ContactProblem& problem, int threads) {

@@ -30,7 +30,7 @@ TEST(ContactStatus, tells_open_sticking_and_sliding_apart) {
   EXPECT_EQ(contact_status(2.0, 0.9, 0.5), ContactStatus::sticking);
   EXPECT_EQ(contact_status(2.0, 1.0, 0.5), ContactStatus::sliding);
   EXPECT_EQ(contact_status(2.0, -1.0, 0.5), ContactStatus::sliding);
-  EXPECT_EQ(contact_status(2.0, 0.0, 0.0), ContactStatus::sliding);  // nothing to mobilise is left
+  EXPECT_EQ(contact_status(2.0, 0.0, 0.0), ContactStatus::sliding);  // no friction remains to be mobilised
 }
 
 TEST(ContactStatus, sliding_is_judged_within_the_tolerance) {
@@ -39,8 +39,8 @@ TEST(ContactStatus, sliding_is_judged_within_the_tolerance) {
   EXPECT_EQ(contact_status(2.0, 0.95, 0.5, 0.03), ContactStatus::sliding);
 }
 
-// Grains 0, 1, 2 free, 3 a rattler, 4 glued, 5 a plane. Ends at free grains with force: 0-1 gives two, 1-4
-// and 2-5 one each; 0-2 carries nothing.
+// Grains 0, 1, 2 are free, 3 is a rattler, 4 is glued, 5 is a plane. Ends with force at free grains: 0-1 has
+// two, 1-4 and 2-5 have one each; 0-2 carries nothing.
 TEST(CoordinationNumber, counts_each_force_for_each_free_grain_it_touches) {
   World world = empty_bed(10.0, true);
   for (int k = 0; k < 4; ++k) add_grain(world, k, 1.0);

@@ -5,7 +5,7 @@
 
 namespace talus::test {
 
-constexpr double unit_radius = 0.5;  ///< m: mean diameter 1
+constexpr double unit_radius = 0.5;  ///< m; the mean diameter is 1
 
 inline World empty_bed(double length, bool periodic) {
   World world;

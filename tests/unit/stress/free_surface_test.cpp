@@ -18,7 +18,7 @@ using test::empty_bed;
 
 constexpr double r = test::unit_radius;
 
-/// Disks side by side from x = 0 to `length`, their tops on the line `height` + `slope` x.
+/// Returns adjacent disks from x = 0 to `length`, with their tops on the line `height` + `slope` x.
 World bed(double length, bool periodic, double height, double slope) {
   World world;
   world.boundary.periodic = periodic;
@@ -32,7 +32,8 @@ double inclination(const World& world) { return surface_inclination(world.grains
 
 double volume(const World& world) { return bed_volume(world.grains, world.boundary); }
 
-/// The free surface at the middle of each of the equal sections of a bed, over all disks and their images.
+/// Returns the free surface at the middle of each of the equal sections of a bed, over all disks and their
+/// images.
 std::vector<double> plain_surface(const World& world, std::size_t samples) {
   const Grains& g = world.grains;
   const double length = world.boundary.length, step = length / static_cast<double>(samples);
@@ -52,7 +53,7 @@ std::vector<double> plain_surface(const World& world, std::size_t samples) {
   return height;
 }
 
-/// Beds that a scenario may give and others that it cannot: overlapping, sparse, wider than they are long.
+/// Returns random beds, including some that no scenario gives: overlapping, sparse, wider than long.
 World bed_of_chance(Random& random, bool periodic) {
   World world = empty_bed(1.0 + 9.0 * random.uniform(), periodic);
   const double length = world.boundary.length;
@@ -110,8 +111,7 @@ TEST(FreeSurface, ends_in_ascending_order_at_the_length_of_the_bed) {
   }
 }
 
-/// The area below a surface by the midpoint rule, and how far off it may be: the surface changes by no more
-/// than its variation.
+/// Area below a surface by the midpoint rule, with an error bound from the variation of the surface.
 struct Sampled {
   double area = 0.0, error = 0.0;
 };
@@ -137,8 +137,8 @@ TEST(BedVolume, is_that_of_very_many_samples) {
   }
 }
 
-// A row of touching disks of many sizes, as the surface of a bed is one: its samples, 10 000 for a diameter,
-// err by 1e-7 of the bed.
+// A row of touching disks of many sizes, like the surface of a bed: with 10 000 samples per diameter the
+// error is 1e-7 of the bed.
 TEST(BedVolume, of_a_packing_has_no_error_that_would_hide_its_dilation) {
   World world = empty_bed(0.0, false);
   Random random(9);
@@ -152,7 +152,7 @@ TEST(BedVolume, of_a_packing_has_no_error_that_would_hide_its_dilation) {
   EXPECT_NEAR(volume(world), sampled_volume(world, 1e4).area, 3e-7 * 20.0 * x);
 }
 
-// The upper half of a disk stands on average pi/4 r above its centre.
+// The upper half of a disk is on average pi/4 r above its centre.
 TEST(BedVolume, of_a_row_of_touching_disks) {
   for (const bool periodic : {true, false}) {
     World world = empty_bed(10.0, periodic);
@@ -161,7 +161,8 @@ TEST(BedVolume, of_a_row_of_touching_disks) {
   }
 }
 
-// Two equal disks d apart cross at half of d: each side adds the integral of sqrt(r^2 - u^2) from -r to d/2.
+// Two equal disks at distance d intersect at d/2: each side contributes the integral of sqrt(r^2 - u^2) from
+// -r to d/2.
 TEST(BedVolume, of_two_disks_that_overlap) {
   World world = empty_bed(10.0, false);
   const double d = 0.6;
@@ -216,8 +217,8 @@ TEST(BedVolume, is_the_sum_of_its_parts) {
   EXPECT_EQ(area_below(surface, -2.0, -1.0), 0.0);
 }
 
-// n = 20 bumps lie in the middle half. Each is symmetric about its grain, so what is fitted is a staircase of
-// n steps, and that is less steep than its line by 1/n^2.
+// n = 20 bumps lie in the middle half. Each is symmetric about its grain, so the fit sees a staircase of n
+// steps, whose slope is smaller than that of its line by a fraction 1/n^2.
 TEST(SurfaceInclination, is_the_slope_of_a_straight_surface) {
   for (const double slope : {0.0, 0.1, 0.3, -0.2})
     EXPECT_NEAR(std::tan(inclination(bed(40.0, false, 20.0, slope))), slope * (1.0 - 1.0 / 400.0),

@@ -33,7 +33,7 @@ void add_contact(Contacts& contacts, Index a, Index b, double angle, double fn, 
   contacts.ft[c] = ft;
 }
 
-/// One disk of radius r at the origin; contacts go to planes, with ids from 1 on.
+/// Returns one disk of radius r at the origin; contacts are with planes, with ids from 1 on.
 Grains one_disk() {
   Grains grains;
   add_disk(grains, {0.0, 0.0}, r, 1.0, false);
@@ -67,8 +67,9 @@ TEST(InternalMoment, of_a_disk_pressed_from_all_sides_is_isotropic) {
   }
 }
 
-// f_t = T on the right and left turns the disk one way, -T above and below the other. At (r, 0) the disk
-// feels -T along y: M_xy = r T from there, as much from the left, and the same in M_yx from above and below.
+// f_t = T on the right and left turns the disk one way, and -T above and below the other way. At (r, 0) the
+// force on the disk is -T along y: this side and the left one each add r T to M_xy, and those above and below
+// add the same to M_yx.
 TEST(InternalMoment, of_a_sheared_disk_is_symmetric) {
   Contacts contacts;
   for (int k = 0; k < 4; ++k) add_contact(contacts, 0, 1 + k, 0.5 * pi * k, 3.0, k % 2 == 0 ? 1.0 : -1.0);
@@ -76,7 +77,7 @@ TEST(InternalMoment, of_a_sheared_disk_is_symmetric) {
   expect_tensor(m, 2.0 * r * 3.0, 2.0 * r * 1.0, 2.0 * r * 1.0, 2.0 * r * 3.0);
 }
 
-// xy - yx is the unbalanced torque: one contact with f_t = T turns the disk by -r T.
+// xy - yx is the unbalanced torque: one contact with f_t = T turns the disk with -r T.
 TEST(InternalMoment, its_asymmetry_is_the_unbalanced_torque) {
   for (double angle : {0.0, 1.0, 2.5, -2.0}) {
     Contacts contacts;
@@ -93,7 +94,7 @@ TEST(InternalMoment, rotation_counts_as_tension) {
   expect_tensor(moment_of_one(grains, {}), term, 0.0, 0.0, term, 1e-13);
 }
 
-// Both sides of a contact get their lever n (x) f: signs of n and f change together.
+// Both sides of a contact have the same moment n (x) f, because n and f change sign together.
 TEST(InternalMoment, a_contact_gives_each_of_its_grains_its_share) {
   Grains grains = one_disk();
   add_disk(grains, {0.0, 1.5}, 1.0, 1.0, false);
@@ -105,7 +106,7 @@ TEST(InternalMoment, a_contact_gives_each_of_its_grains_its_share) {
   expect_tensor(moments[1], 0.0, 0.0, -0.5, 3.0);
 }
 
-/// Touching disks on a triangular lattice with random forces at all contacts, the outermost with planes.
+/// Touching disks on a triangular lattice with random forces at all contacts; the outermost touch planes.
 struct RandomLattice {
   Grains grains;
   Contacts contacts;
@@ -128,9 +129,9 @@ struct RandomLattice {
   }
 };
 
-// Sum of M over a set = - sum over outer contacts of r_i f_j + sum over grains of r_i F_j, r from any origin
-// and F all contact forces on a grain: inner contacts act at one point on both sides and cancel. Holds for
-// any forces, balanced or not; at rest F = -m g.
+// The sum of M over a set equals - sum over outer contacts of r_i f_j + sum over grains of r_i F_j, with r
+// from any origin and F all contact forces on a grain: inner contacts act at one point on both sides and
+// cancel. This holds for balanced and unbalanced forces; at rest F = -m g.
 TEST(InternalMoment, adds_up_to_the_moment_of_the_outer_forces) {
   const RandomLattice lattice(1);
   const Grains& g = lattice.grains;

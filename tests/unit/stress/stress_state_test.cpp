@@ -11,7 +11,7 @@
 namespace talus::stress {
 namespace {
 
-/// Principal values s1, s2 with the major direction at `angle` to x.
+/// Returns a tensor with principal values s1, s2 and the major direction at `angle` to x.
 Tensor2 tensor_of(double s1, double s2, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -41,7 +41,7 @@ TEST(StressState, the_ratio_is_between_zero_and_one_in_compression) {
   EXPECT_EQ(stress_state({0.0, 0.0, 0.0, 2.0}).ratio, 1.0);
 }
 
-// s1 = 3, s2 = -1, as in a grain that is pulled across: docs/notation.md says so of gamma.
+// s1 = 3, s2 = -1, as in a grain under transverse tension (docs/notation.md, gamma).
 TEST(StressState, the_ratio_is_above_one_where_one_principal_value_is_a_tension) {
   EXPECT_NEAR(stress_state(tensor_of(3.0, -1.0, 0.4)).ratio, 2.0, 1e-14);
 }

@@ -1,4 +1,4 @@
-/// The rule by which a value of ours agrees with the paper's.
+/// Rule by which a value agrees with the paper's.
 
 #include "studies/agreement.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Results of a reproduction that are made by hand.
+/// Hand-made results of a reproduction.
 
 #include <cstddef>
 
@@ -7,7 +7,7 @@
 
 namespace talus::studies {
 
-/// Two seeds that have the paper's values in everything, around them by `spread` of each.
+/// Returns two seeds with all values of the paper, varied by `spread` of each.
 inline ReproductionResult like_the_paper(double spread) {
   ReproductionResult result{plan_reproduction(false, "1-2", "folder"), {}};
   for (std::size_t r = 0; r < result.plan.members.size(); ++r) {

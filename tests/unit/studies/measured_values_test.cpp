@@ -1,5 +1,4 @@
-/// What is read from an analysis: one made by hand, of frames at 0, 5, 10, 15, 20 and 25 deg that failed at
-/// 21 deg.
+/// Values read from a hand-made analysis with frames at 0, 5, 10, 15, 20 and 25 deg and failure at 21 deg.
 
 #include "studies/measured_values.h"
 

@@ -1,4 +1,4 @@
-/// The table of the paper's values: whole, in order, and as the paper prints them.
+/// Table of the paper's values: complete, in order, and as printed.
 
 #include "studies/paper_values.h"
 

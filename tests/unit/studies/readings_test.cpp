@@ -1,4 +1,4 @@
-/// Readings of the paper's definitions, their scores, and what follows from them.
+/// Readings of the paper's definitions, their scores, and conclusions.
 
 #include "studies/readings.h"
 
@@ -12,7 +12,7 @@
 namespace talus::studies {
 namespace {
 
-/// A run that has the paper's value in every quantity.
+/// Returns a run that has the paper's value for every quantity.
 MeasuredValues like_the_paper() {
   MeasuredValues values{};
   for (std::size_t q = 0; q < quantity_count; ++q) values[q] = {paper_values[q].value, false};

@@ -1,4 +1,4 @@
-/// A report as one HTML page.
+/// Report as a single HTML page.
 
 #include "studies/report_document.h"
 
@@ -61,7 +61,7 @@ TEST_P(HtmlPicture, is_built_in) {
   EXPECT_EQ(page.find("p.png"), std::string::npos) << "nothing beside the page";
 }
 
-// The test vectors of RFC 4648, and bytes with the highest bit.
+// Test vectors of RFC 4648, and bytes with the highest bit set.
 INSTANTIATE_TEST_SUITE_P(Base64, HtmlPicture,
                          testing::Values(std::pair("f", "Zg=="), std::pair("fo", "Zm8="),
                                          std::pair("foo", "Zm9v"), std::pair("foobar", "Zm9vYmFy"),

@@ -1,4 +1,4 @@
-/// The report of a reproduction whose values are made by hand.
+/// Report of a reproduction with hand-made values.
 
 #include "studies/reproduction_report.h"
 

@@ -1,4 +1,4 @@
-/// What is run: the paper's beds, and smaller ones of the same shape.
+/// Runs of a reproduction: the paper's beds, and smaller ones of the same shape.
 
 #include "studies/reproduction.h"
 

@@ -1,4 +1,4 @@
-/// The further analyses of a member of a reproduction: what is missing is made, what is there is kept.
+/// Additional analyses of a member of a reproduction: missing ones are made, existing ones are kept.
 
 #include "studies/reproduction_values.h"
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 class ReadingsTest : public testing::Test {
  protected:
-  /// A plan of one member whose run and analysis are complete.
+  /// Returns a plan of one member whose run and analysis are complete.
   ReproductionPlan computed(const scenario::Scenario& scenario) const {
     ReproductionPlan plan{ensemble::plan_ensemble({1}, {{"bed", "", scenario}}, folder_.path().string()),
                           false};
@@ -57,7 +57,7 @@ TEST_F(ReadingsTest, are_made_where_they_are_missing_and_measured) {
   const std::string state = hash_text(state_hash(io::RunFile::open(member.path).checkpoint().world));
   std::vector<io::StoredReading> changed = before;
   changed[3].key = "of another version";
-  changed[4].values[0] = 7.5;  // valid by its key: it is taken as it is
+  changed[4].values[0] = 7.5;  // valid by its key, so it is accepted as it is
   io::store_readings(member.path, changed, state);
   EXPECT_FALSE(is_measured(member));
   complete_readings(member);

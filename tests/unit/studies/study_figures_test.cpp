@@ -1,4 +1,5 @@
-/// What a study reads from a run, and how it compares variations: a run of two free grains, made by hand.
+/// Values that a study reads from a run, and its comparison of variations, with a hand-made run of two free
+/// grains.
 
 #include "studies/study_figures.h"
 
@@ -48,8 +49,8 @@ StepRow step_at(double phase, double iterations) {
   return row;
 }
 
-/// A periodic bed, 1 m long and 0.5 m deep, tilted to 3 deg in frames of 1 deg. The first grain creeps by
-/// 0.25 m up to 1 deg, over the edge, and by another 0.5 m up to 2 deg.
+/// Writes a periodic bed, 1 m long and 0.5 m deep, tilted to 3 deg in frames of 1 deg. The first grain creeps
+/// by 0.25 m up to 1 deg, across the edge, and by another 0.5 m up to 2 deg.
 void write_run(const std::string& path, double theta_c) {
   io::RunHeader header;
   header.statics.free_count = 2;
@@ -78,7 +79,7 @@ void write_run(const std::string& path, double theta_c) {
   store.pack();
 }
 
-/// What an analysis of that run might say.
+/// Returns a possible analysis of that run.
 ensemble::MemberResult member_of(bool failed) {
   ensemble::MemberResult member;
   member.series = {{0.0, 1.0, 2.0},
@@ -149,7 +150,7 @@ TEST(CommonAngle, is_the_smallest_that_all_beds_reach) {
   EXPECT_EQ(common_angle({{16.9, 17.5}, {none, 60.0}}), 16.0);
 }
 
-/// Seeds 3 and 7 of a baseline and one variation.
+/// Returns seeds 3 and 7 of a baseline and one variation.
 StudyPlan small_plan(const std::string& folder) {
   return {ensemble::plan_ensemble({3, 7}, {{"baseline", "", {}}, {"other", "", {}}}, folder), "", ""};
 }

@@ -1,4 +1,4 @@
-/// The plan of a study: which runs it has, what they are called, what they change.
+/// Plan of a study: its runs, their names, and their changes.
 
 #include "studies/study.h"
 

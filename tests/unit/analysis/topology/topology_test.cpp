@@ -107,8 +107,8 @@ TEST(Topology, equal_forces_make_one_component) {
   EXPECT_EQ(in_order(force_persistence(packing, 1.0).components), (Pairs{{2.0, 0.0}}));
 }
 
-// A point at birth b and death 0 is b/2 |cos a - sin a| from the diagonal along the direction a, sqrt(2) b /
-// pi in the of b/2 |cos a - sin a| over directions a is 2 b / pi, and over sixteen of them within 0.4 %.
+// A point with birth b and death 0 is at distance b/2 |cos a - sin a| from the diagonal along direction a.
+// The mean over all directions is sqrt(2) b / pi, which sixteen directions approximate within 0.4 %.
 TEST(Topology, distance_to_an_empty_diagram_is_that_to_the_diagonal) {
   const std::vector<Lifetime> one = {{3.0, 0.0}}, none;
   EXPECT_NEAR(sliced_distance(one, none), 3.0 * 2.0 / pi * std::numbers::sqrt2 / 2.0, 0.01);
