@@ -1,4 +1,4 @@
-"""Prints what ensemble.h5 says of its first variant, and checks that its parts fit together."""
+"""Prints the content of the first variant in ensemble.h5, and checks the consistency of its parts."""
 
 import sys
 

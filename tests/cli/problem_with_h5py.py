@@ -1,7 +1,8 @@
-"""Looks at problem files as another program would, with h5py and numpy, and makes others of them.
+"""Reads and modifies problem files like an independent program, with h5py and numpy.
 
-Usage: problem_with_h5py.py check SOLVED.h5 ETA      the file is consistent and its solution obeys the law
-       problem_with_h5py.py change P.h5 OTHER.h5 HOW  a copy with something changed
+Usage:
+  problem_with_h5py.py check SOLVED.h5 ETA        checks that the solution obeys the law
+  problem_with_h5py.py change P.h5 OTHER.h5 HOW   writes a modified copy
 """
 import shutil
 import sys
@@ -11,7 +12,7 @@ import numpy as np
 
 
 def dense(group):
-    """W of a local problem in compressed rows."""
+    """Returns W of a local problem in compressed rows as a dense matrix."""
     p, i, x = (group[name][:] for name in "pix")
     rows = group["m"][0]
     assert group["nz"][0] == -2 and group["n"][0] == rows and group["nzmax"][0] == len(x) == p[-1]
@@ -21,7 +22,7 @@ def dense(group):
 
 
 def from_bodies(talus, contacts):
-    """W = H^T M^-1 H and q = H^T v_free + c, written down from the definitions."""
+    """Returns W = H^T M^-1 H and q = H^T v_free + c from the definitions."""
     body = {name: talus["bodies/" + name][:] for name in talus["bodies"]}
     contact = {name: talus["contacts/" + name][:] for name in talus["contacts"]}
     h = np.zeros((2 * contacts, 3 * len(body["vx"])))
@@ -76,7 +77,8 @@ def replace(file, path, values):
 
 
 def to_form(file, form):
-    """An unsymmetric W as compressed rows, compressed columns, or triplets from the last to the first."""
+    """Writes an asymmetric W as compressed rows, compressed columns, or triplets from the last to the
+    first."""
     w = dense(file["fclib_local/W"])
     w -= 0.1 * np.triu(w, 2)
     row, column = np.nonzero(w)

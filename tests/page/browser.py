@@ -1,4 +1,4 @@
-"""Chromium without a display, driven through a pipe by its DevTools protocol: no driver, no network."""
+"""Headless Chromium, driven through a pipe by its DevTools protocol: no driver, no network."""
 
 import base64
 import io
@@ -11,12 +11,12 @@ import time
 import matplotlib.image
 import numpy as np
 
-#: s, for an answer, and for a page to be ready
+#: s, limit for an answer and for loading a page
 PATIENCE = 60
 
 
 class Browser:
-    """One process, with a profile and a home of its own. Use it in a `with`."""
+    """One process with a separate profile and home directory. Use it in a `with` statement."""
 
     def __init__(self, program, folder):
         to_read, self.to_browser = os.pipe()
@@ -24,7 +24,7 @@ class Browser:
         options = ["--headless", "--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
                    "--enable-unsafe-swiftshader", "--hide-scrollbars", "--remote-debugging-pipe", "--no-first-run",
                    f"--user-data-dir={folder}/profile"]
-        # The protocol has the descriptors 3 and 4.
+        # The protocol uses descriptors 3 and 4.
         self.process = subprocess.Popen(
             ["bash", "-c", f'exec "$@" 3<&{to_read} 4>&{to_write}', "browser", program, *options, "about:blank"],
             pass_fds=(to_read, to_write), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -41,7 +41,7 @@ class Browser:
         self.process.wait(PATIENCE)
 
     def read(self, until):
-        """The next message, or None when the time is over."""
+        """Returns the next message, or None after a timeout."""
         while b"\0" not in self.rest:
             ready, _, _ = select.select([self.from_browser], [], [], max(0.0, until - time.monotonic()))
             if not ready:
@@ -53,7 +53,7 @@ class Browser:
         return json.loads(text)
 
     def call(self, method, session=None, **parameters):
-        """The answer; what else is told meanwhile is kept in `events`."""
+        """Returns the answer to a call; other messages are appended to `events`."""
         self.number += 1
         message = {"id": self.number, "method": method, "params": parameters}
         if session:
@@ -72,7 +72,7 @@ class Browser:
 
 
 class Page:
-    """A page that has been opened, and says that it is ready or why not."""
+    """A page that has been opened and reports that it is ready, or why not."""
 
     def __init__(self, browser, address, width, height, ratio, dark):
         self.browser, self.address = browser, address
@@ -102,14 +102,14 @@ class Page:
         raise AssertionError(f"{self.address}: not within {PATIENCE} s: {expression}")
 
     def settle(self):
-        """Until two more pictures have been drawn."""
+        """Waits until two more pictures have been drawn."""
         self.value("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(() => go(true))))")
 
     def text(self, selector):
         return self.value(f"document.querySelector({json.dumps(selector)}).textContent")
 
     def picture(self, file=None):
-        """RGB, 0 to 255, of what is seen."""
+        """Returns the visible part as RGB, 0 to 255."""
         self.settle()
         png = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
         if file:
@@ -117,7 +117,7 @@ class Page:
         return np.round(255 * matplotlib.image.imread(io.BytesIO(png))[..., :3]).astype(int)
 
     def place(self, selector, across=0.5, down=0.5):
-        """A place within an element, px; it is scrolled to."""
+        """Returns a position within an element, px; scrolls to it."""
         box = self.value(f"(() => {{ const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{ block: 'nearest' }});"
                          " const b = e.getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
         return box[0] + across * box[2], box[1] + down * box[3]
@@ -144,7 +144,7 @@ class Page:
         self.settle()
 
     def complaints(self):
-        """What went wrong, and what was asked for beside the page itself."""
+        """Returns errors, and requests for anything other than the page itself."""
         self.value("1")
         wrong = []
         for event in self.browser.events:

@@ -1,4 +1,4 @@
-"""What the tests share: the program, and runs that are made once for all of them."""
+"""Common parts of the tests: the program, and runs that are made once for all of them."""
 
 import json
 import os
@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("TALUS_BUILD", ROOT / "build/release"))
-# With the extension, if the build has made it.
+# With the extension, if it was built.
 PACKAGE = BUILD / "python" if any((BUILD / "python/talus").glob("_core*.so")) else ROOT / "python"
 sys.path[:0] = [str(PACKAGE), str(ROOT / "docs/images/cookbook")]
 os.environ["PYTHONPATH"] = f"{PACKAGE}:{os.environ.get('PYTHONPATH', '')}"
@@ -23,7 +23,7 @@ pytest.importorskip("xxhash", reason="xxhash is not installed: python3-xxhash")
 import talus  # noqa: E402
 
 PROGRAM = os.path.abspath(os.environ.get("TALUS_PROGRAM", ROOT / "build/release/talus"))
-#: For the program, which has its sanitizer built in: that of Python is loaded before it.
+#: Environment of the program. LD_PRELOAD loads the sanitizer for Python; the program has its own built in.
 PROGRAM_ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
 
 #: A bed of 90 grains that fails within a second of computing.
@@ -44,7 +44,7 @@ def pytest_configure(config):
 
 
 def run_talus(*words, folder=None):
-    """What `talus` prints; a failure of it is one of the test."""
+    """Returns the output of `talus`; if it fails, so does the test."""
     done = subprocess.run([PROGRAM, *map(str, words)], cwd=folder, capture_output=True, text=True, env=PROGRAM_ENVIRONMENT)
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -56,7 +56,7 @@ def json_of(*words):
 
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory):
-    """A folder with bed.toml."""
+    """Returns a folder with bed.toml."""
     folder = tmp_path_factory.mktemp("runs")
     (folder / "bed.toml").write_text(BED)
     return folder
@@ -64,7 +64,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def analysed(folder):
-    """The path of a complete run of a periodic bed, with its analysis."""
+    """Returns the path of a complete run of a periodic bed, with its analysis."""
     path = folder / "analysed.h5"
     run_talus("run", folder / "bed.toml", "-o", path)
     run_talus("analyze", path)
@@ -79,7 +79,8 @@ def run(analysed):
 
 @pytest.fixture(scope="session")
 def walls(folder):
-    """The path of a run between walls on a smooth floor, which goes on after its failure; without an analysis."""
+    """Returns the path of a run between walls on a smooth floor that continues after failure, without an
+    analysis."""
     path = folder / "walls.h5"
     run_talus("run", folder / "bed.toml", "--set", "bed.boundary=walls", "--set", "bed.floor=smooth",
               "--set", "tilt.after_failure=hold", "-o", path)
@@ -88,7 +89,7 @@ def walls(folder):
 
 @pytest.fixture(scope="session")
 def rolling(folder):
-    """The path of a run whose contacts resist rolling."""
+    """Returns the path of a run whose contacts resist rolling."""
     path = folder / "rolling.h5"
     run_talus("run", folder / "bed.toml", "--set", "contact.rolling_friction=0.1", "--set", "tilt.end_angle=4",
               "-o", path)
@@ -97,7 +98,7 @@ def rolling(folder):
 
 @pytest.fixture(scope="session")
 def stopped(folder):
-    """The path of a run that was stopped halfway: its folder has several segments."""
+    """Returns the path of a run that was stopped halfway; its folder has several segments."""
     path = folder / "stopped.h5"
     process = subprocess.Popen([PROGRAM, "run", folder / "bed.toml", "-o", path], stderr=subprocess.DEVNULL)
     manifest = folder / "stopped.h5.run/manifest"
@@ -110,13 +111,13 @@ def stopped(folder):
 
 @pytest.fixture
 def copied(analysed, tmp_path):
-    """A copy of the analysed run, to be damaged."""
+    """Returns a copy of the analysed run, which the test may damage."""
     return Path(shutil.copy(analysed, tmp_path / "copied.h5"))
 
 
 @pytest.fixture(scope="session")
 def book(tmp_path_factory):
-    """The folder in which the commands of docs/cookbook.md were called."""
+    """Returns the folder in which the commands of docs/cookbook.md were run."""
     import make
 
     folder = tmp_path_factory.mktemp("cookbook")

@@ -1,16 +1,16 @@
-"""What talus export writes of a frame, found again from the run file by the definitions of docs/export.md."""
+"""Output of talus export for a frame, recomputed from the run file by the definitions of docs/export.md."""
 
 import numpy as np
 
 import talus
 
-#: Factors of the thresholds of an analysis, as they end the names of fields.
+#: Factors of the thresholds of an analysis, at the end of the names of fields.
 THRESHOLDS = ("1", "2")
 
 
 def gamma_of_neighbourhoods(run, frame, diameter=3.0):
-    """Of each free grain: the stress ratio of all free grains whose centres lie within half of `diameter` (D) of its
-    own. Floor grains keep theirs, and so does a grain that carries nothing."""
+    """Returns for each free grain the stress ratio of all free grains whose centres lie within half of
+    `diameter` (D) of its centre. Floor grains, and grains that carry nothing, keep their own."""
     x, y = frame.position[frame.free].T
     dx = x[:, None] - x
     if run.periodic:
@@ -23,7 +23,8 @@ def gamma_of_neighbourhoods(run, frame, diameter=3.0):
 
 
 def mobilised_friction(run, frame):
-    """Of each free grain: the mean over its contacts of |f_t| / (mu f_n), with the mu of side walls for theirs."""
+    """Returns for each free grain the mean of |f_t| / (mu f_n) over its contacts, with the mu of side
+    walls at these."""
     found, count = frame.contacts, len(run.id)
     f_n, f_t = np.abs(found.force).T
     wall = (found.pair[:, 1] >= count) & (np.abs(found.normal[:, 0]) > 0.5)
@@ -36,8 +37,9 @@ def mobilised_friction(run, frame):
 
 
 def solid_fractions(run, frame):
-    """Of each free grain: its area over that of its cell in the radical diagram of all disks, which is cut out of a box by
-    one half-plane after the other; NaN if a corner of the cell is farther from the disk than a power of 0.75 D^2."""
+    """Returns for each free grain its area divided by that of its cell in the radical diagram of all
+    disks, which is cut out of a box by one half-plane after the other; NaN if a corner of the cell is
+    farther from the disk than a power of 0.75 D^2."""
     d = run["parameters/mean_diameter"]
     fractions = np.full(len(run.id), np.nan)
     for i in np.flatnonzero(frame.free):
@@ -68,7 +70,7 @@ def solid_fractions(run, frame):
 
 
 def grains(run, k):
-    """Fields of all grains by their names, (N,) or (N, components)."""
+    """Returns the fields of all grains by name, (N,) or (N, components)."""
     frame, first = run.frames[k], run.frames[0]
     moment = frame.internal_moment
     ends = frame.contacts.pair[frame.contacts.pair < len(run.id)]
@@ -102,7 +104,7 @@ def grains(run, k):
 
 
 def contacts(run, k):
-    """Fields of all contacts by their names."""
+    """Returns the fields of all contacts by name."""
     found = run.frames[k].contacts
     f_n, f_t = found.force.T
     return {
@@ -120,7 +122,8 @@ def contacts(run, k):
 
 
 def compare(found, expected, *, single=1e-7):
-    """All fields of a frame, and no others. Whole numbers agree exactly, others to single precision."""
+    """Compares all fields of a frame, and expects no others. Whole numbers agree exactly, others to single
+    precision."""
     assert sorted(found) == sorted(expected)
     for name, values in expected.items():
         if np.issubdtype(np.asarray(values).dtype, np.integer):

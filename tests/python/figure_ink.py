@@ -1,4 +1,5 @@
-"""Where a figure has its texts: each glyph as ink on the page, from its PDF; what is cut off, from its SVG."""
+"""Positions of the texts of a figure: the ink of each glyph on the page, from its PDF, and clipped
+letters, from its SVG."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -13,13 +14,13 @@ DEEP = set("gjpqy()[]{}/|,;Qγμρ")
 @dataclass
 class Glyph:
     letter: str
-    label: int  # glyphs of one label touch each other, those of two must not
+    label: int  # glyphs of one label may touch each other, those of different labels must not
     box: tuple  # left, top, right, bottom in points
     size: float
 
 
 def glyph_box(letter, origin, advance_box, size, direction):
-    """The ink of a glyph that is set from `origin` along `direction`."""
+    """Returns the ink of a glyph drawn from `origin` along `direction`."""
     along = abs(direction[0]) > 0.5
     length = (advance_box[2] - advance_box[0]) if along else (advance_box[3] - advance_box[1])
     up = 0.74 * size if letter in TALL else 0.57 * size
@@ -30,13 +31,13 @@ def glyph_box(letter, origin, advance_box, size, direction):
     if along:
         left, right = (x, x + length) if direction[0] > 0 else (x - length, x)
         return (left, y - up, right, y + down)
-    if direction[1] < 0:  # upwards: the top of the letters is at the left
+    if direction[1] < 0:  # upwards: the top of the letters is on the left
         return (x - up, y - length, x + down, y)
     return (x - down, y, x + up, y + length)
 
 
 def follows(glyph_end, origin, size, direction):
-    """Whether a glyph goes on where the one before it has ended: sub- and superscripts do."""
+    """Returns whether a glyph continues at the end of the previous one, like sub- and superscripts."""
     dx, dy = origin[0] - glyph_end[0], origin[1] - glyph_end[1]
     along = dx * direction[0] + dy * direction[1]
     across = abs(-dx * direction[1] + dy * direction[0])
@@ -44,7 +45,7 @@ def follows(glyph_end, origin, size, direction):
 
 
 def glyphs_of(page):
-    """All glyphs of a page in the order in which they are drawn; blanks are left out."""
+    """Returns all glyphs of a page in drawing order, without blanks."""
     glyphs, label, end, before = [], 0, None, None
     flags = fitz.TEXT_PRESERVE_LIGATURES | fitz.TEXT_PRESERVE_WHITESPACE | fitz.TEXT_INHIBIT_SPACES
     blocks = page.get_text("rawdict", clip=fitz.INFINITE_RECT(), flags=flags)["blocks"]
@@ -64,7 +65,8 @@ def glyphs_of(page):
 
 
 def letters_of_svg(path):
-    """The letters of an SVG, blanks left out: gnuplot writes all of them, also those outside of the page."""
+    """Returns the letters of an SVG without blanks; gnuplot writes all of them, including those outside
+    the page."""
     letters = {}
     for text in ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}text"):
         for letter in "".join(text.itertext()):
@@ -74,7 +76,7 @@ def letters_of_svg(path):
 
 
 def overlap(one, other, room):
-    """Whether two boxes meet, or are closer to each other than `room`."""
+    """Returns whether two boxes overlap or are closer to each other than `room`."""
     return (
         one[0] < other[2] + room
         and other[0] < one[2] + room
@@ -84,7 +86,8 @@ def overlap(one, other, room):
 
 
 def segments_of(page):
-    """Straight strokes that are not within a panel: samples of keys, scale bars, arrows, and the frames of panels."""
+    """Returns straight strokes outside panels: samples of keys, scale bars, arrows, and the frames of
+    panels."""
     strokes = []
     for drawing in page.get_drawings():
         if drawing["type"] not in ("s", "fs"):
@@ -100,7 +103,7 @@ def segments_of(page):
 
 
 def frames_of(strokes):
-    """Panels: two horizontal and two vertical strokes that form a rectangle."""
+    """Returns the panels: pairs of horizontal and vertical strokes that form a rectangle."""
     across = {(round(min(a, c), 1), round(max(a, c), 1), round(b, 1)) for a, b, c, d in strokes if abs(b - d) < 0.05 and abs(a - c) > 15}
     upright = {(round(a, 1), round(min(b, d), 1), round(max(b, d), 1)) for a, b, c, d in strokes if abs(a - c) < 0.05 and abs(b - d) > 8}
     frames = set()
@@ -112,7 +115,7 @@ def frames_of(strokes):
 
 
 def crosses(stroke, box):
-    """Whether a stroke runs through a box, a little smaller than the ink."""
+    """Returns whether a stroke crosses a box slightly smaller than the ink."""
     shrink = 0.12 * (box[3] - box[1])
     left, top, right, bottom = box[0] + shrink, box[1] + shrink, box[2] - shrink, box[3] - shrink
     x0, y0, x1, y1 = stroke
@@ -125,7 +128,7 @@ def crosses(stroke, box):
 
 
 def faults(pdf, svg=None):
-    """What is wrong with the texts of a figure, in words; nothing if all can be read."""
+    """Returns the faults of a figure's texts, in words; empty if all are legible."""
     with fitz.open(pdf) as document:
         page = document[0]
         glyphs = glyphs_of(page)
@@ -169,7 +172,7 @@ def faults(pdf, svg=None):
         for glyph in glyphs:
             if crosses(stroke, glyph.box):
                 found.append(f"{name(glyph)} is crossed by a line")
-    # Letters of panels count on from (a), and no panel has one alone.
+    # Letters of panels count from (a), and a single panel has none.
     panels = sorted(match[1] for label in labels.values() if (match := re.match(r"\(([a-z])\)", label)))
     expected = [chr(ord("a") + k) for k in range(max(2, len(panels)))] if panels else []
     if panels != expected:

@@ -1,4 +1,4 @@
-"""Files of runs that are changed as somebody would who knows the format: afterwards all hashes are right again."""
+"""Run files changed by someone who knows the format: afterwards all hashes are correct again."""
 
 import re
 from pathlib import Path
@@ -8,7 +8,7 @@ import xxhash
 
 
 def seal(path):
-    """Makes the first lines of a packed file tell its size and hash."""
+    """Writes the correct size and hash into the first lines of a packed file."""
     data = Path(path).read_bytes()[512:]
     lines = b"talus run file 1\nsize %d\nxxh3 of all after byte 512 %s\n" % (
         len(data) + 512, xxhash.xxh3_64_hexdigest(data).encode())
@@ -17,20 +17,20 @@ def seal(path):
 
 
 def sealed(path, change):
-    """Changes an HDF5 file."""
+    """Changes an HDF5 file and seals it again."""
     with h5py.File(path, "r+") as file:
         change(file)
     return seal(path)
 
 
 def sealed_text(text):
-    """A manifest whose last line is the hash of the others."""
+    """Returns a manifest whose last line is the hash of the others."""
     body = text[: text.rindex("hash ")]
     return body + f"hash {xxhash.xxh3_64_hexdigest(body.encode())}\n"
 
 
 def reseal_folder(folder):
-    """Makes the manifest of a folder tell the sizes and hashes of its files."""
+    """Writes the correct sizes and hashes of its files into the manifest of a folder."""
     manifest = Path(folder) / "manifest"
     lines = manifest.read_text().splitlines(keepends=True)
     for k, line in enumerate(lines):

@@ -1,5 +1,5 @@
-"""Every public call with arguments of other types and values: all that is wrong ends in talus.Error, which is also the
-error that Python's protocols ask for."""
+"""Every public call with arguments of wrong types and values: each error is a talus.Error, which is also
+the error that the protocols of Python require."""
 
 import copy
 import math
@@ -19,7 +19,7 @@ import talus
 
 KEPT = ROOT / "tests/runs/schema_4.h5"
 
-#: None of them is an index, a name, a place, a path or a unit of anything.
+#: None of these is an index, a name, a position, a path or a unit.
 NOTHING = [1.7, 1e300, math.nan, math.inf, -math.inf, 1j, True, np.True_, np.float64(1.0), "x", "repos", "", b"x", None, (), [0],
            {}, {1, 2}, object(), len, type, 10**30, -(10**30), np.array([1, 2]), np.array(["a", "b"]), np.array(1.5), Ellipsis,
            "\0", "\x1b[2J", "\ud800", "help/\ud800", "a/../b", slice(0.5, 2), slice("a", None), slice(None, None, 0), range(3), Exception("x")]
@@ -32,7 +32,7 @@ def kept():
 
 
 def never(*values):
-    """All wrong values but those of these types, which are right for the call."""
+    """Returns all wrong values except those of these types, which are valid for the call."""
     return [value for value in NOTHING if not isinstance(value, values)]
 
 

@@ -1,4 +1,4 @@
-"""Each recipe of docs/cookbook.md runs as it is printed and draws its picture, and what it says is so."""
+"""Each recipe of docs/cookbook.md runs as printed and draws its picture, and its statements hold."""
 
 import csv
 import functools
@@ -18,13 +18,13 @@ NEEDED = {"contacts-and-gamma": ["pandas"], "network": ["networkx"]}
 
 @pytest.fixture(scope="module")
 def drawn(book):
-    """Draws the picture of a recipe; gives its path."""
+    """Draws the picture of a recipe and returns its path."""
     pytest.importorskip("matplotlib.pyplot", reason="matplotlib is not installed: python3-matplotlib")
     return functools.cache(lambda name: make.make_picture(name, book))
 
 
 def size_of(picture):
-    """Width and height, from the header of a PNG."""
+    """Returns width and height from the header of a PNG."""
     begin = picture.read_bytes()[:24]
     assert begin.startswith(b"\x89PNG\r\n")
     return tuple(int.from_bytes(begin[i : i + 4], "big") for i in (16, 20))
@@ -73,7 +73,7 @@ def test_run_of_the_page_is_what_it_says(book):
 
 
 def test_neighbourhoods_of_the_recipe_are_those_of_the_analysis(book):
-    """At the scale of talus analyze the function of the page gives its gamma."""
+    """At the scale of talus analyze, the function of the page gives the same gamma."""
     code = make.recipes()["neighbourhoods"]
     names = {}
     exec(code[: code.index("\nrun = ")].replace("import matplotlib.pyplot as plt", "").replace(

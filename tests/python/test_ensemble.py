@@ -1,4 +1,5 @@
-"""Ensembles: members, their numbers and means, against members.csv and what `talus ensemble` prints."""
+"""Ensembles: members, their values and means, compared with members.csv and the output of `talus
+ensemble`."""
 
 import csv
 import math

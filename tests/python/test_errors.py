@@ -1,4 +1,4 @@
-"""What is no run, is of another version, or is damaged, is told with its name and what to do."""
+"""Foreign, outdated and damaged files are reported with their name and a remedy."""
 
 import shutil
 import sys

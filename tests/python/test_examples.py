@@ -1,5 +1,6 @@
-"""The scripts and the notebook of examples/python run as a user runs them, draw their pictures, and show what docs/python.md says. Their beds
-are smaller here; docs/make draws the pictures of the page from their own beds."""
+"""The scripts and the notebook of examples/python run like a user runs them, draw their pictures, and show
+what docs/python.md describes. Their beds are smaller here; docs/make draws the pictures of the page from
+the full beds."""
 
 import re
 import runpy
@@ -22,7 +23,7 @@ QUICK = ["deposition.rate=2", "deposition.rest_velocity=0.1", "output.frame_ever
 
 @pytest.fixture
 def run_example(tmp_path, monkeypatch):
-    """Runs a script in an empty folder; gives its names, once it has drawn its picture."""
+    """Runs a script in an empty folder; returns its names once it has drawn its picture."""
     plt = pytest.importorskip("matplotlib.pyplot", reason="matplotlib is not installed: python3-matplotlib")
     plt.switch_backend("Agg")
     monkeypatch.chdir(tmp_path)
@@ -75,7 +76,7 @@ def test_strong_contacts_turn_against_the_slope(run_example):
     (first, _), (last, direction) = (fabric(names["strong"][k]) for k in (0, -1))
     assert last > first + 0.2 and last > 2 * fabric(names["weak"][-1])[0]
     assert 90 + tilt[-1] < direction < 160
-    # Normals in one direction have the largest anisotropy; evenly spread ones have none.
+    # Normals in one direction have the largest anisotropy; uniformly distributed ones have none.
     angle = np.linspace(0, np.pi, 12, endpoint=False)
     assert fabric(np.array([[0.6, 0.8]] * 5)) == pytest.approx((2, np.degrees(np.arctan2(0.8, 0.6))))
     assert fabric(np.transpose([np.cos(angle), np.sin(angle)]))[0] == pytest.approx(0, abs=1e-12)
@@ -88,7 +89,7 @@ def test_copies_are_tilted_side_by_side(run_example):
     mean = theta_c.mean(axis=0)
     assert mean[-1] > mean[0] + 4
     assert mean[0] > np.degrees(np.arctan(frictions[0])) and mean[-1] < np.degrees(np.arctan(frictions[-1]))
-    # A copy in a pool gives what it gives alone.
+    # A copy in a pool gives the same result as on its own.
     alone = names["beds"][1].copy()
     assert names["tilted"](alone, frictions[2])[1] == theta_c[1, 2]
 
@@ -104,7 +105,7 @@ def test_a_push_moves_its_grains(run_example, capsys):
 
 @pytest.mark.chosen
 def test_an_example_is_run_by_its_path(tmp_path):
-    """Arguments that are no settings are refused as the library refuses them."""
+    """Invalid settings are rejected with the message of the library."""
     done = subprocess.run([sys.executable, EXAMPLES / "push.py", "bed.lenght=3"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 1 and "bed.lenght" in done.stderr and not list(tmp_path.iterdir())
 
@@ -162,7 +163,7 @@ def test_a_notebook_has_a_live_figure(tmp_path, monkeypatch):
 
 
 def picture_of(cell):
-    """The picture among the outputs of a cell, of which there is one."""
+    """Returns the only picture among the outputs of a cell."""
     [picture] = [output.data["image/png"] for output in cell.outputs if "image/png" in output.get("data", {})]
     assert len(picture) > 5_000
     return picture

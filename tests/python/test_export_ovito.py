@@ -1,4 +1,5 @@
-"""What `talus export --to xyz` and `--to lammps` write: extended XYZ as ASE reads it, and the text of a LAMMPS dump."""
+"""Output of `talus export --to xyz` and `--to lammps`: extended XYZ as ASE reads it, and the text of a
+LAMMPS dump."""
 
 import numpy as np
 import pytest
@@ -7,9 +8,9 @@ import talus
 from conftest import run_talus
 from exported import compare, grains
 
-#: In extended XYZ fields have the names by which OVITO knows them.
+#: Names of fields in extended XYZ as OVITO expects them.
 XYZ_NAMES = {"type": "kind", "velocity": "velo", "displacement": "disp", "coordination": "n_neighb"}
-#: In a LAMMPS dump the columns of fields have LAMMPS's names where it has one.
+#: Names of columns in a LAMMPS dump as LAMMPS defines them.
 LAMMPS_NAMES = {"image": ["ix", "iy"], "velocity": ["vx", "vy"], "angular_velocity": ["omegaz"],
                 "displacement": ["displacementx", "displacementy"]}
 COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
@@ -17,7 +18,7 @@ LENGTHS = ("radius", "displacement", "lc_1", "lc_2")
 
 
 def plain_names(found, names):
-    """Fields by their own names, without the third components of vectors."""
+    """Returns fields by their own names, without the third components of vectors."""
     back = {other: name for name, other in names.items()}
     fields = {back.get(name, name): values for name, values in found.items()}
     for name in ("image", "velocity", "displacement"):
@@ -58,7 +59,7 @@ def test_extended_xyz_is_read_by_ase(boundary, request, tmp_path):
 
 
 def test_beds_shorter_than_a_metre_are_no_shares_of_their_box(analysed, run, tmp_path):
-    """OVITO takes coordinates for such shares if all are between 0 and 1."""
+    """OVITO interprets coordinates as fractions of the box if all are between 0 and 1."""
     assert run.length < 1
     run_talus("export", analysed, "--to", "xyz", "--frames", "0", "-o", tmp_path / "frame.xyz")
     x = [float(line.split()[1]) for line in (tmp_path / "frame.xyz").read_text().splitlines()[2:]]
@@ -66,7 +67,8 @@ def test_beds_shorter_than_a_metre_are_no_shares_of_their_box(analysed, run, tmp
 
 
 def parse_dump(text):
-    """Frames of a LAMMPS dump as its manual describes it: the lines below each ITEM, by its name; atoms as columns."""
+    """Returns the frames of a LAMMPS dump as its manual describes it: the lines below each ITEM, by name;
+    atoms as columns."""
     frames, lines = [], iter(text.splitlines())
     items, name = {}, ""
     for line in lines:

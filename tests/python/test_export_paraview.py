@@ -1,4 +1,4 @@
-"""What `talus export --to paraview` writes, read by VTK."""
+"""Output of `talus export --to paraview`, read by VTK."""
 
 import xml.etree.ElementTree
 
@@ -13,7 +13,7 @@ vtk = pytest.importorskip("vtkmodules.vtkIOXML", reason="VTK is not installed: p
 from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonCore import vtkDataArray  # noqa: E402
 
-#: In two dimensions, of what has three of them.
+#: Number of components in two dimensions, for fields that have three.
 PLANE = {1: [0], 3: [0, 1], 9: [0, 1, 3, 4]}
 
 
@@ -26,7 +26,7 @@ def read(path):
 
 
 def arrays(data):
-    """Arrays of points or cells by their names, and their units; what is beyond the plane is zero."""
+    """Returns arrays of points or cells by name, with their units; components out of the plane are zero."""
     found, units = {}, {}
     for i in range(data.GetNumberOfArrays()):
         array = data.GetArray(i)
@@ -39,7 +39,7 @@ def arrays(data):
 
 
 def entries(pvd):
-    """Times and files of a .pvd."""
+    """Returns times and files of a .pvd."""
     found = xml.etree.ElementTree.parse(pvd).getroot().findall("Collection/DataSet")
     return [(float(entry.get("timestep")), pvd.parent / entry.get("file")) for entry in found]
 
@@ -130,7 +130,8 @@ def test_runs_under_way_have_no_threshold_unless_one_is_given(stopped, tmp_path)
 
 
 def test_fields_on_a_grid_sum_up_to_the_packings_own_values(run, analysed, tmp_path):
-    """Over all points, times the area of one: mass, momentum, and internal moments without their part of rotations."""
+    """The sums over all points, times the area per point, are the totals of the packing: mass, momentum,
+    and internal moments without the contribution of rotations."""
     folder = tmp_path / "fields"
     run_talus("export", analysed, "--to", "vti", "--frames", "0,11", "--length", "4", "-o", folder)
     listed = entries(folder / "fields.pvd")

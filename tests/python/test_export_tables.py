@@ -1,4 +1,4 @@
-"""What `talus export --to graphml`, `--to csv` and `--to observables` write, read by networkx and pandas."""
+"""Output of `talus export --to graphml`, `--to csv` and `--to observables`, read by networkx and pandas."""
 
 import csv
 
@@ -13,7 +13,8 @@ COMPONENTS = {1: [""], 2: ["_x", "_y"], 4: ["_xx", "_xy", "_yx", "_yy"]}
 
 
 def joined(columns, expected):
-    """Fields from columns of their components, by the names in `expected`; takes these columns away."""
+    """Assembles fields from the columns of their components, by the names in `expected`; removes these
+    columns."""
     found = {}
     for name, values in expected.items():
         width = 1 if np.ndim(values) == 1 else np.shape(values)[1]
@@ -28,7 +29,7 @@ def networkx():
 
 
 def attributes(items):
-    """One column for each attribute of nodes or edges."""
+    """Returns one column for each attribute of nodes or edges."""
     return {name: [values[name] for values in items] for name in items[0]}
 
 

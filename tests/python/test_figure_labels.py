@@ -1,5 +1,6 @@
-"""No text of a figure is cut or printed over another, whatever the bed, its numbers and its names. Figures are plain data: those of
-small runs are drawn again with other sizes, numbers and names, and the ink of their texts is measured."""
+"""No text of a figure is clipped or overlaps another, for any bed, numbers and names. Figures are plain
+data: those of small runs are redrawn with other sizes, numbers and names, and the ink of their texts is
+measured."""
 
 import csv
 import json
@@ -23,15 +24,15 @@ LONG_NAME = (
     "PBC, L = 2500 D, deposition.method = collapse, contact.friction = 0.35, deposition.arrival_speed = 12, "
     "a-folder-with-a-very-long-name-in-which-there-is-no-blank-to-break-it-at-anywhere-at-all (100 runs)"
 )
-#: Variables of a script of which there is one for each group, by the beginnings of their names.
+#: Variables of a script with one value per group, by the beginnings of their names.
 OF_GROUPS = re.compile(
     r"(data|label|every|runs|drawn|cut|several|gamma_c|theta_d|sizes|waits|size_law|wait_law|line"
     r"|summary_\d+|mean_\d+|r_\d+_\d+)_1"
 )
-#: Columns that are no quantities: what is on the horizontal axis is not changed either, but for angles.
+#: Columns that are not quantities: the horizontal axis is not changed either, except for angles.
 COUNTS = "n|seed|cycle|estimator|factor|series|row|agrees|group|critical|radius|x|y"
 ANGLES = {"theta", "angle_left"}
-#: How a bed of a test differs from the one that was computed.
+#: Differences between a tested bed and the computed one.
 BEDS = {
     "small numbers, deep and short": dict(columns=1, length=10, depth=60, times=1e-12),
     "large numbers, shallow and short": dict(columns=2, length=10, depth=3, times=1e12, name=LONG_NAME),
@@ -45,7 +46,7 @@ BEDS = {
 
 
 def changed_table(path, units, bed):
-    """The text of a table with other numbers, and some 20 rows."""
+    """Returns the text of a table with other numbers, and about 20 rows."""
     rows = list(csv.reader(path.read_text().splitlines()))
     head, body = rows[0], rows[1:]
     keep = max(1, len(body) // 20)
@@ -73,7 +74,7 @@ def changed_table(path, units, bed):
 
 
 def changed_script(text, bed):
-    """The script with another width, bed and names, that draws the PDF and the SVG."""
+    """Returns the script with another width, bed and names, which draws the PDF and the SVG."""
     head, _, rest = text.partition("# What all figures share")
     variables = dict(line.split(" = ", 1) for line in head.splitlines() if " = " in line and not line.startswith("#"))
     number = {name: float(value) for name, value in variables.items() if re.fullmatch(r"-?[0-9.]+(e[-+]?\d+)?", value)}
@@ -110,7 +111,7 @@ def changed_script(text, bed):
 
 
 def faults_of(figures, folder, bed):
-    """Draws all figures of a folder again in another one, and lists what is wrong with their texts."""
+    """Redraws all figures of a folder in another one, and lists the faults of their texts."""
     found = []
     for script in sorted(figures.glob("*.gp")):
         tables = json.loads((figures / (script.stem + ".json")).read_text())["tables"]
@@ -128,8 +129,8 @@ def faults_of(figures, folder, bed):
 
 
 def put_stand_in_for_gnuplot(folder):
-    """A program in `folder` that leaves the same small picture for every script: only data and scripts of the figures are needed,
-    and each is drawn again for each bed."""
+    """Creates a program in `folder` that leaves the same small picture for every script: only data and
+    scripts of the figures are needed, and each is redrawn for each bed."""
     kinds = (("pdf", "pdfcairo"), ("svg", "svg"), ("png", "pngcairo"))
     lines = [f'set terminal {terminal}; set output "empty.{ending}"; plot 0; unset output' for ending, terminal in kinds]
     (folder / "empty.gp").write_text("\n".join(lines))
@@ -153,7 +154,7 @@ def draw(folder, runs, only, *more):
 
 @pytest.fixture(scope="session")
 def figures_of_a_bed(analysed, tmp_path_factory):
-    """Some figures of each kind: panels, grains, lines between grains, curves."""
+    """Tests some figures of each kind: panels, grains, lines between grains, curves."""
     only = "over-tilt,fig11,fig12,force-chains,force-distribution"
     return draw(tmp_path_factory.mktemp("some"), [analysed], only)
 
@@ -164,7 +165,7 @@ def test_texts_of_some_figures_are_whole(figures_of_a_bed, tmp_path, name):
 
 
 def test_a_figure_of_very_many_groups_is_drawn(figures_of_a_bed, tmp_path):
-    """As of an ensemble of 8 x 8 values: its key is long, and may be crowded."""
+    """As for an ensemble of 8 x 8 values: its key is long and may be crowded."""
     one = tmp_path / "one"
     one.mkdir()
     for file in figures_of_a_bed.glob("fig12*"):
@@ -175,7 +176,7 @@ def test_a_figure_of_very_many_groups_is_drawn(figures_of_a_bed, tmp_path):
 
 @pytest.mark.chosen
 def test_ink_is_found(tmp_path):
-    """Texts that are cut, leave the page, meet or are crossed are found, also upright ones."""
+    """Texts that are clipped, leave the page, overlap or are crossed are found, also vertical ones."""
     lines = [
         'set encoding utf8; set terminal pdfcairo size 8cm,6cm font "DejaVu Sans,8" fontscale 0.75; set output "a.pdf"',
         "set lmargin at screen 0.2; set rmargin at screen 0.9; set bmargin at screen 0.5; set tmargin at screen 0.9",
@@ -217,7 +218,7 @@ def all_figures(tmp_path_factory):
     draw(folder, ["cycles.h5"], "cycles")
     draw(folder, ["flow.h5"], "dynamic-angle")
     draw(folder, ["two"], "4,5,9,12,14,over-tilt,before-failure,precursors,difference-over-tilt,difference-before-failure")
-    # Of so small a bed few grains are overloaded: a low threshold gives some in its middle.
+    # A small bed has few overloaded grains; a low threshold gives some in its middle.
     draw(folder, ["grains.h5"], "11", "--set", "gamma_c=0.15")
     of_a_run = "8,10,13,overloaded-over-scale,contact-directions,force-chains,force-distribution,critical-contacts"
     return draw(folder, ["grains.h5"], of_a_run + ",correlations,weak-contacts,persistence,events")

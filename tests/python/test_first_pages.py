@@ -1,5 +1,5 @@
-"""The commands and the Python of docs/tutorial.md, docs/questions.md and docs/gallery.md run as they are printed, in their
-order, as a reader types them. Only the bed of the demo is a smaller one."""
+"""The commands and the Python code of docs/tutorial.md, docs/questions.md and docs/gallery.md run as
+printed, in order, as a reader types them. Only the bed of the demo is smaller."""
 
 import importlib.machinery
 import importlib.util
@@ -14,7 +14,7 @@ from conftest import PACKAGE, PROGRAM, ROOT
 
 PAGES = ["tutorial", "questions", "gallery"]
 
-#: In the place of demo.toml: 84 grains, which fail above 10 deg within a second of computing.
+#: Replacement for demo.toml: 84 grains, which fail above 10 deg within a second of computing.
 SMALL_DEMO = """
 [bed]
 length = 12
@@ -30,7 +30,7 @@ frame_every = 2
 observable_every = 0.5
 """
 
-#: Commands before those of the system: all packages are there, and nothing is installed or built.
+#: Fake commands ahead of those of the system: all packages are present, and nothing is installed or built.
 STAND_INS = {
     "dpkg-query": "shift 3\nprintf '%s installed\\n' \"$@\"",
     "cmake": "exit 0",
@@ -41,7 +41,8 @@ STAND_INS = {
 
 
 def pieces(page):
-    """What a page tells to type, in its order: (None, command), or (NAME, text) of a file to be saved."""
+    """Returns what a page tells the reader to type, in order: (None, command), or (NAME, text) of a file
+    to be saved."""
     text = (ROOT / f"docs/{page}.md").read_text()
     found = re.finditer(r"^```python\n(?P<code>.*?)^```$|^ {4}(?P<command>\S[^\n]*)$", text, re.MULTILINE | re.DOTALL)
     for piece in found:
@@ -53,7 +54,7 @@ def pieces(page):
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A checkout with nothing but what the pages need."""
+    """Creates a checkout with only what the pages need."""
     shutil.copy(ROOT / "bootstrap", tmp_path)
     (tmp_path / "build/release").mkdir(parents=True)
     (tmp_path / "build/release/talus").symlink_to(PROGRAM)
@@ -95,7 +96,7 @@ def test_page_can_be_typed_from_its_first_line_to_its_last(page, checkout):
 
 
 def test_commands_are_recognised():
-    """The tutorial is that of the first hour: none of its steps is lost on the way from the page to the test."""
+    """Every step of the tutorial is found by the test."""
     commands = [text for name, text in pieces("tutorial") if not name]
     for step in ["./bootstrap demo", "talus info", "talus panel", "talus run", "talus ensemble", "talus figures", "talus view", "python3"]:
         assert any(step in command for command in commands), step
@@ -123,7 +124,7 @@ def test_pictures_are_made_by_the_commands_next_to_them():
 
 @pytest.mark.chosen
 def test_commands_name_the_program_where_a_build_leaves_it():
-    """Nobody has `talus` on the path in the first hour."""
+    """A new reader does not have `talus` on the path."""
     for path in docs_make().pages().values():
         bare = re.findall(r"^ {4,8}talus .*$", path.read_text(), re.MULTILINE)
         assert not bare, f"{path}: {bare}"
@@ -174,7 +175,7 @@ def test_a_number_or_picture_that_differs_is_found(tmp_path, monkeypatch):
 
 
 def docs_make():
-    """docs/make as a module."""
+    """Returns docs/make as a module."""
     pytest.importorskip("PIL", reason="Pillow is not installed: python3-pil")
     loader = importlib.machinery.SourceFileLoader("docs_make", str(ROOT / "docs/make"))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader("docs_make", loader))

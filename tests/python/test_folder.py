@@ -1,4 +1,4 @@
-"""Runs that are being computed: a folder of segments, read while it grows, and what it says where it is gone."""
+"""Runs in progress: a folder of segments that is read while it grows, and messages if it disappears."""
 
 import fcntl
 import shutil
@@ -75,7 +75,7 @@ def test_run_is_read_while_it_is_computed_and_packed(folder):
 
 
 def test_run_that_replaces_another_is_read_before_it_is_packed(analysed, stopped, tmp_path):
-    """Where the manifest says so, the folder is the run, not the old file beside it."""
+    """If the manifest says so, the run is the folder, not the old file next to it."""
     path = tmp_path / "again.h5"
     shutil.copy(analysed, path)
     shutil.copytree(f"{stopped}.run", f"{path}.run")

@@ -1,4 +1,5 @@
-"""Grains and contacts of a frame: the file's arrays, periodic images, end points, and the laws that they obey."""
+"""Grains and contacts of a frame: the arrays of the file, periodic images, end points, and the laws that
+they obey."""
 
 import h5py
 import numpy as np
@@ -8,7 +9,8 @@ import talus
 
 
 def moments(frame):
-    """M_ij = - sum r_i f_j over the contacts of a grain, f on it, from the centre: without the term of rotation."""
+    """Returns M_ij = - sum r_i f_j over the contacts of a grain, with f on it and r from its centre,
+    without the term of rotation."""
     contacts, force = frame.contacts, frame.contacts.force_on_b
     found = np.zeros((len(frame.position), 2, 2))
     np.add.at(found, contacts.pair[:, 0], np.einsum("ci,cj->cij", contacts.point - contacts.start, force))
@@ -147,7 +149,7 @@ def test_network_has_all_contacts(run, walls):
     assert (a, b) == tuple(frame.contacts.pair[0]) and first["f_n"] == frame.contacts.force[0, 0]
     kinds = networkx.get_node_attributes(network, "kind")
     assert [kinds[i] == "free" for i in run.id] == run.free.tolist()
-    # z, as the analysis has it, from the degrees of the nodes.
+    # z as in the analysis, from the degrees of the nodes.
     degrees = [degree for node, degree in network.degree() if kinds[node] == "free" and degree > 0]
     assert np.mean(degrees) == pytest.approx(run.analysis["contacts/coordination_number"][3], rel=1e-12)
     sliding = [slides for _, _, slides in network.edges(data="sliding")]

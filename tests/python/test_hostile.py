@@ -1,5 +1,6 @@
-"""Runs that somebody has made to do harm: nothing outside of the file is read, nothing is taken for true that the program
-would refuse, and all ends in talus.Error. TALUS_TRIES=2000 makes as many tries of chance (.ci/full hostile)."""
+"""Maliciously changed runs: nothing outside the file is read, nothing that the program would reject is
+accepted, and every failure is a talus.Error. TALUS_TRIES=2000 sets the number of random tries (.ci/full
+hostile)."""
 
 import contextlib
 import os
@@ -35,7 +36,8 @@ def folder_of_run(tmp_path):
 
 @pytest.fixture
 def secret(tmp_path):
-    """A file that no run may show: numbers, as bytes and as a data set of each name that is tried."""
+    """Creates a file that no run may reveal: numbers, as bytes and as a data set of each name that is
+    tried."""
     path = tmp_path / "secret.h5"
     with h5py.File(path, "w") as file:
         for name in ("particles/grains/mass", "observables/sigma_n"):
@@ -46,7 +48,7 @@ def secret(tmp_path):
 
 
 def use(run):
-    """Asks for all that there is."""
+    """Accesses everything in a run."""
     for name in (*talus.checked_file.DATA_SETS, "help/frames/tilt"):
         with contextlib.suppress(talus.Error):
             run[name]
@@ -68,7 +70,7 @@ def use(run):
 
 
 def replaced(name, **how):
-    """Puts another data set in the place of one."""
+    """Replaces a data set."""
     def change(file):
         shape, kind = file[name].shape, file[name].dtype
         del file[name]
@@ -161,7 +163,8 @@ def test_what_the_program_refuses_is_refused(packed, change, text):
 
 @pytest.mark.chosen
 def test_values_are_no_more_bytes_than_the_file_can_hold(packed):
-    """Values that were never stored take the memory of those that were: bytes count, and one array of them is made."""
+    """Unwritten values take as much memory as stored ones: their bytes count, and one array of them is
+    made."""
     most = 1032 * os.path.getsize(packed) // 8
     for count, refused in ((most + (1 << 21), True), (1 << 20, False)):
         shutil.copy(KEPT, packed)
@@ -216,8 +219,9 @@ def test_an_ensemble_has_no_more_seeds_than_there_can_be(tmp_path, seeds):
 
 
 def ensemble_with(folder, analysed, scenario, manifest=None, seeds=(1, 2)):
-    """An ensemble of two members with one state hash, whose manifest says the hash of a scenario; the scenario is then
-    replaced by `scenario`. `manifest`: what is said to be its scenario; `seeds`: of the members that are done."""
+    """Creates an ensemble of two members with one state hash, whose manifest has the hash of a scenario;
+    the scenario is then replaced by `scenario`. `manifest` is the declared scenario; `seeds` are those of
+    finished members."""
     told = xxhash.xxh3_64_hexdigest((scenario if manifest is None else manifest).encode())
     (folder / "scenarios").mkdir()
     (folder / "scenarios/scenario.toml").write_text(scenario)
@@ -297,7 +301,7 @@ NUMBERS = [np.nan, np.inf, -np.inf, 0, -1, 1, 2, 1e300, -1e9, 3e38, 1 << 31, 127
 
 
 def spoil(file, chance, secret):
-    """Does one of the harms of tests/reliability/hostile_file.h to a data set of chance."""
+    """Applies one of the damages of tests/reliability/hostile_file.h to a random data set."""
     paths = []
     file.visititems(lambda name, item: paths.append(name) if isinstance(item, h5py.Dataset) and
                     not name.startswith("help/") else None)
@@ -355,7 +359,7 @@ def spoil_bytes(path, chance):
 
 
 def use_spoilt(seed, folder):
-    """One try of chance. Returns whether the run was refused."""
+    """Makes one random try. Returns whether the run was rejected."""
     chance = random.Random(seed)
     (folder / "secret").write_bytes(np.full(100000, SECRET).tobytes())
     for entry in folder.glob("run*"):
@@ -382,7 +386,7 @@ def use_spoilt(seed, folder):
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="only a child process survives")
 @pytest.mark.parametrize("changes", [{647: 0x0E}, {2480: 0x0E}, {642: 143, 721: 226}])
 def test_a_file_that_hdf5_crashes_on_is_an_error(tmp_path, changes):
-    """Addresses of lists of links that lie outside the file: HDF5 reads there."""
+    """Addresses of link lists outside the file, at which HDF5 reads."""
     data = bytearray(KEPT.read_bytes())
     assert data[647] == data[2480] == data[642] == 0xFF, "no addresses"
     for at, value in changes.items():

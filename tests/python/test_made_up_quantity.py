@@ -1,4 +1,4 @@
-"""A quantity of grains that is added to the table of quantities (tests/unit/quantity), and nowhere else, is found by its name."""
+"""A quantity of grains added only to the table of quantities (tests/unit/quantity) is found by its name."""
 
 import subprocess
 import sys

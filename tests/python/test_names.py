@@ -1,4 +1,4 @@
-"""Files may have any name: no command shows its bytes to a terminal, and what is written is UTF-8."""
+"""Files may have any name: no command shows its raw bytes on a terminal, and all output is UTF-8."""
 
 import json
 import os
@@ -13,12 +13,12 @@ from conftest import PROGRAM
 
 h5py = pytest.importorskip("h5py")
 
-#: An escape sequence, a line that begins anew, a byte of Latin-1, and a right-to-left mark.
+#: An escape sequence, a carriage return, a Latin-1 byte, and a right-to-left mark.
 NAME = b"b\x1b[31m\r\xf6\xe2\x80\xae"
 
 
 def call(*words, folder, code=0, **options):
-    """What a command says on both streams; it is text that a terminal only shows."""
+    """Returns the output of a command on both streams, which must not contain control sequences."""
     done = subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, **options)
     said = done.stdout + done.stderr
     assert done.returncode == code, said
@@ -29,7 +29,7 @@ def call(*words, folder, code=0, **options):
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory, analysed):
-    """A folder with a run and its scenario under names that are no text."""
+    """Creates a folder with a run and its scenario under names that are not valid text."""
     folder = tmp_path_factory.mktemp("names")
     shutil.copy(analysed, os.fsencode(folder) + b"/" + NAME + b".h5")
     shutil.copy(analysed.parent / "bed.toml", os.fsencode(folder) + b"/" + NAME + b".toml")
@@ -70,7 +70,7 @@ def test_text_of_files_is_utf8(place, tmp_path):
         file.visititems(lambda _, item: texts.append(item.asstr()[()]) if isinstance(item, h5py.Dataset)
                         and h5py.check_string_dtype(item.dtype) and item.shape == () else None)
         assert len(texts) > 20
-        # As bash reads it.
+        # Quoted for bash.
         assert r"$'b\x1b[31m\x0d\xf6\xe2\x80\xae.h5'" in file["provenance/command"].asstr()[()]
     with talus.open(tmp_path / "plain.h5") as run:
         assert run.frames
@@ -96,7 +96,7 @@ OUTPUTS = [["render", "analysed.h5", "--map", "gamma", "--at", "0"], ["panel", "
            ["figures", "analysed.h5", "--only", "fig04"], ["animate", "analysed.h5", "--map", "gamma"],
            ["ensemble", "bed.toml", "--seeds", "1", "--jobs", "0"]]
 
-#: Endings of output files, where a command asks for one.
+#: Extensions of output files, for commands that require one.
 ENDINGS = {"panel": ".png", "animate": ".mp4", "xyz": ".xyz", "repair": ".h5", "replay": ".h5", "run": ".h5", "dump": ".h5"}
 
 
@@ -111,7 +111,7 @@ def test_output_that_cannot_be_named_is_refused(analysed, tmp_path, words):
     for output in ("loop", "loop" + ending + "/x", "x" * 300, "y" * 300 + "/x", "/".join(["z" * 250] * 20)):
         output += ending
         done = subprocess.run([PROGRAM, *words, "-o", output], cwd=folder, capture_output=True, text=True)
-        # A whole run has nothing to repair.
+        # An intact run has nothing to repair.
         assert done.returncode == 73 or (words[0] == "repair" and done.returncode == 0), (output, done.stderr)
         assert "filesystem" not in done.stderr
 

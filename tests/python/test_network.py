@@ -1,12 +1,12 @@
-"""Measures of the network of contacts against what other programs, or plain sums, find in the same frames."""
+"""Measures of the contact network, compared with other programs or plain sums for the same frames."""
 
 import numpy as np
 import pytest
 
 
 def persistence(frame):
-    """Lifetimes of components and of loops of the graph of contacts between free grains as a threshold of their force
-    falls, by GUDHI: pairs of the force at which each is born, and that at which it dies, 0 if it does not."""
+    """Returns lifetimes of components and loops of the graph of contacts between free grains while the
+    force threshold decreases, by GUDHI: pairs of the forces at birth and at death, 0 if it does not die."""
     gudhi = pytest.importorskip("gudhi", reason="GUDHI is not installed: python3-gudhi")
     pairs, force = frame.contacts.pair, frame.contacts.force[:, 0]
     between = (pairs < np.flatnonzero(frame.free)[-1] + 1).all(axis=1)
@@ -21,7 +21,7 @@ def persistence(frame):
 
 
 def sliced_distance(one, other, directions=16):
-    """Of two diagrams, as a plain sum over directions."""
+    """Returns the distance of two diagrams as a plain sum over directions."""
     angles = np.pi * (np.arange(directions) / directions - 0.5)
     lines = np.stack([np.cos(angles), np.sin(angles)])
 

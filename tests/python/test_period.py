@@ -1,4 +1,5 @@
-"""A grain just below the end of the period stays below it, whoever reads it: in the file and in every export."""
+"""A grain just below the end of the period stays below it for every reader: in the file and in every
+export."""
 
 import csv
 import re
@@ -22,10 +23,10 @@ file = "{table}"
 """
 
 
-# 0.2 m and 0.5 m are above and at the float next to them, 0.7 m is below it: "0.7" is the shortest text of that float.
+# 0.2 m and 0.5 m are the next float or above it, 0.7 m is below it: "0.7" is the shortest text of that float.
 @pytest.fixture(scope="module", params=[20, 50, 70])
 def near_end(request, tmp_path_factory):
-    """The path of a run with the first grain just below L, and L in D."""
+    """Returns the path of a run with the first grain just below L, and L in D."""
     folder, length = tmp_path_factory.mktemp("period"), request.param
     (folder / "bed.csv").write_text(f"{length - 1e-8!r},0.5,0.5\n3,0.5,0.5\n")
     (folder / "bed.toml").write_text(BED.format(length=length, table=folder / "bed.csv"))

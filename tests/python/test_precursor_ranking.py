@@ -1,5 +1,5 @@
-"""The study of what announces failure (docs/studies/precursor_ranking.py), on measures with a known answer, on a made-up
-ensemble.h5 and on runs."""
+"""The study of precursors of failure (docs/studies/precursor_ranking.py), for measures with a known
+answer, for a made-up ensemble.h5 and for runs."""
 
 import sys
 
@@ -20,12 +20,13 @@ def root_mean_square(*measures):
 
 
 def curves(beds, slope, noise, offset=0.0):
-    """A measure that is `slope` times the distance, plus an offset of each bed and independent noise."""
+    """Returns a measure that is `slope` times the distance, plus an offset of each bed and independent
+    noise."""
     return slope * study.DISTANCES + np.zeros((beds, 1)) + offset + noise * RANDOM.standard_normal((beds, len(study.DISTANCES)))
 
 
 def test_estimate_is_the_mean_distance_once_the_measure_is_known():
-    """By the definition itself, for one bed of six."""
+    """Checks the definition directly, for one bed of six."""
     measure = curves(6, 1, 0.6, 0.1 * np.arange(6)[:, None])
     bed, at = 2, 5
     others = np.delete(measure, bed, axis=0)
@@ -76,9 +77,9 @@ def test_root_mean_square_has_the_error_of_its_mean():
 
 @pytest.fixture
 def ensemble(tmp_path):
-    """An ensemble.h5 of twelve beds that fail from 18 to 22 deg. `told` predicts the distance but for a scale of each bed,
-    `strain` but for an offset, `steep` is the sine of the tilt, `noise` nothing; `same` does not vary, and `lc/mean` is
-    at two thresholds."""
+    """Creates an ensemble.h5 of twelve beds that fail from 18 to 22 deg. `told` predicts the distance
+    except for a scale of each bed, `strain` except for an offset, `steep` is the sine of the tilt, `noise`
+    predicts nothing; `same` does not vary, and `lc/mean` is at two thresholds."""
     theta_c = 18 + 4 * (5 * np.arange(12) % 12) / 11
     tilt, left = np.arange(93) * 0.25, np.arange(93) * 0.25
     scale = RANDOM.uniform(1, 3, 12)[:, None]

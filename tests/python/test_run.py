@@ -1,4 +1,4 @@
-"""A run as a whole: what it says of itself, its units, its series and its analysis, against what `talus` prints."""
+"""Description, units, series and analysis of a run, compared with the output of `talus`."""
 
 import math
 import re

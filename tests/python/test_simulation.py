@@ -1,4 +1,4 @@
-"""A run that a script drives: bits, views, errors, threads, and docs/python.md as it is printed."""
+"""Simulations driven by a script: bits, views, errors, threads, and docs/python.md as printed."""
 
 import copy
 import importlib.util
@@ -28,13 +28,13 @@ def bed(**settings):
 
 
 def state_of(path):
-    """The state hash of a run, as `talus info` tells it."""
+    """Returns the state hash of a run as `talus info` prints it."""
     return json_of("info", path)["state_hash"]
 
 
 @pytest.fixture(scope="module")
 def reference(tmp_path_factory):
-    """The state hash and theta_c of `talus run`, and its file."""
+    """Returns state hash, theta_c and file of `talus run`."""
     folder = tmp_path_factory.mktemp("reference")
     scenario = folder / "bed.toml"
     scenario.write_text(bed().scenario)

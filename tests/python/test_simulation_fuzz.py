@@ -1,6 +1,6 @@
-"""Random calls of a simulation and of frames, most of them wrong: each succeeds or raises what Python knows, and leaves the simulation
-as a twin is that got only the calls that succeeded. TALUS_TRIES=1000 makes as many tries; a failure names its seed,
-and TALUS_SEED=12 repeats it alone."""
+"""Random calls of a simulation and of frames, most of them wrong: each succeeds or raises a documented
+error, and leaves the simulation in the state of a twin that received only the successful calls.
+TALUS_TRIES=1000 sets the number of tries; a failure names its seed, and TALUS_SEED=12 repeats it alone."""
 
 import contextlib
 import copy
@@ -25,11 +25,11 @@ CALLS = 60
 
 
 class HostileError(Exception):
-    """Of an object that was handed over."""
+    """Error of an object passed as argument."""
 
 
 class Hostile:
-    """Raises whatever is asked of it."""
+    """Raises an error for every access."""
 
     def raises(self, *_):
         raise HostileError
@@ -39,20 +39,20 @@ class Hostile:
 
 
 class Writer(io.StringIO):
-    """A terminal that is gone."""
+    """A terminal that has been closed."""
 
     def write(self, text):
         raise HostileError
 
 
-#: What a call may raise; a Hostile's own error reaches who handed it over.
+#: Errors that a call may raise; the error of a Hostile object reaches the caller.
 EXPECTED = (talus.Error, TypeError, AttributeError, HostileError, KeyboardInterrupt)
 endless = []
 endless.append(endless)
 
 
 def value(rng):
-    """Something, whatever is expected."""
+    """Returns a random object, whatever is expected."""
     return rng.choice([
         0, 1, 2, 5, -1, 0.01, 0.3, 1e-9, 1e300, -1e300, 5e-324, float("nan"), float("inf"), -float("inf"), 2**31, -2**31 - 1, 2**63, 2**64,
         10**400, True, None, "a", "1", "", "\0", "\ud800", "x" * 10000, "é", b"x", b"\xff", [], {}, (), object(), np.float32(1), np.int64(3),
@@ -62,7 +62,7 @@ def value(rng):
 
 
 def number(rng):
-    """Mostly what is expected."""
+    """Returns mostly a value of the expected kind."""
     return value(rng) if rng.random() < 0.4 else rng.choice([0, 1, 3, 17, 0.01, 0.05, 0.5, np.float64(0.2), rng.random()])
 
 
@@ -74,7 +74,7 @@ def name(rng):
 
 
 def write(view, rng):
-    """Nothing is written, whatever numpy says to it."""
+    """Attempts to write to a view, which must not succeed."""
     shape = value(rng)
     for wrong in (lambda: view.setflags(write=True), lambda: view.resize(7 if shape is None else shape), lambda: view.__setitem__(0, value(rng)),
                   lambda: np.add(view, 1, out=view)):
@@ -83,7 +83,7 @@ def write(view, rng):
 
 
 def until(rng, sim):
-    """A callback: it looks, throws, steps, or interrupts."""
+    """Returns a callback that inspects, raises, steps, or interrupts."""
     kind = rng.randrange(6)
     left = [rng.randrange(5)]
 
@@ -102,7 +102,7 @@ def until(rng, sim):
     return rng.choice([holds, holds, value(rng)])
 
 
-#: Calls that step or only look, and commands, which the twin gets as well if they succeed.
+#: Calls that step or only inspect, and commands, which the twin receives too if they succeed.
 LOOKS = {
     "step": lambda sim, rng: sim.step(number(rng)), "deposit": lambda sim, rng: sim.deposit(),
     "tilt_to": lambda sim, rng: sim.tilt_to(number(rng)), "tilt_by": lambda sim, rng: sim.tilt_by(number(rng)),
@@ -136,7 +136,7 @@ STEPPING = ("step", "deposit", "tilt_to", "tilt_by", "run", "finish", "run until
 
 
 def catch_up(twin, sim):
-    """What was stepped before an error is kept, and chunks do not matter."""
+    """Steps made before an error are kept, and the division into chunks does not matter."""
     while (before := twin.step_count) < sim.step_count:
         with contextlib.suppress(talus.Error):
             twin.step(sim.step_count - before)
@@ -155,7 +155,7 @@ def check_whole(sim, twin):
 
 
 def attempt(do, *arguments):
-    """Whether a call succeeds; one that steps for long is interrupted."""
+    """Returns whether a call succeeds; a call that steps for long is interrupted."""
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.1)
         do(*arguments)
@@ -209,12 +209,12 @@ def test_calls_of_chance_leave_a_simulation_whole(seed, tmp_path, monkeypatch):
             raise AssertionError(where) from error
         views.append(sim.grains.position)
         del views[:-5]
-    with contextlib.suppress(talus.Error):  # released already, or over
+    with contextlib.suppress(talus.Error):  # already released, or ended
         sim.tilt_rate = 90
     end = sim.state_hash, sim.done
     del sim
     assert all(np.isfinite(view).all() for view in views)
-    views.clear()  # they keep the simulation, and it its recording
+    views.clear()  # they keep the simulation alive, and it keeps its recording
     if recorded and not end[1]:
         resumed = talus.resume("run.h5", progress=False)
         assert resumed.state_hash == end[0], f"TALUS_SEED={seed}"

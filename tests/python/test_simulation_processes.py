@@ -1,5 +1,5 @@
-"""A simulation and the process it lives in: forks, signals, the end of the interpreter, full disks. Each test is a script that must
-end by itself, with code 0."""
+"""A simulation and its process: forks, signals, the end of the interpreter, full disks. Each test is a
+script that must end by itself with code 0."""
 
 import os
 import re
@@ -44,7 +44,7 @@ def in_child(do):
 
 
 def script(text, *words, folder=None, **options):
-    """What a script prints."""
+    """Returns the output of a script."""
     done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *map(str, words)], cwd=folder, capture_output=True, text=True,
                           timeout=300, **options)
     assert done.returncode == 0, done.stderr

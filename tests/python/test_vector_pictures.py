@@ -1,5 +1,5 @@
-"""Pictures as PDF and SVG look as the PNG of the same command, drawn by programs that share nothing with ours, and their texts are
-texts."""
+"""Pictures as PDF and SVG look like the PNG of the same command when drawn by independent programs, and
+their texts are texts."""
 
 import re
 import shutil
@@ -16,7 +16,8 @@ for program, package in (("pdftocairo", "poppler-utils"), ("rsvg-convert", "libr
 
 pytestmark = pytest.mark.chosen
 WIDTH = 1600
-#: Mean difference of all channels, of their range: edges of discs and letters are smoothed in other ways.
+#: Mean difference over all channels, relative to their range: edges of discs and letters are smoothed
+#: differently.
 TOLERANCE = 0.015
 MAPS = ["gamma", "clusters+displacement", "pressure+forces"]
 
@@ -26,7 +27,7 @@ def pixels(path):
 
 
 def drawn(document):
-    """As the programs that people have draw it, WIDTH px wide."""
+    """Returns the picture drawn by a common program, WIDTH px wide."""
     made = document.with_name(document.name + ".png")
     if document.suffix == ".pdf":
         words = ["pdftocairo", "-png", "-singlefile", "-scale-to-x", WIDTH, "-scale-to-y", -1, document, made.with_suffix("")]
@@ -42,7 +43,7 @@ def texts_of_pdf(path):
 
 @pytest.fixture(scope="module")
 def pictures(analysed, tmp_path_factory):
-    """One picture of each map and a panel, in three formats."""
+    """Creates one picture of each map and a panel, in three formats."""
     folder = tmp_path_factory.mktemp("vector")
     options = ["--for", "paper", "--theta-c", "20", "-q"]
     for ending in ("png", "pdf", "svg"):
@@ -63,7 +64,7 @@ def test_documents_look_as_the_png(pictures, ending):
         rows = min(len(found), len(wanted))
         difference = np.abs(found[:rows] - wanted[:rows]).mean()
         assert difference < TOLERANCE, f"{document.name}: {difference}"
-        # The same picture moved by two pixels is another one.
+        # The same picture moved by two pixels must differ.
         assert np.abs(found[:rows - 2] - wanted[2:rows]).mean() > TOLERANCE, document.name
 
 

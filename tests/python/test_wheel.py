@@ -1,5 +1,5 @@
-"""The package as others install it: wheels that are built and installed without a network, with the extension and without,
-and cmake --install."""
+"""The installed package: wheels built and installed without a network, with and without the extension, and
+cmake --install."""
 
 import importlib.util
 import os
@@ -22,8 +22,8 @@ def call(*words, **options):
 
 
 def check_installed(folder, path, extension):
-    """The package in `folder` is whole, and from another place than the sources it reads a run, and steps a bed or says what
-    is missing."""
+    """Checks that the package in `folder` is complete and, outside the sources, reads a run, and steps a
+    bed or reports what is missing."""
     files = sorted(file.name for file in (folder / "talus").iterdir() if file.is_file())
     assert [name for name in files if not name.endswith(".so")] == FILES
     assert len(files) == len(FILES) + extension

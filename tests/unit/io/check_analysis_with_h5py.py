@@ -1,4 +1,4 @@
-"""Opens a packed run with an analysis with h5py and checks what stands beside its numbers.
+"""Opens a packed run with an analysis with h5py and checks the attributes of its numbers.
 
 Usage: check_analysis_with_h5py.py RUN.h5
 """
