@@ -56,7 +56,7 @@ void select_contact(Gui& gui, double x, double y) {
   if (contact)
     gui.model.select(*contact);
   else
-    gui.model.state.message = "There is no contact with a force here.";
+    gui.model.state.message = "No contact carries a force here.";
 }
 
 /// Applies the finished outline when the mouse button is released.

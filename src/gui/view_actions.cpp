@@ -69,7 +69,7 @@ void move_picture(Gui& gui, double dx, double dy) {
   const view::ViewCamera& camera = model.state.camera;
   model.state.selecting.follow = false;
   if (model.look({camera.centre_x + dx, camera.centre_y + dy, camera.zoom})) return;
-  say(gui, "The bed ends here; zoom in (+ or the wheel) to move the picture.");
+  say(gui, "The bed ends there; zoom in (+ or the wheel) to move the picture.");
 }
 
 void show_whole_bed(Gui& gui) {

@@ -64,10 +64,10 @@ TEST_F(AfterFailure, the_angle_at_rest_is_told) {
       ++keys[line.substr(at + 1, line.find('"', at + 1) - at - 1)];
   for (const char* key : {"theta_c", "theta_c_deg", "theta_r", "theta_r_deg"}) EXPECT_EQ(keys[key], 1) << key;
   EXPECT_NEAR(degrees(std::stod(info("bed.h5", "theta_c"))), std::stod(info("bed.h5", "theta_c_deg")), 1e-9);
-  EXPECT_EQ(theta_r, info("bed.h5", "tilt_deg")) << "a periodic bed has no other slope";
+  EXPECT_EQ(theta_r, info("bed.h5", "tilt_deg")) << "the only slope of a periodic bed";
   EXPECT_GT(std::stoi(info("bed.h5", "frames_after_failure")), 0);
   EXPECT_GT(std::stod(info("bed.h5", "tilt_last_deg")), std::stod(info("bed.h5", "theta_c_deg")))
-      << "the last frame of the tilt is that of failure";
+      << "the last frame of the tilt is the frame of failure";
   const std::string text = talus({"info", "bed.h5"}).out;
   EXPECT_NE(text.find("theta_r"), std::string::npos) << text;
 }
@@ -115,7 +115,7 @@ TEST_F(AfterFailure, a_flow_that_was_stopped_is_resumed_to_the_same_bits) {
     if (wait_for(process) == 0) break;
     if (info("parts.h5", "theta_c_deg") != "null") ++stops_in_flow;
   }
-  EXPECT_GT(stops_in_flow, 0) << "the flow was never interrupted: nothing was tested";
+  EXPECT_GT(stops_in_flow, 0) << "the flow was never interrupted, so nothing was tested";
   ASSERT_EQ(talus({"run", "--resume", "parts.h5"}).exit_code, 0);
   for (const char* key : {"state_hash", "theta_r", "frames", "frames_after_failure", "steps"})
     EXPECT_EQ(info("parts.h5", key), info("whole.h5", key)) << key;

@@ -63,7 +63,7 @@ TEST_F(Analyze, keeps_what_is_stored_and_valid) {
   EXPECT_EQ(written(), first);
   expect_parts(analyze({"--set", "gamma_c=0.2"}).out, {"(analysis stored in the file)"});
   expect_parts(analyze({"--set", "gamma_c=0.2", "--force"}).out, {"(analysis stored in the file)"});
-  EXPECT_EQ(info(), before) << "the run is the same";
+  EXPECT_EQ(info(), before) << "the run is unchanged";
 }
 
 TEST_F(Analyze, gives_the_same_from_the_file_as_computed) {
@@ -71,12 +71,12 @@ TEST_F(Analyze, gives_the_same_from_the_file_as_computed) {
   const std::string read = analyze({"--json", "--set", "gamma_c=0.3"}).out;
   EXPECT_EQ(json_value(read, "state"), "analysis read from the file");
   const std::string forced = analyze({"--json", "--set", "gamma_c=0.3", "--threads", "3", "--force"}).out;
-  EXPECT_EQ(forced, computed) << "on another number of threads";
+  EXPECT_EQ(forced, computed) << "with another number of threads";
   const auto numbers = [](const std::string& text) { return text.substr(text.find("\"key\"")); };
   EXPECT_EQ(numbers(read), numbers(computed));
-  EXPECT_EQ(json_value(computed, "gamma_c"), "0.3") << "the parameter, before the data set";
+  EXPECT_EQ(json_value(computed, "gamma_c"), "0.3") << "the parameter precedes the data set";
   EXPECT_EQ(json_value(computed, "theta_c"), "null");
-  EXPECT_EQ(computed.find("lc/length"), std::string::npos) << "of single grains";
+  EXPECT_EQ(computed.find("lc/length"), std::string::npos) << "values of single grains";
   expect_parts(computed, {"\"overloaded/fraction\": [[", "\"threshold\": [0.3, 0.6]", "\"tilt\": [0, "});
 }
 

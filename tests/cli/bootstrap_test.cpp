@@ -59,7 +59,7 @@ TEST_F(BootstrapDemo, works_as_often_as_it_is_typed) {
   const fs::path first = maps / *names.begin();
   const std::string pixels = pixels_of(first);
   ASSERT_EQ(demo(2), 0) << said();
-  EXPECT_FALSE(pixels_of(first) == pixels) << *names.begin() << " is still that of the first run";
+  EXPECT_FALSE(pixels_of(first) == pixels) << *names.begin() << " is left over from the first run";
   EXPECT_NE(said().find("From deposition to avalanche"), std::string::npos) << said();
 }
 

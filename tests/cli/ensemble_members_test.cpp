@@ -41,13 +41,13 @@ TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
                      folder.path());
   };
   EXPECT_EQ(ensemble("a.csv,typo.csv").exit_code, 66);
-  EXPECT_FALSE(std::filesystem::exists(folder.path("e"))) << "refused before anything is made";
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e"))) << "rejected before anything is created";
   EXPECT_EQ(ensemble("a.csv").exit_code, 0);
   EXPECT_EQ(ensemble("a.csv,typo.csv").exit_code, 66);
   EXPECT_EQ(ensemble("a.csv,b.csv", "0").exit_code, 0);
   // A member whose bed disappears later fails, and the others continue.
   std::filesystem::rename(folder.path("b.csv"), folder.path("c.csv"));
-  EXPECT_EQ(ensemble("a.csv,c.csv", "0").exit_code, 0) << "b.csv, which cannot be had, is withdrawn";
+  EXPECT_EQ(ensemble("a.csv,c.csv", "0").exit_code, 0) << "b.csv is unavailable and is withdrawn";
   EXPECT_EQ(ensemble("c.csv").out.find("e: 4 of 4 done"), 0u);
   std::filesystem::rename(folder.path("c.csv"), folder.path("b.csv"));
   const Outcome more = run_talus(
@@ -80,7 +80,7 @@ TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew)
     const Outcome average = run_talus({"ensemble", "average", "e"}, folder.path());
     EXPECT_EQ(average.exit_code, 65);
     EXPECT_EQ(std::ranges::count(text_of(folder.path("e/members.csv")), '\n'), 3)
-        << "those of the others are there";
+        << "rows of the other members are written";
     if (number % 2 == 0) {
       const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
       EXPECT_EQ(retry.exit_code, 0) << retry.err;
@@ -92,7 +92,7 @@ TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew)
     EXPECT_EQ(text_of(folder.path("e/averages.csv")), averages);
     const std::string aside =
         ++number == 1 ? "e/seed-2.h5.damaged" : "e/seed-2.h5.damaged-" + std::to_string(number);
-    EXPECT_TRUE(text_of(folder.path(aside)) == damaged) << "nothing is lost";
+    EXPECT_TRUE(text_of(folder.path(aside)) == damaged) << "no data are lost";
   }
 }
 
@@ -108,8 +108,8 @@ TEST(EnsembleMembers, of_another_scenario_stop_no_others) {
   const Outcome more = run_talus(ensemble_of("e", "1-3"), folder.path());
   EXPECT_EQ(more.exit_code, 65);
   EXPECT_NE(more.err.find("e/seed-1.h5 is a run of another scenario"), std::string::npos) << more.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-3.h5"))) << "it was computed all the same";
-  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.h5.damaged"))) << "it is whole";
+  EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-3.h5"))) << "it was computed anyway";
+  EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.h5.damaged"))) << "it is complete";
 }
 
 TEST(EnsembleMembers, of_a_value_with_a_mistake_are_withdrawn_though_they_had_begun) {
@@ -146,7 +146,7 @@ TEST(EnsembleMembers, knows_whose_a_run_is) {
   };
   EXPECT_TRUE(refused_with(there + "1.h5", here + "1.h5")) << "another scenario";
   EXPECT_TRUE(refused_with(here + "1.h5", here + "2.h5")) << "another seed";
-  EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0) << "all is as it was";
+  EXPECT_EQ(run_talus({"ensemble", "average", "e"}, folder.path()).exit_code, 0) << "everything is unchanged";
 }
 
 TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {

@@ -77,7 +77,7 @@ TEST_F(EnsembleSubmit, has_a_script_that_computes_members_by_itself) {
   EXPECT_EQ(std::system(run.c_str()), 0);
   EXPECT_TRUE(has(ensemble("status").out, "4 of 4 done")) << text_of(file("workers/slurm-12_3.log"));
   EXPECT_TRUE(has(text_of(file("workers/slurm-12_3.log")), "seed-4 done\n"));
-  EXPECT_FALSE(fs::exists(folder_.path() / "oops")) << "the name of the folder was run";
+  EXPECT_FALSE(fs::exists(folder_.path() / "oops")) << "the name of the folder was executed";
   const Outcome more = ensemble("submit");
   EXPECT_EQ(more.exit_code, 0);
   EXPECT_TRUE(has(more.out, "4 of 4 done, 0 under way; nothing is missing\n")) << more.out;
@@ -96,7 +96,7 @@ TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
   command("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
   command("sbatch", "echo 14");
   EXPECT_TRUE(has(ensemble("submit").out, "job 14: 4 tasks"));
-  EXPECT_FALSE(fs::exists(file("slurm/job-12.csv"))) << "it is over";
+  EXPECT_FALSE(fs::exists(file("slurm/job-12.csv"))) << "it has ended";
   EXPECT_TRUE(fs::exists(file("slurm/job-14.csv")));
 }
 
@@ -109,7 +109,7 @@ TEST_F(EnsembleSubmit, shows_what_sbatch_says_and_obeys_nothing_of_it) {
       << refused.err;
   EXPECT_FALSE(has(refused.err, "\033"));
   command("sbatch", "echo 'Submitted batch job'");
-  EXPECT_EQ(ensemble("submit").exit_code, 69) << "no number";
+  EXPECT_EQ(ensemble("submit").exit_code, 69) << "not a number";
   fs::remove(folder_.path() / "bin/sbatch");
   const Outcome missing =
       run_talus({"ensemble", "submit", "./" + name_}, folder_.path(), {"PATH=" + folder_.path("bin")});
@@ -141,7 +141,7 @@ TEST_F(EnsembleSubmit, can_be_cancelled) {
   const Outcome refused = ensemble("cancel");
   EXPECT_EQ(refused.exit_code, 69);
   EXPECT_TRUE(has(refused.err, "no permission")) << refused.err;
-  EXPECT_TRUE(fs::exists(file("slurm/job-12.csv"))) << "it may still be there";
+  EXPECT_TRUE(fs::exists(file("slurm/job-12.csv"))) << "it may still exist";
   command("scancel", "");
   EXPECT_TRUE(has(ensemble("cancel").out, "job 12 is cancelled\n"));
   EXPECT_TRUE(called().ends_with("scancel\n12\n")) << called();
@@ -165,7 +165,7 @@ TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
   std::ofstream(file("seed-1.h5")) << "done";
   std::ofstream(file("seed-2.failed")) << "exit code 65\n\n";
   fs::remove(file("seed-1.h5"));
-  EXPECT_EQ(talus(words, task).exit_code, 0) << "a member has come to its end";
+  EXPECT_EQ(talus(words, task).exit_code, 0) << "a member has reached its end";
   command("scontrol", "echo 'Job is disabled' >&2; exit 1");
   std::ofstream(file("seed-3.failed")) << "exit code 65\n\n";
   EXPECT_EQ(talus(words, task).exit_code, 69);
@@ -186,7 +186,7 @@ TEST_F(EnsembleSubmit, prints_a_worker_on_each_line) {
   write_file(folder_, "lines", printed.out);
   EXPECT_EQ(std::system(("cd / && bash '" + folder_.path("lines") + "' > /dev/null").c_str()), 0);
   EXPECT_TRUE(has(ensemble("status").out, "4 of 4 done"));
-  EXPECT_EQ(ensemble("submit", {"--engine", "print"}).out, "") << "no command, so nothing that would be run";
+  EXPECT_EQ(ensemble("submit", {"--engine", "print"}).out, "") << "not a command, so nothing may be executed";
 }
 
 TEST_F(EnsembleSubmit, of_a_bad_form_is_refused) {

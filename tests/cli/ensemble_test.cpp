@@ -191,7 +191,7 @@ TEST(Ensemble, that_keeps_less_goes_on_from_what_is_there) {
   EXPECT_EQ(text_of(folder.path("e/averages.csv")), before);
   const auto written = std::filesystem::last_write_time(folder.path("e/seed-2.h5"));
   EXPECT_EQ(run_talus(ensemble_of("e", "4"), folder.path()).exit_code, 0)
-      << "the folder remembers what it keeps";
+      << "the folder records what it keeps";
   EXPECT_FALSE(has_frames(4));
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("e/seed-2.h5")), written);
   const Outcome status = run_talus({"ensemble", "status", "e"}, folder.path());
@@ -218,7 +218,7 @@ TEST(Ensemble, of_an_earlier_version_goes_on_with_what_it_has_kept_of_runs) {
   ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
   for (const char* table : {"e/seed-1.csv", "e/seed-2.csv"})
     write_file(folder, table, "quantity,unit,value\n");
-  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0) << "beside their runs";
+  EXPECT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0) << "next to their runs";
   std::filesystem::remove(folder.path("e/seed-2.h5"));
   for (const std::vector<std::string>& words : {ensemble_of("e", "1-2"), {"ensemble", "work", "e"}}) {
     const Outcome lost = run_talus(words, folder.path());
@@ -247,7 +247,8 @@ TEST(Ensemble, is_shared_by_workers_which_begin_each_member_once) {
   for (int k = 0; k < 2; ++k) ends.push_back(run_talus({"ensemble", "work", "e"}, folder.path()));
   EXPECT_EQ(wait_for(first), 0) << errors_in(folder.path());
   for (const Outcome& end : ends) EXPECT_EQ(end.exit_code, 0) << end.err;
-  EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 13u) << "it waits for what others compute";
+  EXPECT_EQ(count_of_lines(text_of(folder.path("e/members.csv"))), 13u)
+      << "it waits for members that others compute";
   std::string begun;
   for (const Outcome& end : ends) begun += end.out;
   for (const auto& log : std::filesystem::directory_iterator(folder.path("e/workers")))
@@ -349,7 +350,7 @@ TEST(Ensemble, shows_what_failed_leaves_it_out_and_tries_it_again) {
   EXPECT_NE(failed.out.find("failed: seed-1, exit code 65: talus: error: "), std::string::npos) << failed.out;
   EXPECT_NE(failed.err.find("left out of the means"), std::string::npos) << failed.err;
   EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("begun"), std::string::npos)
-      << "what failed stays as it is";
+      << "a failed member stays unchanged";
   const Outcome retry = run_talus({"ensemble", "retry", "e"}, folder.path());
   EXPECT_NE(retry.out.find("2 members are waiting again"), std::string::npos) << retry.out;
   EXPECT_NE(run_talus({"ensemble", "work", "e"}, folder.path()).out.find("seed-1 begun"), std::string::npos);
@@ -389,7 +390,7 @@ TEST(Ensemble, stops_in_time_and_goes_on_where_it_was) {
 TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  EXPECT_EQ(run_talus({"ensemble", "bed.toml"}, folder.path()).exit_code, 64) << "no folder";
+  EXPECT_EQ(run_talus({"ensemble", "bed.toml"}, folder.path()).exit_code, 64) << "not a folder";
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--until", "theta_c", "-o", "e"}, folder.path()).exit_code,
             64);
   EXPECT_EQ(run_talus({"ensemble", "bed.toml", "--seeds", "4-1", "-o", "e"}, folder.path()).exit_code, 64);
@@ -401,7 +402,7 @@ TEST(Ensemble, of_a_bad_form_is_refused_before_anything_is_made) {
             64);
   EXPECT_EQ(run_talus({"ensemble", "status", "e"}, folder.path()).exit_code, 66);
   EXPECT_EQ(run_talus({"ensemble", "work", ""}, folder.path()).exit_code, 64)
-      << "as work \"$FOLDER\" without it";
+      << "same as work \"$FOLDER\" without it";
   EXPECT_FALSE(std::filesystem::exists(folder.path("e")));
 }
 

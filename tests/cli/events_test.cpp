@@ -86,7 +86,7 @@ TEST_F(Events, name_the_first_grains_that_moved_so_far) {
   EXPECT_TRUE(csv.out.starts_with(
       "run,grain,frame,tilt (rad),time (s),x (m),y (m),depth (m),displacement (m)\n\"bed.h5\","))
       << csv.out;
-  EXPECT_GT(std::ranges::count(csv.out, '\n'), 41) << "all of both runs";
+  EXPECT_GT(std::ranges::count(csv.out, '\n'), 41) << "all events of both runs";
   const Outcome json = events({"--displacement", "5", "--json"});
   expect_texts(json.out, {"[{\n  \"path\": \"bed.h5\"", "\"displacement\": 0.05", "\"grains\": []"});
   expect_texts(events({"--displacement", "5"}).out,

@@ -116,7 +116,7 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
   Words over = words;
   over.emplace_back("--overwrite");
   EXPECT_EQ(exported(over).exit_code, 0);
-  EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is no folder";
+  EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is not a folder";
   for (const char* format : {"xyz", "lammps", "graphml", "observables", "html"}) {
     const std::string ending = format == std::string("lammps")        ? ".dump"
                                : format == std::string("observables") ? ".csv"
@@ -129,12 +129,12 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
     EXPECT_EQ(exported(one).exit_code, 73) << format;
     one.emplace_back("--overwrite");
     EXPECT_EQ(exported(one).exit_code, 0) << format;
-    EXPECT_EQ(text_of(folder_.path() / ("one" + ending)), made) << format << ": the same each time";
+    EXPECT_EQ(text_of(folder_.path() / ("one" + ending)), made) << format << ": identical each time";
   }
 }
 
 TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
-  // The tilt between frames is small, so that there are many of them.
+  // A small tilt between frames gives many frames.
   take_run(folder_, "long.h5",
            "seed = 3\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nend_angle = 2\n[output]\n"
            "frame_every = 0.01\n");
@@ -142,8 +142,7 @@ TEST_F(Export, leaves_whole_files_where_it_is_stopped) {
   while (!has_ended(process) && files("out/frames").size() < 6) usleep(1000);
   kill(process, SIGINT);
   ASSERT_EQ(wait_for(process), 75) << errors_in(folder_.path());
-  EXPECT_FALSE(std::filesystem::exists(folder_.path("out/grains.pvd")))
-      << "it would name files that are missing";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out/grains.pvd"))) << "it would name missing files";
   for (const std::string& name : files("out/frames"))
     EXPECT_TRUE(name.ends_with(".talus.part") ||
                 text_of(folder_.path() / "out/frames" / name).ends_with("</VTKFile>\n"))

@@ -69,7 +69,7 @@ TEST_F(Figures, are_files_of_each_kind) {
                          "fig09-overloaded-fraction-pbc-l-10-d.csv", "fig09-overloaded-fraction.gp",
                          "fig09-overloaded-fraction.json", "fig09-overloaded-fraction.pdf",
                          "fig09-overloaded-fraction.png", "fig09-overloaded-fraction.svg"}))
-      << "and nothing is left of making them";
+      << "no temporary files are left";
   EXPECT_TRUE(content(out("fig04-shear-stress.pdf")).starts_with("%PDF-"));
   EXPECT_TRUE(content(out("fig04-shear-stress.png")).starts_with("\x89PNG\r\n"));
   expect_parts(content(out("fig04-shear-stress.svg")), {"<svg", "</svg>"});
@@ -215,7 +215,7 @@ TEST_F(Figures, of_a_wildcard_are_of_the_runs_in_it) {
   EXPECT_EQ(none.exit_code, 65);
   expect_parts(none.err, {"none of these 2 files is a run"});
   const Outcome alone = run_talus({"figures", "problem.h5", "-o", "none"}, folder_.path());
-  EXPECT_EQ(alone.exit_code, 65) << "what was asked for alone is no surprise";
+  EXPECT_EQ(alone.exit_code, 65) << "an explicit request gives no warning";
   const Outcome missing = run_talus({"figures", "bed.h5", "missing.h5", "-o", "none"}, folder_.path());
   EXPECT_EQ(missing.exit_code, 66);
   const Outcome analysis = run_talus({"analyze", "problem.h5", "bed.h5", "-q"}, folder_.path());

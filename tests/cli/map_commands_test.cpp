@@ -128,7 +128,7 @@ TEST_F(MapCommands, refuse_what_the_run_does_not_have) {
     const Outcome outcome = talus(arguments);
     EXPECT_EQ(outcome.exit_code, code) << outcome.err;
     EXPECT_NE(outcome.err.find(part), std::string::npos) << part << ": " << outcome.err;
-    EXPECT_FALSE(fs::exists(folder_.path() / "bed-maps")) << "nothing is made before all is checked";
+    EXPECT_FALSE(fs::exists(folder_.path() / "bed-maps")) << "nothing is created before all checks";
   }
 }
 
@@ -198,7 +198,7 @@ TEST_F(MapCommands, pictures_that_are_right_are_kept_and_the_others_refused) {
   }
   EXPECT_EQ(render(first + Words{"--turned", "--overwrite"}).exit_code, 0);
   EXPECT_NE(file_bytes(kept), bytes);
-  EXPECT_EQ(render(first + Words{"--turned"}).exit_code, 0) << "those are kept now";
+  EXPECT_EQ(render(first + Words{"--turned"}).exit_code, 0) << "the new pictures are kept";
 }
 
 TEST_F(MapCommands, pictures_of_a_run_that_was_made_again_are_drawn_again_by_the_same_command) {
@@ -233,7 +233,7 @@ TEST_F(MapCommands, pictures_of_another_run_are_not_taken_for_those_of_this_one)
   EXPECT_EQ(draw("other.h5"), 73);
   fs::create_directory(folder_.path() / "elsewhere");
   fs::rename(folder_.path() / "other.h5", folder_.path() / "elsewhere/bed.h5");
-  EXPECT_EQ(draw("elsewhere/bed.h5"), 73) << "a file of the same name elsewhere is another";
+  EXPECT_EQ(draw("elsewhere/bed.h5"), 73) << "a file of the same name elsewhere is different";
 }
 
 TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {
@@ -244,7 +244,7 @@ TEST_F(MapCommands, a_foreign_file_is_refused_before_anything_is_drawn) {
   EXPECT_EQ(files("maps"), (std::set<std::string>{"pressure_001.50.png"}));
   EXPECT_EQ(file_bytes(folder_.path() / "maps/pressure_001.50.png"), "precious");
   write_file(folder_, "file", "");
-  EXPECT_EQ(render({"--map", "pressure", "-o", "file/maps"}).exit_code, 73) << "no folder there";
+  EXPECT_EQ(render({"--map", "pressure", "-o", "file/maps"}).exit_code, 73) << "not a folder";
 }
 
 TEST_F(MapCommands, a_frame_has_the_same_colours_alone_as_among_all) {
@@ -324,7 +324,7 @@ TEST_F(MapCommands, a_stopped_job_is_taken_up_where_it_was) {
   for (int wait = 0; wait < 1000 && files("maps").empty(); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   kill(process, SIGTERM);
-  ASSERT_EQ(wait_for(process), 75) << "it was done before it could be stopped: nothing was tested";
+  ASSERT_EQ(wait_for(process), 75) << "it finished before it could be stopped, so nothing was tested";
   const std::size_t there = files("maps").size();
   EXPECT_LT(there, 20u);
   for (const std::string& name : files("maps"))

@@ -157,7 +157,7 @@ TEST_F(Problem, refusals_leave_with_the_code_of_their_cause) {
   EXPECT_EQ(talus({"solve", "none.h5"}).exit_code, 66);
   write_file(folder, "text.h5", "no HDF5");
   EXPECT_EQ(talus({"solve", "text.h5"}).exit_code, 65);
-  EXPECT_EQ(talus({"solve", "bed.h5"}).exit_code, 65) << "a run is no problem";
+  EXPECT_EQ(talus({"solve", "bed.h5"}).exit_code, 65) << "a run is not a problem";
   EXPECT_EQ(talus({"solve", "p.h5", "--tol", "0"}).exit_code, 64);
   EXPECT_EQ(talus({"solve", "p.h5", "--solver", "magic"}).exit_code, 64);
   EXPECT_EQ(talus({"solve", "p.h5", "-o", "p.h5"}).exit_code, 73);

@@ -52,7 +52,7 @@ def check_law(w, q, mu, r, u, eta):
     # Residual of complementarity and Coulomb's law relative to the effect of free fall.
     small = 300 * eta * np.linalg.norm(r) * np.linalg.norm(q)
     assert abs(rn @ un) < small and un.min() > -1e3 * eta * np.abs(q).max()
-    assert abs(np.sum(mu * rn * np.abs(ut) + rt * ut)) < small, "sliding is opposed by the whole friction"
+    assert abs(np.sum(mu * rn * np.abs(ut) + rt * ut)) < small, "sliding is opposed by full friction"
 
 
 def check(path, eta):

@@ -111,7 +111,7 @@ TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {
   EXPECT_EQ(talus({"replay", "bed.h5", "-o", "other.h5"}).exit_code, 73);
   EXPECT_EQ(talus({"replay", "bed.h5", "--overwrite"}).exit_code, 64);
   EXPECT_EQ(talus({"replay", "bed.h5", "-o", "./bed.h5", "--overwrite"}).exit_code, 64);
-  EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0) << "it is still there";
+  EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0) << "it still exists";
 }
 
 /// A run whose tilt is held, and which claims more steps than can be replayed.

@@ -17,7 +17,7 @@ TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
                            "data:image/png;base64,", "<td>walls, L = 150 D</td>", ">1 of 1</td>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find(">0 of 1</td>"), std::string::npos) << "a bed is missing";
-  EXPECT_EQ(page.find("src=\"figures"), std::string::npos) << "the page needs files beside it";
+  EXPECT_EQ(page.find("src=\"figures"), std::string::npos) << "the page requires other files";
 
   const auto drawn =
       std::filesystem::last_write_time(folder.path("quick/figures/fig12-coarse-graining-length.png"));
@@ -41,7 +41,7 @@ TEST(QuickReproduction, writes_a_whole_report_and_keeps_all_of_it) {
                       folder.path())
                 .exit_code,
             0)
-      << "as talus run leaves it, without an analysis and readings";
+      << "like the output of talus run, without an analysis and readings";
   const Outcome third = run_talus(command, folder.path());
   ASSERT_EQ(third.exit_code, 0) << third.err;
   EXPECT_EQ(std::filesystem::last_write_time(other), untouched);

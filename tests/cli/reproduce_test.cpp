@@ -55,7 +55,7 @@ TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   EXPECT_TRUE(goes_on());
   kill(second, SIGTERM);
   EXPECT_EQ(wait_for(second), 75);
-  EXPECT_GE(steps_of_first_run(folder), steps) << "it began again";
+  EXPECT_GE(steps_of_first_run(folder), steps) << "it restarted";
   EXPECT_FALSE(std::filesystem::exists(folder.path("quick/report.html")));
 }
 

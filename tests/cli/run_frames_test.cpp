@@ -75,7 +75,7 @@ TEST_F(RunFrames, of_an_interrupted_run_are_those_of_a_whole_one) {
     if (code == 0) break;
     if (!names_in(folder_.path() / "parts").empty()) ++stops;
   }
-  EXPECT_GT(stops, 0) << "it was never interrupted while it drew: nothing was tested";
+  EXPECT_GT(stops, 0) << "it was never interrupted while drawing, so nothing was tested";
   const Outcome last = talus(run("parts.h5", "parts", few));
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_EQ(info("parts.h5", "state_hash"), info("whole.h5", "state_hash"));

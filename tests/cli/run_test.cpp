@@ -35,7 +35,7 @@ TEST(Run, leaves_one_file_that_tells_what_it_holds) {
   EXPECT_EQ(json_value(json, "grains"), "96");
   EXPECT_EQ(json_value(json, "frames"), "7") << "0, 0.5, ... 3 deg";
   EXPECT_EQ(json_value(json, "complete"), "true");
-  EXPECT_EQ(json_value(json, "theta_c_deg"), "null") << "this bed stands at 3 deg";
+  EXPECT_EQ(json_value(json, "theta_c_deg"), "null") << "this bed is stable at 3 deg";
   EXPECT_EQ(json_value(json, "state_hash").size(), 16u);
 }
 
@@ -228,7 +228,7 @@ TEST(Run, maps_are_drawn_from_the_file) {
   const TemporaryFolder folder;
   take_run(folder, "bed.h5", small_bed);
   const Outcome refused = run_talus({"render", "bed.h5", "--map", "overloaded", "-o", "maps"}, folder.path());
-  EXPECT_EQ(refused.exit_code, 65) << "this bed did not fail: Gamma_c is not known";
+  EXPECT_EQ(refused.exit_code, 65) << "this bed did not fail, so Gamma_c is unknown";
   const Outcome outcome = run_talus(
       {"render", "bed.h5", "--map", "gamma,overloaded", "--theta-c", "20", "--at", "0,2", "-o", "maps"},
       folder.path());

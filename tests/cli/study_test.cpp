@@ -84,7 +84,7 @@ TEST(Study, that_is_complete_is_only_read) {
   ASSERT_EQ(study.exit_code, 0) << study.err;
   EXPECT_EQ(study.err, "");
   EXPECT_EQ(json_value(study.out, "reference_deg"), "1");
-  EXPECT_EQ(json_value(study.out, "verdict"), "unknown") << "theta_c of slopes that stand";
+  EXPECT_EQ(json_value(study.out, "verdict"), "unknown") << "theta_c of slopes that have not failed";
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("study/baseline/seed-1.h5")), written);
 }
 
@@ -174,7 +174,7 @@ TEST(Study, with_a_bad_key_leaves_with_65_before_anything_runs) {
 TEST(Study, of_a_bad_form_leaves_with_64) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
-  EXPECT_EQ(run_talus({"study", "bed.toml"}, folder.path()).exit_code, 64) << "no folder";
+  EXPECT_EQ(run_talus({"study", "bed.toml"}, folder.path()).exit_code, 64) << "not a folder";
   EXPECT_EQ(run_talus({"study", "bed.toml", "--vary", "tilt.step", "-o", "s"}, folder.path()).exit_code, 64);
   EXPECT_EQ(run_talus({"study", "bed.toml", "--seeds", "4-1", "-o", "s"}, folder.path()).exit_code, 64);
 }

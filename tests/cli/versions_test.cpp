@@ -33,7 +33,7 @@ class KeptRun : public testing::Test {
 
 TEST_F(KeptRun, opens_in_every_command) {
   ASSERT_TRUE(std::filesystem::exists(kept_run()))
-      << "a new version of the schema keeps a small run of its own (docs/file_format.md, Versions)";
+      << "each version of the schema keeps a small run (docs/file_format.md, Versions)";
   const std::string run = folder_.path("run.h5");
   std::filesystem::copy_file(kept_run(), run);
   succeed({"check", run}, folder_);

@@ -164,7 +164,7 @@ TEST_F(TypedWords, help_has_groups_and_a_first_example) {
   EXPECT_EQ(names_below(help, "Many runs:"), (Words{"ensemble", "study", "perturb", "reproduce"}));
   EXPECT_EQ(names_below(help, "Contact problems:"), (Words{"dump", "solve", "forces"}));
   const std::size_t example = help.find("\n  talus run assets/scenarios/demo.toml -o demo.h5\n");
-  EXPECT_LT(example, help.find("Usage:")) << "before all else";
+  EXPECT_LT(example, help.find("Usage:")) << "before everything else";
   EXPECT_NE(example, std::string::npos);
 }
 

@@ -35,7 +35,7 @@ TEST_F(Branching, a_replay_goes_on_from_the_frame_shown) {
   ASSERT_TRUE(model_.is_live());
   EXPECT_EQ(status().step, step);
   gui_.click("play");
-  ASSERT_TRUE(wait_until([&] { return model_.frame_count() > 1; })) << "a frame later";
+  ASSERT_TRUE(wait_until([&] { return model_.frame_count() > 1; })) << "one frame later";
   gui_.click("play");
   ASSERT_FALSE(hash().empty());
   // The line shows five frames of the run, and the branch begins at the third.
@@ -43,7 +43,7 @@ TEST_F(Branching, a_replay_goes_on_from_the_frame_shown) {
   EXPECT_EQ(model_.frame_index(), 0u);
   EXPECT_TRUE(gui_.requests().open_path.empty());
   gui_.click("time line", 0.25f, 0.6f);
-  EXPECT_EQ(gui_.requests().open_path, folder_.path("bed.h5")) << "the run that it left";
+  EXPECT_EQ(gui_.requests().open_path, folder_.path("bed.h5")) << "the parent run";
 }
 
 TEST_F(Branching, N_and_U_are_its_keys) {
@@ -94,7 +94,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   const double before_x = model_.frame().x[grain];
   const gui::WidgetPlace map = gui_.place("map");
   gui_.take("map", x, y);
-  EXPECT_FALSE(status().dragged) << "a click is for a contact";
+  EXPECT_FALSE(status().dragged) << "a click is meant for a contact";
   gui_.move(map.x0 + x * (map.x1 - map.x0), map.y0 + y * (map.y1 - map.y0) - 6.0f);
   EXPECT_EQ(model_.state.selected, grain);
   EXPECT_EQ(status().dragged, grain);
@@ -108,7 +108,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   hash();
   gui_.let_go();
   EXPECT_FALSE(status().dragged);
-  EXPECT_NEAR(model_.first().part(1.0).x_min, shown.x_min, 1e-4) << "the picture stays";
+  EXPECT_NEAR(model_.first().part(1.0).x_min, shown.x_min, 1e-4) << "the picture is unchanged";
   EXPECT_NEAR(model_.first().part(1.0).y_max, shown.y_max, 1e-4);
   EXPECT_NE(model_.frame().x[grain], before_x);
   const std::vector<Command> commands = model_.live()->commands();
@@ -137,7 +137,7 @@ TEST_F(Branching, ctrl_selects_contacts_and_draws_lassos_too) {
   gui_.hold(gui::key_left_shift, true);
   gui_.take("map", x, y);
   gui_.move(gui_.place("map").x0 + 5.0f, gui_.place("map").y0 + 5.0f);
-  EXPECT_EQ(model_.state.selecting.outline.size(), 2u) << "with shift a lasso begins on a grain, too";
+  EXPECT_EQ(model_.state.selecting.outline.size(), 2u) << "with shift a lasso may begin on a grain too";
   EXPECT_FALSE(model_.state.selecting.outline_is_box);
   gui_.let_go();
   gui_.hold(gui::key_left_shift, false);

@@ -24,7 +24,7 @@ void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float 
 
 TEST_F(Replay, a_high_column_has_several_groups) {
   for (const char* name : {"play", "map kind", "group act"}) expect_in_sight(gui_, name, 900.0f);
-  EXPECT_FALSE(gui_.has("push")) << "folded at first";
+  EXPECT_FALSE(gui_.has("push")) << "folded initially";
   EXPECT_FALSE(gui_.has("condition"));
 }
 
@@ -39,7 +39,7 @@ TEST_F(Replay, a_heading_folds_and_unfolds) {
   gui_.click("group select");
   expect_in_sight(gui_, "group select", 900.0f);
   expect_in_sight(gui_, "condition", 900.0f);
-  EXPECT_TRUE(gui_.has("map kind")) << "others stay where there is room";
+  EXPECT_TRUE(gui_.has("map kind")) << "other groups stay unfolded if there is room";
 }
 
 TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
@@ -62,7 +62,7 @@ TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
   EXPECT_GT(first.x0, column.x0 + 0.3f * (column.x1 - column.x0));
   for (const char* name : {"overlay", "colours", "l_min", "threshold", "length", "speed"}) {
     EXPECT_EQ(gui_.place(name).x0, first.x0) << name;
-    EXPECT_EQ(gui_.place(name).x1, first.x1) << name << " takes the rest of its row";
+    EXPECT_EQ(gui_.place(name).x1, first.x1) << name << " fills the rest of its row";
   }
 }
 
@@ -113,7 +113,7 @@ Index busiest_grain(view::ViewModel& model) {
     busiest = grain;
     largest = high - low;
   }
-  EXPECT_GT(largest, 0) << "no grain of this run tells anything";
+  EXPECT_GT(largest, 0) << "all grains of this run have a constant number of contacts";
   return busiest;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// In-memory display with control over mouse and keys: Xvfb, xdotool and ImageMagick.
+/// Display in memory with control over mouse and keys: Xvfb, xdotool and ImageMagick.
 
 #include <sys/types.h>
 

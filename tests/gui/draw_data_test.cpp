@@ -104,7 +104,7 @@ TEST_F(DrawData, a_window_has_its_top_in_the_last_row) {
   EXPECT_EQ(at(11, height - 1 - 4), red);
   EXPECT_EQ(at(6, height - 1 - 1), white_pixel);
   EXPECT_EQ(at(6, height - 1 - 5), white_pixel) << "clipped below";
-  EXPECT_EQ(at(4, height - 1 - 3), white_pixel) << "clipped at the left";
+  EXPECT_EQ(at(4, height - 1 - 3), white_pixel) << "clipped on the left";
 }
 
 TEST_F(DrawData, clips) {
@@ -116,7 +116,7 @@ TEST_F(DrawData, clips) {
   EXPECT_EQ(at(5, 3), red);
   EXPECT_EQ(at(6, 4), red);
   for (const auto& [x, y] : {std::pair{4, 3}, {7, 3}, {5, 2}, {5, 5}}) EXPECT_EQ(at(x, y), white_pixel);
-  EXPECT_EQ(at(21, 11), black_pixel) << "the clip rectangle before is back";
+  EXPECT_EQ(at(21, 11), black_pixel) << "the previous clip rectangle is restored";
 }
 
 TEST_F(DrawData, mixes_by_straight_alpha) {

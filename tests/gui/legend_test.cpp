@@ -46,7 +46,7 @@ TEST_F(Replay, a_scale_bar_stands_beside_the_arrow_of_gravity) {
   for (const double zoom : {1.0, 3.0}) {
     model_.state.camera.zoom = zoom;
     const double bar = length(), diameters = bar / pixels();
-    EXPECT_NEAR(diameters, zoom == 1.0 ? 1.0 : 0.2, 0.01) << "round, and it fits beside the legend";
+    EXPECT_NEAR(diameters, zoom == 1.0 ? 1.0 : 0.2, 0.01) << "a round number that fits next to the legend";
     EXPECT_GT(bar, 15.0);
   }
 }

@@ -128,7 +128,7 @@ TEST_F(Replay, motion_since_an_angle_is_drawn_before_it_too) {
   gui_.key('v');
   EXPECT_EQ(model_.state.since, std::optional(model_.frame().tilt));
   EXPECT_NE(model_.first().annotated_map().title.find("per degree"), std::string::npos)
-      << "nothing has moved since";
+      << "nothing has moved since then";
   gui_.key(gui::key_home);
   gui_.key(gui::key_right);
   gui_.key(gui::key_right);
@@ -180,7 +180,7 @@ TEST_F(Replay, the_first_click_moves_nothing) {
         << place.name;
   }
   gui_.click("map", x, y);
-  EXPECT_EQ(model_.state.selected, std::optional<Index>(7)) << "the same place is the same grain";
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(7)) << "the same place shows the same grain";
 }
 
 TEST_F(Replay, the_wheel_zooms_about_the_mouse) {
@@ -188,7 +188,7 @@ TEST_F(Replay, the_wheel_zooms_about_the_mouse) {
   gui_.scroll("map", 4.0f, x, y);
   EXPECT_GT(model_.state.camera.zoom, 2.0);
   gui_.click("map", x, y);
-  EXPECT_EQ(model_.state.selected, 12) << "what was under the mouse is there still";
+  EXPECT_EQ(model_.state.selected, 12) << "the point under the mouse stays";
   gui_.key('f');
   EXPECT_EQ(model_.state.camera.zoom, 1.0);
 }
@@ -209,7 +209,7 @@ TEST_F(Replay, a_question_mark_lists_the_keys) {
   EXPECT_GT(difference(before, gui_.frame(), gui_.place("help")), 0.05);
   gui_.key(gui::key_escape);
   EXPECT_FALSE(gui_.has("help"));
-  EXPECT_EQ(gui_.frame().pixels, before.pixels) << "all is as it was";
+  EXPECT_EQ(gui_.frame().pixels, before.pixels) << "everything is unchanged";
 }
 
 TEST_F(Replay, the_same_state_is_the_same_picture) { EXPECT_EQ(gui_.frame().pixels, gui_.frame().pixels); }
@@ -253,7 +253,7 @@ TEST_F(Replay, a_name_is_typed_and_a_picture_asked_for) {
   gui_.type("bed_at_rest.png");
   gui_.click("save picture");
   EXPECT_EQ(gui_.requests().save_png_path, "bed_at_rest.png");
-  EXPECT_EQ(model_.frame_index(), 0u) << "what is typed into a field is no key";
+  EXPECT_EQ(model_.frame_index(), 0u) << "text typed into a field is not a key";
 }
 
 TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
@@ -269,7 +269,7 @@ TEST_F(Replay, a_picture_is_saved_with_letters_for_a_screen_or_for_print) {
   gui_.key('a', true);
   gui_.type("1");
   gui_.key(gui::key_enter);
-  EXPECT_EQ(model_.first().furnished_map().letters, render::FrameView().letters) << "nobody prints that";
+  EXPECT_EQ(model_.first().furnished_map().letters, render::FrameView().letters) << "too narrow for print";
 }
 
 /// Expects widgets to lie inside the window or a scrolling part of it; those of the first group are always
@@ -321,7 +321,7 @@ TEST_F(Replay, the_bar_goes_where_it_is_told_to) {
   gui_.click("range");
   ASSERT_TRUE(model_.state.map.range_high.has_value());
   gui_.move(700.0f, 895.0f);  // where hints hide no part of the map
-  EXPECT_EQ(difference(before, gui_.frame(), gui_.place("map")), 0.0) << "it begins with what is shown";
+  EXPECT_EQ(difference(before, gui_.frame(), gui_.place("map")), 0.0) << "it begins with the current range";
   gui_.click("range high");
   gui_.key('a', true);
   gui_.type("0.3");
@@ -344,7 +344,7 @@ TEST_F(Replay, the_border_of_the_plots_is_moved) {
 TEST_F(Replay, places_that_a_run_does_not_have_cannot_be_gone_to) {
   gui_.key('R');
   EXPECT_TRUE(gui_.has("theta_c"));
-  EXPECT_FALSE(model_.has(view::Landmark::theta_c)) << "at 1 deg nothing fails";
+  EXPECT_FALSE(model_.has(view::Landmark::theta_c)) << "nothing fails at 1 deg";
   gui_.click("last");
   gui_.click("theta_c");
   EXPECT_EQ(model_.frame_index() + 1, model_.frame_count());
@@ -392,7 +392,7 @@ TEST_F(Live, plays_pauses_and_begins_anew) {
   EXPECT_FALSE(wait_until([&, k = 0]() mutable { return status().step != step || ++k > 10; }) &&
                status().step != step);
   gui_.click("reset");
-  EXPECT_EQ(status().step, step) << "it was not saved: that is asked for first";
+  EXPECT_EQ(status().step, step) << "it is unsaved, so the user is asked first";
   EXPECT_NE(model_.state.message.find("not saved"), std::string::npos);
   gui_.click("reset");
   EXPECT_TRUE(wait_until([&] { return status().step == 0; }));
@@ -407,7 +407,7 @@ TEST_F(Live, is_saved_by_a_key_and_goes_on_there) {
   EXPECT_NE(model_.state.message.find("Saved at step 10"), std::string::npos) << model_.state.message;
   EXPECT_TRUE(std::filesystem::exists(folder_.path("late.h5.run")));
   gui_.key('F');
-  EXPECT_FALSE(gui_.has("run path")) << "it is recorded now";
+  EXPECT_FALSE(gui_.has("run path")) << "it is recorded from here on";
   EXPECT_TRUE(gui_.has("save state"));
 }
 
@@ -436,12 +436,12 @@ TEST_F(Live, friction_and_pushes_are_commands) {
   EXPECT_EQ(commands[0].step, status().step);
   EXPECT_EQ(commands.back().kind, CommandKind::friction);
   EXPECT_NEAR(commands.back().x, status().friction, 1e-12);
-  EXPECT_NE(commands.back().x, 0.5) << "which it was before";
+  EXPECT_NE(commands.back().x, 0.5) << "the previous one";
   EXPECT_TRUE(gui::applied_text(commands).starts_with(
       fmt::format("applied last, after step {}: friction ", commands[1].step)))
       << gui::applied_text(commands);
   gui_.drag("tilt rate", 0.3f, 0.5f, 0.7f, 0.5f);
-  ASSERT_EQ(model_.live()->commands().size(), 3u) << "only where it is let go";
+  ASSERT_EQ(model_.live()->commands().size(), 3u) << "only when released";
   EXPECT_EQ(model_.live()->commands()[2].kind, CommandKind::tilt_rate);
   EXPECT_NEAR(model_.live()->commands()[2].x, 7.0, 0.5);
   EXPECT_DOUBLE_EQ(status().tilt_rate, model_.live()->commands()[2].x);

@@ -30,7 +30,7 @@ TEST_F(Replay, a_key_shows_another_map_beside_and_takes_it_away) {
   EXPECT_EQ(model_.state.beside.layers, (pictures::MapLayers{pictures::MapKind::displacement}));
   const render::Image both = gui_.frame();
   EXPECT_EQ(coloured_share(both, gui_.place("map")), 0.0) << "gray";
-  EXPECT_GT(coloured_share(both, gui_.place("map beside")), 0.1) << "in its own texture";
+  EXPECT_GT(coloured_share(both, gui_.place("map beside")), 0.1) << "in a separate texture";
   gui_.key('P');
   EXPECT_FALSE(gui_.has("map beside"));
 }
@@ -121,7 +121,7 @@ TEST_F(Live, has_a_second_view_too) {
   EXPECT_TRUE(gui_.has("map beside"));
   gui_.key('D');
   gui_.key('M');
-  EXPECT_FALSE(gui_.has("open beside")) << "another run only beside a replay";
+  EXPECT_FALSE(gui_.has("open beside")) << "a second run is offered only in a replay";
 }
 
 }  // namespace

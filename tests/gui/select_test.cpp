@@ -25,10 +25,10 @@ TEST_F(Replay, shift_selects_more_grains) {
   click(12);
   EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12, 31}));
   click(31);
-  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12})) << "the second click takes it away";
+  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{7, 12})) << "the second click removes it";
   gui_.hold(gui::key_left_shift, false);
   click(31);
-  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{31})) << "a plain click is for one";
+  EXPECT_EQ(model_.selected_grains(), (std::vector<Index>{31})) << "a plain click selects one";
 }
 
 TEST_F(Replay, a_box_selects_and_moves_nothing) {
@@ -65,7 +65,7 @@ TEST_F(Replay, a_box_selects_and_moves_nothing) {
 TEST_F(Replay, ctrl_draws_a_lasso_and_picks_contacts) {
   gui_.hold(gui::key_left_control, true);
   gui_.drag("map", 0.2f, 0.2f, 0.8f, 0.8f);
-  EXPECT_TRUE(model_.selected_grains().empty()) << "a straight line holds nothing";
+  EXPECT_TRUE(model_.selected_grains().empty()) << "a straight line contains nothing";
   const auto [x, y] = share_of(7);
   gui_.click("map", x, y);
   gui_.hold(gui::key_left_control, false);
@@ -98,8 +98,8 @@ TEST_F(Replay, selected_grains_are_a_table) {
   model_.select(std::vector<Index>{3, 9, 14, 30});
   gui_.key('S');
   gui_.click("row 2");
-  EXPECT_EQ(model_.state.selected, std::optional<Index>(14)) << "by their ids at first";
-  EXPECT_EQ(model_.selected_grains().size(), 4u) << "what is selected stays";
+  EXPECT_EQ(model_.state.selected, std::optional<Index>(14)) << "by id initially";
+  EXPECT_EQ(model_.selected_grains().size(), 4u) << "the selection stays";
   gui_.click("sort by id");
   gui_.click("row 0");
   EXPECT_EQ(model_.state.selected, std::optional<Index>(30));
@@ -136,7 +136,7 @@ TEST_F(Replay, contacts_and_grains_lead_to_each_other) {
 
 TEST_F(Replay, the_picture_follows_a_grain_until_it_is_moved) {
   gui_.key('L');
-  EXPECT_FALSE(model_.state.selecting.follow) << "there is none to follow";
+  EXPECT_FALSE(model_.state.selecting.follow) << "there is no grain to follow";
   gui_.key('n');
   gui_.key('T');
   EXPECT_TRUE(model_.state.selecting.trails);

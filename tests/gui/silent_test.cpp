@@ -86,7 +86,7 @@ void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = 
     window->gui.key(key);
     const bool told = !model.state.message.empty();
     EXPECT_TRUE(told || window->runs() || !(seen(window->gui) == before))
-        << name_of_key(key) << " does nothing, and says nothing";
+        << name_of_key(key) << " has no effect and no message";
     const bool same_run = !window->runs() && model.frame_index() == frame && !window->gui.requests().quit &&
                           run == (model.is_live() ? window->status().state_hash : "replay") &&
                           (!model.is_live() || window->status().commands_given == commands);

@@ -168,7 +168,7 @@ TEST_F(Replay, all_of_the_window_follows_the_theme) {
   EXPECT_EQ(model_.state.theme, view::Theme::dark);
   EXPECT_GT(share_below(gui_.frame(), 80.0), 0.7);
   const render::Image saved = gui_.draw_image(model_.first().furnished_map(), 800);
-  EXPECT_GT(saved.pixels[0], 250) << "a picture that is saved is that of talus render";
+  EXPECT_GT(saved.pixels[0], 250) << "a saved picture equals that of talus render";
   gui_.key('C');
   const render::Image print = gui_.frame();
   const gui::WidgetPlace play = gui_.place("play");
@@ -217,7 +217,7 @@ TEST_F(Replay, playing_moves_nothing) {
     EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
         << place.name;
   }
-  EXPECT_NE(gui_.frame().pixels, still.pixels) << "the sign is that of a pause";
+  EXPECT_NE(gui_.frame().pixels, still.pixels) << "the icon is that of a pause";
 }
 
 TEST_F(Replay, text_is_no_larger_than_a_small_window_has_room_for) {

@@ -87,7 +87,7 @@ class TidyWindow : public Replay {
     gui_.frame();
     const ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     const std::vector<Letter> letters = letters_of(*ImGui::GetDrawData(), fonts.TexID, fonts.TexUvWhitePixel);
-    EXPECT_GT(letters.size(), 100u) << what << ": so much is written everywhere";
+    EXPECT_GT(letters.size(), 100u) << what << ": every layout has this much text";
     EXPECT_EQ(untidy(letters), "") << what;
   }
 };

@@ -37,7 +37,7 @@ TEST_F(Replay, a_frame_gets_a_bookmark_with_a_note) {
   gui_.key(gui::key_enter);
   ASSERT_NE(model_.bookmark(), nullptr);
   EXPECT_EQ(model_.bookmark()->note, "q: slides, f_n grows");
-  EXPECT_FALSE(gui_.requests().quit) << "keys of the window are letters of the note";
+  EXPECT_FALSE(gui_.requests().quit) << "keys of the window are letters in the note";
   model_.go_to(0);
   gui_.settle();
   gui_.click("event bookmark 0");
@@ -63,7 +63,7 @@ TEST_F(Replay, a_plot_answers) {
   gui_.click("plot stress", 0.86f);
   EXPECT_GE(model_.frame_index(), 3u);
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
-  EXPECT_GE(model_.frame_index(), 3u) << "a drag goes nowhere";
+  EXPECT_GE(model_.frame_index(), 3u) << "a drag does not go to a frame";
   const auto chosen = model_.state.plot_looks["stress"].chosen;
   ASSERT_TRUE(chosen.has_value());
   EXPECT_GT((*chosen)[0], 0.0);
@@ -127,7 +127,7 @@ TEST_F(Replay, plots_answer_over_time_as_well) {
   gui_.scroll("plot stress", 3.0f);
   EXPECT_TRUE(model_.state.plot_looks["stress"].zoomed.has_value());
   gui_.click("over angle left");
-  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time) << "theta_c is not known";
+  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time) << "theta_c is unknown";
   gui_.click("over tilt");
   EXPECT_EQ(model_.plot_axis(), view::PlotAxis::tilt);
 }
@@ -152,7 +152,7 @@ TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
   gui_.type("ensemble.h5");
   gui_.click("put behind");
   EXPECT_EQ(gui_.requests().behind_path, "ensemble.h5");
-  EXPECT_FALSE(gui_.has("behind path")) << "the question is gone";
+  EXPECT_FALSE(gui_.has("behind path")) << "the question has disappeared";
   EXPECT_FALSE(gui_.has("nothing behind"));
   const render::Image alone = gui_.frame();
   view::GhostRun run;
@@ -163,7 +163,7 @@ TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
   EXPECT_NE(gui_.frame().pixels, alone.pixels);
   gui_.click("over time");
   gui_.click("over tilt");
-  EXPECT_EQ(plot_called("strain").series[0].behind.x.size(), 2u) << "also after the axis was another";
+  EXPECT_EQ(plot_called("strain").series[0].behind.x.size(), 2u) << "also after a change of the axis";
   gui_.click("nothing behind");
   EXPECT_EQ(model_.ghost(), nullptr);
   EXPECT_TRUE(plot_called("strain").series[0].behind.x.empty());

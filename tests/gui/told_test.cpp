@@ -21,7 +21,7 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
   gui_.key(gui::key_end);
   EXPECT_EQ(slider(), "frame 4 (0 to 4)");
   model_.go_to(model_.frame_at_angle("frame3"));
-  EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "as talus render --at frame3";
+  EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "like talus render --at frame3";
 }
 
 TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
@@ -37,7 +37,7 @@ TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
   gui_.frame();
   gui_.key('m');
   EXPECT_EQ(model_.state.map.palette, pictures::ClusterPalette::contrast);
-  EXPECT_EQ(colours, render::ColourMap::cividis) << "as before, for maps with a bar";
+  EXPECT_EQ(colours, render::ColourMap::cividis) << "the same for maps with a bar";
   gui_.place("palette");
 }
 
@@ -103,7 +103,7 @@ TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {
   gui_.click("step 1");
   ASSERT_TRUE(wait_until([&] { return highest() > before + 3.0 * model_.mean_diameter(); }));
   gui_.settle();
-  EXPECT_GE(shown_to(), highest()) << "what has been lifted is in the picture";
+  EXPECT_GE(shown_to(), highest()) << "lifted grains are in the picture";
   EXPECT_EQ(model_.state.message,
             fmt::format("Applied after step {}: {}.", model_.live()->commands().back().step,
                         session::command_text(model_.live()->commands().back())));

@@ -36,7 +36,7 @@ TEST(View, takes_a_picture_of_itself_without_a_display) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(output_of("od -An -tu1 -j18 -N2 " + folder.path("view.png") + " | tr -s ' '"), " 2 128")
       << "640 px";
-  EXPECT_EQ(run_talus(command, folder.path()).exit_code, 73) << "it is there already";
+  EXPECT_EQ(run_talus(command, folder.path()).exit_code, 73) << "it already exists";
 }
 
 TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
@@ -232,7 +232,7 @@ TEST_F(Window, computes_a_run_and_records_it) {
   take_run(folder_, "headless.h5", small_bed);
   const Outcome headless = run_talus({"info", "headless.h5", "--json"}, folder_.path());
   EXPECT_EQ(json_value(info.out, "state_hash"), json_value(headless.out, "state_hash"))
-      << "looking changes nothing";
+      << "viewing changes nothing";
 }
 
 TEST_F(Window, a_recorded_run_that_was_left_can_go_on) {
@@ -249,7 +249,7 @@ TEST_F(Window, a_recorded_run_that_was_left_can_go_on) {
 TEST_F(Window, a_session_with_commands_replays_headless) {
   start({"bed.toml", "-o", "bed.h5"});
   click("deposit");
-  ASSERT_TRUE(wait_until_gone("deposit")) << "the bed rests";
+  ASSERT_TRUE(wait_until_gone("deposit")) << "the bed is at rest";
   move_to("map");
   desktop_->key("n");
   desktop_->key("u");

@@ -15,7 +15,8 @@ TEST_F(Window, opens_a_file_that_is_dropped_on_it) {
   ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("bad.h5")));
   move_to("map");
   desktop_->key("End");
-  EXPECT_TRUE(desktop_->wait_for_title("second.h5, 1.00°")) << "what cannot be opened leaves what is shown";
+  EXPECT_TRUE(desktop_->wait_for_title("second.h5, 1.00°"))
+      << "a file that cannot be opened leaves the view unchanged";
   ASSERT_TRUE(drop_file(desktop_->window(), folder_.path("bed.toml")));
   EXPECT_TRUE(desktop_->wait_for_title("bed.toml")) << desktop_->title();
   desktop_->key("q");

@@ -109,7 +109,7 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
     settings.solver.threads = wider.solver.threads = threads;
     World world = settled;
     dynamics::StepWorkspace workspace;
-    EXPECT_GT(allocations_of_steps(world, wider, workspace, 6), 0) << "nothing is counted";
+    EXPECT_GT(allocations_of_steps(world, wider, workspace, 6), 0) << "nothing was counted";
     if (settings.solver.kind == solver::SolverKind::accelerated)
       let_every_thread_work(world, wider, workspace);
     allocations_of_steps(world, settings, workspace, 6);  // with more cells than the wider steps
@@ -138,7 +138,7 @@ TEST(DetectionAllocation, of_a_team_that_comes_and_goes_is_that_of_its_first_tur
     contact::detect_contacts(list, world.grains, world.boundary, settings.margin, contacts, team);
     return allocations - before;
   };
-  EXPECT_GT(detect(&two), 0) << "nothing is counted";
+  EXPECT_GT(detect(&two), 0) << "nothing was counted";
   detect(&two);  // with room for everything listed
   for (ThreadTeam* const team : std::initializer_list<ThreadTeam*>{nullptr, &two, nullptr, &two})
     EXPECT_EQ(detect(team), 0) << (team ? "two threads" : "one");

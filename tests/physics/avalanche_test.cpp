@@ -117,7 +117,7 @@ TEST(Avalanche, relaxes_its_surface_between_walls) {
   EXPECT_EQ(session.world().tilt, tilt);
   ASSERT_TRUE(session.angle_at_rest());
   const double inclination = stress::surface_inclination(session.world().grains, session.world().boundary);
-  EXPECT_GT(inclination, 0.0) << "what flowed down lies higher there";
+  EXPECT_GT(inclination, 0.0) << "the deposit is higher there";
   EXPECT_EQ(*session.angle_at_rest(), tilt - inclination);
 }
 

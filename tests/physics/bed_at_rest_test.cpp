@@ -16,7 +16,7 @@ namespace {
 
 constexpr double tolerance = 1e-8;
 
-/// Returns a bed at rest, computed once for all tests.
+/// Returns a bed at rest, computed once and shared by the tests.
 const World& bed_at_rest(bool periodic) {
   const auto settle = [](bool periodic) {
     return test::settled_bed(test::bed_plan(periodic, 240, 20, 7), test::bed_step(tolerance));

@@ -25,7 +25,7 @@ constexpr session::SurfacePatch patch{4.0, 1.0};
 
 /// Bed tilted until failure, with copies on the way.
 struct TiltedBed {
-  World far;   ///< at 8 deg
+  World far;   ///< bed at 8 deg
   World near;  ///< the last of the copies, taken every 0.2 deg, that comes to rest by itself
   double theta_c = 0.0;
 };

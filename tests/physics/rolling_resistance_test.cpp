@@ -71,7 +71,7 @@ TEST(RollingBed, grains_at_rest_are_in_balance_with_their_moments) {
     largest_of_forces = std::max(largest_of_forces, std::abs(of_forces[i]));
   }
   EXPECT_LT(largest, 2e-3 * unit);
-  EXPECT_GT(largest_of_forces, 0.05 * unit) << "the moments do nothing";
+  EXPECT_GT(largest_of_forces, 0.05 * unit) << "the moments have no effect";
 }
 
 TEST(RollingBed, any_number_of_threads_gives_the_same_bits) {

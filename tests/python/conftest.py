@@ -1,4 +1,4 @@
-"""Common parts of the tests: the program, and runs that are made once for all of them."""
+"""Common parts of the tests: the program, and runs that they share."""
 
 import json
 import os

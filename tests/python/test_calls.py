@@ -133,7 +133,7 @@ def test_calls_of_an_ensemble(folder, tmp_path):
     with pytest.raises(talus.Error, match="arrays of several shapes"):
         ensemble.measure(lambda run: np.zeros(run.seed))
     again = pickle.loads(pickle.dumps(ensemble))
-    assert again.folder.is_absolute() and again.done()[0].path.is_absolute(), "it may be opened in another folder"
+    assert again.folder.is_absolute() and again.done()[0].path.is_absolute(), "it may be opened from another folder"
     np.testing.assert_array_equal(again.numbers("gamma_c"), ensemble.numbers("gamma_c"))
 
 
@@ -159,7 +159,7 @@ def test_runs_and_frames_can_be_pickled_and_copied(path, monkeypatch):
         contacts = pickle.loads(pickle.dumps(frame.contacts))
         np.testing.assert_array_equal(contacts.force, frame.contacts.force)
         two = pickle.loads(pickle.dumps([run.frames[0], run.frames[1]]))
-        assert two[0].run is two[1].run, "a pickle opens a run once"
+        assert two[0].run is two[1].run, "a pickle opens a run only once"
 
 
 def test_other_processes_get_runs_and_frames(kept):

@@ -171,7 +171,7 @@ def test_names_that_were_shortened_are_told_in_full(tmp_path):
     [name] = ensemble.variants
     assert name.startswith("deposition.file=a, b.csv~")
     assert ensemble.full_names == {name: f"deposition.file={tmp_path}/a, b.csv"}
-    assert len({member.state_hash for member in ensemble.done()}) == 1, "nothing is random in the bed of a file"
+    assert len({member.state_hash for member in ensemble.done()}) == 1, "a bed from a file has nothing random"
 
 
 def test_damaged_members(folder_of, tmp_path):

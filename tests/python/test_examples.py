@@ -33,7 +33,7 @@ def run_example(tmp_path, monkeypatch):
         names = runpy.run_path(str(EXAMPLES / f"{name}.py"), run_name="__main__")
         plt.close("all")
         [picture] = tmp_path.glob("*.png")
-        assert picture.stat().st_size > 10_000 and plt.imread(picture).shape[1] == 880, "pictures of the page have one width"
+        assert picture.stat().st_size > 10_000 and plt.imread(picture).shape[1] == 880, "all pictures of the page have the same width"
         return names
 
     return run
@@ -62,7 +62,7 @@ def test_the_controller_keeps_a_slope_at_the_edge(run_example, capsys):
     late = names["time"] > names["DURATION"] / 2
     assert 0.15 < friction[late].min() and friction[late].max() < 0.5
     slips = names["rms"] > names["QUIET"]
-    assert 0 < slips[late].mean() < 0.2, "it slips now and then"
+    assert 0 < slips[late].mean() < 0.2, "it slips occasionally"
     rises = np.diff(friction) > 0
     np.testing.assert_array_equal(rises, slips[1:])
     assert "stands" in capsys.readouterr().out
@@ -141,7 +141,7 @@ def test_a_notebook_has_a_live_figure(tmp_path, monkeypatch):
     pytest.importorskip("ipykernel", reason="ipykernel is not installed: python3-ipykernel")
     notebook = nbformat.read(EXAMPLES / "live_figure.ipynb", 4)
     cells = {cell.id: cell for cell in notebook.cells}
-    assert not any(cell.get("outputs") or cell.get("execution_count") for cell in notebook.cells), "it is kept without outputs"
+    assert not any(cell.get("outputs") or cell.get("execution_count") for cell in notebook.cells), "the notebook is stored without outputs"
     assert '"bed.length": 36, "bed.depth": 12' in cells["bed"].source
     cells["bed"].source = cells["bed"].source.replace('"bed.length": 36, "bed.depth": 12', '"bed.length": 14, "bed.depth": 8')
     cells["tilt"].source = cells["tilt"].source.replace("sim.tilt_by(0.5)", "sim.tilt_by(3)")

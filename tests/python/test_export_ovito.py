@@ -75,7 +75,7 @@ def parse_dump(text):
         if line.startswith("ITEM: "):
             name = line[6:]
             if name == "UNITS":
-                assert items == {} and not frames, "units come first, and once: OVITO looks for TIME after a frame"
+                assert items == {} and not frames, "units come first, and only once: OVITO looks for TIME after a frame"
             items[name] = []
         else:
             items[name].append(line)

@@ -132,7 +132,7 @@ def test_moments_are_averaged_as_the_analysis_is_told_to(pandas, copied, walls, 
         np.testing.assert_array_equal(read["cluster_1"], run.analysis["clusters/label"][9, 0])
         np.testing.assert_array_equal(np.float32(read["lc_2 (m)"]), np.float32(run.analysis["lc/length"][9, 1]))
     assert (read["gamma_neighbourhood"] != plain["gamma_neighbourhood"]).any()
-    assert read["gamma"].equals(plain["gamma"]), "what is stored stays what it is"
+    assert read["gamma"].equals(plain["gamma"]), "stored data stay unchanged"
     with talus.open(walls) as run:
         last = len(run.frames) - 1
         assert last >= run.frames_of_tilt

@@ -41,7 +41,7 @@ STAND_INS = {
 
 
 def pieces(page):
-    """Returns what a page tells the reader to type, in order: (None, command), or (NAME, text) of a file
+    """Returns what the reader of a page types, in order: (None, command), or (NAME, text) of a file
     to be saved."""
     text = (ROOT / f"docs/{page}.md").read_text()
     found = re.finditer(r"^```python\n(?P<code>.*?)^```$|^ {4}(?P<command>\S[^\n]*)$", text, re.MULTILINE | re.DOTALL)
@@ -115,7 +115,7 @@ def test_pictures_are_made_by_the_commands_next_to_them():
     assert {name for name in kept if not name.startswith("cookbook/")} == shown
     for picture in shown:
         make.command_of(picture)
-    assert len({file for file, _ in make.PICTURES.values()}) == len(make.PICTURES), "pictures are drawn side by side"
+    assert len({file for file, _ in make.PICTURES.values()}) == len(make.PICTURES), "pictures are drawn in parallel"
     printed = {line.strip() for text in texts.values() for line in text.splitlines() if line.startswith("    ")}
     for run, commands in make.RUNS.items():
         missing = {line.strip() for line in commands.splitlines()} - printed

@@ -117,7 +117,7 @@ def test_unwrapped_positions_do_not_jump_at_the_edge(run):
     for before, after in zip(run.frames[:-1], run.frames[1:]):
         jumps += np.count_nonzero(np.abs(after.position - before.position)[:, 0] > 0.5 * run.length)
         assert np.abs(after.unwrapped - before.unwrapped)[:, 0].max() < 0.5 * run.length
-    assert jumps > 0, "no grain left through the edge: nothing was tested"
+    assert jumps > 0, "no grain crossed the edge, so nothing was tested"
 
 
 def test_gamma_is_the_stress_ratio_of_the_internal_moment(run):

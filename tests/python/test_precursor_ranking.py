@@ -48,7 +48,7 @@ def test_two_measures_whose_errors_cancel_are_exact():
     up, down = curves(40, 1, 0.05, offset), curves(40, 1, 0.05, -offset)
     assert root_mean_square(up) > 0.6
     assert root_mean_square(up, down) < 0.1
-    assert root_mean_square(up, up) == pytest.approx(root_mean_square(up), abs=0.05), "the same twice says no more"
+    assert root_mean_square(up, up) == pytest.approx(root_mean_square(up), abs=0.05), "the same measure twice adds nothing"
 
 
 def test_beds_without_a_measure_are_left_out():
@@ -57,7 +57,7 @@ def test_beds_without_a_measure_are_left_out():
     measure[4, 0] = np.nan
     squares = study.squared_errors(measure)
     assert np.isnan(squares[3]).all() and np.isnan(squares[4, 0]) and not np.isnan(squares[4, 1:]).any()
-    assert np.isnan(study.squared_errors(curves(study.MIN_CALIBRATION, 1, 0.3))).all(), "too few calibrate it"
+    assert np.isnan(study.squared_errors(curves(study.MIN_CALIBRATION, 1, 0.3))).all(), "too few beds calibrate it"
     assert np.isnan(study.squared_errors(np.ones((9, len(study.DISTANCES))))).all(), "it does not vary"
 
 
@@ -111,7 +111,7 @@ def test_ranking_has_the_best_measure_first_and_the_tilt_to_compare_with(ensembl
     assert of["steep"]["error"] == pytest.approx(of["tilt"]["error"], abs=0.02)
     assert of["steep"]["gain"] == pytest.approx(0, abs=0.1)
     assert of["noise"]["error"] > 2
-    assert of["told"]["error"] < 0.6, "by the ratio: each bed has a scale of its own"
+    assert of["told"]["error"] < 0.6, "by the ratio: each bed has a different scale"
     assert of["strain"]["error"] < 0.6, "by the difference: it has either sign"
     assert of["told"]["gain"] > 3 * of["told"]["gain_error"]
     assert of["told"]["contrast_1"] > of["told"]["contrast_3"] > 0

@@ -58,11 +58,11 @@ void strike_every_call(faults::Fault fault, const std::vector<int>& allowed_code
     const int code = store_under(fault, path);
     EXPECT_TRUE(std::ranges::count(allowed_codes, code) == 1) << "exit code " << code;
     const std::string found = example::file_text(path);
-    EXPECT_TRUE(found == before || found == after) << "neither the one nor the other";
-    EXPECT_TRUE(code != done || found == after) << "said to be stored";
+    EXPECT_TRUE(found == before || found == after) << "neither the old nor the new analysis";
+    EXPECT_TRUE(code != done || found == after) << "reported as stored";
     kept += found == before ? 1 : 0;
   }
-  EXPECT_GT(kept, 5) << "no fault struck: nothing was tested";
+  EXPECT_GT(kept, 5) << "no fault occurred, so nothing was tested";
 }
 
 TEST(AnalysisFaults, kill_at_every_call) {

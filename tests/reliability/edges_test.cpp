@@ -143,9 +143,9 @@ TEST_F(Edges, programs_that_were_started_end_with_the_command) {
     kill(process, signal);
     EXPECT_EQ(wait_for(process), signal == SIGTERM ? 75 : -1);
     EXPECT_TRUE(comes_true([gnuplot] { return kill(gnuplot, 0) != 0; }))
-        << "gnuplot goes on after signal " << signal;
+        << "gnuplot continues after signal " << signal;
     if (signal == SIGTERM) {
-      EXPECT_TRUE(fs::is_empty(folder->path("slow"))) << "something was left behind";
+      EXPECT_TRUE(fs::is_empty(folder->path("slow"))) << "files were left behind";
     }
   }
   fs::remove(folder->path("gnuplot"));
@@ -199,7 +199,7 @@ TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
       EXPECT_EQ(hostile::values_hash(changed), whole)
           << spoil.path << " at " << spoil.index << ", " << spoil.bits;
   }
-  std::printf("%d changes: %d told, %d without effect\n", count, told, count - told);
+  std::printf("%d changes: %d reported, %d without effect\n", count, told, count - told);
 }
 
 /// Limits the memory of this process and its children to a number of bytes during its lifetime.

@@ -72,7 +72,7 @@ TEST_F(HostileBranch, is_the_good_one_to_begin_with) {
   EXPECT_EQ(refusal(folder->path("stopped.h5")), std::nullopt);
   const session::RunCheck check = session::check_run(io::RunFile::open(folder->path("good.h5")), {});
   EXPECT_TRUE(check.faults.empty()) << check.faults.front();
-  EXPECT_GT(check.largest_mobilisation, 0.5 / 0.6) << "the friction that a command had set is in force";
+  EXPECT_GT(check.largest_mobilisation, 0.5 / 0.6) << "the friction set by a command is in effect";
   EXPECT_EQ(talus({"replay", "good.h5", "-q"}).exit_code, done);
 }
 
@@ -324,7 +324,7 @@ TEST_F(HostileBranch, names_reach_no_terminal_raw) {
     branch.start.integers.emplace_back(attack, 1);
     branch.start.reals.emplace_back(attack, nan);
   });
-  EXPECT_EQ(refusal(path), std::nullopt) << "a name that nobody asks for";
+  EXPECT_EQ(refusal(path), std::nullopt) << "a name that is never requested";
   for (const Words& words : {Words{"info", "changed.h5"},
                              {"info", "changed.h5", "--json"},
                              {"check", "changed.h5"},

@@ -38,7 +38,7 @@ TEST(HostileScenarios, are_refused_by_talus_run_with_nothing_left_behind) {
                                      : text_of(fs::path(entry.path()).replace_extension(".expected"));
     EXPECT_EQ(outcome.err, expected) << name;
     EXPECT_EQ(outcome.out, "") << name;
-    EXPECT_EQ(file_count(folder), before) << name << ": something was left behind";
+    EXPECT_EQ(file_count(folder), before) << name << ": files were left behind";
     fs::remove(folder.path(name));
     ++count;
   }

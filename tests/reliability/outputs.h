@@ -161,8 +161,8 @@ class Outputs : public testing::Test {
     const fs::path made = folder_.path() / place / (writer.of_folder ? writer.output : "");
     const bool is_done = outcome.exit_code == done;
     EXPECT_TRUE(!is_done || names_in(made) == expected);
-    EXPECT_TRUE(!is_done || !writer.is_movie || decodes(made / writer.output)) << "ffmpeg does not think so";
-    EXPECT_TRUE(is_done || writer.of_folder || !fs::exists(made / writer.output)) << "torn";
+    EXPECT_TRUE(!is_done || !writer.is_movie || decodes(made / writer.output)) << "ffmpeg rejects it";
+    EXPECT_TRUE(is_done || writer.of_folder || !fs::exists(made / writer.output)) << "truncated";
     return is_done;
   }
 

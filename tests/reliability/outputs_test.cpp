@@ -130,7 +130,7 @@ TEST_F(Outputs, never_replace_the_bed_that_a_run_begins_with) {
 }
 
 TEST_F(Outputs, written_again_keep_mode_owner_and_link) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs root, to give files away";
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to change the owner of files";
   const auto expect_kept = [this](const std::string& file, const Words& words) {
     SCOPED_TRACE(words[0]);
     const std::string link = "link-" + file;
@@ -144,7 +144,7 @@ TEST_F(Outputs, written_again_keep_mode_owner_and_link) {
     EXPECT_EQ(outcome.exit_code, done) << outcome.err;
     EXPECT_TRUE(fs::is_symlink(path(link)));
     stat(path(file).c_str(), &after);
-    EXPECT_NE(after.st_ino, before.st_ino) << "it was not written again";
+    EXPECT_NE(after.st_ino, before.st_ino) << "it was not rewritten";
     EXPECT_EQ(after.st_mode & 07777, 0640u);
     EXPECT_EQ(after.st_uid, 1234u);
     EXPECT_EQ(after.st_gid, 4321u);
@@ -207,7 +207,7 @@ struct AsNobody {
 };
 
 TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
   const TemporaryFolder own;  // folder of the reader
   ASSERT_EQ(chown(own.path().c_str(), AsNobody::nobody, AsNobody::nobody), 0);
   ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);
@@ -218,7 +218,7 @@ TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
     const AsNobody reader;
     const Outcome drawn =
         run_talus({"figures", run, "--only", "fig04", "-o", "figs", "--overwrite"}, own.path());
-    if (drawn.exit_code == 127) GTEST_SKIP() << "the program cannot be read by everybody";
+    if (drawn.exit_code == 127) GTEST_SKIP() << "not every user can read the program";
     EXPECT_EQ(drawn.exit_code, done) << drawn.err;
     EXPECT_TRUE(fs::exists(own.path("figs/fig04-shear-stress.pdf")));
     EXPECT_NE(drawn.err.find("analysis not stored: " + reason), std::string::npos) << drawn.err;
@@ -264,7 +264,7 @@ TEST_F(Outputs, a_run_that_is_overwritten_stays_until_the_new_one_is_whole) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   kill(process, SIGKILL);
   wait_for(process);
-  ASSERT_TRUE(fs::exists(path("f.h5.run/manifest"))) << "too late: nothing was tested";
+  ASSERT_TRUE(fs::exists(path("f.h5.run/manifest"))) << "too late, so nothing was tested";
   EXPECT_TRUE(content(path("f.h5")) == before);
   EXPECT_EQ(io::run_presence(path("f.h5")), io::RunPresence::folder);
   const Outcome resumed = talus({"run", "--resume", "f.h5", "-q"});

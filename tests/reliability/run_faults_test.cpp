@@ -59,7 +59,7 @@ class RunFaults : public testing::Test {
     const int found = committed_frames(run);
     EXPECT_GE(found, committed_before_) << "lost";
     if (outcome.exit_code == 0)
-      EXPECT_EQ(digest(run), reference_) << "said to be complete";
+      EXPECT_EQ(digest(run), reference_) << "reported as complete";
     else
       committed_before_ = found;
     bring_to_end(folder);
@@ -98,7 +98,7 @@ class RunFaults : public testing::Test {
                   outcome.err.find("bed.toml") != std::string::npos)
           << outcome.err;
     }
-    EXPECT_GT(refused, 5) << "no fault struck: nothing was tested";
+    EXPECT_GT(refused, 5) << "no fault occurred, so nothing was tested";
     std::printf("%s %s: %d points ended with an error", kind.c_str(), std::strerror(errno_value), refused);
     for (const auto& [name, times] : harmless) std::printf(", %d of %s did no harm", times, name.c_str());
     std::printf("\n");

@@ -37,9 +37,9 @@ void fail_every_allocation(const std::string& kind) {
     EXPECT_EQ(after.exit_code, 0) << after.err;
     EXPECT_EQ(digest(folder.path("run.h5")), reference);
   }
-  EXPECT_GT(told, 5) << "no fault struck: nothing was tested";
-  std::printf("%s: of %d allocations %d were tried: %d told, %d did no harm\n", kind.c_str(), allocations,
-              tried, told, tried - told);
+  EXPECT_GT(told, 5) << "no fault occurred, so nothing was tested";
+  std::printf("%s: %d allocations, %d tried: %d reported, %d harmless\n", kind.c_str(), allocations, tried,
+              told, tried - told);
 }
 
 TEST(RunMemory, one_allocation_that_fails_is_told) { fail_every_allocation("memory"); }

@@ -79,7 +79,7 @@ TEST_F(RunStops, ended_one_to_five_times_it_has_the_same_bits) {
     const int most = 1 + dice_.below(5);
     for (int end = 0; end < most; ++end) {
       const pid_t process = start_or_resume();
-      if (end == 0)  // ensures that there is something to resume at least once on a slow machine
+      if (end == 0)  // leaves something to resume at least once on a slow machine
         EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       else
         pause(dice_.below(milliseconds_ / 2));
@@ -182,7 +182,7 @@ TEST_F(LongRun, leaves_at_once_when_told_twice) {
   }
   kill(process, SIGTERM);
   pause(100);
-  ASSERT_TRUE(is_running(process)) << "the step came to its end: nothing was tested";
+  ASSERT_TRUE(is_running(process)) << "the step ended, so nothing was tested";
   const Clock::time_point start = Clock::now();
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);

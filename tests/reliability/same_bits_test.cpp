@@ -41,7 +41,7 @@ TEST(SameBits, threads_that_come_and_go) {
         if (world.step % 10 == 0) hash.add(hash_of(world));
       },
       3);
-  EXPECT_EQ(hash_text(hash.value()), "22dd5c797b068e7c") << "as with threads that stay";
+  EXPECT_EQ(hash_text(hash.value()), "22dd5c797b068e7c") << "equal to a constant number of threads";
   EXPECT_EQ(run.team, 2);
 }
 

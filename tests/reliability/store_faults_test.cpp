@@ -134,7 +134,7 @@ class StoreFaults : public testing::Test {
       EXPECT_GE(found, acknowledged) << "lost";
       EXPECT_LE(found, acknowledged + 1);
       bring_to_end(path, found);
-      EXPECT_TRUE(example::file_text(path) == reference_) << "the end is another one";
+      EXPECT_TRUE(example::file_text(path) == reference_) << "the end differs";
     }
   }
 
@@ -192,7 +192,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
   /// A kill after the rename has left the folder: the file is still found, also by an analysis.
   void expect_found_when_analysed() const {
     io::store_analysis(path_, example::analysis(2, 1), example::analysed_state());
-    EXPECT_EQ(io::run_presence(path_), io::RunPresence::packed) << "hidden once it is analysed";
+    EXPECT_EQ(io::run_presence(path_), io::RunPresence::packed) << "hidden after the analysis";
   }
 
   void bring_the_new_one_to_its_end(bool is_begun) const {
@@ -201,7 +201,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
       bring_to_end(path_, commits_in(path_));
     else
       compute(path_, false, told);
-    EXPECT_TRUE(example::file_text(path_) == reference_) << "the end is another one";
+    EXPECT_TRUE(example::file_text(path_) == reference_) << "the end differs";
   }
 
   bool is_whole_ = GetParam();
@@ -323,11 +323,11 @@ class TakenOver : public testing::Test {
     EXPECT_GT(ousted, 5) << "of " << calls;
   }
 
-  /// Of the two, the last that took the lock continues; the other is rejected and leaves the files unchanged.
+  /// Expects the writer that took the lock last to continue; the other is rejected and leaves the files unchanged.
   void finish(std::optional<io::RunStore>& store, bool packs) {
     try {
       commit_next();
-      EXPECT_FALSE(is_complete()) << "by the one that was ousted";
+      EXPECT_FALSE(is_complete()) << "by the writer that lost the lock";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::cannot_create) << error.what();
       successor_.reset();

@@ -42,8 +42,8 @@ TEST(ChangeMap, IsTheDifferenceOnAScaleAboutZero) {
   EXPECT_EQ(view.title,
             "Change of stress ratio γ of single grains, 7.00° minus 5.00°; contacts gained and lost");
   EXPECT_EQ(view.discs[2].fill, colour_at(ColourMap::diverging, 0.5));
-  EXPECT_GT(view.discs[0].fill.red, view.discs[0].fill.blue) << "orange where it grows";
-  EXPECT_LT(view.discs[1].fill.red, view.discs[1].fill.blue) << "blue where it falls";
+  EXPECT_GT(view.discs[0].fill.red, view.discs[0].fill.blue) << "orange if it increases";
+  EXPECT_LT(view.discs[1].fill.red, view.discs[1].fill.blue) << "blue if it decreases";
 }
 
 TEST(ChangeMap, GrainsThatHaveNoValueInOneFrameAreOutlines) {
@@ -83,7 +83,7 @@ TEST(ChangeMap, WhereAMapGivesNoNumbersGrainsHaveMoved) {
   Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   changed.now.frame.x[1] += 0.25;
   const auto layers = pictures::change_layers(changed.frame(), settings_of("forces"), extent_of(changed.now));
-  EXPECT_EQ(layers[0].values, (std::vector<double>{0.0, 0.25, 0.0})) << "in all, not per degree";
+  EXPECT_EQ(layers[0].values, (std::vector<double>{0.0, 0.25, 0.0})) << "total, not per degree";
 }
 
 TEST(ChangeMap, EveryMapHasAChange) {
@@ -109,7 +109,7 @@ TEST(ChangeMap, GainedContactsAreWholeLinesAndLostOnesStubs) {
   const std::vector<Line>& lines = layers[1].lines;
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_FLOAT_EQ(lines[0].x0, 0.25f);
-  EXPECT_FLOAT_EQ(lines[0].x1, 0.75f) << "as far as its edge";
+  EXPECT_FLOAT_EQ(lines[0].x1, 0.75f) << "up to its edge";
   EXPECT_FLOAT_EQ(lines[1].x0, 1.5f);
   EXPECT_FLOAT_EQ(lines[1].x1, 1.0f);
   EXPECT_FLOAT_EQ(lines[2].x0, 1.5f);

@@ -76,9 +76,9 @@ TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
   EXPECT_EQ(grown[0].track, 0);
   EXPECT_GE(grown[0].palette_index, 0);
   const auto shrunk = colours.next(clusters_of(times(3, 'a')));
-  EXPECT_EQ(shrunk[0].palette_index, -1) << "gray, as the legend says";
+  EXPECT_EQ(shrunk[0].palette_index, -1) << "gray, as in the legend";
   const auto again = colours.next(clusters_of(times(12, 'a')));
-  EXPECT_EQ(again[0].palette_index, grown[0].palette_index) << "what had a colour has it again";
+  EXPECT_EQ(again[0].palette_index, grown[0].palette_index) << "a colour, once given, is kept";
 }
 
 TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
@@ -89,7 +89,7 @@ TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
   const auto first = colours.next(clusters_of(letters));
   std::set<int> used;
   for (const pictures::ClusterColour& colour : first) used.insert(colour.palette_index);
-  EXPECT_EQ(used.size(), static_cast<std::size_t>(palette)) << "all colours before any twice";
+  EXPECT_EQ(used.size(), static_cast<std::size_t>(palette)) << "all colours are used before any repeats";
   const int least = first.back().palette_index;  // colour of the smallest cluster
   const auto second = colours.next(clusters_of(letters + times(10, 'z')));
   EXPECT_EQ(second.back().palette_index, least);

@@ -63,7 +63,7 @@ TEST(Context, WithoutOSMesaEglDraws) {
   EXPECT_EQ(by_egl.exit_code, 0) << by_egl.text;
   EXPECT_EQ(by_egl.text, whole.text);
   const Outcome osmesa = picture_hash(broken.environment(), "osmesa");
-  EXPECT_EQ(osmesa.exit_code, static_cast<int>(ExitCode::unavailable)) << "it was asked for by name";
+  EXPECT_EQ(osmesa.exit_code, static_cast<int>(ExitCode::unavailable)) << "it was requested by name";
   EXPECT_NE(osmesa.text.find("apt-get install libosmesa6"), std::string::npos) << osmesa.text;
 }
 

@@ -40,12 +40,12 @@ TEST(Document, TheSamePictureGivesTheSameBytes) {
   for (auto* make : {make_pdf_target, make_svg_target}) {
     const std::unique_ptr<DocumentTarget> target = make(0.086, texts);
     const std::string first = drawn(*target, lined_view(), 800);
-    EXPECT_EQ(drawn(*target, lined_view(), 800), first) << "by the same target";
+    EXPECT_EQ(drawn(*target, lined_view(), 800), first) << "from the same target";
     EXPECT_EQ(drawn(*make(0.086, texts), lined_view(), 800), first);
     EXPECT_NE(drawn(*make(0.178, texts), lined_view(), 800), first);
   }
   const std::string pdf = drawn(*make_pdf_target(0.086, texts), lined_view(), 800);
-  EXPECT_NE(pdf.find("/CreationDate (20000101"), std::string::npos) << "not the time of now";
+  EXPECT_NE(pdf.find("/CreationDate (20000101"), std::string::npos) << "not the current time";
 }
 
 TEST(Document, ASvgHasDiscsLinesAndTextsAsWhatTheyAre) {

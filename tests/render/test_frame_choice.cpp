@@ -96,8 +96,7 @@ TEST(FrameChoice, NamesSortAndTellFramesApart) {
   EXPECT_EQ(pictures::angle_name(tilts[48], 2), "012.00");
   EXPECT_EQ(pictures::angle_decimals(tilts, {69, 70}), 3);
   EXPECT_EQ(pictures::angle_name(tilts[70], 3), "017.253");
-  EXPECT_EQ(pictures::angle_decimals(tilts, {69, 71, 72}), 2)
-      << "frames of a flow have names of another kind";
+  EXPECT_EQ(pictures::angle_decimals(tilts, {69, 71, 72}), 2) << "frames of a flow have different names";
   EXPECT_THROW(pictures::angle_decimals({0.1, 0.1}, {0, 1}), Error);
 }
 
@@ -113,7 +112,7 @@ std::vector<double> cycled_tilts() {
 TEST(FrameChoice, WhereTheTiltGoesUpAndDownTheFirstFrameAtAnAngleCounts) {
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"1"}, nan), pictures::FrameChoice{2});
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"2"}, nan), pictures::FrameChoice{4})
-      << "where the hold begins";
+      << "beginning of the hold";
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"-0.9"}, nan), pictures::FrameChoice{12});
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"3"}, nan), pictures::FrameChoice{20});
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"0.7"}, nan), pictures::FrameChoice{1});
@@ -131,7 +130,7 @@ TEST(FrameChoice, AFrameMayBeTakenByItsNumber) {
     }
   try {
     pictures::frames_at(cycled_tilts(), {"frame21"}, nan);
-    ADD_FAILURE() << "there is none";
+    ADD_FAILURE() << "there is no frame 21";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_STREQ(error.what(), "--at frame21: the tilt of the run has 21 frames, frame0 to frame20");
@@ -144,13 +143,13 @@ TEST(FrameChoice, ReposeIsInTheLastRise) {
   EXPECT_EQ(pictures::frame_at_repose(cycled_tilts(), radians(9.0)), 20u);
   std::vector<double> mirrored = cycled_tilts();
   for (double& tilt : mirrored) tilt = -tilt;
-  EXPECT_EQ(pictures::frame_at_repose(mirrored, radians(1.6)), 17u) << "of the magnitude";
+  EXPECT_EQ(pictures::frame_at_repose(mirrored, radians(1.6)), 17u) << "compared by magnitude";
 }
 
 TEST(FrameChoice, TakesOneFrameEveryStepOfEachWay) {
   EXPECT_EQ(pictures::frames_every(cycled_tilts(), 1.0),
             (pictures::FrameChoice{0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20}))
-      << "and where the tilt turns";
+      << "and at the turns of the tilt";
   EXPECT_EQ(pictures::frames_every(cycled_tilts(), 0.1).size(), 21u);
 }
 
@@ -158,7 +157,7 @@ TEST(FrameChoice, MotionIsMeasuredFromAnEarlierFrame) {
   EXPECT_EQ(pictures::reference_frame(3, {}), 2u);
   EXPECT_EQ(pictures::reference_frame(3, 1), 1u);
   EXPECT_FALSE(pictures::reference_frame(0, {}).has_value());
-  EXPECT_FALSE(pictures::reference_frame(1, 1).has_value()) << "it is where it is measured from";
+  EXPECT_FALSE(pictures::reference_frame(1, 1).has_value()) << "motion is measured from this frame";
   EXPECT_FALSE(pictures::reference_frame(0, 1).has_value());
 }
 

@@ -60,7 +60,7 @@ TEST(SizeMap, GoesFromTheSmallestToTheLargest) {
   EXPECT_EQ(view.discs[0].fill, viridis(0.0));
   EXPECT_EQ(view.discs[1].fill, viridis(0.5));
   EXPECT_EQ(view.discs[2].fill, viridis(1.0));
-  EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "size").discs[0].fill, viridis(0.5)) << "all of one size";
+  EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "size").discs[0].fill, viridis(0.5)) << "all of equal size";
 }
 
 /// Returns twenty-four grains on top of each other at each of two places.
@@ -92,7 +92,7 @@ TEST(DyedMap, GrainsKeepTheColoursOfTheirLayerAndColumn) {
   now.dyed_at = std::span(begin).first(47);
   EXPECT_EQ(pictures::make_map(now, settings_of("dyed"), test::extent_of(packing)).discs[47].fill,
             before.discs[47].fill)
-      << "a grain that came later is where it is now";
+      << "a grain that arrived later is at its current place";
 }
 
 /// Returns 0, 1 and 2 touching in a row, the first on a floor grain; 3 has no contact. Friction is 0.5.
@@ -129,7 +129,7 @@ TEST(RigidMap, TellsTheLargestClusterFromOthers) {
     test::add_contact(packing, a, b, 1.0, 0.1);
   const FrameView view = map_of(packing, "rigid");
   const Colour largest = view.discs[0].fill, other = view.discs[5].fill;
-  EXPECT_EQ(view.discs[3].fill, largest) << "it is held by two of the first three";
+  EXPECT_EQ(view.discs[3].fill, largest) << "two of the first three hold it";
   EXPECT_EQ(view.discs[4].fill, white);
   EXPECT_NE(largest, other);
   EXPECT_NE(other, white);
@@ -202,7 +202,7 @@ TEST(FieldMaps, AreCoarseGrainedOverTheLengthAsked) {
   };
   EXPECT_NEAR(shade("density", 0.0, pi / std::sqrt(3.0)), 0.5, 0.02) << "pi / (2 sqrt 3)";
   EXPECT_NEAR(shade("shear_rate", 0.02, 2.0), 0.5, 0.02) << "0.2 sqrt(g / D)";
-  EXPECT_EQ(shade("temperature", 1e-8, 1.0), 1.0) << "none in a uniform shear";
+  EXPECT_EQ(shade("temperature", 1e-8, 1.0), 1.0) << "zero in a uniform shear";
   EXPECT_EQ(map_of(packing, "stress").title, "Pressure, coarse-grained over 10 D");
   pictures::MapSettings wide = settings_of("density");
   wide.length = 21.0;

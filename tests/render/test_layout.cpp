@@ -138,7 +138,7 @@ TEST(Layout, LettersAreAsLargeAsTheViewAsks) {
   EXPECT_EQ(lay_out(view, 1600, font).em, 40.0);
   EXPECT_EQ(lay_out(view, 1600, font, {20.0}).em, 20.0);
   view.title = std::string(60, 'm');
-  EXPECT_LT(lay_out(view, 1600, font).em, 30.0) << "or the title would not fit";
+  EXPECT_LT(lay_out(view, 1600, font).em, 30.0) << "otherwise the title would not fit";
 }
 
 TEST(Layout, KeepsToTheFontSizeAllowed) {

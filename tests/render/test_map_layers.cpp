@@ -52,7 +52,7 @@ TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
   settings.length = 2.5;
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, white);
-  EXPECT_EQ(view.discs[2].fill, black) << "only the second grain is in reach and carries something";
+  EXPECT_EQ(view.discs[2].fill, black) << "only the second grain is in reach and carries force";
   EXPECT_EQ(view.discs[4].fill, gray(0.4));
   EXPECT_EQ(view.title, "Stress ratio γ_l of neighbourhoods, l = 2.5 D");
   settings.length = 5.5;
@@ -139,7 +139,7 @@ TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
   moved.now.frame.y[0] = moved.before.frame.y[0] - 0.15;
   const FrameView view = pictures::make_map({moved.now.frame, moved.now.statics, &moved.before.frame, false},
                                             settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
-  ASSERT_EQ(view.lines.size(), 12u) << "each with a border below all";
+  ASSERT_EQ(view.lines.size(), 12u) << "each with a border below all lines";
   const auto length = [](const Line& line) { return std::hypot(line.x1 - line.x0, line.y1 - line.y0); };
   const Line& down = view.lines[6];
   const Line& up = view.lines[9];
@@ -156,7 +156,8 @@ TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
   const FrameView rate = pictures::make_map({moved.now.frame, moved.now.statics, &moved.before.frame, true},
                                             settings_of("gamma+displacement"), {0.0, 2.0, -2.0, 3.0});
   EXPECT_EQ(rate.legends[1].swatches[0].label, "arrow = 5 × displacement per degree, at most 2 D");
-  EXPECT_NEAR(length(rate.lines.back()), 0.41 * 5.0 * 0.5 / 2.0, 0.01) << "the head, of over two degrees";
+  EXPECT_NEAR(length(rate.lines.back()), 0.41 * 5.0 * 0.5 / 2.0, 0.01)
+      << "the head, for motion over two degrees";
 }
 
 /// One fast grain does not reduce the other arrows to dots, and its arrow does not cross the picture.
@@ -172,12 +173,12 @@ TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
     return 0.0f;
   };
   EXPECT_NEAR(length_at(40.5), 20.0 * 41.0 * 0.00035, 1e-4);
-  EXPECT_NEAR(length_at(30.5), 20.0 * 31.0 * 0.00035, 1e-4) << "less far, less long";
+  EXPECT_NEAR(length_at(30.5), 20.0 * 31.0 * 0.00035, 1e-4) << "shorter for a smaller displacement";
   EXPECT_FLOAT_EQ(length_at(7.5), 2.0f);
-  EXPECT_FLOAT_EQ(length_at(0.5), 0.0f) << "too short to be seen";
+  EXPECT_FLOAT_EQ(length_at(0.5), 0.0f) << "too short to be visible";
 }
 
-/// In the common range of all pictures of a run, a frame with little motion has short arrows.
+/// A frame with little motion has short arrows in the common range of all pictures of a run.
 TEST(DisplacementArrows, OfOneRangeCanBeCompared) {
   Moved moved = moved_grains();
   moved.now.frame.image[0] = 0;
@@ -197,7 +198,7 @@ TEST(DisplacementArrows, AreSpreadOverALongBed) {
   EXPECT_NEAR(static_cast<double>(whole.lines.size()), 2.0 * 3.0 * 60.0, 12.0);
   const FrameView part = pictures::make_map({packing.frame, packing.statics, &before, false},
                                             settings_of("gamma+displacement"), {100.0, 140.0, 0.0, 2.0});
-  EXPECT_GE(part.lines.size(), 2u * 3u * 40u) << "of each grain in a part of it";
+  EXPECT_GE(part.lines.size(), 2u * 3u * 40u) << "for each grain in a part of the bed";
 }
 
 TEST(RotationMap, IsWhiteAtZeroAndCounterClockwisePositive) {

@@ -65,7 +65,8 @@ TEST(GammaMap, TakesGrainsWithTheirNeighboursAndSaysSo) {
   settings.l_min = 2.5;
   packing.frame = pictures::mapped_frame(packing.frame, packing.statics, settings.l_min);
   const FrameView view = map_of(packing, settings);
-  EXPECT_EQ(view.discs[0].fill, white) << "two grains that are loaded across cancel their deviators";
+  EXPECT_EQ(view.discs[0].fill, white)
+      << "two grains loaded in perpendicular directions cancel their deviators";
   EXPECT_EQ(view.discs[2].fill, white) << "carries nothing, whatever its neighbour carries";
   EXPECT_EQ(view.discs[4].fill, gray(gamma_shade(0.4, gamma_c)));
   EXPECT_EQ(view.title,
@@ -140,7 +141,7 @@ TEST(Map, ShowsOnlyWhatReachesIntoItsExtent) {
   const Packing packing = row_of_grains(std::vector<double>(40, 0.3));
   const FrameView view = part_of(packing, {10.0, 20.0, -1.0, 3.0});
   EXPECT_EQ(view.discs.size(), 10u);
-  EXPECT_EQ(part_of(packing, {10.2, 20.0, -1.0, 3.0}).discs.size(), 10u) << "a cut grain is drawn";
+  EXPECT_EQ(part_of(packing, {10.2, 20.0, -1.0, 3.0}).discs.size(), 10u) << "a clipped grain is drawn";
   EXPECT_EQ(part_of(packing, {10.0, 20.0, 1.5, 3.0}).discs.size(), 0u);
   EXPECT_EQ(view.x_min, 10.0);
   EXPECT_EQ(view.x_max, 20.0);

@@ -32,7 +32,7 @@ struct Moved {
 
 TEST(LogHistogram, FindsQuantilesToTwoPercent) {
   pictures::LogHistogram histogram;
-  EXPECT_EQ(histogram.quantile(0.5), 0.0) << "of nothing";
+  EXPECT_EQ(histogram.quantile(0.5), 0.0) << "without any values";
   for (int k = 1; k <= 1000; ++k) histogram.add(1e-5 * k);
   for (const double share : {0.05, 0.5, 0.99}) {
     EXPECT_GE(histogram.quantile(share), 0.01 * share);

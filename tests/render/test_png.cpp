@@ -71,7 +71,7 @@ TEST(Png, SaysHowWideItIsPrinted) {
   const std::string path = folder.path("a.png");
   write_png(path, pattern(1016, 20), {{"Key", "text"}}, 0.086);
   EXPECT_EQ(test::read_png(path).pixels, pattern(1016, 20).pixels);
-  EXPECT_EQ(png_text(path, "Key"), "text") << "its checksums are right";
+  EXPECT_EQ(png_text(path, "Key"), "text") << "its checksums are correct";
   const std::vector<std::uint8_t> plain = encode_png(pattern(1016, 20)),
                                   printed = encode_png(pattern(1016, 20), {}, 0.086);
   const std::string bytes(printed.begin(), printed.end());
@@ -133,7 +133,7 @@ TEST(Png, HasNoTextWhereThereIsNoPng) {
   EXPECT_EQ(png_text(folder.path(""), "Key"), std::nullopt) << "a folder";
   EXPECT_EQ(png_text("/dev/zero", "Key"), std::nullopt);
   ASSERT_EQ(mkfifo(folder.path("pipe").c_str(), 0600), 0);
-  EXPECT_EQ(png_text(folder.path("pipe"), "Key"), std::nullopt) << "and does not wait";
+  EXPECT_EQ(png_text(folder.path("pipe"), "Key"), std::nullopt) << "and does not block";
   write_bytes(folder.path("a.png"), "not a picture, and long enough to be one");
   EXPECT_EQ(png_text(folder.path("a.png"), "Key"), std::nullopt);
   // A text chunk that claims 4 GB.

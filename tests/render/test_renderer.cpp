@@ -62,7 +62,7 @@ TEST(Renderer, FillsDiscsWithTheirColour) {
   EXPECT_EQ(at(8, 2.98), black);
   EXPECT_EQ(at(8, 3.02), white);
   EXPECT_EQ(at(3.5, 2), white);
-  EXPECT_LT(at(2, 2.99).red, 200) << "a white disc shows its rim";
+  EXPECT_LT(at(2, 2.99).red, 200) << "a white disc is visible by its rim";
 }
 
 TEST(Renderer, TakesOneChannelWhereAllIsGray) {
@@ -132,7 +132,7 @@ TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
   double ink = 0.0;  // across the thin line, px
   for (int row = -3; row <= 3; ++row)
     ink += 1.0 - gray_at(image, camera.project(3, 0.5).x, camera.project(3, 0.5).y + row) / 255.0;
-  EXPECT_NEAR(ink, 0.7, 0.2) << "no line is too thin to be seen";
+  EXPECT_NEAR(ink, 0.7, 0.2) << "no line is too thin to be visible";
 }
 
 TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
@@ -148,7 +148,7 @@ TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
   int strays = 0;
   for (int y = 0; y < 400; ++y)
     for (int x = 0; x < 1000; ++x) strays += gray_at(image, x, y) < 255 && std::hypot(x, y - 200) > 102.0;
-  EXPECT_EQ(strays, 0) << "nothing but the disc";
+  EXPECT_EQ(strays, 0) << "only the disc";
 }
 
 TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
@@ -230,7 +230,7 @@ TEST(Renderer, ClearGroundUnderTheSamePicture) {
                         static_cast<int>(std::abs(over_white(front.green) - seen.green)),
                         static_cast<int>(std::abs(over_white(front.blue) - seen.blue))});
     }
-  EXPECT_LE(worst, 2) << "on white paper it is the opaque one";
+  EXPECT_LE(worst, 2) << "on white paper it equals the opaque one";
   EXPECT_GT(nothing, clear.width * clear.height / 10);
 }
 
@@ -349,7 +349,7 @@ TEST(Renderer, AsksItsTargetForOneWholePicture) {
   EXPECT_EQ(recording.begun, 1);
   EXPECT_EQ(recording.ended, 1);
   EXPECT_EQ(recording.format, PixelFormat::colour);
-  ASSERT_EQ(recording.discs.size(), 2u) << "the bed, and the furniture";
+  ASSERT_EQ(recording.discs.size(), 2u) << "the bed, and the other elements";
   EXPECT_EQ(recording.discs[0].size(), view.discs.size());
   EXPECT_EQ(recording.disc_windows[0].box.x, layout.bed.box.x);
   EXPECT_EQ(recording.disc_windows[0].x_max, view.x_max);

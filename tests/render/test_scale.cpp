@@ -101,20 +101,20 @@ TEST(Bar, OfAScaleHasRoundNumbersOrDecadesWhereTheyAre) {
   EXPECT_EQ(decades.ticks[4].label, "10");
   EXPECT_NEAR(decades.ticks[1].share, 0.25, 1e-12);
   const Bar few = pictures::bar_of({ColourMap::gray, 0.03, 1.0, true}, "");
-  ASSERT_EQ(few.ticks.size(), 5u) << "two decades say too little";
+  ASSERT_EQ(few.ticks.size(), 5u) << "two decades are too few";
   EXPECT_EQ(few.ticks[0].label, "0.05");
   EXPECT_EQ(few.ticks[4].label, "1");
   const Bar many = pictures::bar_of({ColourMap::gray, 1e-12, 1e12, true}, "");
   ASSERT_EQ(many.ticks.size(), 9u) << "every third decade";
   EXPECT_EQ(many.ticks[0].label, "10⁻¹²");
-  EXPECT_EQ(many.ticks[4].label, "10⁰") << "as the others";
+  EXPECT_EQ(many.ticks[4].label, "10⁰") << "like the others";
   EXPECT_EQ(pictures::bar_of({ColourMap::gray, 2e-5, 1.1e-4, true}, "").ticks[0].label, "2·10⁻⁵");
   const Bar huge = pictures::bar_of({ColourMap::gray, -1e12, 1e12}, "");
   EXPECT_EQ(huge.ticks[0].label, "−1.0·10¹²");
   EXPECT_EQ(huge.ticks[1].label, "−0.5·10¹²");
   EXPECT_EQ(huge.ticks[2].label, "0");
   const Bar within = pictures::bar_of({ColourMap::gray, 2.0, 8.0, true}, "");
-  EXPECT_GE(within.ticks.size(), 3u) << "no decade in it";
+  EXPECT_GE(within.ticks.size(), 3u) << "contains no decade";
   for (const BarTick& tick : within.ticks)
     EXPECT_NEAR(tick.share, std::log(std::stod(tick.label) / 2.0) / std::log(4.0), 1e-9);
 }

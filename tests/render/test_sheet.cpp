@@ -94,10 +94,10 @@ TEST(Arrangement, FillsAGivenSizeWithTheLargestBeds) {
     EXPECT_EQ(sheet.width, width);
     EXPECT_EQ(sheet.height, height);
     expect_apart(sheet);
-    EXPECT_GE(arrangement.cell, width / 3) << "no smaller than all beside each other";
+    EXPECT_GE(arrangement.cell, width / 3) << "at least as large as all views side by side";
   }
   const std::vector<FrameView> one = {test::sample_view(100, 20)};
-  EXPECT_GT(arrange({one}, 1080, 1920, font).cell, 1050) << "as wide as the size";
+  EXPECT_GT(arrange({one}, 1080, 1920, font).cell, 1050) << "as wide as the given size";
 }
 
 TEST(Arrangement, HoldsTheLongestTextOfAllFrames) {
@@ -111,7 +111,7 @@ TEST(Arrangement, HoldsTheLongestTextOfAllFrames) {
     expect_apart(sheet);
     EXPECT_EQ(sheet.views[0].layout.bed.box.y,
               arranged(frames[0], arrangement, font).views[0].layout.bed.box.y)
-        << "the bed stands still";
+        << "the bed does not move";
   }
 }
 

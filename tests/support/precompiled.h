@@ -1,4 +1,4 @@
-/// Headers that nearly every test includes, compiled once for all tests.
+/// Headers that nearly every test includes, compiled only once.
 
 #include <gtest/gtest.h>
 

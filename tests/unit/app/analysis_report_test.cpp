@@ -19,7 +19,7 @@ TEST(AnalysisJson, has_each_quantity_of_its_table) {
   const std::string text = analysis_json(run, table);
   EXPECT_NE(text.find("\"packing/made_up\": [null, 0.25]"), std::string::npos) << text;
   EXPECT_EQ(analysis_json(run).find("made_up"), std::string::npos);
-  EXPECT_EQ(text.find("lc/length"), std::string::npos) << "values of single grains are left out";
+  EXPECT_EQ(text.find("lc/length"), std::string::npos) << "values of single grains are omitted";
 }
 
 TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) {

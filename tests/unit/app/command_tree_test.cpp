@@ -47,7 +47,7 @@ TEST_F(CommandTree, has_what_the_parser_has_without_what_is_hidden) {
   EXPECT_TRUE(go.options[3].required);
   EXPECT_EQ(go.options[4].argument, "WHERE");
   EXPECT_TRUE(go.options[4].names.empty());
-  EXPECT_EQ(go.options[5].names, std::vector<std::string>{"--by"}) << "of a group";
+  EXPECT_EQ(go.options[5].names, std::vector<std::string>{"--by"}) << "option of a group";
 }
 
 TEST_F(CommandTree, makes_a_man_page_of_each_command) {

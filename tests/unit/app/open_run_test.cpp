@@ -29,7 +29,7 @@ class OpenRunTest : public testing::Test {
 TEST_F(OpenRunTest, names_the_run_and_the_value_that_its_checkpoint_lacks) {
   try {
     resume_run(request_);
-    ADD_FAILURE() << "taken up";
+    ADD_FAILURE() << "opened";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_EQ(error.what(),

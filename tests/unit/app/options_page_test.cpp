@@ -61,7 +61,7 @@ TEST(OptionsPage, has_the_table_of_the_parser) {
   if (!has_window) GTEST_SKIP() << "built without talus view";
   std::ifstream file(test::source_folder() + "/docs/options.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}}, table = table_of(shared_options());
-  EXPECT_NE(page.find(table), std::string::npos) << "docs/options.md is to have this table:\n" << table;
+  EXPECT_NE(page.find(table), std::string::npos) << "docs/options.md must have this table:\n" << table;
 }
 
 /// A frame, a threshold or a key has the same syntax everywhere.

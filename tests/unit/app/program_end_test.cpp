@@ -60,13 +60,13 @@ void crash_after(int error, int signal) {
 }
 
 TEST(ProgramEnd, of_a_crash_after_a_failed_allocation_is_that_of_missing_memory) {
-  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes are the sanitizer's";
+  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes belong to the sanitizer";
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT})
     EXPECT_EXIT(crash_after(ENOMEM, signal), out_of_memory, "talus: error: out of memory") << signal;
 }
 
 TEST(ProgramEnd, of_another_crash_is_the_crash) {
-  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes are the sanitizer's";
+  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes belong to the sanitizer";
   for (const int signal : {SIGSEGV, SIGBUS, SIGABRT})
     EXPECT_EXIT(crash_after(0, signal), testing::KilledBySignal(signal), "") << signal;
 }
@@ -79,7 +79,7 @@ int sink(volatile int* above) {
 }
 
 TEST(ProgramEnd, of_a_recursion_without_end_is_told_from_a_stack_of_its_own) {
-  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes are the sanitizer's";
+  if (sanitizers_report_crashes) GTEST_SKIP() << "crashes belong to the sanitizer";
   const auto recurse = [](int error) {
     volatile int top = 0;
     errno = error;

@@ -96,7 +96,7 @@ TEST(ProgressBar, IsFullAtTheEnd) {
   EXPECT_EQ(line(0.0), "a  [--------------]  0 %  elapsed 1 s");
   EXPECT_EQ(line(0.5), "a  [#######-------]  50 %  elapsed 1 s");
   EXPECT_EQ(line(1.0), "a  [##############]  100 %  elapsed 1 s");
-  EXPECT_EQ(line(7.0), "a  elapsed 1 s") << "beyond what was expected";
+  EXPECT_EQ(line(7.0), "a  elapsed 1 s") << "beyond the estimate";
 }
 
 }  // namespace

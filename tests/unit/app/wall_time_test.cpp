@@ -20,7 +20,7 @@ TEST(WallTime, is_refused_where_it_is_not_clear) {
     SCOPED_TRACE(text);
     try {
       parse_wall_time("--max-wall", text);
-      ADD_FAILURE() << "taken";
+      ADD_FAILURE() << "accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::usage);
       EXPECT_NE(std::string(error.what()).find("--max-wall"), std::string::npos);

@@ -58,7 +58,7 @@ TEST(Leftovers, all_else_stays) {
 }
 
 TEST(Leftovers, of_another_user_stay) {
-  if (geteuid() != 0) GTEST_SKIP() << "needs root, to give files away";
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to change the owner of files";
   const test::TemporaryFolder folder;
   const std::string path = folder.path("map.png.talus.part");
   write(path);
@@ -101,10 +101,10 @@ TEST(Leftovers, are_told_from_what_is_just_being_made) {
   const auto make = [](const std::string& path, const auto& create) {
     for (int k = 0; k < 150; ++k) {
       const auto held = create(path);
-      ASSERT_TRUE(held) << "refused in favour of nobody, attempt " << k;
-      ASSERT_TRUE(is_named(path, *held)) << "it was taken away, attempt " << k;
+      ASSERT_TRUE(held) << "rejected although nobody else has it, attempt " << k;
+      ASSERT_TRUE(is_named(path, *held)) << "it was removed, attempt " << k;
       std::this_thread::yield();
-      ASSERT_TRUE(is_named(path, *held)) << "it was taken away while it was written, attempt " << k;
+      ASSERT_TRUE(is_named(path, *held)) << "it was removed while being written, attempt " << k;
     }  // state after a kill: the lock is free, the name remains
   };
   std::thread first(clear), second(clear);

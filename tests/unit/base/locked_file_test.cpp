@@ -20,7 +20,7 @@ TEST(LockedFile, is_made_by_one_at_a_time) {
   std::optional<Descriptor> first = create_locked(path);
   ASSERT_TRUE(first);
   EXPECT_FALSE(create_locked(path));
-  EXPECT_TRUE(is_named(path, *first)) << "the second attempt has taken it away";
+  EXPECT_TRUE(is_named(path, *first)) << "the second attempt has removed it";
   first->close();
   EXPECT_TRUE(create_locked(path));
 }

@@ -54,7 +54,7 @@ TEST(OutputFile, is_written_by_one_at_a_time) {
   OutputFile first(path);
   try {
     const OutputFile second(path);
-    ADD_FAILURE() << "no error";
+    ADD_FAILURE() << "no error was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::cannot_create);
     EXPECT_NE(std::string(error.what()).find("being written by another process"), std::string::npos);
@@ -72,7 +72,7 @@ ExitCode code_of(const std::string& path, const OutputRule& rule = {}) {
 TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {
   const test::TemporaryFolder folder;
   const std::string file = folder.path("file"), link = folder.path("link");
-  EXPECT_EQ(output_target(file), file) << "that is made";
+  EXPECT_EQ(output_target(file), file) << "that file is created";
   std::ofstream(file) << "x";
   fs::create_symlink("file", link);
   EXPECT_EQ(output_target(file), file);
@@ -83,7 +83,7 @@ TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {
   EXPECT_EQ(code_of("/dev/null"), ExitCode::cannot_create);
   EXPECT_EQ(code_of(""), ExitCode::usage);
   fs::remove(file);
-  EXPECT_EQ(code_of(link), ExitCode::cannot_create) << "it leads nowhere";
+  EXPECT_EQ(code_of(link), ExitCode::cannot_create) << "the link leads nowhere";
 }
 
 TEST(OutputTarget, is_no_file_that_is_write_protected) {

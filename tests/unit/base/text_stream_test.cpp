@@ -14,7 +14,7 @@ TEST(TextStream, reads_what_the_text_has) {
   EXPECT_EQ(line, "a b");
   EXPECT_TRUE(stream >> line);
   EXPECT_EQ(line, "c");
-  EXPECT_FALSE(stream >> end) << "the end of the text is no error";
+  EXPECT_FALSE(stream >> end) << "the end of the text is not an error";
 }
 
 /// Buffer in which every read fails for lack of memory.
@@ -31,7 +31,7 @@ TEST(TextStream, throws_where_memory_is_missing) {
   EXPECT_THROW(std::getline(stream, line), std::bad_alloc);
   std::istringstream plain;
   plain.std::ios::rdbuf(&buffer);
-  EXPECT_NO_THROW(std::getline(plain, line)) << "which is why";
+  EXPECT_NO_THROW(std::getline(plain, line)) << "the reason";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ TEST(Text, a_word_is_quoted_as_a_shell_reads_it) {
   EXPECT_EQ(shell_quoted("my run.h5"), "'my run.h5'");
   EXPECT_EQ(shell_quoted("it's $HOME"), "'it'\\''s $HOME'");
   EXPECT_EQ(shell_quoted(""), "''");
-  EXPECT_EQ(shell_quoted("b\xf6 it's\n\\"), "$'b\\xf6 it\\'s\\x0a\\\\'") << "as bash reads it";
+  EXPECT_EQ(shell_quoted("b\xf6 it's\n\\"), "$'b\\xf6 it\\'s\\x0a\\\\'") << "quoted for bash";
 }
 
 }  // namespace

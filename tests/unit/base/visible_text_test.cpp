@@ -15,16 +15,16 @@ TEST(VisibleText, is_what_it_was_without_controls) {
 
 TEST(VisibleText, names_the_bytes_that_a_terminal_obeys) {
   EXPECT_EQ(visible("\x1b[2Ja\rb\a\x7f"), "\\x1b[2Ja\\x0db\\x07\\x7f");
-  EXPECT_EQ(visible("\xc2\x9b"), "\\xc2\\x9b") << "CSI of the upper half";
-  EXPECT_EQ(visible("\xe2\x80\xae"), "\\xe2\\x80\\xae") << "turns the direction of writing";
+  EXPECT_EQ(visible("\xc2\x9b"), "\\xc2\\x9b") << "CSI among the C1 control characters";
+  EXPECT_EQ(visible("\xe2\x80\xae"), "\\xe2\\x80\\xae") << "reverses the direction of writing";
 }
 
 TEST(VisibleText, names_the_bytes_that_are_no_character) {
   EXPECT_EQ(visible("\xff z"), "\\xff z");
-  EXPECT_EQ(visible("\xc0\x9b"), "\\xc0\\x9b") << "longer than need be";
+  EXPECT_EQ(visible("\xc0\x9b"), "\\xc0\\x9b") << "an overlong encoding";
   EXPECT_EQ(visible("\xe0\x81\x81"), "\\xe0\\x81\\x81") << "an A in three bytes";
-  EXPECT_EQ(visible("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a pair of UTF-16";
-  EXPECT_EQ(visible("a\xe2\x84"), "a\\xe2\\x84") << "cut short";
+  EXPECT_EQ(visible("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "half of a UTF-16 surrogate pair";
+  EXPECT_EQ(visible("a\xe2\x84"), "a\\xe2\\x84") << "truncated";
 }
 
 TEST(VisibleWord, is_one_line_and_short) {

@@ -147,7 +147,7 @@ TEST(NeighbourList, is_kept_while_no_grain_moved_by_half_the_skin) {
   for (int again = 0; again < 2; ++again) {
     update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
     EXPECT_EQ(list.rebuilds, 1);
-    EXPECT_EQ(list.renewals, 1) << "of one grain";
+    EXPECT_EQ(list.renewals, 1) << "for one grain";
   }
 }
 
@@ -170,7 +170,7 @@ TEST(NeighbourList, is_made_anew_for_other_bodies) {
   update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
   add_disk(world.grains, {radius, -radius}, radius, test::density, true);
   update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
-  EXPECT_EQ(list.rebuilds, 2) << "a grain more, which is not free";
+  EXPECT_EQ(list.rebuilds, 2) << "one more grain, which is not free";
   const Grains none;
   update_neighbour_list(list, none, world.boundary, 0.1 * radius);
   EXPECT_EQ(list.pairs.count(), 0U);

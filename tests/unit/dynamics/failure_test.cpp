@@ -31,7 +31,7 @@ TEST(Failure, rule_is_the_one_documented) {
   const auto walled = [](double length) {
     return flow_rule(diameter, gravity, {.periodic = false, .length = length, .planes = {}}).distance;
   };
-  EXPECT_DOUBLE_EQ(walled(20.0 * diameter), 1.0 * diameter) << "a flow between near walls ends soon";
+  EXPECT_DOUBLE_EQ(walled(20.0 * diameter), 1.0 * diameter) << "a flow between close walls ends soon";
   EXPECT_DOUBLE_EQ(walled(300.0 * diameter), 5.0 * diameter);
 }
 

@@ -198,7 +198,7 @@ TEST_P(Impact, a_cloud_of_disks_never_gains_energy) {
         EXPECT_LE(now, energy + 1e-9 * start) << "e = " << e << ", mu = " << friction << ", step " << k;
         energy = now;
       }
-      EXPECT_LT(energy, (e < 1.0 ? 0.95 : 1.0) * start) << "nothing met";
+      EXPECT_LT(energy, (e < 1.0 ? 0.95 : 1.0) * start) << "no disks collided";
     }
 }
 

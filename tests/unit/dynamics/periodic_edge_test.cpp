@@ -141,7 +141,7 @@ TEST_P(PeriodicEdge, a_falling_crowd_keeps_its_momentum_along_x) {
     for (Index c = 0; c < world.contacts.count(); ++c)
       if (world.contacts.shift[c] != 0 && world.contacts.fn[c] > 0.0) ++across;
   }
-  EXPECT_GT(across, 10) << "nothing met across the edge";
+  EXPECT_GT(across, 10) << "no disks collided across the edge";
   const test::Momentum after = test::momentum(world.grains);
   EXPECT_NEAR(after.x, before.x, 1e-13 * mass);
   EXPECT_NEAR(after.y, before.y - mass * world.gravity * 100 * test::time_step, 1e-12 * mass);

@@ -74,7 +74,7 @@ TEST(Step, lists_pairs_up_to_a_gap_that_changes_by_doubling) {
   expect_margin(4.0, (1.0 + 1e-9) * per_margin);
   expect_margin(8.0, 4.5 * per_margin);
   settings.margin = 0.0;
-  EXPECT_TRUE(listed(0.99 * margin, per_margin)) << "nothing to double: the velocities alone";
+  EXPECT_TRUE(listed(0.99 * margin, per_margin)) << "a zero margin cannot double; the gap follows from the velocities";
   EXPECT_FALSE(listed(1.01 * margin, per_margin));
 }
 
@@ -139,7 +139,7 @@ TEST(Step, a_velocity_that_is_not_finite_is_an_error_that_leaves_the_world_alone
   StepWorkspace workspace;
   try {
     step(world, test::bed_step(), workspace);
-    FAIL() << "no error";
+    FAIL() << "no error was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::internal);
     EXPECT_EQ(std::string(error.what()), "step 51: a velocity is not finite");

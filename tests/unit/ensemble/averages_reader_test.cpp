@@ -60,7 +60,7 @@ TEST(ReadAverages, gives_members_back_at_the_points_of_both_grids) {
         interpolated(original.series.theta, original.series.series[0].values, second.series.theta[k]))
         << second.series.theta[k];
   EXPECT_EQ(second.series.series[0].name, "contacts/coordination_number");
-  EXPECT_TRUE(std::isnan(second.series.series[1].values[0])) << "a value that is not known stays so";
+  EXPECT_TRUE(std::isnan(second.series.series[1].values[0])) << "an unknown value stays unknown";
   EXPECT_EQ(member_of(variant, 0).series.theta.back(), 2.0);
 }
 
@@ -82,7 +82,7 @@ TEST(ReadAverages, has_room_for_thousands_of_members) {
     members.push_back(
         {seed, {"00000000000000ab", "", 0.0, {{"theta_c", "deg", static_cast<double>(seed)}}}, {}});
   const StoredVariant variant = written_and_read(members);
-  ASSERT_EQ(variant.state_hashes.size(), 5000u) << "more than an attribute of HDF5 can hold";
+  ASSERT_EQ(variant.state_hashes.size(), 5000u) << "more than an HDF5 attribute can hold";
   EXPECT_EQ(variant.state_hashes.back(), "00000000000000ab");
   EXPECT_EQ(number_called(member_of(variant, 4999).numbers, "theta_c"), 5000.0);
 }

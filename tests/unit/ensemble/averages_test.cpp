@@ -34,7 +34,7 @@ TEST(Interpolated, lies_between_two_frames_and_nowhere_else) {
   EXPECT_DOUBLE_EQ(interpolated(tilts, values, 0.5), 6.0);
   EXPECT_DOUBLE_EQ(interpolated(tilts, values, 2.5), 4.0);
   EXPECT_EQ(interpolated(tilts, values, 1.0), 7.0);
-  EXPECT_EQ(interpolated(tilts, values, 3.0 + 1e-9), 3.0) << "the angle of a frame but for its rounding";
+  EXPECT_EQ(interpolated(tilts, values, 3.0 + 1e-9), 3.0) << "the angle of a frame except for its rounding";
   EXPECT_EQ(interpolated(tilts, values, 1.0 - 1e-9), 7.0);
   for (const double outside : {-0.1, 3.1, none})
     EXPECT_TRUE(std::isnan(interpolated(tilts, values, outside))) << outside;
@@ -58,7 +58,7 @@ TEST(Averages, before_failure_are_at_the_same_angle_from_each_theta_c) {
   const Averages found = averages_of({member(1, 2.5, 4.0), member(2, 3.5, 6.0)}, 1.0);
   EXPECT_EQ(found.before_failure.angles, (std::vector{0.0, 1.0, 2.0, 3.0}));
   const AveragedQuantity& z = found.before_failure.quantities.at(0);
-  EXPECT_EQ(z.summaries[0].statistics.count, 0) << "no frame stands at theta_c, and none is extrapolated";
+  EXPECT_EQ(z.summaries[0].statistics.count, 0) << "no frame is at theta_c, and none is extrapolated";
   EXPECT_DOUBLE_EQ(z.values[1], 2.5);
   EXPECT_DOUBLE_EQ(z.values[5], 3.5);
   EXPECT_EQ(z.summaries[3].statistics.count, 1);

@@ -112,14 +112,14 @@ TEST(Claim, of_the_next_number_replaces_a_dead_one_which_then_knows) {
   ASSERT_TRUE(next);
   EXPECT_FALSE(old->beat());
   EXPECT_TRUE(next->beat());
-  EXPECT_FALSE(Claim::take(run, 0, quick)) << "a second one that found the same claim dead";
+  EXPECT_FALSE(Claim::take(run, 0, quick)) << "another process that found the same dead claim";
   EXPECT_FALSE(std::filesystem::exists(claim_path(run, 0)));
 }
 
 TEST(Claim, is_not_taken_over_from_one_that_has_ended_meanwhile) {
   const test::TemporaryFolder folder;
   const std::string run = folder.path("seed-1.h5");
-  EXPECT_FALSE(Claim::take(run, 0, quick)) << "claim 0 was given back, and claim 1 would not exclude a new 0";
+  EXPECT_FALSE(Claim::take(run, 0, quick)) << "claim 0 was released, and claim 1 would not exclude a new 0";
   EXPECT_FALSE(std::filesystem::exists(claim_path(run, 1)));
 }
 

@@ -80,7 +80,7 @@ TEST_F(EnsembleManifestTest, remembers_which_runs_stay_until_it_is_told_otherwis
   extend_ensemble(ensemble, asked);
   EXPECT_EQ(read_ensemble(ensemble).keep, "");
   EXPECT_EQ(text_of(manifest_path(ensemble)).find("keep"), std::string::npos)
-      << "as before there was a choice";
+      << "written only if it differs from the default";
   for (const auto& [given, expected] :
        {std::pair{"analysis", "analysis"}, {"", "analysis"}, {"3", "3"}, {"all", "all"}}) {
     asked.keep = given;
@@ -109,7 +109,7 @@ TEST_F(EnsembleManifestTest, of_another_scenario_is_refused_and_says_why) {
   extend_ensemble(ensemble, wanted({1}));
   try {
     extend_ensemble(ensemble, wanted({1}, {}, {"contact.friction=0.4"}));
-    FAIL() << "nothing was refused";
+    FAIL() << "nothing was rejected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_NE(std::string(error.what()).find("contact.friction is 0.5 there, 0.4 here"), std::string::npos)
@@ -117,7 +117,7 @@ TEST_F(EnsembleManifestTest, of_another_scenario_is_refused_and_says_why) {
   }
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({1}, {"tilt.rate=2"})); }),
             ExitCode::bad_data)
-      << "variants of which none is there";
+      << "variants none of which exists";
 }
 
 TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
@@ -127,7 +127,7 @@ TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
   EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(ReadingsTask{}));
   try {
     extend_ensemble(ensemble, wanted({1}));
-    FAIL() << "nothing was refused";
+    FAIL() << "nothing was rejected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_NE(std::string(error.what()).find("have the task 'readings', expected no task"), std::string::npos)
@@ -227,7 +227,7 @@ TEST_F(EnsembleManifestTest, has_short_names_that_differ_whatever_the_values_are
   EXPECT_EQ(test::exit_code_of(
                 [&] { plan_variants(scenario, {"deposition.method=file"}, {"deposition.file=a\xff.csv"}); }),
             ExitCode::bad_data)
-      << "no scenario file can hold it";
+      << "no scenario file can contain it";
   EXPECT_EQ(test::exit_code_of([&] {
               plan_variants(scenario, {"deposition.method=file"},
                             {"deposition.file=" + std::string(4095, 'a')});
@@ -252,14 +252,14 @@ TEST_F(EnsembleManifestTest, loses_a_variant_that_only_fails_to_a_command_withou
   record_failure(plan.members[2].path, {65, "bad"});  // member with 0.5
   io::write_text(plan.members[5].path, "done");
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.4"}));
-  EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is wanted, and a member of 0.5 is done";
+  EXPECT_EQ(names(), "0.3 0.4 0.5 ") << "0.4 is requested, and a member with 0.5 is done";
   extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.3,0.7"}));
   EXPECT_EQ(names(), "0.3 0.5 0.7 ");
   EXPECT_FALSE(std::filesystem::exists(failure_path(plan.members[1].path)));
   EXPECT_FALSE(std::filesystem::exists(ensemble + "/scenarios/contact.friction=0.4.toml"));
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({1}, {"contact.friction=0.9"})); }),
             ExitCode::bad_data)
-      << "variants that wait are no mistake";
+      << "waiting variants are no contradiction";
 }
 
 TEST_F(EnsembleManifestTest, of_which_all_fails_begins_anew_with_the_corrected_command) {
@@ -279,7 +279,7 @@ TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun)
   const auto extend = [&] { extend_ensemble(ensemble, wanted({1, 2}, {"contact.friction=0.4"})); };
   record_failure(members[0].path, {137, "killed"});
   extend();
-  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "a signal says nothing of the value";
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "a signal does not depend on the value";
   record_failure(members[0].path, {65, "a mistake"});
   std::filesystem::create_directories(members[2].path + ".run");
   std::ofstream(members[2].path + ".run/manifest") << "talus run folder 1\n";
@@ -287,8 +287,8 @@ TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun)
   EXPECT_EQ(read_ensemble(ensemble).variants.size(), 2u) << "another seed has a run";
   record_failure(members[2].path, {65, "a mistake"});
   extend();
-  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 1u) << "both have failed by themselves";
-  EXPECT_TRUE(std::filesystem::exists(members[2].path + ".withdrawn/manifest")) << "nothing is lost";
+  EXPECT_EQ(read_ensemble(ensemble).variants.size(), 1u) << "both have failed on their own";
+  EXPECT_TRUE(std::filesystem::exists(members[2].path + ".withdrawn/manifest")) << "no data are lost";
   EXPECT_FALSE(std::filesystem::exists(members[2].path + ".run")) << "the name is free";
 }
 
@@ -329,7 +329,7 @@ TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
   std::ofstream(file) << "x,y,radius\n10,0.6,0.5\n";
   try {
     begin();
-    FAIL() << "nothing was refused";
+    FAIL() << "nothing was rejected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_TRUE(std::string(error.what()).starts_with(file + " (deposition.file) holds another bed"))

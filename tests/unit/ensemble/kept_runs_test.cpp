@@ -84,7 +84,7 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   const std::vector<double> tilts = io::RunFile::open(path).frame_tilts();
   fs::create_directory(io::run_folder(path));
   EXPECT_EQ(drop("analysis", of, "e"), 2u);
-  EXPECT_FALSE(fs::exists(io::run_folder(path))) << "what a kill had left";
+  EXPECT_FALSE(fs::exists(io::run_folder(path))) << "remains of a kill are removed";
   EXPECT_EQ(drop("analysis", of, "e"), 0u);
   const io::RunFile run = io::RunFile::open(path);
   EXPECT_FALSE(run.has_frames());
@@ -105,7 +105,7 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   EXPECT_EQ(after.lists.lists.size(), before.lists.lists.size());
   EXPECT_LT(fs::file_size(path), fs::file_size(of.members[1].path) * 2) << "both are small";
   io::store_analysis(path, *io::read_analysis(run), before.numbers.state_hash);
-  EXPECT_FALSE(io::RunFile::open(path).has_frames()) << "analysed again, it is as it was";
+  EXPECT_FALSE(io::RunFile::open(path).has_frames()) << "analysed again, it is unchanged";
   EXPECT_EQ(test::exit_code_of([&] { runs::analyse_run(run, analysis::AnalysisParameters(), 1, {}); }),
             ExitCode::missing_input);
 }
@@ -117,7 +117,7 @@ TEST_F(DroppedFrames, are_none_behind_a_link) {
   fs::create_directory(folder_.path("own"));
   EXPECT_EQ(drop("analysis", behind, "own"), 0u);
   EXPECT_TRUE(io::RunFile::open(folder_.path("victim/seed-3.h5")).has_frames());
-  EXPECT_EQ(drop("analysis", behind, "e"), 1u) << "the link is the folder's own";
+  EXPECT_EQ(drop("analysis", behind, "e"), 1u) << "the link itself belongs to the folder";
 }
 
 TEST_F(DroppedFrames, are_not_those_of_another_run) {
@@ -134,7 +134,7 @@ TEST_F(DroppedFrames, leave_no_folders_and_claims_of_members_that_are_done) {
   drop_leftovers(of);
   EXPECT_FALSE(fs::exists(io::run_folder(of.members[0].path)));
   EXPECT_FALSE(fs::exists(claim_path(of.members[0].path, 0)));
-  EXPECT_TRUE(fs::exists(io::run_folder(of.members[1].path))) << "of a member that is not done";
+  EXPECT_TRUE(fs::exists(io::run_folder(of.members[1].path))) << "of an unfinished member";
 }
 
 }  // namespace

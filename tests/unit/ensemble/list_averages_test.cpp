@@ -60,7 +60,7 @@ TEST(ListAverages, before_failure_are_at_the_same_angle_from_each_theta_c) {
   EXPECT_EQ(density.count[0], 0.0) << "theta_c is beyond the last frame";
   EXPECT_TRUE(std::isnan(density.mean[0]));
   EXPECT_DOUBLE_EQ(density.mean[1 * 2], 0.5 * ((1.0 + 1.5) + (3.0 + 2.5)));
-  EXPECT_EQ(density.count[3 * 2], 1.0) << "member 1 was never so far from its failure";
+  EXPECT_EQ(density.count[3 * 2], 1.0) << "member 1 was never this far from its failure";
 }
 
 TEST(ListAverages, leave_out_members_with_other_bins) {

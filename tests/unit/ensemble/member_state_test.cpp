@@ -33,7 +33,7 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   EXPECT_EQ(states[4].stage, MemberStage::claimed);
   EXPECT_EQ(states[4].claim, 10);
   EXPECT_EQ(states[6].stage, MemberStage::waiting);
-  EXPECT_EQ(states[1].stage, MemberStage::waiting) << "folder b is not there yet";
+  EXPECT_EQ(states[1].stage, MemberStage::waiting) << "folder b does not exist yet";
   EXPECT_EQ(count_of(states, MemberStage::waiting), 5u);
   EXPECT_TRUE(states[6].has_folder && states[6].has_old_table);
   EXPECT_FALSE(states[0].has_folder || states[0].has_old_table);

@@ -18,7 +18,7 @@ namespace talus::ensemble {
 namespace {
 
 TEST(DISABLED_JobOfAPool, ends_well) {}
-TEST(DISABLED_JobOfAPool, ends_with_an_error) { FAIL() << "as it should"; }
+TEST(DISABLED_JobOfAPool, ends_with_an_error) { FAIL() << "as expected"; }
 TEST(DISABLED_JobOfAPool, takes_long) { std::this_thread::sleep_for(std::chrono::minutes(1)); }
 
 Job job(const std::string& test, const std::string& log) {
@@ -35,7 +35,7 @@ TEST(Pool, does_all_jobs_and_returns_those_that_failed) {
   EXPECT_EQ(failed[0].log, bad);
   EXPECT_EQ(failed[0].exit_code, 1);
   EXPECT_NE(io::read_text(bad).find("as it should"), std::string::npos);
-  EXPECT_NE(io::read_text(good).find("1 test"), std::string::npos) << "its folder was made";
+  EXPECT_NE(io::read_text(good).find("1 test"), std::string::npos) << "its folder was created";
 }
 
 TEST(Pool, ends_its_jobs_where_it_is_not_to_go_on) {
@@ -43,7 +43,7 @@ TEST(Pool, ends_its_jobs_where_it_is_not_to_go_on) {
   const std::vector<Job> jobs = {job("takes_long", folder.path("1.log")),
                                  job("takes_long", folder.path("2.log"))};
   const auto failed = run_jobs(jobs, "the test", [] { return false; });
-  ASSERT_EQ(failed.size(), 2u) << "side by side: both had begun";
+  ASSERT_EQ(failed.size(), 2u) << "in parallel: both had begun";
   for (const FailedJob& each : failed) EXPECT_EQ(each.exit_code, 128 + SIGTERM);
 }
 

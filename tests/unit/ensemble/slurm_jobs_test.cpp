@@ -54,7 +54,7 @@ TEST(Starts, that_bring_no_member_further_are_counted) {
   memory = after_start(memory, {0, 10});
   EXPECT_EQ(memory.idle_starts, 2);
   EXPECT_EQ(after_start(memory, {0, 11}).idle_starts, 0) << "steps";
-  EXPECT_EQ(after_start(memory, {1, 0}).idle_starts, 0) << "a member that is done";
+  EXPECT_EQ(after_start(memory, {1, 0}).idle_starts, 0) << "a finished member";
   EXPECT_EQ(after_start(memory, {0, 10}).idle_starts, most_idle_starts);
 }
 

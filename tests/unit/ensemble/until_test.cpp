@@ -44,7 +44,7 @@ TEST(Precision, is_reached_where_the_mean_of_every_variant_is_known_so_well) {
 TEST(Precision, of_what_no_run_has_is_refused_and_says_what_there_is) {
   try {
     parse_precision("theta_x:1");
-    FAIL() << "nothing was refused";
+    FAIL() << "nothing was rejected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::usage);
     for (const char* name : {"theta_x", "theta_c", "theta_d/dilation", "theta_r"})

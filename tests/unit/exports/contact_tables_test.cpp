@@ -23,7 +23,7 @@ TEST(ForceCode, of_a_contact_is_never_that_of_none) {
   EXPECT_EQ(force_code(0.0), 1U);
   EXPECT_EQ(force_code(1e-9), 1U);
   EXPECT_EQ(force_code(6.0), 255U);
-  EXPECT_EQ(force_code(60.0), 255U) << "lines are no wider";
+  EXPECT_EQ(force_code(60.0), 255U) << "the width of lines is limited";
 }
 
 }  // namespace

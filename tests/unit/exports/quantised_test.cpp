@@ -49,7 +49,7 @@ TEST(Quantised, places_of_a_box_have_both_ends) {
   EXPECT_EQ(place_code(quantum, 41.5), 65535U);
   for (double y = -1.0; y < 41.5; y += 0.177)
     EXPECT_NEAR(quantum.low + quantum.step * place_code(quantum, y), y, 0.5 * quantum.step + 1e-12);
-  EXPECT_EQ(place_code(places_of_box(3.0, 3.0), 3.0), 0U) << "a box without height";
+  EXPECT_EQ(place_code(places_of_box(3.0, 3.0), 3.0), 0U) << "a box of zero height";
 }
 
 }  // namespace

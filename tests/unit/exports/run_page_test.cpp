@@ -58,7 +58,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 TEST_F(RunPage, holds_the_frames_that_are_asked_for) {
   const std::string some = page({0, 3, 6});
   EXPECT_NE(some.find("\"numbers\":[0,3,6]"), std::string::npos);
-  EXPECT_NE(some.find("\"of_tilt\":2"), std::string::npos) << "frame 6 is of the flow";
+  EXPECT_NE(some.find("\"of_tilt\":2"), std::string::npos) << "frame 6 belongs to the flow";
   EXPECT_NE(some.find("\"tilts\":[0,15,24]"), std::string::npos);
   const std::size_t grains = file_->header().statics.radius.size();
   EXPECT_EQ(table(some, "x", grains, 3).size(), 3 * grains);
@@ -141,9 +141,9 @@ TEST_F(RunPage, needs_nothing_but_itself) {
     return match;
   }();
   EXPECT_TRUE(found.empty()) << found.str();
-  EXPECT_EQ(count_of(text, "{{"), 0U) << "all of the template is filled";
+  EXPECT_EQ(count_of(text, "{{"), 0U) << "the template is filled completely";
   EXPECT_EQ(count_of(text, "<script"), count_of(text, "</script>"));
-  EXPECT_EQ(element(text, "data").find('<'), std::string::npos) << "no text of the run ends its element";
+  EXPECT_EQ(element(text, "data").find('<'), std::string::npos) << "no text of the run closes its element";
 }
 
 TEST_F(RunPage, is_small) {
@@ -168,7 +168,7 @@ TEST_F(RunPage, of_a_run_that_stands_has_no_clusters) {
 
 TEST_F(RunPage, names_events_that_lie_among_its_frames) {
   EXPECT_NE(page({0, 1, 2, 3, 4}).find("\"name\":\"theta_c\""), std::string::npos);
-  EXPECT_EQ(page({0, 1}).find("\"name\":\"theta_c\""), std::string::npos) << "5 deg is far from it";
+  EXPECT_EQ(page({0, 1}).find("\"name\":\"theta_c\""), std::string::npos) << "5 deg is far from the failure";
 }
 
 TEST_F(RunPage, stops_when_asked) {

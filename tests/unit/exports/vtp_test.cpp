@@ -22,7 +22,7 @@ TEST(Vtp, has_an_array_for_each_field_with_its_unit) {
   for (const char* array : {"Int32\" Name=\"id\"", "Float64\" Name=\"radius\"", "Float32\" Name=\"velocity\"",
                             "Float32\" Name=\"lc_1_5\"", "Int32\" Name=\"cluster_1\""})
     EXPECT_EQ(count_of(grains, std::string("type=\"") + array), 1) << array;
-  EXPECT_EQ(count_of(contacts, "Name=\"normal_force\""), 2) << "of points and of cells";
+  EXPECT_EQ(count_of(contacts, "Name=\"normal_force\""), 2) << "for points and for cells";
   EXPECT_EQ(count_of(grains, ">J/m</InformationKey>"), 1);
 }
 

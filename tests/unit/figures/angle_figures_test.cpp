@@ -65,7 +65,7 @@ class AngleFigures : public ::testing::Test {
 TEST_F(AngleFigures, ShowTheAnglesThatRunsHave) {
   const auto figure = angle_distributions(groups);
   ASSERT_TRUE(figure);
-  EXPECT_EQ(variable(*figure, "panels"), "3") << "theta_c, and theta_d by the jump at both thresholds";
+  EXPECT_EQ(variable(*figure, "panels"), "3") << "theta_c, and theta_d from the jump at both thresholds";
   EXPECT_EQ(variable(*figure, "bins_2"), "\"angle-distributions-bins-theta_d-lc_jump.csv\"");
   EXPECT_EQ(variable(*figure, "bins_3"), "\"angle-distributions-bins-theta_d-lc_jump-1.csv\"");
   EXPECT_EQ(variable(*figure, "summary_1_1"), "\"mean 19.70 ± 0.66, median 19.50, n = 5\"");
@@ -105,7 +105,7 @@ TEST(HistogramBins, AreRoundAndHoldAllValues) {
   std::vector<double> outlier(50, 1.0);
   for (std::size_t k = 0; k < 25; ++k) outlier[k] = 1.001;
   outlier[0] = 100.0;
-  EXPECT_LE(bins_for(outlier).count, 60u) << "few bins for a few that lie far away";
+  EXPECT_LE(bins_for(outlier).count, 60u) << "few bins for a few distant values";
   EXPECT_GT(bins_for(outlier).count, 10u);
 }
 
@@ -114,7 +114,7 @@ TEST_F(AngleFigures, CorrelateThePairsAtTheFirstThreshold) {
   ASSERT_TRUE(figure);
   EXPECT_EQ(variable(*figure, "angles"), "2");
   EXPECT_EQ(variable(*figure, "r_1_2_1"), "\"{/:Italic r} = 1.00\"");
-  EXPECT_EQ(variable(*figure, "r_1_2_2"), "\"\"") << "of two runs there is no coefficient";
+  EXPECT_EQ(variable(*figure, "r_1_2_2"), "\"\"") << "two runs have no correlation coefficient";
   const Table& coefficients = table_called(*figure, "coefficients");
   EXPECT_NEAR(column(coefficients, "r_1")[0], 1.0, 1e-12);
   EXPECT_EQ(column(coefficients, "n_1")[0], 5.0);

@@ -155,7 +155,7 @@ TEST_F(Curves, OverTheAngleThatIsLeftAreAtTheSameDistanceFromEachFailure) {
   const std::vector<double>& left = column(table, "angle_left");
   ASSERT_EQ(left.size(), 5u);
   EXPECT_NEAR(left[1], 0.5, 1e-9);
-  EXPECT_EQ(column(table, "n")[0], 1.0) << "at the failure of the second a frame stands";
+  EXPECT_EQ(column(table, "n")[0], 1.0) << "a frame exists at the failure of the second";
   EXPECT_EQ(column(table, "n")[1], 2.0);
   EXPECT_NEAR(column(table, "packing/stress_ratio")[0], 0.02, 1e-9);
   EXPECT_NEAR(column(table, "packing/stress_ratio")[1], 0.5 * (0.0175 + 0.015), 1e-9);
@@ -190,8 +190,8 @@ TEST_F(Curves, DifferencesAreOfTwoGroupsWithBothErrors) {
   ASSERT_TRUE(figure);
   EXPECT_EQ(figure->runs.size(), 5u);
   const Table& table = figure->tables[0];
-  ASSERT_EQ(column(table, "theta").size(), 2u) << "at tilts that both have";
-  EXPECT_NEAR(column(table, "packing/stress_ratio")[0], 1.45 - 0.2, 1e-12) << "the second less the first";
+  ASSERT_EQ(column(table, "theta").size(), 2u) << "tilts common to both";
+  EXPECT_NEAR(column(table, "packing/stress_ratio")[0], 1.45 - 0.2, 1e-12) << "the second minus the first";
   EXPECT_NEAR(column(table, "packing/stress_ratio")[1], 1.45 - 0.22, 1e-12);
   EXPECT_NEAR(column(table, "packing/stress_ratio_error")[0], std::hypot(0.15, 0.1 / std::sqrt(3.0)), 1e-12);
   EXPECT_EQ(variable(*figure, "label"), "'other − PBC, a\\_b'");
@@ -214,7 +214,7 @@ TEST_F(Curves, OfCriticalContactsNeedNoMap) {
   EXPECT_LT(values->height_over_width, mapped->height_over_width);
   for (const FigureRecipe& recipe : figure_catalogue())
     if (recipe.material == Material::frames) {
-      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no file to be made from";
+      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no file from which it is made";
     }
 }
 
@@ -227,7 +227,7 @@ TEST_F(Curves, OfDistributionsNeedNoFile) {
   for (runs::RunView& run : groups_[0].runs) run.analysis.gamma_edge.clear();
   for (const FigureRecipe& recipe : figure_catalogue())
     if (recipe.material == Material::distributions) {
-      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no distributions to be made from";
+      EXPECT_FALSE(recipe.make(groups_)) << recipe.name << " has no distributions from which it is made";
     }
 }
 
@@ -273,7 +273,7 @@ TEST_F(Curves, OfLengthsHaveTheCutOfEachBedAndAllThatThePaperFound) {
   EXPECT_NEAR(std::stod(variable(*figure, "cut_2")), 10.0, 1e-12);
   EXPECT_GE(std::stod(variable(*figure, "top")),
             studies::paper_value(studies::PaperQuantity::lc_max_after_jump).value)
-      << "the cut of a shallow bed must not drop the paper's crosses";
+      << "the limited l_c of a shallow bed must not remove the paper's crosses";
 }
 
 TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
@@ -283,7 +283,7 @@ TEST_F(Curves, OfGammaAreThoseOfRunsThatStandAtTheAngle) {
   for (runs::RunView& run : groups_[0].runs) run.analysis.theta_c = radians(5.0);
   const auto early = gamma_density_figure(groups_);
   EXPECT_TRUE(std::isnan(column(early->tables[0], "density_10")[0]));
-  EXPECT_EQ(variable(*early, "shown"), gnuplot_string("0")) << "the key has no angle that no bed reaches";
+  EXPECT_EQ(variable(*early, "shown"), gnuplot_string("0")) << "the key lists no angle that no bed reaches";
 }
 
 TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
@@ -306,7 +306,8 @@ TEST_F(Curves, OverScaleAreOfFailedRunsAtTheAngles) {
   }
   EXPECT_EQ(column(table, "p_o_repose").size(), scales.size());
   for (runs::RunView& each : groups_[0].runs) each.analysis.theta_c = radians(5.0);
-  EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0])) << "none stands";
+  EXPECT_TRUE(std::isnan(column(overload_scale_figure(groups_)->tables[0], "p_o_15")[0]))
+      << "no run remained stable";
 }
 
 TEST_F(Curves, CaptionsSayWhoseGammaItIs) {

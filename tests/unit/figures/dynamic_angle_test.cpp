@@ -109,7 +109,7 @@ TEST_F(DynamicAngle, ShowsAllAnglesAtRest) {
 TEST_F(DynamicAngle, TracesTheSurfaceFromTwoSecondsBeforeFailureOn) {
   add(15.3);
   const Table trace = flow_trace(groups[0].runs[0]);
-  ASSERT_EQ(trace.columns[0].values.size(), 4u) << "one row for each interval";
+  ASSERT_EQ(trace.columns[0].values.size(), 4u) << "one row per interval";
   const double unit = std::sqrt(gravity * diameter);
   const double expected[][3] = {{-1.0, 19.5, 0.0}, {0.0, 20.0, 0.01}, {0.5, 19.8, 0.1}, {1.0, 19.6, 0.002}};
   for (std::size_t k = 0; k < 4; ++k) {

@@ -58,7 +58,7 @@ TEST_F(EventFigure, takes_the_runs_of_a_group_together) {
   add_events(7);
   const Figure figure = event_figure(groups_).value();
   const Table& events = figure.tables.front();
-  EXPECT_EQ(column(events, "theta").size(), 12u) << "six of each of two runs, without the failure";
+  EXPECT_EQ(column(events, "theta").size(), 12u) << "six from each of two runs, without the failure";
   EXPECT_NEAR(column(events, "theta")[1], 2.0, 1e-12);
   EXPECT_EQ(column(events, "seed")[6], 2.0);
   EXPECT_NEAR(column(events, "energy")[3], 8.0, 1e-9);
@@ -81,7 +81,7 @@ TEST_F(EventFigure, has_shares_and_laws) {
       << "it begins on the curve";
   EXPECT_LT(law.back(), *first);
   const Table& waits = table_called(figure, "waits-");
-  EXPECT_EQ(column(waits, "waiting").size(), 10u) << "the first event of a run has none";
+  EXPECT_EQ(column(waits, "waiting").size(), 10u) << "the first event of a run has no waiting angle";
   EXPECT_NEAR(column(waits, "exponential_law").front(), 1.0, 1e-12);
   // Waiting angles from 0.1 to 0.5 deg exceed the shortest by 0.2 on average.
   EXPECT_NEAR(column(waits, "exponential_law").back(), std::exp(-0.4 / 0.2), 1e-9);
@@ -117,7 +117,7 @@ TEST_F(EventFigure, has_axes_with_room_for_a_single_rearrangement) {
 TEST_F(EventFigure, is_none_without_rearrangements) {
   EXPECT_FALSE(event_figure(groups_).has_value());
   add_events(1);
-  EXPECT_FALSE(event_figure(groups_).has_value()) << "a failure alone";
+  EXPECT_FALSE(event_figure(groups_).has_value()) << "only a failure";
 }
 
 }  // namespace

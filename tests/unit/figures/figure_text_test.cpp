@@ -75,7 +75,7 @@ TEST(ProvenanceJson, NamesRunsAndColumns) {
         std::string("\"meaning\": \"share\""),
         "\"state_hash\": \"" + hash_text(state_hash(groups[0].runs[0].file->checkpoint().world)) + "\""})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  EXPECT_EQ(text.find(unused), std::string::npos) << "the figure is not made from it";
+  EXPECT_EQ(text.find(unused), std::string::npos) << "the figure does not use it";
 }
 
 }  // namespace

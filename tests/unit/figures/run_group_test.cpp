@@ -42,7 +42,7 @@ TEST_F(RunGroups, TakeRunsThatDifferInNothingThatShapesTheResult) {
   const auto groups = groups_of(run(2), std::move(other));
   ASSERT_EQ(groups.size(), 1u);
   EXPECT_EQ(groups[0].label, "PBC, L = 200 D");
-  EXPECT_EQ(groups[0].runs[0].scenario.seed, 1u) << "by ascending seed";
+  EXPECT_EQ(groups[0].runs[0].scenario.seed, 1u) << "in ascending order of seed";
   EXPECT_EQ(groups[0].runs[1].scenario.seed, 2u);
 }
 
@@ -62,7 +62,7 @@ TEST_F(RunGroups, NameTheKeysThatTellThemApart) {
   ASSERT_EQ(groups.size(), 3u);
   EXPECT_EQ(groups[0].label, "PBC, L = 200 D, deposition.friction = contact");
   EXPECT_EQ(groups[1].label, "PBC, L = 200 D, deposition.friction = 0.15");
-  EXPECT_EQ(groups[2].label, "WBC, L = 100 D") << "its bed tells it apart";
+  EXPECT_EQ(groups[2].label, "WBC, L = 100 D") << "its bed distinguishes it";
 }
 
 TEST_F(RunGroups, ComePeriodicFirstThenByLength) {

@@ -18,7 +18,7 @@ TEST(CommonTilts, AreThoseOfAtLeastHalfOfTheRuns) {
   const CommonTilts common = common_tilts(tilts);
   EXPECT_EQ(common.tilts, (std::vector<double>{0.0, 0.1, 0.2, 0.4})) << "0.3 has one run of three";
   ASSERT_EQ(common.samples.size(), 4u);
-  ASSERT_EQ(common.samples[2].size(), 3u) << "round-off does not part tilts";
+  ASSERT_EQ(common.samples[2].size(), 3u) << "round-off does not separate tilts";
   EXPECT_EQ(common.samples[2][2].run, 2u);
   EXPECT_EQ(common.samples[2][2].frame, 1u);
   EXPECT_EQ(common.samples[3].size(), 2u);
@@ -53,7 +53,7 @@ TEST(MeanColumns, AreMeansWithStandardErrors) {
   EXPECT_EQ(columns[2].name, "p_o_deviation");
   EXPECT_DOUBLE_EQ(columns[2].values[0], 1.0);
   EXPECT_DOUBLE_EQ(columns[2].values[1], std::sqrt(2.0));
-  EXPECT_TRUE(std::isnan(columns[2].values[3])) << "nor a spread";
+  EXPECT_TRUE(std::isnan(columns[2].values[3])) << "nor a deviation";
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Arithmetic, of_a_run_is_that_of_every_processor) {
       const std::string code = code_of(file.lines[i]);
       for (std::string_view function : inexact)
         if (has_word(code, function))
-          ADD_FAILURE() << place(file, i) << "\n  other processors give other bits";
+          ADD_FAILURE() << place(file, i) << "\n  other processors give different bits";
     }
   }
   EXPECT_TRUE(unseen.empty()) << unseen.front() << ": no such file";

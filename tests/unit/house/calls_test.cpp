@@ -75,7 +75,7 @@ TEST(Calls, of_std_filesystem_have_an_object_for_the_error) {
   for (const TextFile& file : read_texts({"src", "render"}))
     if (is_source(file))
       for (const std::string& found : throwing_calls(file))
-        ADD_FAILURE() << found << ": throws past every message; base/paths.h has what does not";
+        ADD_FAILURE() << found << ": throws without a message; base/paths.h has replacements";
 }
 
 TEST(Calls, that_throw_are_found) {
@@ -104,7 +104,7 @@ TEST(Calls, that_print_are_in_one_file) {
                           std::ranges::any_of(words, [&](const std::string& word) {
                             return has_word(code, word) && code.find("gnu::format") == std::string::npos;
                           });
-      if (prints) ADD_FAILURE() << place(file, k) << ": print by app/terminal.h";
+      if (prints) ADD_FAILURE() << place(file, k) << ": print through app/terminal.h";
     }
   }
 }

@@ -126,13 +126,13 @@ TEST(Includes, go_one_way_through_the_rooms) {
   for_each_include([](const TextFile& file, std::size_t i, const Include& include) {
     const auto room = rooms.find(room_of(file.path));
     if (room == rooms.end()) {
-      ADD_FAILURE() << file.path << ": its room has no rule: add one here and to docs/architecture.md";
+      ADD_FAILURE() << file.path << ": this folder has no rule: add one here and to docs/architecture.md";
       return;
     }
     const bool of_the_house = include.quoted || rooms.contains(room_of(include.path));
     const bool of_the_room = room_of(include.path) == room->first;
     if (of_the_house && !of_the_room && !begins_with_one_of(include.path, room->second))
-      ADD_FAILURE() << place(file, i) << "\n  " << room->first << " may not include this";
+      ADD_FAILURE() << place(file, i) << "\n  " << room->first << " must not include this";
   });
 }
 
@@ -159,7 +159,7 @@ TEST(Includes, keep_each_foreign_library_in_its_room) {
     const auto is_at_home = [&](const Home& home) { return is_of(home) && file.path.starts_with(home.path); };
     const auto home = std::ranges::find_if(homes, is_of);
     if (home == homes.end()) {
-      ADD_FAILURE() << place(file, i) << "\n  this library has no home: give it one here";
+      ADD_FAILURE() << place(file, i) << "\n  this library has no place: add one here";
       return;
     }
     unused.erase(home->header);
@@ -198,7 +198,7 @@ TEST(Rooms, below_app_do_not_print) {
       const std::string code = file.lines[i].substr(0, file.lines[i].find("//"));
       for (std::string_view word :
            {"printf", "puts", "putchar", "perror", "cout", "cerr", "clog", "stdout", "stderr"})
-        if (has_word(code, word)) ADD_FAILURE() << place(file, i) << "\n  only app prints";
+        if (has_word(code, word)) ADD_FAILURE() << place(file, i) << "\n  only app may print";
     }
   }
 }

@@ -29,7 +29,7 @@ bool has_path_below(std::string_view line, std::string_view name) {
 TEST(Texts, sources_have_at_most_500_lines) {
   for (const TextFile& file : read_texts({"src", "render", "shaders", "tests", "bench"}))
     if (is_source(file)) {
-      EXPECT_LE(file.lines.size(), 500u) << file.path << ": look for the second subject in it";
+      EXPECT_LE(file.lines.size(), 500u) << file.path << ": look for a second subject in it";
     }
 }
 

@@ -33,7 +33,7 @@ def check_h5md(file, frames, grains):
         assert element["value"].shuffle and element["value"].compression == "gzip", name
         assert element["step"].shape == element["time"].shape == (frames,), name
         assert np.all(np.diff(element["step"]) > 0), name
-        assert element["step"] == file["frames/step"], "one data set under several names"
+        assert element["step"] == file["frames/step"], "one data set with several names"
     for name in ["id", "species", "radius", "mass"]:
         assert group[name].shape == (grains,), name
     assert np.issubdtype(group["id"].dtype, np.integer) and np.issubdtype(group["species"].dtype, np.integer)

@@ -71,7 +71,7 @@ TEST(Parcels, cut_short_on_their_way_are_refused) {
       EXPECT_EQ(error.code(), ExitCode::bad_data);
     }
   }
-  EXPECT_EQ(whole, 4) << "at the ends of parcels only";
+  EXPECT_EQ(whole, 4) << "only at the ends of parcels";
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void expect_refused(const std::string& path, const std::string& file, const std::string& how) {
   try {
     RunFile::open(path);
-    ADD_FAILURE() << how << " of " << file << " went unseen";
+    ADD_FAILURE() << how << " of " << file << " was not detected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data) << how << ": " << error.what();
     EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << how << ": " << error.what();
@@ -109,7 +109,7 @@ TEST(Damage, shapes_and_types_are_checked_against_the_schema) {
   hdf5::Reader other_size = hdf5::Reader::from_memory(image, "made.h5", {{'G', 4}});
   try {
     other_size.read<double>("/checkpoint/x");
-    ADD_FAILURE() << "a wrong size went unseen";
+    ADD_FAILURE() << "a wrong size was not detected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_STREQ(error.what(), "made.h5: data set /checkpoint/x has shape [3], expected [G] with G = 4");

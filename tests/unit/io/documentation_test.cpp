@@ -54,7 +54,7 @@ TEST(FileFormat, is_what_the_python_package_checks) {
   const std::string written = test::build_folder() + "/schema.py";
   std::ofstream(written) << table.str();
   EXPECT_TRUE(example::file_text(test::source_folder() + "/python/talus/schema.py") == table.str())
-      << "python/talus/schema.py must be as " << written;
+      << "python/talus/schema.py must be equal to " << written;
 }
 
 TEST(FileFormat, every_path_stands_once) {

@@ -63,7 +63,7 @@ void expect_positions(const Frame& read, const Frame& whole) {
   EXPECT_EQ(read.tilt, whole.tilt);
   EXPECT_EQ(read.x, whole.x);
   EXPECT_EQ(read.y, whole.y);
-  EXPECT_TRUE(read.gamma.empty() && read.contacts.a.empty()) << "more was read than is asked for";
+  EXPECT_TRUE(read.gamma.empty() && read.contacts.a.empty()) << "more was read than requested";
 }
 
 /// Returns the bits of everything that a frame holds in single precision, including those of NaN.

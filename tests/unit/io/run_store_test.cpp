@@ -27,7 +27,7 @@ Error error_of(const Action& action) {
   } catch (const Error& error) {
     return error;
   }
-  ADD_FAILURE() << "no error";
+  ADD_FAILURE() << "no error was thrown";
   return Error(ExitCode::done, "");
 }
 
@@ -68,7 +68,7 @@ TEST(RunStore, a_run_is_told_from_a_scenario_by_what_it_holds) {
   EXPECT_TRUE(with("named.h5", ""));
   EXPECT_FALSE(with("bed.toml", "seed = 1\n"));
   EXPECT_FALSE(with("empty", ""));
-  EXPECT_TRUE(is_run(folder.path("not_there.h5"))) << "that is what it is named as";
+  EXPECT_TRUE(is_run(folder.path("not_there.h5"))) << "its ending marks it as a run";
   EXPECT_FALSE(is_run(folder.path("not_there.toml")));
   EXPECT_TRUE(is_run(folder.path("")));
 }
@@ -100,10 +100,10 @@ TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_
   example::write_text(run_folder(path) + "/notes.txt", "mine");
   {
     RunStore store = RunStore::create(path, example::header(), true);
-    EXPECT_EQ(run_presence(path), RunPresence::packed) << "the old one, until the new one has begun";
+    EXPECT_EQ(run_presence(path), RunPresence::packed) << "the old run, until the new one has begun";
     store.commit(example::segment(1), example::checkpoint(1));
     EXPECT_EQ(run_presence(path), RunPresence::folder);
-    EXPECT_TRUE(example::file_text(path) == before) << "it stays until the new one is whole";
+    EXPECT_TRUE(example::file_text(path) == before) << "it stays until the new one is complete";
     store.pack();
   }
   EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
@@ -208,8 +208,7 @@ TEST(RunStore, a_state_lacks_grains_that_have_not_arrived_but_no_others) {
   EXPECT_EQ(RunFile::open(path).checkpoint().world.grains.free_count, 1);
   add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, true);
   store.commit({}, poured);
-  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::bad_data)
-      << "of the floor none is missing";
+  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::bad_data) << "no floor grain is missing";
 }
 
 TEST(RunStore, nothing_is_written_into_a_folder_that_took_the_place_of_its_own) {

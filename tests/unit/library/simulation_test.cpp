@@ -216,7 +216,7 @@ TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
   Simulation sim(poured_bed());
   sim.step(5);
   EXPECT_EQ(test::exit_code_of([&] { sim.record(folder.path("run.h5")); }), ExitCode::usage)
-      << "it is poured";
+      << "the bed is poured";
   sim.tilt_to(1.0);
   sim.push(2, {0.05, 0.0});
   sim.record(folder.path("run.h5"));
@@ -363,12 +363,12 @@ TEST(Simulation, refuses_what_cannot_be) {
   EXPECT_EQ(refused([&] { sim.draw("gama"); }), ExitCode::usage);
   sim.deposit();
   sim.set_tilt_rate(0.0);
-  EXPECT_EQ(refused([&] { sim.tilt_by(1.0); }), ExitCode::usage) << "it never gets there";
+  EXPECT_EQ(refused([&] { sim.tilt_by(1.0); }), ExitCode::usage) << "it never reaches that tilt";
   sim.set_tilt_rate(20.0);
   sim.record(folder.path("run.h5"));
   EXPECT_EQ(refused([&] { sim.record(folder.path("other.h5")); }), ExitCode::usage);
   sim.step(std::numeric_limits<std::int64_t>::max());
-  EXPECT_TRUE(sim.done()) << "all steps there are";
+  EXPECT_TRUE(sim.done()) << "all steps are present";
   EXPECT_EQ(refused([&] { sim.step(); }), ExitCode::usage);
   EXPECT_EQ(refused([&] { sim.set_friction(0.2); }), ExitCode::usage);
   EXPECT_EQ(refused([&] { Simulation::resume(folder.path("none.h5")); }), ExitCode::missing_input);

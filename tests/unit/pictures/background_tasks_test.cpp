@@ -51,7 +51,7 @@ TEST(BackgroundTasks, no_more_wait_than_may) {
       most = std::max(most.load(), ++held);
     }
   }
-  EXPECT_LE(most, 3 + 2) << "those that wait, the one under way, the one just posted";
+  EXPECT_LE(most, 3 + 2) << "those waiting, the one in progress, and the one just posted";
 }
 
 TEST(BackgroundTasks, what_one_throws_is_thrown_on_and_ends_them) {

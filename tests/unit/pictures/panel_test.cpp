@@ -40,7 +40,7 @@ TEST(PanelRows, say_once_what_all_say) {
   EXPECT_EQ(rows[1][0].title, "(a) p_o = 0.5");
   EXPECT_EQ(rows[1][0].caption, "θ = 5.00°");
   EXPECT_EQ(rows[1][1].title, "(b)");
-  EXPECT_EQ(rows[1][1].caption, "") << "that of its row";
+  EXPECT_EQ(rows[1][1].caption, "") << "the caption is that of its row";
   EXPECT_EQ(rows[2][0].title, "(c) p_o = 0.10");
   EXPECT_TRUE(rows[1][0].legends.empty() && rows[1][1].legends.empty());
   EXPECT_EQ(rows[2][0].legends.size(), 1u);
@@ -95,7 +95,7 @@ TEST(PanelSheet, stands_in_more_columns_where_it_would_be_too_high) {
   ASSERT_EQ(grid.views.size(), 7u) << "the last row is filled up";
   EXPECT_EQ(grid.views[1].layout.bed.box.y, grid.views[2].layout.bed.box.y);
   EXPECT_EQ(grid.views[5].view.title, "(e)");
-  EXPECT_EQ(grid.views[5].view.scale_label, "10 D") << "that of the last map";
+  EXPECT_EQ(grid.views[5].view.scale_label, "10 D") << "the scale bar of the last map";
   EXPECT_EQ(grid.views[6].view.title, "");
   EXPECT_EQ(grid.views[0].view.title, "Stress ratio") << "once";
 }
@@ -107,14 +107,14 @@ TEST(PanelSheet, that_is_too_high_in_any_number_of_columns_is_refused) {
   maps[0][0].y_max = maps[1][0].y_max = 3.0;
   EXPECT_LE(panel_sheet(maps, "", 3000, render::largest_side, render::embedded_font()).height,
             render::largest_side)
-      << "9000 px each, beside each other";
+      << "9000 px each, side by side";
 }
 
 TEST(PanelRows, keep_a_legend_that_differs) {
   auto maps = four_maps("gray");
   maps[0][0].legends[0].swatches[0].label = "white";
   const auto rows = panel_rows(maps, "");
-  EXPECT_EQ(rows[1][0].legends.size(), 1u) << "it is not that of the last angle";
+  EXPECT_EQ(rows[1][0].legends.size(), 1u) << "it does not belong to the last angle";
   EXPECT_TRUE(rows[1][1].legends.empty());
 }
 

@@ -102,7 +102,7 @@ TEST(PictureSeries, a_cluster_keeps_its_colour_whichever_frames_are_drawn) {
   EXPECT_EQ(alone, fill_of(picture(run, 3, 0), 5)) << "in the flow too";
   const render::FrameView later = picture(run, 1, 0);
   EXPECT_EQ(alone, fill_of(later, 5));
-  EXPECT_NE(alone, fill_of(later, 20)) << "the larger one that came later has another";
+  EXPECT_NE(alone, fill_of(later, 20)) << "the larger cluster that appeared later has another colour";
 }
 
 TEST(PictureSeries, all_frames_have_one_extent_and_the_largest_turn) {
@@ -111,7 +111,7 @@ TEST(PictureSeries, all_frames_have_one_extent_and_the_largest_turn) {
   options.turned = true;
   DrawnRun run = open_drawn_run(example_run(folder), plan_of("pressure", options), {});
   EXPECT_EQ(run.series.extent.y_min, 0.0);
-  EXPECT_FLOAT_EQ(static_cast<float>(run.series.extent.y_max), 1.25f) << "of the flow, the highest";
+  EXPECT_FLOAT_EQ(static_cast<float>(run.series.extent.y_max), 1.25f) << "in the flow, the highest frame";
   EXPECT_EQ(picture(run, 0, 0).y_max, run.series.extent.y_max);
   EXPECT_EQ(picture(run, 0, 0).turn_max, radians(2.0));
 }
@@ -131,7 +131,7 @@ TEST(PictureSeries, what_moves_is_measured_from_the_frame_before_or_from_that_as
   DrawnRun since = open_drawn_run(path, plan_of("displacement", options), {});
   EXPECT_EQ(picture(since, 2, 0).title, "Displacement since 1.00°");
   EXPECT_NE(fill_of(picture(since, 2, 0), 5), still);
-  EXPECT_EQ(fill_of(picture(since, 1, 0), 5), still) << "it is where it is measured from";
+  EXPECT_EQ(fill_of(picture(since, 1, 0), 5), still) << "motion is measured from this frame";
   EXPECT_EQ(fill_of(picture(since, 0, 0), 5), still) << "before it nothing has moved";
 }
 
@@ -148,7 +148,7 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
     return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
   };
   // Values in thousandths of D. All grains have moved by 0.1 D at 1 deg, and by 0.2 D at 2 deg.
-  EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end, where all move alike";
+  EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end if all grains move alike";
   EXPECT_EQ(ends({1, 2}), std::pair(100L, 200L));
   EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
   DrawnRun fixed = open_drawn_run(path, plan_of("displacement"), {});
@@ -189,7 +189,7 @@ TEST(PictureSeries, keys_tell_runs_apart_whose_frames_are_the_same) {
     return key_of(open_drawn_run(example_run(folder, variation), plan, {}));
   };
   const std::string own = key({});
-  EXPECT_EQ(own, key({})) << "wherever the file is";
+  EXPECT_EQ(own, key({})) << "independent of the place of the file";
   EXPECT_NE(own, key({.seed = 2, .scenario = {}, .start = {}}));
   EXPECT_NE(own, key({.scenario = "# another", .start = {}}));
   EXPECT_NE(own, key({.scenario = {}, .start = "2026-01-01T00:00:00Z"}));

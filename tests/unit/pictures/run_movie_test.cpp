@@ -34,7 +34,7 @@ TEST(MovieFrames, with_a_speed_each_shows_the_last_one_before_its_angle) {
   timing.fps = 4.0;
   timing.speed = 2.0;  // half a degree per frame of the movie: 0, 0.5, 1, ...
   EXPECT_EQ(shown(rad({0, 1, 1.7, 2}), timing), (std::vector<std::size_t>{0, 0, 1, 1, 3, 3, 3, 3, 3}))
-      << "the one at 1.7 is never the last; the end is held for a second";
+      << "the frame at 1.7 is never the last; the end is held for a second";
 }
 
 TEST(MovieFrames, stay_at_both_ends_where_that_is_asked_for) {
@@ -44,7 +44,7 @@ TEST(MovieFrames, stay_at_both_ends_where_that_is_asked_for) {
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
   timing.speed = 2.0;
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 0, 0, 1, 2, 2, 2}));
-  EXPECT_EQ(shown(rad({0}), timing).size(), 3u) << "one frame is the first and the last";
+  EXPECT_EQ(shown(rad({0}), timing).size(), 3u) << "a single frame is the first and the last";
   timing.hold = 0.0;
   EXPECT_EQ(shown(rad({0, 1, 2}), timing), (std::vector<std::size_t>{0, 1, 2}));
 }

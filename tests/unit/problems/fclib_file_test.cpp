@@ -51,7 +51,7 @@ void expect_refused(const FclibProblem& problem, const std::string& message) {
   write_fclib(path, problem, guess_u);
   try {
     read_fclib(path);
-    ADD_FAILURE() << "went unseen: " << message;
+    ADD_FAILURE() << "not detected: " << message;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_EQ(error.what(), path + ": data set " + message);

@@ -133,11 +133,11 @@ TEST_F(AnalysisRun, averages_moments_over_the_frames_around) {
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 3, 0), 1.0);
   EXPECT_NEAR(number(a, &analysis::FrameRecord::gamma_mean, 1), (3.0 + 5.0 / 7.0) / 4.0, 1e-12);
   EXPECT_NEAR(number(a, &analysis::FrameRecord::gamma_mean, 3), 1.0, 1e-12)
-      << "1 deg is farther than half of the window";
+      << "1 deg is farther than half the window";
   EXPECT_EQ(number(analyse({-1, 1, -1}, 30.0, {"averaging=1.9"}),
                    &analysis::FrameThreshold::overloaded_fraction, 1),
             0.75)
-      << "a window that reaches no other frame";
+      << "a window that contains no other frame";
 }
 
 TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
@@ -147,7 +147,7 @@ TEST_F(AnalysisRun, leaves_grains_with_few_contacts_out) {
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction_of_all, 0), 0.75);
   EXPECT_EQ(number(a, &analysis::FrameThreshold::overloaded_fraction, 1), 2.0 / 3.0);
   EXPECT_EQ(number(a, &analysis::FrameThreshold::largest_cluster, 0), 3);
-  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_depth, 0), 0) << "the highest grain is the surface";
+  EXPECT_EQ(number(a, &analysis::FrameThreshold::spans_depth, 0), 0) << "the highest grain forms the surface";
   EXPECT_EQ(number(a, &analysis::FrameRecord::stress_ratio, 0), 1.0) << "its moment counts";
   EXPECT_EQ(number(analyse({-1, 1}, 30.0, {"min_contacts=3"}),
                    &analysis::FrameThreshold::overloaded_fraction_of_all, 0),
@@ -192,7 +192,7 @@ TEST_F(AnalysisRun, ends_the_search_where_it_is_told_to) {
   EXPECT_FLOAT_EQ(second[0], 3 * diameter) << "0.6 > 0.55";
   EXPECT_TRUE(std::isnan(second[1])) << "1/3 < 0.65: not overloaded";
   const std::vector<float>& first = a.frames[1].thresholds[0].lc;
-  EXPECT_FLOAT_EQ(first[1], 0.0) << "1/3 >= 0.25, and within 0.55 by itself";
+  EXPECT_FLOAT_EQ(first[1], 0.0) << "1/3 >= 0.25, and below 0.55 by itself";
 }
 
 TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
@@ -204,8 +204,8 @@ TEST_F(AnalysisRun, takes_each_grain_with_its_first_neighbours) {
   EXPECT_EQ(number(a, &analysis::FrameThreshold::largest_cluster, 1), 3);
   const std::vector<float>& length = a.frames[1].thresholds[0].lc;
   EXPECT_TRUE(std::isnan(length[0])) << "0.6 < 0.65: not overloaded";
-  EXPECT_FLOAT_EQ(length[1], 3 * diameter) << "5/7 <= 0.725 where the search begins";
-  EXPECT_FLOAT_EQ(length[3], 3.5 * diameter) << "1 > 0.725 up to the cut";
+  EXPECT_FLOAT_EQ(length[1], 3 * diameter) << "5/7 <= 0.725 at the beginning of the search";
+  EXPECT_FLOAT_EQ(length[3], 3.5 * diameter) << "1 > 0.725 up to the cut-off";
 }
 
 TEST_F(AnalysisRun, takes_first_neighbours_unless_it_is_told_otherwise) {
@@ -224,7 +224,7 @@ TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
   const io::RunFile run = io::RunFile::open(test::source_folder() + "/tests/runs/schema_4.h5");
   for (const int threads : {1, 3}) {
     const analysis::Analysis a = analyse_run(run, {}, threads, {});
-    EXPECT_TRUE(std::isnan(a.frames[0].nonaffine)) << "there is none before it";
+    EXPECT_TRUE(std::isnan(a.frames[0].nonaffine)) << "there is no frame before it";
     for (std::size_t k = 1; k < a.frames.size(); ++k) {
       const Frame before = run.frame(k - 1), now = run.frame(k);
       analysis::FrameRecord expected;
@@ -238,7 +238,7 @@ TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
 
 TEST_F(AnalysisRun, takes_from_the_observables_what_they_have) {
   const analysis::Analysis a = analyse({-1, 1, -1}, 30.0);
-  EXPECT_EQ(number(a, &analysis::FrameRecord::volume_strain, 2), 4.0) << "of the row at 2 deg";
+  EXPECT_EQ(number(a, &analysis::FrameRecord::volume_strain, 2), 4.0) << "from the row at 2 deg";
   EXPECT_DOUBLE_EQ(number(a, &analysis::FrameRecord::solid_fraction, 1), 0.2);
   EXPECT_NEAR(a.dilation[0], radians(4.0), 1e-12);
   EXPECT_TRUE(std::isnan(a.dilation[1])) << "that strain is constant";

@@ -120,7 +120,7 @@ TEST_F(EventCatalogue, has_the_bursts_of_the_series) {
   EXPECT_NEAR(a.events[1].path, 8.0 * fast * h, 1e-12);
   EXPECT_EQ(a.events[0].kind, 0);
   EXPECT_EQ(a.events[1].kind, 0);
-  EXPECT_EQ(a.events[2].kind, 1) << "theta_c lies in it";
+  EXPECT_EQ(a.events[2].kind, 1) << "theta_c lies within it";
   EXPECT_EQ(a.event_count, 2.0);
 }
 
@@ -177,7 +177,7 @@ TEST_F(EventCatalogue, goes_by_the_threshold_that_is_given) {
 TEST_F(EventCatalogue, of_a_slope_that_has_not_failed_ends_with_one_that_is_not_over) {
   const analysis::Analysis a = analyse(not_known);
   EXPECT_EQ(a.events[2].kind, 2);
-  EXPECT_EQ(a.event_count, 2.0) << "its size is not known";
+  EXPECT_EQ(a.event_count, 2.0) << "its size is unknown";
 }
 
 TEST_F(EventCatalogue, is_empty_where_steps_or_rows_are_missing) {
@@ -212,7 +212,7 @@ TEST(EventLaws, leave_the_failure_out) {
   EXPECT_NEAR(a.event_dilating_share_error, std::sqrt(2.0 / 9.0 / 12.0), 1e-12);
   EXPECT_NEAR(a.event_size_exponent, 1.0 + 12.0 / (66.0 * std::log(2.0)), 1e-12);
   EXPECT_EQ(a.event_size_count, 12.0);
-  EXPECT_NEAR(a.event_waiting_mean, 0.5, 1e-12) << "of 0.1 to 1.1, less the shortest";
+  EXPECT_NEAR(a.event_waiting_mean, 0.5, 1e-12) << "of 0.1 to 1.1, minus the shortest";
   EXPECT_NEAR(a.event_waiting_mean_error, 0.5 / std::sqrt(11.0), 1e-12);
 }
 
@@ -262,7 +262,7 @@ TEST_F(EventCatalogue, first_moves_go_round_a_periodic_bed_and_the_farthest_come
   EXPECT_EQ(moves[1].frame, 3u);
   const std::vector<FirstMove> near = first_moves(io::RunFile::open(path_), diameter);
   ASSERT_EQ(near.size(), 2u);
-  EXPECT_EQ(near[0].grain, 1) << "of the same frame it went farther";
+  EXPECT_EQ(near[0].grain, 1) << "farther than others in the same frame";
 }
 
 }  // namespace

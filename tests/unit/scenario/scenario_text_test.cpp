@@ -124,7 +124,7 @@ Scenario all_fields_changed() {
 TEST(ResolvedScenario, reads_back_extreme_values) {
   const Scenario all = all_fields_changed();
   for (const ScenarioKey& key : scenario_keys())
-    EXPECT_NE(key.get(all), key.get(Scenario{})) << full_name(key) << " sets no field of its own";
+    EXPECT_NE(key.get(all), key.get(Scenario{})) << full_name(key) << " sets no field";
   // A scenario can have only one of these.
   Scenario with_end = all, with_program = all;
   with_end.tilt.program.clear();

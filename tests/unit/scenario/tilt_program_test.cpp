@@ -97,12 +97,12 @@ TEST(TiltProgram, goes_to_its_angles_exactly_and_by_whole_steps_between_them) {
   for (std::int64_t k = 0; k < up; ++k) EXPECT_EQ(program.tilt(k), static_cast<double>(k) * step) << k;
   for (std::int64_t k = up; k <= up + 3; ++k) EXPECT_EQ(program.tilt(k), radians(0.0105)) << "held, " << k;
   EXPECT_EQ(program.segments()[1].steps, 3);
-  EXPECT_EQ(program.segments()[2].steps, 3) << "2 deg/s are 0.002 deg a step";
+  EXPECT_EQ(program.segments()[2].steps, 3) << "2 deg/s is 0.002 deg per step";
   EXPECT_EQ(program.tilt(up + 4), radians(0.0105) - radians(0.002));
   EXPECT_EQ(program.tilt(up + 6), radians(0.005));
   EXPECT_EQ(program.tilt(up + 7), radians(0.005 + 0.001));
   EXPECT_EQ(program.steps(), up + 7);
-  EXPECT_EQ(program.tilt(program.steps() + 5), radians(0.005 + 0.001)) << "beyond its end it stays";
+  EXPECT_EQ(program.tilt(program.steps() + 5), radians(0.005 + 0.001)) << "beyond its end the tilt stays";
   for (std::int64_t k = 1; k <= program.steps(); ++k)
     EXPECT_EQ(program.turns_at(k), k == up || k == up + 3 || k == up + 6 || k == up + 7) << k;
 }
@@ -134,7 +134,7 @@ TEST(TiltProgram, repeats_what_stands_between_two_counts) {
 
 TEST(TiltProgram, a_part_without_a_way_takes_no_step) {
   const TiltProgram program = program_of({"to 0", "to 1", "2 times"});
-  EXPECT_EQ(program.segments().size(), 3u) << "the first \"to 0\" is where the bed is";
+  EXPECT_EQ(program.segments().size(), 3u) << "the first \"to 0\" is the initial tilt";
 }
 
 TEST(TiltProgram, is_none_by_default) {
@@ -195,7 +195,7 @@ TEST(TiltProgram, that_cannot_be_carried_out_is_refused_as_a_whole) {
   std::vector<std::string> many;
   for (int k = 0; k < 11; ++k) many.insert(many.end(), {"to 1", "to 0", "10000 times"});
   EXPECT_EQ(fault(many), head + "has more than 100000 parts, repetitions included");
-  EXPECT_EQ(fault({"by 6", "10 times"}), "") << "60 deg, but for rounding";
+  EXPECT_EQ(fault({"by 6", "10 times"}), "") << "60 deg, except for rounding";
 }
 
 TEST(TiltProgram, and_an_end_angle_are_one_too_many) {

@@ -137,7 +137,7 @@ TEST(BedOfTable, of_soft_grains_is_pushed_apart_if_that_is_asked_for) {
   EXPECT_NEAR(world.grains.x[1], 3.96 * d, 1e-12);
   EXPECT_NEAR(world.grains.x[2], 9.93 * d, 1e-12) << "across the periodic edge";
   EXPECT_NEAR(world.grains.x[3], 0.93 * d, 1e-12);
-  EXPECT_NEAR(world.grains.y[4], 0.5 * d, 1e-12) << "the floor stays";
+  EXPECT_NEAR(world.grains.y[4], 0.5 * d, 1e-12) << "the floor is unchanged";
   EXPECT_EQ(state_hash(world), state_hash(bed_of_file({table.path, 0, {}, 1.0, true}, plan)));
   const Table deeper("3,2,0.5\n3.89,2,0.5\n");
   EXPECT_THROW(bed_of_file({deeper.path, 0, {}, 1.0, true}, plan), LocatedError);

@@ -130,7 +130,7 @@ TEST(BedTable, tells_where_it_cannot_be_read) {
   const std::string number = ": expected a finite number, in mean diameters D";
   EXPECT_EQ(message_of("1,2,0.5\n1, two,0.5\n"), "bed.csv:2:4: error: y = \"two\"" + number);
   EXPECT_EQ(message_of("1,2,0.5\nx,y,radius\n"), "bed.csv:2:1: error: x = \"x\"" + number)
-      << "names come first";
+      << "names have priority";
   EXPECT_EQ(message_of("1 2 nan\n"), "bed.csv:1:5: error: radius = \"nan\"" + number);
   EXPECT_EQ(message_of("inf,2,1\n"), "bed.csv:1:1: error: x = \"inf\"" + number);
   EXPECT_EQ(message_of("1,1e999,1\n"), "bed.csv:1:3: error: y = \"1e999\"" + number);

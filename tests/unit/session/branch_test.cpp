@@ -92,7 +92,7 @@ TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
   EXPECT_EQ(first.contacts.fn, left.contacts.fn);
   for (std::size_t i = 0; i < first.x.size(); ++i) EXPECT_NEAR(first.x[i], left.x[i], 1e-8) << i;
   while (session.phase() != Phase::done) session.advance();
-  EXPECT_EQ(session.world().step, run.checkpoint().world.step) << "the steps of the tilt are counted on";
+  EXPECT_EQ(session.world().step, run.checkpoint().world.step) << "the steps of the tilt continue to count";
   EXPECT_EQ(session.world().tilt, run.checkpoint().world.tilt);
   const World& end = run.checkpoint().world;
   for (Index i = 0; i < end.grains.free_count; ++i)
@@ -100,7 +100,7 @@ TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
   const ObservableRow& row = session.segment().observables.back();
   EXPECT_NEAR(at(row, Observable::volume_strain), at(run.all_observables().back(), Observable::volume_strain),
               1e-3)
-      << "strains are counted from where the run counted them";
+      << "strains refer to the same reference as in the parent run";
 }
 
 /// The schedule at each frame is that of a session at this point.
@@ -221,7 +221,7 @@ TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
   EXPECT_TRUE(branch.commands().empty());
   expect_whole(branch);
   EXPECT_GT(check_run(branch, {}).largest_mobilisation * 0.9, test::small_bed().contact.friction)
-      << "or any friction would do";
+      << "otherwise any friction would pass";
 }
 
 /// Also if the branch has no command.

@@ -62,9 +62,9 @@ TEST(Guards, stop_after_a_whole_step) {
   while (plain.world().step < stopped.world().step) plain.advance();
   EXPECT_EQ(state_hash(stopped.world()), state_hash(plain.world()));
   EXPECT_EQ(stopped.segment().steps, plain.segment().steps);
-  EXPECT_THROW(stopped.advance(), Error) << "each time it is asked to go on";
+  EXPECT_THROW(stopped.advance(), Error) << "each time it is asked to continue";
   Session resumed(scenario, stopped.checkpoint(0.0));
-  EXPECT_THROW(while (true) resumed.advance(), Error) << "nor does a resumed one get by";
+  EXPECT_THROW(while (true) resumed.advance(), Error) << "a resumed run is stopped too";
 }
 
 TEST(Guards, are_not_passed_by_a_resumed_run_or_a_copy) {
@@ -98,7 +98,7 @@ TEST(Guards, warn_counts_what_they_let_pass) {
   stop.guards.action = scenario::GuardAction::stop;
   EXPECT_EQ(warnings.first[velocity], stopped_by(stop).second);
   EXPECT_EQ(state_hash(session.world()), state_hash(run_to_end(small_bed()).world()))
-      << "watching changes nothing";
+      << "monitoring changes nothing";
 
   const io::Checkpoint checkpoint = session.checkpoint(0.0);
   const Session again(scenario, checkpoint);

@@ -50,8 +50,8 @@ TEST(SurfacePatch, is_counted_from_the_surface_above_it) {
     for (int storey : {3, 4})
       add_disk(world.grains, {(k + 0.5) * diameter, (storey + 0.5) * diameter}, 0.5 * diameter, 2500.0,
                false);
-  EXPECT_EQ(patch_at(world, 2.0, 1.0, 2.0), (Ids{33, 35})) << "of the mound, ids 30 ... 39";
-  EXPECT_EQ(patch_at(world, 2.0, 1.0, 7.0), (Ids{26, 27})) << "of the flat beside it";
+  EXPECT_EQ(patch_at(world, 2.0, 1.0, 2.0), (Ids{33, 35})) << "the mound, ids 30 ... 39";
+  EXPECT_EQ(patch_at(world, 2.0, 1.0, 7.0), (Ids{26, 27})) << "the flat part next to it";
 }
 
 TEST(Push, gives_its_grains_the_velocity_and_says_the_energy) {

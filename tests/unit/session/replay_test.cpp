@@ -172,7 +172,7 @@ TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
   };
   ASSERT_EQ(run.frame_count(), 4u) << "at 0, 0.5, 1 and 1.25 deg";
   EXPECT_EQ(friction(1), 0.5);
-  EXPECT_EQ(friction(2), 0.3) << "given at this very step";
+  EXPECT_EQ(friction(2), 0.3) << "given at this step";
   EXPECT_EQ(friction(3), 0.3);
   EXPECT_NEAR(degrees(problems::problem_after_frame(run, 1).scales.tilt - run.frame(1).tilt), 0.02, 1e-9);
   EXPECT_NEAR(degrees(problems::problem_after_frame(run, 3).scales.tilt - run.frame(3).tilt), 0.01, 1e-9);

@@ -139,7 +139,7 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
   EXPECT_FALSE(is_told(run_of(scenario)));
   scenario.guards = {};
   scenario.guards.action = scenario::GuardAction::warn;
-  EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded, and it is no damage";
+  EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded and is not a damage";
 }
 
 TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {

@@ -54,9 +54,9 @@ TEST(RunToEnd, a_frame_is_shown_before_it_is_committed) {
 
 TEST(RunToEnd, stops_in_time_for_what_it_is_allowed) {
   EXPECT_FALSE(time_is_up(100.0, 98.9, 0.1));
-  EXPECT_TRUE(time_is_up(100.0, 99.1, 0.1)) << "less than a hundredth is left";
+  EXPECT_TRUE(time_is_up(100.0, 99.1, 0.1)) << "less than a hundredth remains";
   EXPECT_FALSE(time_is_up(100.0, 89.0, 5.0));
-  EXPECT_TRUE(time_is_up(100.0, 91.0, 5.0)) << "two long steps would be too much";
+  EXPECT_TRUE(time_is_up(100.0, 91.0, 5.0)) << "two long steps would exceed it";
 }
 
 TEST(RunToEnd, told_to_stop_while_it_packs_it_stays_a_folder) {

@@ -149,7 +149,7 @@ TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
   }
   io::Checkpoint untimed = checkpoint;
   untimed.timing.clear();
-  EXPECT_EQ(read(untimed).seconds.tilt, 0.0) << "wall times are no state";
+  EXPECT_EQ(read(untimed).seconds.tilt, 0.0) << "wall times are not part of the state";
 }
 
 TEST(Schedule, of_a_slope_at_rest_has_its_angle_and_one_before_has_none) {

@@ -69,7 +69,7 @@ TEST(ScriptedRun, has_the_bits_of_one_that_is_driven) {
   driven.apply({0, CommandKind::friction, -1, 0.3, 0.0});
   while (driven.phase() != Phase::done) driven.advance();
   EXPECT_EQ(hash_of(scripted), hash_of(driven));
-  EXPECT_EQ(commands, driven.segment().commands) << "in the run file as those that a user gave";
+  EXPECT_EQ(commands, driven.segment().commands) << "stored in the run file like commands of a user";
   EXPECT_EQ(commands.size(), 4u);
   EXPECT_EQ(waiting_commands(scenario, scripted.schedule()), std::vector<std::size_t>{4});
 }
@@ -135,7 +135,7 @@ TEST(ScriptedRun, that_cannot_go_on_leaves_the_state_before_the_command) {
   EXPECT_NEAR(degrees(session.world().tilt), 1.0, 1e-9);
   const std::uint64_t state = hash_of(session);
   Session again(scenario, session.checkpoint(0.0));
-  EXPECT_EQ(message(again), refused) << "a resumed run does not go past it";
+  EXPECT_EQ(message(again), refused) << "a resumed run does not pass it";
   EXPECT_EQ(hash_of(again), state);
 }
 

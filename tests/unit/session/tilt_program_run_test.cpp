@@ -155,7 +155,7 @@ TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
   EXPECT_TRUE(session.follows_program());
   session.apply({0, CommandKind::push, 3, 0.05, 0.0});
   session.apply({0, CommandKind::friction, -1, 0.4, 0.0});
-  EXPECT_TRUE(session.follows_program()) << "these leave the tilt alone";
+  EXPECT_TRUE(session.follows_program()) << "these do not change the tilt";
   for (int k = 0; k < 30; ++k) session.advance();
   EXPECT_NEAR(degrees(session.tilt_rate()), -10.0, 1e-9);
   const double before = session.world().tilt;
@@ -163,7 +163,7 @@ TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
   EXPECT_FALSE(session.follows_program());
   for (int k = 0; k < 400; ++k) session.advance();
   EXPECT_NEAR(degrees(session.world().tilt - before), 400 * 5.0 * scenario::time_step(scenario), 1e-9);
-  EXPECT_EQ(session.phase(), Phase::tilt) << "no longer than the programme, but until the slope fails";
+  EXPECT_EQ(session.phase(), Phase::tilt) << "until the slope fails, not only to the end of the programme";
 
   Session again(scenario);
   replay(again, nullptr, session.segment().commands, session.world().step, {});

@@ -174,7 +174,7 @@ TEST(Columns, that_change_give_a_new_order) {
   solve(turned, settings, used, second);
   EXPECT_EQ(first.pn, second.pn);
   EXPECT_EQ(first.omega, second.omega);
-  EXPECT_NE(first.pn, before.pn) << "then this tests nothing";
+  EXPECT_NE(first.pn, before.pn) << "otherwise this tests nothing";
 }
 
 }  // namespace

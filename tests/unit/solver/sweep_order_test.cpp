@@ -284,7 +284,7 @@ TEST(OrderOfSweep, has_work_for_several_threads_on_a_large_bed_only) {
   EXPECT_GE(most_members(large.problem), 2);
   EXPECT_EQ(most_members(large.problem), order.phase_begin[1]);
   const Index left = order.part_begin[order.phase_begin[3]] - order.part_begin[order.phase_begin[2]];
-  EXPECT_LT(left, order.group_count() / 20) << "what no part of a phase can take";
+  EXPECT_LT(left, order.group_count() / 20) << "groups that no part of a phase can contain";
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(TeamChoice, goes_alone_where_members_wait) {
 TEST(TeamChoice, follows_what_changes) {
   TeamChoice choice;
   work(choice, 100, 1.0, 1.8);
-  EXPECT_LE(work(choice, 300, 20.0, 2.5).team, 10) << "it gets crowded";
+  EXPECT_LE(work(choice, 300, 20.0, 2.5).team, 10) << "the machine becomes busy";
   EXPECT_LE(work(choice, 600, 1.0, 1.8).alone, 257) << "and quiet again";
   EXPECT_TRUE(choice.in_team());
 }
@@ -75,7 +75,7 @@ TEST(TeamChoice, one_lucky_window_of_a_trial_changes_nothing) {
     choice.add(shortest, shortest / (!in_team ? 2.0 : of_trial == 1 ? 1.0 : 20.0));
   }
   EXPECT_GT(trials, 5);
-  EXPECT_EQ(windows, 3 * trials) << "the lucky one, and two until it is made up for";
+  EXPECT_EQ(windows, 3 * trials) << "the lucky window, and two until it is compensated";
 }
 
 /// The team is slower than one thread on a quiet machine, and still the faster choice.

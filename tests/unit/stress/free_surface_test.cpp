@@ -231,7 +231,7 @@ TEST(SurfaceInclination, looks_at_the_middle_half_of_the_bed) {
   const double straight = inclination(world);
   add_disk(world.grains, {2.0, 40.0}, 5.0, 1.0, false);
   add_disk(world.grains, {36.0, 30.0}, 5.0, 1.0, false);
-  EXPECT_EQ(inclination(world), straight) << "what is piled up at the walls";
+  EXPECT_EQ(inclination(world), straight) << "grains piled up at the walls";
   add_disk(world.grains, {28.0, 30.0}, 1.0, 1.0, false);
   EXPECT_GT(inclination(world), straight + 0.05);
 }

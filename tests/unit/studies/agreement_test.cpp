@@ -64,7 +64,7 @@ TEST(Judging, above_needs_no_more_than_the_sign) {
   EXPECT_EQ(verdict_of(above(0.0), spread({{1e-6}})), Agreement::agrees);
   EXPECT_EQ(verdict_of(above(0.0), spread({{-1e-6}})), Agreement::differs);
   EXPECT_EQ(verdict_of(above(0.0), spread({{-1.0}, {0.5}})), Agreement::differs)
-      << "a wide spread does not change a sign";
+      << "a wide spread does not change the sign";
 }
 
 TEST(Judging, tells_what_does_not_occur_from_what_was_not_run) {
@@ -78,7 +78,7 @@ TEST(Judging, an_upper_bound_differs_only_where_it_is_below) {
   EXPECT_EQ(verdict_of(equal_to(15.0, 0.5), spread({{0.0, true}})), Agreement::differs);
   EXPECT_EQ(verdict_of(equal_to(0.45, 0.025), spread({{0.8, true}})), Agreement::not_comparable);
   EXPECT_EQ(verdict_of(equal_to(0.45, 0.025), spread({{0.45, true}})), Agreement::not_comparable)
-      << "a bound that is near says nothing either";
+      << "a close bound is not conclusive either";
 }
 
 TEST(Judging, lengths_of_another_depth_cannot_be_compared) {

@@ -87,7 +87,7 @@ TEST(MeasuredValue, at_0_is_that_of_the_first_frame) {
 TEST(MeasuredValue, at_theta_c_is_that_of_the_last_frame_before_the_flow) {
   const HandMadeRun run;
   EXPECT_NEAR(run.value(theta_c).value, 21.0, 1e-12);
-  EXPECT_DOUBLE_EQ(run.value(overloaded_at_theta_c).value, 0.54) << "of 20 deg, not of 25";
+  EXPECT_DOUBLE_EQ(run.value(overloaded_at_theta_c).value, 0.54) << "at 20 deg, not at 25";
   EXPECT_DOUBLE_EQ(run.value(lc_mean_at_theta_c).value, 8.0);
   EXPECT_DOUBLE_EQ(run.value(volume_strain_at_theta_c).value, 4e-3);
 }
@@ -159,7 +159,7 @@ TEST(Volume, that_never_rises_has_no_dilation) {
   run.dilate(none, none, none);
   EXPECT_TRUE(std::isnan(run.value(dilation).value));
   EXPECT_TRUE(std::isnan(run.value(theta_d_by_dilation).value));
-  EXPECT_DOUBLE_EQ(run.value(contraction).value, -4e-3) << "up to theta_c, where its volume had grown";
+  EXPECT_DOUBLE_EQ(run.value(contraction).value, -4e-3) << "up to theta_c, where the volume had grown";
 }
 
 TEST(Ratios, are_means_over_the_last_half_degree) {

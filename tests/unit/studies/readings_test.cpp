@@ -42,7 +42,7 @@ TEST(Readings, are_of_single_grains_with_either_threshold_and_of_grains_with_fir
     defaults.l_min = parameters.l_min;
     EXPECT_EQ(runs::as_facts(parameters), runs::as_facts(defaults)) << "nothing else is changed";
   }
-  EXPECT_EQ(base_readings().back().analysis, 0u) << "that of the run file";
+  EXPECT_EQ(base_readings().back().analysis, 0u) << "the value of the run file";
 }
 
 TEST(Readings, change_one_factor_from_their_base) {
@@ -72,8 +72,8 @@ TEST(Score, counts_what_agrees) {
   value(run, PaperQuantity::overloaded_at_0).value = 0.8;
   value(run, PaperQuantity::theta_d_by_percolation).value = std::numeric_limits<double>::quiet_NaN();
   value(run, PaperQuantity::solid_fraction).value = 0.1;
-  EXPECT_EQ(result_of(0, 0, run).agreeing, all - 2) << "the solid fraction is not of the chain";
-  EXPECT_EQ(result_of(0, 0, run).comparable, all) << "what does not occur is a difference";
+  EXPECT_EQ(result_of(0, 0, run).agreeing, all - 2) << "the solid fraction does not depend on the chain";
+  EXPECT_EQ(result_of(0, 0, run).comparable, all) << "a missing event is a difference";
 }
 
 TEST(Score, of_a_shallow_bed_leaves_lengths_out) {
@@ -92,7 +92,7 @@ TEST(Deviation, is_the_median_of_the_chain) {
     run[first + v].value = chain_values()[v].value * (1.0 + 0.1 * static_cast<double>(v));
   EXPECT_NEAR(result_of(0, 0, run).deviation, 0.6, 1e-12);
   for (std::size_t v = 0; v < 7; ++v) run[first + v].value = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isinf(result_of(0, 0, run).deviation)) << "half of it does not occur";
+  EXPECT_TRUE(std::isinf(result_of(0, 0, run).deviation)) << "half of them do not occur";
 }
 
 TEST(Conclusion, breaks_a_tie_of_scores_by_the_deviation) {

@@ -58,7 +58,7 @@ TEST_P(HtmlPicture, is_built_in) {
                       std::string(GetParam().second) + "\">"),
             std::string::npos)
       << page;
-  EXPECT_EQ(page.find("p.png"), std::string::npos) << "nothing beside the page";
+  EXPECT_EQ(page.find("p.png"), std::string::npos) << "the page needs no other files";
 }
 
 // Test vectors of RFC 4648, and bytes with the highest bit set.

@@ -93,7 +93,7 @@ TEST_F(ReadingsTest, are_none_between_walls) {
   EXPECT_FALSE(result.outcomes[0].values.front().empty());
   EXPECT_TRUE(result.outcomes[0].values[1].empty());
   io::remove_file(plan.members.front().path);
-  EXPECT_TRUE(measure_members(plan).outcomes.empty()) << "of what is not done";
+  EXPECT_TRUE(measure_members(plan).outcomes.empty()) << "for an unfinished member";
 }
 
 }  // namespace

@@ -108,10 +108,10 @@ TEST_F(StudyFiguresTest, are_those_at_the_angle) {
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::volume_strain_at_reference), -0.01);
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::coordination_number_at_reference), 4.0);
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::creep_at_reference), 0.25 / 2 / 0.5)
-      << "over the edge, mean of two grains";
+      << "across the edge, mean of two grains";
   EXPECT_DOUBLE_EQ(at(found, StudyQuantity::overloaded_fraction_at_reference), 1.0);
   EXPECT_DOUBLE_EQ(at(figures_of(2.5, 1.9), StudyQuantity::overloaded_fraction_at_reference), 1.0)
-      << "of the frame before";
+      << "of the previous frame";
 }
 
 TEST_F(StudyFiguresTest, at_theta_c_are_the_last_before_the_flow) {
@@ -188,7 +188,7 @@ TEST(StudyResult, is_that_of_the_members_that_are_done) {
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::creep_at_reference), 0.75 / 2 / 0.5);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::volume_strain_at_reference), -0.03);
   EXPECT_DOUBLE_EQ(at(found.outcomes[0].figures, StudyQuantity::overloaded_fraction_at_reference), 1.0)
-      << "by the analysis: gamma is 0.1, above sin(2.5 deg)";
+      << "from the analysis: gamma is 0.1, above sin(2.5 deg)";
 }
 
 TEST(StudyResult, without_a_member_that_is_done_is_refused) {

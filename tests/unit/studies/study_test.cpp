@@ -79,7 +79,7 @@ TEST_F(StudyPlanTest, changes_one_factor_at_a_time) {
   EXPECT_EQ(study.members[1].path, "study/tilt.step=0.002/seed-1.h5");
   EXPECT_EQ(study.members[7].name, "solver.tolerance=1e-08/seed-2");
   EXPECT_EQ(study.members[0].scenario.tilt.step, 0.001);
-  EXPECT_EQ(study.members[0].scenario.solver.tolerance, 1e-6) << "the scenario's own";
+  EXPECT_EQ(study.members[0].scenario.solver.tolerance, 1e-6) << "that of the scenario";
   EXPECT_EQ(study.members[1].scenario.tilt.step, 0.002);
   EXPECT_EQ(study.members[1].scenario.solver.tolerance, 1e-6);
   EXPECT_EQ(study.members[7].scenario.solver.tolerance, 1e-8);

@@ -12,9 +12,9 @@ using Part = HeldBar::Part;
 TEST(BarRange, an_end_follows_and_the_other_stays) {
   const HeldBar low{Part::low, {0.05, 0.65, false}, 0.0}, high{Part::high, {0.05, 0.65, false}, 0.0};
   EXPECT_EQ(pulled(low, 0.5), (std::array{0.35, 0.65}));
-  EXPECT_EQ(pulled(low, -0.5), (std::array{-0.25, 0.65})) << "outwards it is wider";
+  EXPECT_EQ(pulled(low, -0.5), (std::array{-0.25, 0.65})) << "wider when pulled outwards";
   EXPECT_EQ(pulled(high, 0.5), (std::array{0.05, 0.95}));
-  EXPECT_EQ(pulled(high, 0.0), (std::array{0.05, 0.65})) << "not moved, not rounded";
+  EXPECT_EQ(pulled(high, 0.0), (std::array{0.05, 0.65})) << "neither moved nor rounded";
 }
 
 TEST(BarRange, the_middle_moves_both) {

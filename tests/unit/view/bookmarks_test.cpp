@@ -53,7 +53,7 @@ TEST_F(Bookmarks, are_read_as_they_were_written) {
   write_bookmarks(path_, bookmarks);
   const std::vector<Bookmark> read = read_bookmarks(path_);
   EXPECT_EQ(notes_of(read), (std::vector<std::string>{"", "a \"first\" slide, at last θ_d"}));
-  EXPECT_EQ(read[1].time, 0.1 + 0.2) << "to the last bit";
+  EXPECT_EQ(read[1].time, 0.1 + 0.2) << "bit for bit";
   EXPECT_NEAR(read[0].tilt, radians(-4.0), 1e-15);
 }
 
@@ -112,12 +112,12 @@ TEST_F(BookmarksOfRun, are_not_replaced_where_they_cannot_be_read) {
   write("something else\n");
   ViewModel model = ViewModel::open(run_, {}, "", false, "talus view");
   model.update(0.0);
-  EXPECT_NE(model.state.message.find("run.h5.bookmarks.csv:1:1"), std::string::npos) << "told at once";
+  EXPECT_NE(model.state.message.find("run.h5.bookmarks.csv:1:1"), std::string::npos) << "reported at once";
   model.state.message.clear();
   model.set_bookmark("mine");
   EXPECT_NE(model.state.message.find("run.h5.bookmarks.csv:1:1"), std::string::npos);
   EXPECT_EQ(model.bookmark(), nullptr);
-  EXPECT_NE(message(), "nothing is thrown") << "the file is as it was";
+  EXPECT_NE(message(), "nothing is thrown") << "the file is unchanged";
 }
 
 TEST_F(BookmarksOfRun, that_cannot_be_written_are_not_there) {

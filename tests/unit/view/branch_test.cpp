@@ -117,7 +117,7 @@ TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
   model.branch();
   ASSERT_TRUE(model.is_live());
   EXPECT_EQ(model.frame().step, shown.step);
-  EXPECT_EQ(model.frame_count(), 1u) << "the frame that it begins with";
+  EXPECT_EQ(model.frame_count(), 1u) << "the frame with which it begins";
   ASSERT_TRUE(model.branch_line());
   EXPECT_EQ(model.branch_line()->frame, 3u);
   EXPECT_EQ(model.branch_line()->tilts.size(), frames);

@@ -31,7 +31,8 @@ TEST(Camera, shows_all_of_the_bed_in_the_middle_of_the_picture) {
     EXPECT_GE(shown.y_max, 19.0 - 1e-12);
     EXPECT_NEAR(0.5 * (shown.x_min + shown.x_max), 50.0, 1e-12);
     EXPECT_NEAR(0.5 * (shown.y_min + shown.y_max), 9.0, 1e-12);
-    EXPECT_NEAR(std::min(length(shown) - 100.0, depth(shown) - 20.0), 0.0, 1e-12) << "no larger than need be";
+    EXPECT_NEAR(std::min(length(shown) - 100.0, depth(shown) - 20.0), 0.0, 1e-12)
+        << "no larger than necessary";
   }
 }
 

@@ -53,7 +53,7 @@ TEST(Condition, operators_bind_as_is_usual) {
   EXPECT_TRUE(is_so("abs(gamma - 1) < 0.5 && sqrt(y * 10) == 20"));
   EXPECT_TRUE(is_so("y > 0 || y > 50 && y < 0")) << "&& before ||";
   EXPECT_FALSE(is_so("(y > 0 || y > 50) && y < 0"));
-  EXPECT_FALSE(is_so("!gamma > 0.5")) << "of the comparison";
+  EXPECT_FALSE(is_so("!gamma > 0.5")) << "applies to the comparison";
   EXPECT_FALSE(is_so("!(gamma > 0.5 || y > 50)"));
   EXPECT_TRUE(is_so("!!(gamma > 0.5) && !(y < 0)"));
 }

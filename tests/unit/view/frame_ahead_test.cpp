@@ -33,8 +33,9 @@ TEST(FrameAhead, makes_a_frame_as_the_view_would) {
   EXPECT_EQ(free_gamma(*made->stored), free_gamma(stored));
   EXPECT_EQ(free_gamma(*made->mapped),
             free_gamma(pictures::mapped_frame(stored, example::bed_statics(), 3.0)));
-  EXPECT_NE(free_gamma(*made->mapped), free_gamma(stored)) << "a neighbourhood of 3 D is more than a grain";
-  EXPECT_FALSE(ahead.take(2, 3.0)) << "it has been taken";
+  EXPECT_NE(free_gamma(*made->mapped), free_gamma(stored))
+      << "a neighbourhood of 3 D has more than one grain";
+  EXPECT_FALSE(ahead.take(2, 3.0)) << "it has been returned already";
 }
 
 TEST(FrameAhead, has_nothing_else_than_what_was_begun) {

@@ -123,7 +123,7 @@ TEST(FrameSeries, takes_grains_with_their_neighbours) {
   series.begin(with_neighbours, {});
   wait_for(series, 6);
   EXPECT_NEAR(series.values()[3].thresholds[0].overloaded_fraction, 12.0 / 40.0, 1e-12)
-      << "the column and those beside it";
+      << "the column and its neighbours";
   EXPECT_GE(series.values()[3].thresholds[0].lc_mean, 3.0);
 }
 
@@ -231,7 +231,7 @@ TEST(Landmarks, are_the_frames_where_values_change) {
   EXPECT_EQ(frame(Landmark::percolation, 6, radians(20.0)), 3u);
   EXPECT_EQ(frame(Landmark::length_jump, 6, radians(20.0)), 3u);
   EXPECT_FALSE(frame(Landmark::length_jump, 6, radians(12.0)).has_value()) << "up to 12 deg nothing jumps";
-  EXPECT_FALSE(frame(Landmark::length_jump, 5, radians(20.0)).has_value()) << "not all are known";
+  EXPECT_FALSE(frame(Landmark::length_jump, 5, radians(20.0)).has_value()) << "not all values are known";
   EXPECT_FALSE(frame(Landmark::percolation, 3, radians(20.0)).has_value());
 }
 

@@ -48,9 +48,9 @@ TEST(Ghost, of_several_runs_is_their_mean_and_deviation_where_half_of_them_are) 
   const GhostCurve curve = ghost_curve(ghost, strain(), PlotAxis::tilt, 1.0);
   ASSERT_EQ(curve.x.size(), 8u);
   EXPECT_NEAR(curve.mean[2], 2.0 * 5.0, 1e-9);
-  EXPECT_NEAR(curve.deviation[2], 2.0 * std::sqrt(10.0), 1e-9) << "of 1, 3, 5, 7, 9, by n - 1";
+  EXPECT_NEAR(curve.deviation[2], 2.0 * std::sqrt(10.0), 1e-9) << "of 1, 3, 5, 7, 9, with n - 1";
   EXPECT_NEAR(curve.mean[4], 4.0 * 6.0, 1e-9) << "one has ended";
-  EXPECT_TRUE(std::isnan(curve.mean[5])) << "two of five are not half of them";
+  EXPECT_TRUE(std::isnan(curve.mean[5])) << "two of five are less than half";
 }
 
 TEST(Ghost, lies_where_each_run_has_that_angle_left) {
@@ -74,7 +74,7 @@ TEST(Ghost, is_interpolated_between_the_frames_of_a_run) {
   const Ghost ghost{"two", {run_of(5, 0.0, 9), coarse}};
   const GhostCurve curve = ghost_curve(ghost, strain(), PlotAxis::tilt, 1.0);
   ASSERT_EQ(curve.x.size(), 5u);
-  EXPECT_NEAR(curve.mean[3], 0.5 * 5.0, 1e-9) << "5 % lie in the middle between 2 and 8 %";
+  EXPECT_NEAR(curve.mean[3], 0.5 * 5.0, 1e-9) << "5 % is midway between 2 and 8 %";
 }
 
 TEST(Ghost, is_at_the_threshold_of_the_curves_or_nowhere) {

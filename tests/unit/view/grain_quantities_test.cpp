@@ -100,12 +100,12 @@ TEST(GrainQuantitiesOfARun, are_measured_since_the_frame_that_the_map_goes_by) {
   ViewModel model = example::opened(folder.path("run.h5"));
   model.go_to(2);
   const auto distance = [&] { return model.grain_values(analysis::grain_number("distance"))[39]; };
-  EXPECT_NEAR(distance(), 0.2, 1e-6) << "per degree since the frame before";
+  EXPECT_NEAR(distance(), 0.2, 1e-6) << "per degree since the previous frame";
   model.state.since = radians(0.0);
-  EXPECT_NEAR(distance(), 1.0, 1e-6) << "in all";
+  EXPECT_NEAR(distance(), 1.0, 1e-6) << "in total";
   model.state.map.layers = {pictures::MapKind::displacement};
   model.first().map(2.0);
-  EXPECT_EQ(model.first().values().values[39], distance()) << "as the map has it";
+  EXPECT_EQ(model.first().values().values[39], distance()) << "as in the map";
   model.state.selecting.condition = "distance > 0.5";
   model.select_by_condition();
   EXPECT_EQ(model.selected_grains(), std::vector<Index>{39});

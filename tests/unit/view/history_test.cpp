@@ -49,12 +49,12 @@ TEST(History, is_of_what_is_asked_for) {
   ASSERT_TRUE(wait_for(series, 3));
   EXPECT_DOUBLE_EQ(series.instants()[2].places[0].x, 3.7);
   EXPECT_DOUBLE_EQ(series.instants()[2].places[1].x, 7.5);
-  EXPECT_TRUE(std::isnan(series.instants()[2].fn)) << "no contact was asked for";
+  EXPECT_TRUE(std::isnan(series.instants()[2].fn)) << "no contact was requested";
   series.ask(grains, 5);
-  ASSERT_TRUE(wait_for(series, 5)) << "only those to come are read";
+  ASSERT_TRUE(wait_for(series, 5)) << "only later frames are read";
   EXPECT_DOUBLE_EQ(degrees(series.instants()[4].tilt), 4.0);
   series.ask({{}, ContactKey{3, 13, 0}}, 5);
-  EXPECT_TRUE(series.instants().empty()) << "another question begins anew";
+  EXPECT_TRUE(series.instants().empty()) << "another question starts from the beginning";
   ASSERT_TRUE(wait_for(series, 5));
   EXPECT_EQ(series.instants()[3].fn, 3.0);
   EXPECT_EQ(series.instants()[3].ft, -0.75);
@@ -119,10 +119,10 @@ TEST(Contact, its_curves_are_along_the_run) {
   const std::vector<Plot> plots = contact_plots(instants, friction, 2.0, {PlotAxis::tilt, not_known});
   ASSERT_EQ(plots.size(), 2u);
   EXPECT_NEAR(plots[0].series[0].x[3], 3.0, 1e-12) << "deg";
-  EXPECT_EQ(plots[0].series[0].y[3], 1.5) << "in weights";
+  EXPECT_EQ(plots[0].series[0].y[3], 1.5) << "in units of the weight";
   EXPECT_EQ(plots[0].series[1].y[1], -0.125);
   EXPECT_EQ(plots[1].series[0].y[1], 0.5);
-  EXPECT_EQ(plots[1].series[0].y[3], 1.0) << "by the friction of its time";
+  EXPECT_EQ(plots[1].series[0].y[3], 1.0) << "with the friction at that time";
   EXPECT_TRUE(std::isnan(plots[1].series[0].y[2])) << "open";
 }
 
@@ -150,7 +150,7 @@ TEST_F(HistoryInView, the_contact_has_its_curves) {
   EXPECT_DOUBLE_EQ(model_->contact_inspection()->fn, 1.0);
   EXPECT_NEAR(model_->contact_history()[0].series[0].y[0], 1.0 / 20.0, 1e-6) << "of mass 2 kg/m and 10 m/s^2";
   model_->hold();
-  EXPECT_TRUE(model_->contact_history().empty()) << "nothing is read any more";
+  EXPECT_TRUE(model_->contact_history().empty()) << "nothing is read after that";
 }
 
 TEST_F(HistoryInView, trails_lead_to_the_frame_shown) {

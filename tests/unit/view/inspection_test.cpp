@@ -116,7 +116,7 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
   ASSERT_EQ(of.curve.l.size(), 2u);
   EXPECT_EQ(of.curve.l[1], 2.0);
   EXPECT_NEAR(of.curve.gamma[1], 0.6, 1e-15);
-  EXPECT_EQ(of.coarse_graining_length, 5.0) << "the cut";
+  EXPECT_EQ(of.coarse_graining_length, 5.0) << "the cut-off";
 }
 
 TEST(Inspection, of_a_grain_that_is_not_overloaded_has_no_length) {

@@ -113,7 +113,7 @@ TEST(LiveRun, goes_no_faster_than_its_pace) {
   const double h = scenario::time_step(small_bed());
   run.set_pace({"a tenth of real time", 0.0, 0.1});
   EXPECT_GE(seconds_of(run, 20), 18.0 * 10.0 * h);
-  EXPECT_EQ(run.status().state_hash, hash_of(plain_run(20))) << "the bits are the same";
+  EXPECT_EQ(run.status().state_hash, hash_of(plain_run(20))) << "the bits are identical";
   run.set_pace({"0.5 deg/s", 0.5, 0.0});
   run.finish_deposition();
   paused(run);
@@ -125,7 +125,7 @@ TEST(LiveRun, goes_no_faster_than_its_pace) {
   run.pause();
   paused(run);
   run.apply({0, CommandKind::friction, -1, 0.4, 0.0});
-  EXPECT_EQ(run.status().friction, 0.4) << "what is asked for does not wait";
+  EXPECT_EQ(run.status().friction, 0.4) << "requests do not wait";
 }
 
 TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
@@ -198,13 +198,13 @@ TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
   LiveStatus status = paused(run);
   EXPECT_FALSE(status.depositing);
   EXPECT_EQ(status.tilt, 0.0);
-  EXPECT_EQ(run.recorded_frames(0).size(), 1u) << "that of the bed at rest";
+  EXPECT_EQ(run.recorded_frames(0).size(), 1u) << "the state of the bed at rest";
   run.run_to(radians(1.0));
   status = paused(run);
   EXPECT_NEAR(degrees(status.tilt), 1.0, 1e-9);
   EXPECT_FALSE(status.done);
   run.run_to(radians(0.5));
-  EXPECT_EQ(paused(run).step, status.step) << "it is there already";
+  EXPECT_EQ(paused(run).step, status.step) << "this tilt is already reached";
 }
 
 /// A frame taken from a running run equals that of a plain run after the same number of steps.
@@ -240,7 +240,7 @@ TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
   paused(run);
   run.apply({0, CommandKind::drop, 2, 0.03, 0.01});
   const auto dropped = run.frame();
-  EXPECT_GT(*std::ranges::max_element(dropped->y), 0.03) << "the drop is seen at once";
+  EXPECT_GT(*std::ranges::max_element(dropped->y), 0.03) << "the drop is visible at once";
   run.play();
   run.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
   run.apply({0, CommandKind::friction, -1, 0.8, 0.0});
@@ -336,7 +336,7 @@ TEST(LiveRun, is_saved_when_asked) {
   run.save();
   EXPECT_EQ(io::RunFile::open(path).checkpoint().world.step, 7);
   EXPECT_EQ(io::RunFile::open(path).steps().size(), 7u);
-  EXPECT_THROW(live(small_bed(), path), Error) << "it is locked, and exists";
+  EXPECT_THROW(live(small_bed(), path), Error) << "the file is locked, and exists";
 }
 
 TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {

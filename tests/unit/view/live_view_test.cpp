@@ -75,7 +75,7 @@ TEST_F(ViewOfScenario, shows_all_of_a_bed_that_is_higher_than_its_scenario_says)
 
   ViewModel falling = ViewModel::open(folder_.path("a.toml"), {"deposition.method=collapse"}, "", false, "");
   EXPECT_GT(std::ranges::max(falling.frame().y), falling.first().part(3.0).y_max)
-      << "of a bed that falls, no more is shown than it will fill";
+      << "of a falling bed, only the part that it will fill is shown";
 }
 
 TEST_F(ViewOfScenario, looks_back_while_the_run_goes_on) {
@@ -91,7 +91,7 @@ TEST_F(ViewOfScenario, looks_back_while_the_run_goes_on) {
   const double shown = model_->frame().tilt;
   model_->live()->play();
   ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame_count() == 5 && has_ended(*model_); }));
-  EXPECT_EQ(model_->frame().tilt, shown) << "what is looked at stays";
+  EXPECT_EQ(model_->frame().tilt, shown) << "the inspected grain stays";
   EXPECT_NE(model_->state.announcement.find("ended at 1.00°"), std::string::npos)
       << model_->state.announcement;
   EXPECT_EQ(model_->frame_tilts().size(), 5u);
@@ -152,7 +152,7 @@ TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
     model.live()->halt();
     model.live()->save();
   }
-  EXPECT_EQ(io::RunFile::open(output).header().seed, 3u) << "it is still there";
+  EXPECT_EQ(io::RunFile::open(output).header().seed, 3u) << "the previous run still exists";
 }
 
 TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
@@ -175,11 +175,11 @@ TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {
   EXPECT_FALSE(model_->may_discard());
   EXPECT_NE(model_->state.message.find("not saved"), std::string::npos);
   EXPECT_TRUE(model_->may_discard());
-  EXPECT_FALSE(model_->may_discard()) << "each time anew";
+  EXPECT_FALSE(model_->may_discard()) << "asked again each time";
   model_->record(folder_.path("saved.h5"));
   EXPECT_TRUE(model_->may_discard());
   EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
-  EXPECT_THROW(model_->record(folder_.path("other.h5")), Error) << "it is recorded already";
+  EXPECT_THROW(model_->record(folder_.path("other.h5")), Error) << "it is already recorded";
   EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
 }
 

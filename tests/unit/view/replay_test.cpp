@@ -57,7 +57,7 @@ TEST_F(ReplayOfBed, plays_a_flow_as_evenly_as_the_tilt_and_stops_at_its_end) {
   EXPECT_EQ(replay_->index(), 7u);
   EXPECT_FALSE(replay_->playing());
   replay_->play(true);
-  EXPECT_EQ(replay_->index(), 0u) << "from the start again";
+  EXPECT_EQ(replay_->index(), 0u) << "from the beginning again";
 }
 
 TEST_F(ReplayOfBed, shows_a_frame_as_long_as_the_tilt_takes_to_the_next) {
@@ -87,12 +87,12 @@ TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
   frames_->keep(1, read_elsewhere);
   EXPECT_EQ(frames_->frame(1), read_elsewhere);
   EXPECT_EQ(frames_->kept(1), read_elsewhere);
-  EXPECT_EQ(frames_->kept(5), nullptr) << "nobody has asked for it";
+  EXPECT_EQ(frames_->kept(5), nullptr) << "nobody has requested it";
   EXPECT_EQ(frames_->frame(0), first);
   const auto third = frames_->kept(3);
   for (int k = 0; k < 60000; ++k)
     frames_->frame(0);  // more often than the cache has room for frames of this bed
-  EXPECT_EQ(frames_->kept(3), third) << "a frame that is asked for again takes no more room";
+  EXPECT_EQ(frames_->kept(3), third) << "a repeated request takes no more memory";
 }
 
 TEST_F(ReplayOfBed, keeps_two_frames_of_the_largest_beds) {

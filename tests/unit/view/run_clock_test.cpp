@@ -18,27 +18,27 @@ TEST(LinkedFrame, ByTheTilt) {
   EXPECT_EQ(linked_frame(PlotAxis::tilt, unfailed(), {1.5, 23.0, false}, failed(3.2)), 1u)
       << "the first of two";
   EXPECT_EQ(linked_frame(PlotAxis::tilt, failed(3.2), {3.0, 13.0, false}, unfailed()), 4u)
-      << "as far as its frames go";
+      << "limited to the range of its frames";
 }
 
 TEST(LinkedFrame, ByTheAngleLeft) {
   EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {1.0, 11.0, false}, failed(4.1)), 2u);
   EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {1.0, 11.0, false}, unfailed()), std::nullopt);
   EXPECT_EQ(linked_frame(PlotAxis::angle_left, failed(3.0), {-1.0, 11.0, false}, failed(4.1)), 2u)
-      << "to whichever side the bed slopes";
+      << "whichever way the bed slopes";
 }
 
 TEST(LinkedFrame, ByTheTimeSinceTheFirstFrame) {
   EXPECT_EQ(linked_frame(PlotAxis::time, unfailed(), {1.0, 22.0, false}, failed(3.2)), 2u);
   EXPECT_EQ(linked_frame(PlotAxis::time, unfailed(), {2.0, 24.0, false}, failed(3.2)), 5u)
-      << "also into its flow";
+      << "also into the flow";
 }
 
 TEST(LinkedFrame, OfAFlowIsInTheFlow) {
   EXPECT_EQ(linked_frame(PlotAxis::tilt, failed(3.2), {3.0, 13.6, true}, failed(3.2)), 4u);
   EXPECT_EQ(linked_frame(PlotAxis::tilt, failed(3.2), {3.0, 13.9, true}, failed(3.2)), 5u);
   EXPECT_EQ(linked_frame(PlotAxis::tilt, failed(3.2), {1.0, 13.9, true}, unfailed()), 2u)
-      << "where there is one";
+      << "if it has a flow";
 }
 
 TEST(LinkedFrame, IsNoneWhereThereAreNoFrames) {

@@ -62,7 +62,7 @@ TEST(Scene, is_the_map_where_nothing_is_selected) {
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
   EXPECT_TRUE(view.lines.empty());
   EXPECT_FALSE(view.furniture);
-  EXPECT_TRUE(view.coloured) << "pictures with a selection are, and all are to be drawn alike";
+  EXPECT_TRUE(view.coloured) << "pictures with a selection are coloured, and all use one target";
 }
 
 TEST(Scene, has_the_grains_of_its_part) {
@@ -150,7 +150,7 @@ TEST(Scene, draws_walls_where_they_are) {
   EXPECT_EQ(view.lines[0].y1, 6.0f);
   EXPECT_EQ(view.lines[1].x1, 10.0f);
   EXPECT_EQ(drawn.shown({}, {2.0, 4.0, 0.0, 2.0}).lines.size(), 0u);
-  EXPECT_FALSE(view.left_wall) << "that would be at the edge of the picture";
+  EXPECT_FALSE(view.left_wall) << "it would lie at the edge of the picture";
 }
 
 TEST(Scene, knows_when_a_map_is_another) {
@@ -183,9 +183,9 @@ TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
   EXPECT_NE(none, one) << "colours follow those of the first frame";
   pictures::meet(drawn.pictures, drawn.frame);
   const MapSource two = source();
-  EXPECT_NE(one, two) << "the frame itself was met";
+  EXPECT_NE(one, two) << "the frame itself was added";
   pictures::meet(drawn.pictures, drawn.frame);
-  EXPECT_EQ(two, source()) << "what comes later changes nothing";
+  EXPECT_EQ(two, source()) << "later frames change nothing";
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {

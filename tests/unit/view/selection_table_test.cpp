@@ -46,7 +46,7 @@ TEST(TableOfGrains, histograms_are_densities) {
       histogram_of(analysis::grain_number("lc"), grains, std::vector<Index>{1}, values).series.empty());
   EXPECT_EQ(histogram_of(analysis::grain_number("lc"), grains, std::vector<Index>{0}, values).series.size(),
             2u)
-      << "one value has a bin, too";
+      << "a single value has a bin too";
 }
 
 TEST(TableOfGrains, is_csv_with_units) {

@@ -40,13 +40,13 @@ TEST(DarkMap, grays_are_mirrored_and_colours_stay) {
   render::FrameView map = map_of({render::white, render::gray(0.5), render::black, {10, 200, 30}});
   map.lines.push_back({0.0f, 0.0f, 1.0f, 0.0f, 0.1f, render::black});
   const render::FrameView dark = on_dark_ground(map);
-  EXPECT_TRUE(dark.transparent) << "the ground is that of the window";
+  EXPECT_TRUE(dark.transparent) << "the background is that of the window";
   EXPECT_LT(render::luma(dark.discs[0].fill), render::luma(dark.discs[1].fill));
   EXPECT_LT(render::luma(dark.discs[1].fill), render::luma(dark.discs[2].fill));
   EXPECT_EQ(dark.discs[3].fill, (render::Colour{10, 200, 30}));
   EXPECT_GT(render::luma(dark.lines[0].colour), 200.0);
   EXPECT_GT(render::luma(dark.discs[0].rim), render::luma(dark.discs[0].fill) + 40.0)
-      << "a dark grain is seen by its rim";
+      << "a dark grain is visible by its rim";
 }
 
 TEST(DarkMap, the_legend_goes_with_the_grains) {

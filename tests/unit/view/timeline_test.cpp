@@ -89,10 +89,10 @@ TEST(Timeline, has_the_rearrangements_of_an_analysis_by_their_size) {
   std::erase_if(found, [](const auto& event) { return event.kind != TimelineEvent::Kind::rearrangement; });
   ASSERT_EQ(names_of(found),
             (std::vector<std::string>{"rearrangement 0", "rearrangement 1", "rearrangement 2"}))
-      << "the failure is told by theta_c";
+      << "the failure is marked by theta_c";
   EXPECT_NEAR(found[0].size, 0.2, 1e-12) << "four decades below the largest";
   EXPECT_NEAR(found[1].size, 1.0, 1e-12);
-  EXPECT_NEAR(found[2].size, 0.2, 1e-12) << "no energy";
+  EXPECT_NEAR(found[2].size, 0.2, 1e-12) << "without energy";
   EXPECT_EQ(found[0].what, "rearrangement, 1 m g D, 7 grains moved; the bed contracts");
   EXPECT_NE(found[1].what.find("dilates"), std::string::npos);
   EXPECT_NEAR(found[0].place, 0.5, 1e-12);

@@ -100,7 +100,7 @@ TEST_F(TwoViews, another_run_as_far_from_failure) {
   ASSERT_TRUE(model_->has_clock(PlotAxis::angle_left));
   model_->state.beside.clock = PlotAxis::angle_left;
   model_->update(0.0);
-  EXPECT_NEAR(tilt_beside(), 10.0, 1e-6) << "0 deg left of 20, and the nearest to 12";
+  EXPECT_NEAR(tilt_beside(), 10.0, 1e-6) << "0 deg left for 20, and the nearest to 12";
 }
 
 TEST_F(TwoViews, the_angle_left_is_no_clock_where_one_has_not_failed) {
@@ -129,10 +129,10 @@ TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
   EXPECT_EQ(end(model_->second().annotated_map()), "0.25");
   model_->state.beside.layers = {pictures::MapKind::pressure};
   model_->update(0.0);
-  EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that is of another map";
+  EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that belongs to another map";
   model_->state.map.range_low = model_->state.map.range_high = std::nullopt;
   model_->update(0.0);
-  EXPECT_NE(end(model_->first().annotated_map()), "0.69") << "again its own";
+  EXPECT_NE(end(model_->first().annotated_map()), "0.69") << "its own range again";
 }
 
 TEST_F(TwoViews, show_the_same_place) {
@@ -165,7 +165,7 @@ TEST_F(TwoViews, what_cannot_be_beside_is_said_and_leaves_what_is_shown) {
   EXPECT_EQ(model_->run_beside(), nullptr);
   model_->open_beside(other_);
   EXPECT_THROW(model_->open_beside(folder_.path("none.h5")), Error);
-  EXPECT_NE(model_->run_beside(), nullptr) << "the one before";
+  EXPECT_NE(model_->run_beside(), nullptr) << "the previous one";
 }
 
 TEST_F(TwoViews, a_run_that_is_computed_stands_alone) {
@@ -173,7 +173,7 @@ TEST_F(TwoViews, a_run_that_is_computed_stands_alone) {
   ViewModel live = opened(folder_.path("a.toml"));
   EXPECT_THROW(live.open_beside(path_), Error);
   live.state.beside = {.shown = true, .layers = {pictures::MapKind::pressure}, .minus = 0.0};
-  EXPECT_FALSE(live.second().annotated_map().title.empty()) << "no frame to be minus yet";
+  EXPECT_FALSE(live.second().annotated_map().title.empty()) << "there is no frame to subtract yet";
 }
 
 TEST_F(TwoViews, both_rest_while_another_run_is_opened) {

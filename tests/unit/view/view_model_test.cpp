@@ -106,7 +106,7 @@ TEST_F(ViewOfRun, shows_any_quantity_that_it_has) {
   const std::size_t count = model_->plots().size();
   model_->remove_plot("contacts/coordination_number");
   model_->remove_plot("stress");
-  EXPECT_EQ(model_->plots().size(), count - 1) << "only what was added";
+  EXPECT_EQ(model_->plots().size(), count - 1) << "only added plots can be removed";
 }
 
 TEST_F(ViewOfUnfailedRun, has_no_angle_left) {
@@ -119,7 +119,7 @@ TEST_F(ViewOfRun, goes_to_its_landmarks) {
   EXPECT_TRUE(model_->has(Landmark::theta_c));
   model_.reset();  // its thread reads the file that will be opened again
   EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").has(Landmark::length_jump))
-      << "nothing was worked out yet";
+      << "nothing has been computed yet";
   model_.emplace(opened(path_));
   ASSERT_TRUE(wait_for_all());
   const std::pair<Landmark, std::size_t> places[] = {{Landmark::last, 7},
@@ -405,7 +405,7 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
   model.play(true);
   model.go_to(1);
   EXPECT_FALSE(model.playing());
-  EXPECT_EQ(model.frame().tilt, 0.0) << "the frame shown before";
+  EXPECT_EQ(model.frame().tilt, 0.0) << "the previous frame";
   model.update(0.0);
   EXPECT_NE(model.state.message.find("segment_"), std::string::npos) << model.state.message;
   EXPECT_FALSE(model.first().map(2.0).discs.empty());

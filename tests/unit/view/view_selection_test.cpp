@@ -33,12 +33,12 @@ TEST_F(SelectionInRun, a_condition_selects_in_the_frame_shown) {
   model_->go_to(2);
   select_where("gamma > 0.7");
   EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
-  EXPECT_FALSE(model_->state.selected) << "none of them is looked at";
+  EXPECT_FALSE(model_->state.selected) << "none of them is inspected";
   model_->go_to(3);
   model_->update(0.0);
   EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "the same grains, in all frames";
   select_where("gamma > 0.7 && y > 3");
-  EXPECT_EQ(model_->state.selected, std::optional<Index>(30)) << "a single one is looked at";
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(30)) << "a single one is inspected";
   EXPECT_TRUE(model_->state.selecting.selection.grains.empty());
 }
 
@@ -52,11 +52,11 @@ TEST_F(SelectionInRun, a_condition_selects_anew_in_each_frame) {
   EXPECT_EQ(selected(), (std::vector<Index>{0, 10, 20, 30}));
   model_->go_to(2);
   model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "anew, whatever boxes do";
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "replaced, whatever the mode of boxes";
   model_->select_found({5});
   model_->go_to(3);
   model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 5, 10})) << "by hand: that ends it";
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 5, 10})) << "a selection by hand ends it";
 }
 
 TEST_F(SelectionInRun, a_wrong_condition_changes_nothing) {
@@ -82,7 +82,7 @@ TEST_F(SelectionInRun, modes_go_by_what_is_selected) {
   model_->state.selecting.mode = SelectionMode::add;
   model_->select_found({9});
   EXPECT_EQ(selected(), (std::vector<Index>{3, 9}));
-  EXPECT_EQ(model_->state.selected, std::optional<Index>(3)) << "it is still looked at";
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(3)) << "it is still inspected";
 }
 
 TEST_F(SelectionInRun, it_is_grains_or_a_contact) {

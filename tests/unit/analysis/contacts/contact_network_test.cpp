@@ -86,7 +86,7 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
   EXPECT_DOUBLE_EQ(mobilisation_of(packing, 1), 0.6);
   packing.statics.wall_friction = 0.0;
   packing.frame.contacts.ft[0] = 0.0;
-  EXPECT_EQ(mobilisation_of(packing, 0), 1.0) << "nothing keeps it from sliding";
+  EXPECT_EQ(mobilisation_of(packing, 0), 1.0) << "nothing prevents sliding";
 }
 
 /// Returns a central grain with four neighbours: strong contacts along y, weak ones along x.

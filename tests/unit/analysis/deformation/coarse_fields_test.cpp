@@ -193,7 +193,7 @@ TEST(CoarseFields, uniform_shear_has_its_rate_and_no_temperature) {
     const CoarseField field = fields.at(6.0 + 4.0 * (k % 3), 5.0 + 3.0 * (k / 3));
     rate += shear_rate(field.velocity_gradient) / 9.0;
     EXPECT_NEAR(field.temperature, 0.0, 1e-12);
-    EXPECT_GT(field.kinetic_stress.xx, 0.01) << "which grows with the width squared";
+    EXPECT_GT(field.kinetic_stress.xx, 0.01) << "which grows with the square of the width";
   }
   EXPECT_NEAR(rate, 0.4, 0.04);
   for (const double temperature : granular_temperatures(packing, 4.0)) EXPECT_NEAR(temperature, 0.0, 1e-12);

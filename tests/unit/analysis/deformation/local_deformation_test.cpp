@@ -57,9 +57,9 @@ TEST(LocalDeformation, of_a_rigid_turn_is_vorticity_without_strain) {
 }
 
 TEST(LocalDeformation, strains_are_those_of_the_stretch) {
-  EXPECT_DOUBLE_EQ(shear_strain({0.0, 0.5, 0.0, 0.0}), 0.5) << "of a simple shear";
+  EXPECT_DOUBLE_EQ(shear_strain({0.0, 0.5, 0.0, 0.0}), 0.5) << "a simple shear";
   EXPECT_DOUBLE_EQ(area_strain({0.0, 0.5, 0.0, 0.0}), 0.0);
-  EXPECT_NEAR(vorticity({0.0, 2e-6, 0.0, 0.0}), -2e-6, 1e-17) << "clockwise where the upper side goes to +x";
+  EXPECT_NEAR(vorticity({0.0, 2e-6, 0.0, 0.0}), -2e-6, 1e-17) << "clockwise if the upper side moves to +x";
   EXPECT_DOUBLE_EQ(shear_strain({0.25, 0.0, 0.0, -0.25}), 0.5);
   EXPECT_DOUBLE_EQ(area_strain({0.5, 0.0, 0.0, 1.0}), 2.0);
   EXPECT_DOUBLE_EQ(area_strain({-0.5, 0.0, 0.0, 0.0}), -0.5);
@@ -134,7 +134,7 @@ TEST(LocalDeformation, is_not_known_without_neighbours_that_span_the_plane) {
   }
   Packing fewer = test::empty_packing(100.0, false);
   test::add_grain(fewer, 10.0, 0.5);
-  EXPECT_TRUE(std::isnan(local_deformations(fewer.frame, bed)[0].nonaffine)) << "of other grains";
+  EXPECT_TRUE(std::isnan(local_deformations(fewer.frame, bed)[0].nonaffine)) << "a frame of other grains";
 }
 
 // The upper half of a lattice slides over the lower half.
@@ -147,7 +147,7 @@ TEST(LocalDeformation, of_a_slip_is_localised) {
   FrameRecord slipped, sheared;
   take_deformation(bed.frame, {now, bed.statics}, slipped);
   take_deformation(bed.frame, {uniform, bed.statics}, sheared);
-  EXPECT_GT(slipped.local_shear_share, 0.99) << "four of forty rows have all of it";
+  EXPECT_GT(slipped.local_shear_share, 0.99) << "four of forty rows contain all of it";
   EXPECT_NEAR(sheared.local_shear_share, 0.1, 1e-9);
   EXPECT_NEAR(sheared.local_shear, 0.01, 1e-12);
   EXPECT_NEAR(sheared.nonaffine, 0.0, 1e-9);

@@ -51,7 +51,7 @@ TEST(PowerLaw, begins_where_a_sample_begins_to_follow_it) {
   EXPECT_LT(law.minimum, 1.6);
   EXPECT_NEAR(law.exponent, 2.0, 3.0 * law.error);
   EXPECT_GT(std::fabs(power_law_from(sample, 0.05).exponent - 2.0), 0.3)
-      << "the whole sample is no power law";
+      << "the entire sample does not follow a power law";
 }
 
 TEST(PowerLaw, of_too_few_values_is_not_known) {

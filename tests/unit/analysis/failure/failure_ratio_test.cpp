@@ -23,7 +23,8 @@ TEST(FailureRatio, is_of_the_last_rows_before_it) {
   EXPECT_NEAR(found.mean, 0.6, 1e-12) << "19.5, 19.75 and 20 deg";
   EXPECT_NEAR(found.spread, 0.2, 1e-12);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(std::isnan(failure_ratio(tilts, stresses, none, radians(0.75)).mean)) << "it has not failed";
+  EXPECT_TRUE(std::isnan(failure_ratio(tilts, stresses, none, radians(0.75)).mean))
+      << "the slope has not failed";
 }
 
 TEST(FailureRatio, leaves_out_the_horizontal_bed) {

@@ -20,14 +20,14 @@ TEST(LastRise, is_all_of_what_never_falls_or_never_rises) {
   EXPECT_EQ(rise({}), Part(0, 0));
   EXPECT_EQ(rise({1}), Part(0, 1));
   EXPECT_EQ(rise({0, 1, 2, 3}), Part(0, 4));
-  EXPECT_EQ(rise({0, 1, 1, 1, 3, 3}), Part(0, 6)) << "with its holds";
+  EXPECT_EQ(rise({0, 1, 1, 1, 3, 3}), Part(0, 6)) << "including its holds";
   EXPECT_EQ(rise({3, 2, 1}), Part(0, 3));
   EXPECT_EQ(rise({2, 2}), Part(0, 2));
 }
 
 TEST(LastRise, begins_where_the_tilt_was_lowest_and_ends_where_it_falls_again) {
   EXPECT_EQ(rise({0, 1, 2, 1, 0, 1, 2, 3}), Part(4, 8));
-  EXPECT_EQ(rise({0, 1, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0}), Part(4, 9)) << "with the holds on either side";
+  EXPECT_EQ(rise({0, 1, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0}), Part(4, 9)) << "including the holds at both ends";
   EXPECT_EQ(rise({0, 2, 1}), Part(0, 2));
 }
 

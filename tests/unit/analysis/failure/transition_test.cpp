@@ -95,7 +95,7 @@ TEST(DilationOnset, is_the_minimum_of_the_strain_within_its_noise) {
   const Strain strain = strain_of([](double t) { return 1e-4 * (t - 15.0) * (t - 15.0); }, noise);
   const DilationOnset onset = dilation_onset(strain.tilt, strain.value, none, 1.0);
   EXPECT_NEAR(onset.tilt, 15.0, 0.05);
-  EXPECT_NEAR(onset.low, 14.0, 0.06) << "where the parabola is above its minimum by the noise";
+  EXPECT_NEAR(onset.low, 14.0, 0.06) << "the parabola exceeds its minimum there by the noise";
   EXPECT_NEAR(onset.high, 16.0, 0.06);
 }
 

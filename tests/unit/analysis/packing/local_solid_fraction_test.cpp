@@ -87,7 +87,7 @@ TEST(GrainCells, cut_no_disk) {
       const double x = packing.frame.x[i], y = packing.frame.y[i];
       const double distance =
           ((a.x - x) * (b.y - y) - (b.x - x) * (a.y - y)) / std::hypot(b.x - a.x, b.y - a.y);
-      EXPECT_GE(distance, packing.statics.radius[i] - 1e-12) << "counter-clockwise, outside of the disk";
+      EXPECT_GE(distance, packing.statics.radius[i] - 1e-12) << "counter-clockwise, outside the disk";
     }
   }
 }

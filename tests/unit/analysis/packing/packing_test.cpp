@@ -40,8 +40,8 @@ TEST(BulkSolidFraction, of_a_square_lattice_is_a_quarter_of_pi_whatever_is_cut) 
   Packing packing = test::empty_packing(10.0, true);
   for (Index k = 0; k < 200; ++k) test::add_grain(packing, 0.5 + k % 10, 0.5 + k / 10);
   EXPECT_NEAR(bulk_solid_fraction(packing, 200.0), 0.25 * pi, 1e-12);
-  EXPECT_NEAR(bulk_solid_fraction(packing, 193.0), 0.25 * pi, 0.02) << "0.3 of a row is cut";
-  EXPECT_TRUE(std::isnan(bulk_solid_fraction(packing, 100.0))) << "nothing between";
+  EXPECT_NEAR(bulk_solid_fraction(packing, 193.0), 0.25 * pi, 0.02) << "0.3 of a row is cut off";
+  EXPECT_TRUE(std::isnan(bulk_solid_fraction(packing, 100.0))) << "empty range";
 }
 
 /// Returns a disk on two others of its size, which it touches at 30 deg to the vertical; they lie on the
