@@ -29,8 +29,7 @@ struct LegendItem {
   float bar_left = 0.0f, bar_top = 0.0f, bar_length = 0.0f;
 };
 
-/// Returns by how much the first label of a bar extends to the left of it, or the last one to the right: half
-/// its width.
+/// Returns by how much the first label of a bar extends to its left, or the last one to its right.
 float half_label(const render::Bar& bar, bool first, float em) {
   if (bar.ticks.empty()) return 0.0f;
   const render::BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();

@@ -15,7 +15,7 @@ constexpr float gap = 0.8f;           ///< gap between the two, em
 constexpr float least_width = 12.0f;  ///< minimum width of a picture, em
 constexpr float least_height = 3.0f;
 
-/// Lines above a view: the name of its run, its angle, or the title of its map.
+/// Line above a view: the name of its run, its angle, or the title of its map.
 struct HeadLine {
   std::string text;
   bool is_name = false;

@@ -53,7 +53,7 @@ void write_condition(Gui& gui) {
   offer_names(gui);
   choose_mode(gui);
   if (entered || pressed) gui.model.select_by_condition();
-  if (named_checkbox(gui, "in each frame", "again in each frame", selecting.in_each_frame) &&
+  if (named_checkbox(gui, "in each frame", "reselect in each frame", selecting.in_each_frame) &&
       selecting.in_each_frame)
     gui.model.select_by_condition();
   named_checkbox(gui, "trails", "trails", selecting.trails, "paths of the selected grains: T");

@@ -20,7 +20,7 @@ namespace talus::view {
 /// Position of a grain in a frame.
 struct GrainPlace {
   double x = 0.0, y = 0.0;  ///< m; NaN if the grain has not arrived yet
-  Index image = 0;          ///< number of crossings of the right periodic edge
+  Index image = 0;          ///< net number of exits through the right periodic edge
 };
 
 /// One frame of the history.

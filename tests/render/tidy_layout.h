@@ -63,8 +63,7 @@ inline std::string text_of(const render::Box& box) {
          ", " + std::to_string(box.bottom()) + ")";
 }
 
-/// Returns whether a box does not overlap the bed, which may be turned: one of the sides of either separates
-/// them.
+/// Returns whether a box does not overlap the bed, which may be turned: it lies beyond one side of the bed.
 inline bool clear_of_bed(const render::Box& box, const render::Window& bed) {
   const auto bed_x = [&](const render::Point& p) {
     return (bed.camera.cosine * (p.x - bed.camera.origin_x) + bed.camera.sine * (p.y - bed.camera.origin_y)) /

@@ -87,8 +87,8 @@ World rattlers_beside_a_column() {
   return world;
 }
 
-/// Returns two disks that touch each other on both sides of a period; one lies on the plane, and the other is
-/// pressed onto the first.
+/// Returns two disks that touch each other on both sides of a period; one rests on the plane, and the other
+/// moves down onto it.
 World pair_that_meets_twice() {
   World world = empty_box(4.0 * test::radius, true);
   for (double x : {1.0, 3.0})
