@@ -323,7 +323,8 @@ class TakenOver : public testing::Test {
     EXPECT_GT(ousted, 5) << "of " << calls;
   }
 
-  /// Expects the writer that took the lock last to continue; the other is rejected and leaves the files unchanged.
+  /// Expects the writer that took the lock last to continue; the other is rejected and leaves the files
+  /// unchanged.
   void finish(std::optional<io::RunStore>& store, bool packs) {
     try {
       commit_next();

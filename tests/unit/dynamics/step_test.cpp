@@ -74,7 +74,8 @@ TEST(Step, lists_pairs_up_to_a_gap_that_changes_by_doubling) {
   expect_margin(4.0, (1.0 + 1e-9) * per_margin);
   expect_margin(8.0, 4.5 * per_margin);
   settings.margin = 0.0;
-  EXPECT_TRUE(listed(0.99 * margin, per_margin)) << "a zero margin cannot double; the gap follows from the velocities";
+  EXPECT_TRUE(listed(0.99 * margin, per_margin))
+      << "a zero margin cannot double; the gap follows from the velocities";
   EXPECT_FALSE(listed(1.01 * margin, per_margin));
 }
 
