@@ -39,7 +39,7 @@ struct Palette {
   // Events of the time line, including their labels.
   render::Colour transition, failure, command, rearrangement, bookmark;
 
-  std::array<render::Colour, 4> curves;  ///< drawn in this order; they differ in lightness
+  std::array<render::Colour, 4> curves;  ///< used in this order; they differ in lightness
 };
 
 const Palette& palette_of(view::Theme theme);
