@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ source that defines talus::embedded::NAME with the bytes of a file, for each line "NAME=FILE" of LIST.
+# Writes OUTPUT, a C++ source that defines talus::embedded::NAME with the bytes of FILE for each line "NAME=FILE" of LIST.
 file(STRINGS ${LIST} entries)
 file(WRITE ${OUTPUT} "#include <span>\n\nnamespace talus::embedded {\n")
 foreach(entry ${entries})

@@ -1,24 +1,24 @@
-# Every target of the project links talus_options: warnings are errors, and arithmetic is what is written.
+# Every target of the project links talus_options: warnings are errors, and arithmetic is executed as written.
 include(CheckCXXSourceCompiles)
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE
   -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -Woverloaded-virtual
-  # Of sources that are compiled as one text, clang compares names that each keeps to itself.
+  # Not for clang in a unity build, where it compares local names of different sources.
   $<$<NOT:$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${TALUS_UNITY}>>>:-Wshadow>
-  # Same bits for every compiler and optimisation level: no fused multiply-add behind our back.
+  # Same bits for every compiler and optimisation level: no implicit fused multiply-add.
   -ffp-contract=off
-  # Nobody reads errno or the flags of the arithmetic: so loops with a square root or a choice vectorise, with the same bits.
+  # No code reads errno or floating-point flags; without them, loops with a square root or a choice vectorise, with the same bits.
   -fno-math-errno -fno-trapping-math
-  # gcc looks for memory to free again only from half a gigabyte on: a tenth less time to compile.
+  # gcc collects garbage only above half a gigabyte, which saves a tenth of the compile time.
   "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=524288>")
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
-# With a sanitizer gcc warns of faults that are none, as its manual says (array-bounds within std::string, by the length of
-# the path of the sources): there a warning is only that.
+# With a sanitizer gcc gives false warnings, as its manual says (array-bounds within std::string, depending on the length of
+# the source path), so warnings are not errors there.
 if(NOT CMAKE_CXX_FLAGS_${build_type} MATCHES "-fsanitize")
   target_compile_options(talus_options INTERFACE -Werror)
 endif()
-# Where the target has one (-march=native), gcc's vectoriser of straight code fuses a b -+ c d in spite of that flag (seen
-# with gcc 12). Elsewhere it stays: without it a small bed takes a tenth longer.
+# On targets with FMA (-march=native), the SLP vectoriser of gcc 12 fuses a b -+ c d despite -ffp-contract=off. It is kept
+# on other targets, because a small bed takes a tenth longer without it.
 set(CMAKE_REQUIRED_FLAGS "${CMAKE_CXX_FLAGS_${build_type}}")
 unset(TALUS_GCC_HAS_FMA CACHE)
 check_cxx_source_compiles("
@@ -37,7 +37,7 @@ endif()
 if(TALUS_FUZZ)
   target_compile_options(talus_options INTERFACE -fsanitize=float-cast-overflow -fno-sanitize-recover=float-cast-overflow)
 endif()
-# The library of the sanitizer, for a program that is not built with it and loads what is (LD_PRELOAD): Python.
+# The library of the sanitizer, to be preloaded (LD_PRELOAD) by Python, which is not built with the sanitizer but loads code that is.
 set(sanitizer "")
 if(TALUS_SANITIZE)
   set(sanitizer asan)
@@ -51,6 +51,6 @@ if(sanitizer)
   endif()
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${file} OUTPUT_VARIABLE TALUS_SANITIZER_LIBRARY OUTPUT_STRIP_TRAILING_WHITESPACE)
 endif()
-# Sums in their written order, and no fused multiply-add: Eigen's own vector code has neither.
+# Eigen's vector code reorders sums and fuses multiplications and additions.
 target_compile_definitions(talus_options INTERFACE EIGEN_DONT_VECTORIZE)
 target_include_directories(talus_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR})

@@ -1,4 +1,4 @@
-# What the build needs, found once. Everything is a Debian package; ./bootstrap installs them.
+# Finds the requirements of the build. All are Debian packages, which ./bootstrap installs.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)

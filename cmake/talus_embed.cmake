@@ -1,9 +1,9 @@
-# talus_embed(name file), before talus_room: builds a file into the binary, as talus::embedded::name.
+# talus_embed(name file): embeds a file into the binary as talus::embedded::name. Call it before talus_room.
 function(talus_embed name file)
   set(TALUS_EMBEDDED ${TALUS_EMBEDDED} ${name}=${file} PARENT_SCOPE)
 endfunction()
 
-# talus_embed_into(target entries...): the source that defines them all (see embed.cmake).
+# talus_embed_into(target entries...): adds the source that defines all entries (see embed.cmake).
 set(TALUS_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed.cmake)
 function(talus_embed_into target)
   list(JOIN ARGN "\n" lines)

@@ -1,5 +1,5 @@
-# `cpack` in the folder of a build makes a Debian package of what `cmake --install` installs; its dependencies are those that
-# dpkg-shlibdeps finds, and what is opened or called at run time.
+# `cpack` in a build folder makes a Debian package of the files that `cmake --install` installs. Its dependencies are those
+# found by dpkg-shlibdeps and those opened or called at run time.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME talus)
 set(CPACK_PACKAGE_CONTACT "The Talus authors")

@@ -1,10 +1,10 @@
-# talus_room(NAME sources... [LINK libraries...]): one static library for each room of the house,
+# talus_room(NAME sources... [LINK libraries...]): adds the static library of a room,
 # which may use only the rooms named after LINK.
 function(talus_room name)
   cmake_parse_arguments(ROOM "" "" "LINK" ${ARGN})
   add_library(talus_${name} STATIC ${ROOM_UNPARSED_ARGUMENTS})
   target_link_libraries(talus_${name} PUBLIC talus_options ${ROOM_LINK})
-  # For the shared library and the extension of Python.
+  # For the shared library and the Python extension.
   set_target_properties(talus_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_compile_options(talus_${name} PRIVATE ${TALUS_ROOM_OPTIONS})
   if(TALUS_EMBEDDED)
@@ -18,11 +18,11 @@ function(talus_room name)
   endif()
 endfunction()
 
-# talus_join_sources(target): compiles the sources of a target eight at a time, as one text, since most of the time goes into
-# headers, which are read once then. Names that sources keep to themselves must not clash within a target. CMake's own
-# UNITY_BUILD names the sources by absolute paths, so that no other clone finds them in the cache of the compiler.
+# talus_join_sources(target): compiles the sources of a target eight at a time, as one text, so that headers, which take most
+# of the time, are read once. Local names of sources must not clash within a target. CMake's own
+# UNITY_BUILD uses absolute paths, so that clones could not share the compiler cache.
 function(talus_join_sources target)
-  # gcc takes a type of such a source for one of a header.
+  # gcc mistakes the types of such a source for types of a header.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(compiled "")
@@ -50,12 +50,12 @@ function(talus_join_sources target)
   set_property(TARGET ${target} PROPERTY SOURCES ${compiled})
 endfunction()
 
-# talus_test(NAME LABEL sources... [TOGETHER] [ALONE sources...] [CHOSEN cases...] [TIMEOUT s] [LINK libraries...]): one
-# GoogleTest program, its cases known to ctest; the target LABEL_tests builds those of a label.
-#   ALONE     sources with names that others of the program use too: they are compiled by themselves
-#   CHOSEN    cases, as a filter of GoogleTest names them, that have the label LABEL_chosen: `./bootstrap test` runs them
-#   TOGETHER  all cases are one test of ctest, because each takes less time than the start of a process, or they share a bed;
-#             with AddressSanitizer, whose processes start slowly, those of every program are
+# talus_test(NAME LABEL sources... [TOGETHER] [ALONE sources...] [CHOSEN cases...] [TIMEOUT s] [LINK libraries...]): adds a
+# GoogleTest program whose cases are tests of ctest. The target LABEL_tests builds all programs of a label.
+#   ALONE     sources that are compiled by themselves, because their local names clash with those of other sources
+#   CHOSEN    cases, as GoogleTest filters, with the label LABEL_chosen: `./bootstrap test` runs them
+#   TOGETHER  makes all cases one test of ctest, because each takes less time than the start of a process, or because they share
+#             a bed. With AddressSanitizer, whose processes start slowly, this applies to every program
 function(talus_test name label)
   cmake_parse_arguments(TEST "TOGETHER" "TIMEOUT" "ALONE;LINK;CHOSEN" ${ARGN})
   if(NOT TEST_TIMEOUT)
@@ -78,7 +78,7 @@ function(talus_test name label)
   if(TEST_TOGETHER OR TALUS_SANITIZE)
     math(EXPR TEST_TIMEOUT "3 * ${TEST_TIMEOUT}") # of all cases
     add_test(NAME ${name} COMMAND ${name})
-    # These take longest, and start first.
+    # These take longest and therefore start first.
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT ${TEST_TIMEOUT} COST 50)
   elseif(TEST_CHOSEN)
     list(JOIN TEST_CHOSEN ":" chosen)

@@ -1,18 +1,18 @@
 #version 330 core
-// One triangle for each disc, around a circle half a pixel larger than the disc, which has room for its soft edge.
-// A triangle covers a third more than a square, but in software setting up two triangles costs more.
+// One triangle per disc, around a circle that is half a pixel larger to include the soft edge.
+// A triangle covers a third more pixels than a square, but in software rendering a second triangle costs more.
 layout(location = 0) in vec3 disc;  // centre x, y and radius, m, in the frame of the bed
 layout(location = 1) in vec4 fill;
 layout(location = 2) in vec4 rim;
 
-uniform vec2 size;    // of the picture, px
-uniform vec3 camera;  // px per m; where the bed's origin lies, px from the left and from the top
-uniform vec2 turn;    // cosine and sine of the angle that the bed is turned by, clockwise
-uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut off if the bed is turned
+uniform vec2 size;    // size of the picture, px
+uniform vec3 camera;  // px per m; origin of the bed, px from the left and from the top
+uniform vec2 turn;    // cosine and sine of the clockwise rotation of the bed
+uniform vec4 clip;    // visible part of a rotated bed: x_min, x_max, y_min, y_max, m
 
-out vec2 offset;        // from the centre, px
+out vec2 offset;        // position relative to the centre, px
 flat out float radius;  // px
-flat out vec4 fill_colour;  // multiplied by its alpha, as all colours that leave a shader
+flat out vec4 fill_colour;  // premultiplied alpha, as for all output colours
 flat out vec4 rim_colour;
 
 void main() {

@@ -1,10 +1,10 @@
 #version 330 core
-// Triangles of the furniture: glyphs of the atlas, and plain areas (u < 0).
+// Triangles of the furniture: glyphs of the atlas, and filled areas (u < 0).
 layout(location = 0) in vec2 position;  // px from the left and from the top
 layout(location = 1) in vec2 texel;
 layout(location = 2) in vec4 look;
 
-uniform vec2 size;  // of the picture, px
+uniform vec2 size;  // size of the picture, px
 
 out vec2 place;
 out vec4 ink;

@@ -2,9 +2,9 @@
 in vec2 place;
 in vec4 ink;
 
-uniform sampler2D picture;  // straight alpha; gray ones and the font are widened to four channels by their swizzle
+uniform sampler2D picture;  // straight alpha; gray pictures and the font are swizzled to four channels
 
-out vec4 colour;  // multiplied by its alpha
+out vec4 colour;  // premultiplied alpha
 
 void main() {
   vec4 straight = ink * texture(picture, place);

@@ -4,7 +4,7 @@ layout(location = 0) in vec2 position;  // px from the left and from the top
 layout(location = 1) in vec2 texel;
 layout(location = 2) in vec4 look;  // straight alpha
 
-uniform vec4 frame;  // left, top, width and height of what is shown, px; height < 0 where row 0 is at the bottom
+uniform vec4 frame;  // left, top, width and height of the viewport, px; height < 0 if row 0 is at the bottom
 
 out vec2 place;
 out vec4 ink;

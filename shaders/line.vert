@@ -1,20 +1,20 @@
 #version 330 core
-// One quad for each straight line with round ends.
+// One quad per straight line with round ends.
 layout(location = 0) in vec4 ends;  // x, y of both ends, m, in the frame of the bed
 layout(location = 1) in float half_width;  // m
 layout(location = 2) in vec4 look;
 
-uniform vec2 size;    // of the picture, px
-uniform vec3 camera;  // px per m; where the bed's origin lies, px from the left and from the top
-uniform vec2 turn;    // cosine and sine of the angle that the bed is turned by, clockwise
-uniform vec4 clip;    // x_min, x_max, y_min, y_max, m: what is cut off if the bed is turned
+uniform vec2 size;    // size of the picture, px
+uniform vec3 camera;  // px per m; origin of the bed, px from the left and from the top
+uniform vec2 turn;    // cosine and sine of the clockwise rotation of the bed
+uniform vec4 clip;    // visible part of a rotated bed: x_min, x_max, y_min, y_max, m
 
-out vec2 place;             // along the line and across it, px
+out vec2 place;             // coordinates along and across the line, px
 flat out float line_length;  // px
-flat out float reach;        // half the width, px
+flat out float reach;        // half width, px
 flat out vec4 ink;
 
-const float thinnest = 0.35;  // px: thinner lines cannot be seen
+const float thinnest = 0.35;  // px; thinner lines are invisible
 
 vec2 project(vec2 p) { return camera.yz + camera.x * vec2(turn.x * p.x + turn.y * p.y, turn.y * p.x - turn.x * p.y); }
 
