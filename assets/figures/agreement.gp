@@ -1,11 +1,11 @@
-# Two charts of rows: the difference from the paper in units of the tolerance. Symbols of a row stand below each other;
-# full ones agree. Beyond +-limit an arrow stands at the edge, its number beside it.
+# Two charts of rows: the difference from the paper in units of the tolerance. The symbols of a row are below each other;
+# filled ones agree. A value beyond +-limit is an arrow at the edge with its number.
 limit = 6.0
 array full[4] = [7, 5, 9, 13]
 array open[4] = [6, 4, 8, 12]
 names = "packing chain"
 said(name, what, k) = value(sprintf("%s_%s_%d", name, what, k))
-# What stands left and right of a chart, cm, in letters small enough for a third of it each.
+# Widths of the texts left and right of a chart, cm; their letters are small enough for a third of the chart each.
 stacked = width < 12
 chart_room = stacked ? width : 0.5 * width
 array left_cm[2]
@@ -29,7 +29,7 @@ eval open_page
 do for [panel = 1:2] {
   name = word(names, panel)
   rows = value(name . "_rows")
-  if (rows == 0) { continue }  # nothing of it can be compared yet
+  if (rows == 0) { continue }  # nothing to compare
   series = value(name . "_series")
   file = figure . "-" . name . ".csv"
   from = stacked ? 0 : (panel - 1) * chart_room

@@ -1,5 +1,5 @@
-# The angle of the row over that of the column, and above each panel the coefficient of each group: a triangle in two columns,
-# a panel after the other in one, which has no room for a triangle.
+# The angle of the row over that of the column, and above each panel the coefficient of each group. The panels form a triangle in
+# two columns and a sequence in one column, which is too narrow for a triangle.
 size = angles - 1
 panel_top = 0.15 + 0.3 * lines
 triangle = width > 12

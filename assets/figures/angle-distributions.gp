@@ -1,4 +1,4 @@
-# A panel for each angle: its histogram, the mean of each group as a line, and what there is to say of it above.
+# A panel for each angle: its histogram, the mean of each group as a line, and a remark above.
 panel_top = 0.3 + 0.32 * groups
 middle = '0.5 * (column("from") + column("to"))'
 eval grid(panels, 3, 2, 3.4 + panel_top)

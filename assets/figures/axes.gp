@@ -1,19 +1,19 @@
 
-# Panels and their axes. The script is read once without drawing (pass 0), so that the ranges of the data are known: margins,
-# steps and formats of the numbers follow from them. For each panel k, a script says
-#   eval place(k)        its margins, in the grid of `grid`, or place_at for any other place
-#   x_from, x_to, ...    ends of the axes, NaN where the data has them; x_log = 1 for a logarithmic axis; y_plain = 1 for one
-#                        whose numbers the script sets itself
+# Panels and their axes. The script is read once without drawing (pass 0) to find the ranges of the data, which determine margins,
+# steps and formats of the numbers. For each panel k, a script contains
+#   eval place(k)        margins, in the grid of `grid`, or place_at for any other place
+#   x_from, x_to, ...    ends of the axes, NaN to use those of the data; x_log = 1 for a logarithmic axis; y_plain = 1 if
+#                        the script sets the numbers itself
 #   eval axes            ranges and numbers
-#   plot ...             and
-#   eval seen            keeps the ranges.
+#   plot ...             the curves
+#   eval seen            keeps the ranges
 smaller(a, b) = a < b ? a : b
 larger(a, b) = a > b ? a : b
 known(x) = x == x
 
-# The step of an axis: 1, 2 or 5 times a power of ten.
+# Step of an axis: 1, 2 or 5 times a power of ten.
 nice(x) = (decade = 10.0 ** floor(log10(x) + 1e-9), ratio = x / decade, (ratio < 1.001 ? 1 : ratio < 2.001 ? 2 : ratio < 5.001 ? 5 : 10) * decade)
-# The power of ten that all numbers of an axis have in common: none between 0.01 and 99999.
+# Common power of ten of the numbers of an axis: none between 0.01 and 99999.
 power_of(low, high) = (magnitude = larger(abs(low), abs(high)), magnitude > 0 ? floor(log10(magnitude) + 1e-9) : 0)
 common_power(low, high) = (p10 = power_of(low, high), p10 >= 5 || p10 <= -3 ? p10 : 0)
 decimals(step, power) = (d10 = -floor(log10(step) - power + 1e-6), d10 < 0 ? 0 : d10)
@@ -23,24 +23,24 @@ first_tick(low, step) = ceil(low / step - 1e-6)
 last_tick(high, step) = floor(high / step + 1e-6)
 widest_number(low, high, step, power, points) = larger(text_cm(number(first_tick(low, step) * step, step, power), points), \
   text_cm(number(last_tick(high, step) * step, step, power), points))
-# The smallest step whose numbers have room beside each other, on an axis so many cm long, with n steps or less.
+# Smallest step whose numbers do not overlap on an axis of the given length (cm), with at most n steps.
 x_step(low, high, cm, points, n) = (step10 = nice(1.0 * (high - low) / n), n < 1.5 || \
   step10 / (high - low) * cm > widest_number(low, high, step10, common_power(low, high), points) + 0.25 ? step10 : x_step(low, high, cm, points, n - 1))
-# Two numbers at least: of a list without any, gnuplot would set its own.
+# At least two numbers, because gnuplot would replace an empty list by its own.
 two_ticks(low, high, step) = !(high > low) || last_tick(high, step) > first_tick(low, step) ? step : two_ticks(low, high, nice(step / 2.5))
 y_step(low, high, cm, points) = two_ticks(low, high, nice(1.0 * (high - low) / larger(1.5, smaller(6, floor(cm / (0.065 * points))))))
 bare = 0  # 1: ticks without numbers
 tick_list(k, last, step, power) = k > last ? "" : \
   sprintf("'%s' %.15g", bare ? "" : number(k * step, step, power), k * step) . (k < last ? ", " : "") . tick_list(k + 1, last, step, power)
 
-# Logarithmic: powers of ten, every so many; numbers, where there are few of them.
+# Logarithmic axis: every n-th power of ten; other numbers if these are few.
 power_text(n) = n == 0 ? "1" : n == 1 ? "10" : sprintf("10^{%s}", signed(sprintf("%d", n)))
 mantissa(m, n) = n >= -2 && n <= 3 ? sprintf("%g", m * 10.0 ** n) : sprintf("%d×10^{%s}", m, signed(sprintf("%d", n)))
 powers(n, last, every) = n > last ? "" : sprintf(", '%s' %.15g", power_text(n), 10.0 ** n) . powers(n + every, last, every)
 between(n, last, every) = n > last ? "" : (every > 1 ? (every > 12 ? "" : sprintf(", '' %.15g 1", 10.0 ** n)) : \
   sprintf(", '' %g 1, '' %g 1, '' %g 1, '' %g 1", 2 * 10.0 ** n, 4 * 10.0 ** n, 6 * 10.0 ** n, 8 * 10.0 ** n)) . between(n + 1, last, every)
 tick_at(m, n, low, high) = m * 10.0 ** n >= low * 0.999999 && m * 10.0 ** n <= high * 1.000001 ? sprintf(", '%s' %.15g", mantissa(m, n), m * 10.0 ** n) : ""
-# At 1, 2 and 5 times each power, or 1 and 3 times, as there is room for `step` (decades) between them.
+# At 1, 2 and 5 times each power, or at 1 and 3 times, depending on the room for `step` (decades) between them.
 few(n, last, low, high, step) = n > last ? "" : tick_at(1, n, low, high) . \
   (step < 0.3 ? tick_at(2, n, low, high) . tick_at(5, n, low, high) : step < 0.47 ? tick_at(3, n, low, high) : "") . few(n + 1, last, low, high, step)
 log_list(low, high, cm, points, horizontal) = (from10 = ceil(log10(low) - 1e-6), to10 = floor(log10(high) + 1e-6), \
@@ -49,14 +49,14 @@ log_list(low, high, cm, points, horizontal) = (from10 = ceil(log10(low) - 1e-6),
   to10 - from10 < 2 ? tick_list(first_tick(low, nice((high - low) / 2.0)), last_tick(high, nice((high - low) / 2.0)), nice((high - low) / 2.0), 0) : \
   powers(every10 * ceil(1.0 * from10 / every10), to10, every10)[3:*] . between(from10 - 1, to10, every10))
 
-# Ends of an axis a little beyond its data: not below 0 where no number is, nor above a top that the numbers respect.
+# Ends of an axis slightly beyond its data, but not below 0 if no number is, and not above a limit that all numbers respect.
 wider(low, high) = high > low ? 0.05 * (high - low) : high != 0 ? 0.1 * abs(high) : 1.0
 low_end(low, high) = low >= 0 && low < wider(low, high) ? 0 : low - wider(low, high)
 high_end(low, high) = high <= 0 && -high < wider(low, high) ? (high == low ? 1 : 0) : high <= 1 && high + wider(low, high) > 1 ? 1 : high + wider(low, high)
 log_low_end(low, high) = high > low ? low / (high / low) ** 0.05 : low / 2
 log_high_end(low, high) = high > low ? high * (high / low) ** 0.05 : high * 2
 
-# "title (s)", also of "title in s" as quantities have it: units stand in parentheses. A power of ten before the unit, or at the end.
+# Title with its unit in parentheses, "title (s)", also from "title in s". A power of ten precedes the unit, or is at the end.
 power_unit(power) = sprintf("10^{%s}", signed(sprintf("%d", power)))
 last_word(text) = words(text) > 0 ? word(text, words(text)) : ""
 before_last(text) = text[1:strlen(text) - strlen(last_word(text))]
@@ -71,12 +71,12 @@ if (pass == 0) {
   array x_most[most_panels]
   array y_least[most_panels]
   array y_most[most_panels]
-  tick_room = 0.3  # cm, of the widest number on a vertical axis
-  x_overhang = 0.15  # cm, of half of the widest on a horizontal one
-  heading_lines = 1  # of the longest heading
+  tick_room = 0.3  # cm, width of the widest number on a vertical axis
+  x_overhang = 0.15  # cm, half the width of the widest number on a horizontal axis
+  heading_lines = 1  # lines of the longest heading
 }
 
-# Room around a panel (cm): left of its numbers for a title, above, below, and right of it; above and below all panels.
+# Room around a panel (cm): left of its numbers for a title, above, below, and on the right; above and below all panels.
 title_room = 0.5
 number_gap = 0.22
 panel_top = 0.15
@@ -87,9 +87,9 @@ grid_below = 0
 tick_points = 7
 title_points = 8
 heading_points = 7
-# So many panels, so many beside each other in two columns and in one, each so high (cm).
+# Number of panels, number per row in two columns and in one column, and height of each (cm).
 grid(panels, wide, narrow, panel_cm) = grid_of(panels, smaller(panels, width > 12 ? wide : narrow), panel_cm)
-# A height that is asked for is shared among the panels, if they have room for their texts then.
+# A requested height is shared among the panels, if that leaves room for their texts.
 stretches = 0
 least_row_cm = 3
 grid_of(panels, columns, panel_cm) = sprintf("stretches = 1; panel_columns = %d; panel_rows = %d; height = %g + grid_above + grid_below", \
@@ -106,7 +106,7 @@ first_in_row(k) = (k - 1) % panel_columns == 0
 range(from, to) = "[" . (known(from) ? sprintf("%.15g", from) : "*") . ":" . (known(to) ? sprintf("%.15g", to) : "*") . "]"
 x_power = 0
 y_power = 0
-# The range of an axis, and its numbers; both axes may be turned round.
+# Range and numbers of an axis; both axes may be reversed.
 set_axis(axis, from, to, list) = sprintf("set %srange %s noextend; set %stics (", axis, range(from, to), axis) . list . ")"
 find_ends = 'x_a = known(x_from) ? x_from : x_log ? log_low_end(x_least[panel_k], x_most[panel_k]) : low_end(x_least[panel_k], x_most[panel_k]); \
   x_b = known(x_to) ? x_to : x_log ? log_high_end(x_least[panel_k], x_most[panel_k]) : high_end(x_least[panel_k], x_most[panel_k]); \

@@ -1,5 +1,5 @@
-# A rose for each state, in `states` and `tilts`. A normal and its opposite are one direction: each
-# wedge is drawn twice. Lengths are densities. The outline has arcs, and steps from the bin before to each.
+# A rose for each state, in `states` and `tilts`. A normal and its opposite are the same direction, so each
+# wedge is drawn twice. Lengths are densities. The outline consists of arcs and of steps between bins.
 data = figure . ".csv"
 largest = 0
 array force[words(states)]

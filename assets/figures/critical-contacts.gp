@@ -1,4 +1,4 @@
-# Above, where the critical contacts are in one bed, if its run is there; below, how many they are and how they hang together.
+# Above, the critical contacts of one bed, if its run is available; below, their number and their clusters.
 map_cm = smaller(map_height * width, width)  # a deep bed is drawn narrower
 grid_above = map_height > 0 ? map_cm + 0.6 : 0
 symbols = 0

@@ -1,10 +1,10 @@
-# Above, the tilt over time and loops over the tilt, each cycle in its own colour; below, what is left of each cycle.
+# Above, the tilt over time and loops over the tilt, with a colour for each cycle; below, the residual change after each cycle.
 loops = figure . ".csv"
 ends = figure . "-ends.csv"
 panel_top = 0.62
 panel_bottom = 0.95
 title_room = 0
-grid_above = 0.7  # cm, for the scale of colours
+grid_above = 0.7  # cm, for the colour scale
 eval grid(9, 3, 2, width > 12 ? 4.6 : 3.7)
 entry = add_entry("linecolor rgb ink[2] dashtype solid linewidth 1", "pointtype 7 pointsize 0.4 * symbol linecolor rgb ink[2]", "", "end of the cycle (g, h, i)")
 entry = add_entry("linecolor rgb ink[3] dashtype (6,3) linewidth 1", "pointtype 6 pointsize 0.5 * symbol linecolor rgb ink[3]", "", "highest tilt (g, h, i)")
@@ -12,7 +12,7 @@ eval open_page
 set palette defined (0 "#a8cbe6", 0.5 "#3b7ab0", 1 "#0b2545")
 set cbrange [1 : (cycles > 1 ? cycles : 2)]
 unset colorbox
-set style fill solid 1 noborder  # of the scale of colours
+set style fill solid 1 noborder  # for the colour scale
 names = "theta volume_strain coordination critical " . (has_overload ? "overloaded" : "stress_ratio") . " anisotropy volume_strain coordination critical"
 array titles[9]
 titles[1] = "{/:Italic θ} (°)"

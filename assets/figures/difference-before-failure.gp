@@ -1,4 +1,4 @@
-# The difference in a panel for each quantity, up to the failure of each run, which is at the right.
+# The difference, in a panel for each quantity, up to the failure of each run at the right.
 file = figure . ".csv"
 difference(name, times) = column(name) + times * column(name . "_error")
 eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)

@@ -1,4 +1,4 @@
-# The difference in a panel for each quantity, over tilt.
+# The difference, in a panel for each quantity, over the tilt.
 file = figure . ".csv"
 difference(name, times) = column(name) + times * column(name . "_error")
 eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)

@@ -1,4 +1,4 @@
-# Above, the angle at rest over each of the angles it is compared with; below, one run over time, if there is a flow.
+# Above, the angle at rest over each angle with which it is compared; below, one run over time, if it has a flow.
 grid_below = flow ? 4.6 : 0
 eval grid(4, 4, 2, 4.4)
 array filled[8] = [7, 5, 9, 13, 11, 15, 7, 5]
@@ -36,7 +36,7 @@ do for [panel = 1:4] {
   eval seen
 }
 if (flow) {
-  # Two quantities over one axis: the velocity is drawn on the scale of the angle, its numbers at the right.
+  # Two quantities over one axis: the velocity is scaled to the axis of the angle, with its numbers at the right.
   trace = figure . "-trace.csv"
   set xrange [*:*]
   set yrange [*:*]

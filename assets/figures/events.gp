@@ -16,7 +16,7 @@ do for [k = 1:4] {
     x_to = k == 1 ? energy_to : waiting_to
     x_title = k == 1 ? "energy released {/:Italic E} / ({/:Italic mgD})" : "waiting angle (°)"
     y_log = 1
-    # Room below the curves for what their laws are.
+    # Room below the curves for the formulas of their laws.
     y_from = 0.7 / events_most * 10 ** (-0.16 * groups)
     y_to = 1.5
     y_title = k == 1 ? "share with {/:Italic E} or more" : "share with as long or longer"
@@ -51,7 +51,7 @@ do for [k = 1:4] {
     plot for [g = 1:groups] data(g) using "theta":(column("energy") > 0 ? column("energy") : NaN) with points linetype g linewidth 1 pointsize 0.4 * symbol
   }
   if (k == 4) {
-    # Linear within some 1e-6, logarithmic beyond: numbers at powers of ten, as many as have room.
+    # Linear within about 1e-6, logarithmic beyond; numbers at powers of ten, as many as fit.
     set nonlinear y via asinh(y / 2.0) inverse 2.0 * sinh(y)
     top_power = floor(log10(largest_change) + 1e-9)
     every_power = larger(1, ceil((top_power + 1) * 0.5 / (0.5 * panel_height)))

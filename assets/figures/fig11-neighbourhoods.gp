@@ -1,4 +1,4 @@
-# The grain and its neighbourhoods, circles every 2 D; beside it, below in one column, gamma_l over l. l_c of each threshold by its dash.
+# The grain and its neighbourhoods, with circles every 2 D; on the right (in one column: below), gamma_l over l. Dashes show l_c of each threshold.
 half = 0.5 * shown + 1.2
 factor(f) = word(factors, f) eq "1" ? "" : word(factors, f) . " "
 array circle_dash[4] = ["solid", "(5,3)", "(2,2)", "(6,2,2,2)"]

@@ -1,5 +1,5 @@
-# Mean above, largest below; a panel for each threshold, all of a row with one range.
-# A bed's cut has its colour, or is gray where all have one.
+# Mean above, largest value below; a panel for each threshold, with one range per row.
+# The cut of a bed has the colour of the bed, or is gray if all beds share it.
 cut(g) = value(sprintf("cut_%d", g))
 one_cut = 1
 do for [g = 2:groups] { if (cut(g) != cut(1)) { one_cut = 0 } }

@@ -1,4 +1,4 @@
-# Two strains, and theta_d by each estimator, all over the same axis.
+# Two strains, and theta_d by each estimator, over the same axis.
 eval grid(3, 1, 1, height / 3)
 eval key_of_curves
 entry = add_line("linestyle 103", "paper, {/:Italic θ_d} = 15°")

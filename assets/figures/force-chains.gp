@@ -1,8 +1,8 @@
-# Widths in ten classes of half the mean force: gray up to the mean, black above it; the widest is no wider than half a grain,
-# so that chains stay apart. Lengths are in cm.
+# Widths in ten classes of half the mean force: gray up to the mean, black above. The widest is at most half a grain wide,
+# so that chains stay separate. Lengths are in cm.
 class(force) = (c = ceil(2 * force), c < 1 ? 1 : c > 10 ? 10 : c)
 map_cm = smaller(map_height * width, asked_height > 4 ? asked_height - 2.1 : 1.2 * width)
-cm = map_cm / map_height / (bed_length + 2 * margin)  # of 1 D
+cm = map_cm / map_height / (bed_length + 2 * margin)  # length of 1 D
 widest_line = smaller(0.36 * cm, 0.2) / 0.0176
 do for [c = 1:10] {
   eval sprintf('set style arrow %d nohead linecolor rgb "%s" linewidth %g', c, c <= 2 ? "#999999" : "#000000", 0.1 * c * widest_line)

@@ -1,6 +1,6 @@
 
-# The key stands above all panels, in as many columns as its longest text allows, longer texts on several lines; the page
-# is higher by as much. Of each entry: the line and the point of its sample ("" for none), or the fill of a box, and its text.
+# The key is above all panels, in as many columns as its longest text allows; longer texts take several lines, and the page
+# grows accordingly. An entry has the line and the point of its sample ("" for none), or the fill of a box, and its text.
 most_entries = 1000
 array key_line[most_entries]
 array key_point[most_entries]
@@ -23,7 +23,7 @@ array key_x[most_entries]
 array key_y[most_entries]
 array key_lines[8 * most_entries]
 array key_first[most_entries + 1]
-# Where each entry goes (cm, from the upper left): one row, or columns of one width.
+# Position of each entry (cm, from the upper left): one row, or columns of equal width.
 lay_out_key = 'key_room = width - 2 * key_left; together = 0.0; widest = 0.0; \
   do for [k = 1:entries] { together = together + key_entry_cm(k); widest = larger(widest, key_entry_cm(k)) }; \
   key_columns = int((key_room + key_gap) / widest); key_columns = key_columns < 1 ? 1 : key_columns > entries ? entries : key_columns; \
@@ -49,12 +49,12 @@ draw_key = 'unset border; unset tics; unset key; set lmargin at screen 0; set rm
   plot [0:width] [0:height] NaN notitle; \
   unset arrow; unset label; unset object; set autoscale; set border 31 linewidth 1; set tics in scale 0.6,0.3'
 
-# Opens the page, when its grid and its key are known.
+# Opens the page after its grid and its key are known.
 open_page = 'if (entries > 0) { eval lay_out_key }; \
   if (asked_height > 0 && stretches) { height = larger(asked_height, key_height + grid_above + grid_below + least_row_cm * panel_rows) }; eval set_terminal; set multiplot; if (entries > 0) { eval draw_key }; unset key; eval sprintf("set tics font \",%g\"", tick_points)'
 close_page = 'unset multiplot'
 
-# The same where each panel g has the name of group g above it, on as many lines as it needs: place_headed instead of place.
+# The same if each panel g has the name of group g above it, on as many lines as it needs: place_headed instead of place.
 set_heads = 'heads = 1; break_points = heading_points; break_cm = width - title_room - tick_room - larger(panel_right, 0.05 + x_overhang) - 0.15; \
   array head[groups]; \
   do for [g = 1:groups] { text_to_break = label(g); eval break_text; heads = larger(heads, text_lines); head[g] = broken[1]; \

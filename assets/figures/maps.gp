@@ -1,11 +1,11 @@
 
-# An arrow 0.45 cm long with its middle there, and its name.
+# An arrow 0.45 cm long, given by its middle, and its name.
 gravity(x, y, tilt) = sprintf("set arrow 1 from screen %g, screen %g to screen %g, screen %g head filled size screen %g, 18 linewidth 1; ", \
   (x - 0.22 * sin(tilt)) / width, (y + 0.22 * cos(tilt)) / height, (x + 0.22 * sin(tilt)) / width, (y - 0.22 * cos(tilt)) / height, 0.16 / width) . \
   sprintf("set label 3 '{/:Bold g}' at screen %g, screen %g left font ',%g'", (x + 0.2) / width, y / height, map_points)
 map_points = 7
 
-# A scale bar from (x, y), in a picture where the bed is so many cm long, and where its text ends.
+# A scale bar from (x, y), in a picture with the given length of the bed in cm, and the end of its text.
 bar_cm(bed_cm) = 1.0 * scale_bar(bed_length) / bed_length * bed_cm
 bar_text = '%d {/:Italic D}'
 bar_end(x, bed_cm) = x + bar_cm(bed_cm) + 0.15 + text_cm(sprintf(bar_text, scale_bar(bed_length)), 8)
@@ -13,7 +13,7 @@ draw_bar(x, y, bed_cm) = sprintf("set arrow 1 from screen %g, screen %g to scree
   x / width, y / height, (x + bar_cm(bed_cm)) / width, y / height, 0.09 / width) . \
   sprintf("set label 1 '" . bar_text . "' at screen %g, screen %g left", scale_bar(bed_length), (x + bar_cm(bed_cm) + 0.15) / width, y / height)
 
-# The gray scale of gamma: white below white_below, black from 2 Gamma_c on; from (x, y) on.
+# The gray scale of gamma from (x, y): white below white_below, black from 2 Gamma_c.
 gray_ticks(cm) = sprintf("'%.2f' %g, ", white_below, white_below) . \
   ((gamma_c - white_below) / (2 * gamma_c - white_below) * cm > text_cm("0.00Γ_c = 0.00", 7) / 2 + 0.3 && \
   gamma_c / (2 * gamma_c - white_below) * cm > text_cm("2 Γ_c = 0.00Γ_c = 0.00", 7) / 2 + 0.3 ? sprintf("'Γ_c = %.2f' %g, ", gamma_c, gamma_c) : "") . \

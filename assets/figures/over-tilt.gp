@@ -1,4 +1,4 @@
-# A panel for each quantity, over tilt.
+# A panel for each quantity, over the tilt.
 abscissa = 'column("theta")'
 symbols = 0
 eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)

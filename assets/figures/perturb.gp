@@ -1,10 +1,10 @@
 # The threshold over the distance to theta_c, as a velocity and as an energy. A bar is a bracket, its point the
-# middle on the scale of the axis. One symbol for each seed, as long as there are
-# symbols for all; triangles are states with one end only. Lines join what follows
-# without a gap. Bars are vectors: those of gnuplot blank what lies around them. The first
-# point, which nobody sees, gives the axis a range where no state has a threshold.
+# middle on the scale of the axis. Each seed has its own symbol if the symbols suffice.
+# Triangles are states with one end only. Lines join consecutive states.
+# Bars are vectors, because error bars of gnuplot blank their surroundings. The first
+# point is invisible and gives the axis a range if no state has a threshold.
 file = figure . ".csv"
-both(low, high) = low > 0 && high > 0     # false where one of them is NaN or 0
+both(low, high) = low > 0 && high > 0     # false if one of them is NaN or 0
 middle(low, high) = both(column(low), column(high)) ? sqrt(column(low) * column(high)) : NaN
 none(name) = stringcolumn(name) eq "NaN"
 is_of(s) = column("seed") == word(seeds, s) + 0

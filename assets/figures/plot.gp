@@ -1,4 +1,4 @@
-# A plot of the window: its curves, laws thin, and what stands behind them, pale.
+# A plot of the window: its curves, thin lines for laws, and a pale background.
 eval grid(1, 1, 1, height)
 of_behind(k) = value(sprintf("behind_file_%d", k))
 mean_of(k) = int(value(sprintf("behind_column_%d", k)))

@@ -1,4 +1,4 @@
-# A panel for each measure, up to the failure of each run, which is at the right.
+# A panel for each measure, up to the failure of each run at the right.
 abscissa = 'column("angle_left")'
 symbols = 0
 eval grid(panels, 3, 2, width > 12 ? 4.2 : 3.7)

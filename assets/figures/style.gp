@@ -1,5 +1,5 @@
-# What all figures share. FIGURE.gp has the figure's own variables above this, and its script below. It is read four times:
-# once without drawing, to see what room its numbers need, then for PDF, SVG and PNG.
+# Common part of all figures. FIGURE.gp has the variables of the figure above it and the script below. It is read four times:
+# once without drawing, to find the room that its numbers need, then for PDF, SVG and PNG.
 if (!exists("pass")) pass = 0
 reset
 set encoding utf8
@@ -8,20 +8,20 @@ set datafile columnheaders
 rad = pi / 180
 letter(k) = sprintf("(%s)", k <= 26 ? "abcdefghijklmnopqrstuvwxyz"[k:k] : sprintf("%s%s", "abcdefghijklmnopqrstuvwxyz"[(k - 1) / 26:(k - 1) / 26], "abcdefghijklmnopqrstuvwxyz"[(k - 1) % 26 + 1:(k - 1) % 26 + 1]))
 
-# Of group g: variable data_g, its file; label_g, its name for the key; every_g, the rows from one symbol to the next; and
-# runs_g, the file of its runs one by one, drawn_g in number, where there are several.
+# Variables of group g: data_g, its file; label_g, its name in the key; every_g, the number of rows between symbols; and, if it
+# has several runs, runs_g, the file of the individual runs, and drawn_g, their number.
 data(g) = value(sprintf("data_%d", g))
 has_runs(g) = exists(sprintf("runs_%d", g))
 runs(g) = has_runs(g) ? value(sprintf("runs_%d", g)) : data(g)
-if (!exists("spread")) { spread = 0 }  # 1 where any group has several runs
+if (!exists("spread")) { spread = 0 }  # 1 if any group has several runs
 label(g) = value(sprintf("label_%d", g))
 every(g) = value(sprintf("every_%d", g))
 
-# The length of a scale bar, in D like that of the bed.
+# Length of a scale bar, in D like the length of the bed.
 scale_bar(bed_length) = bed_length < 12 ? 1 : bed_length < 25 ? 2 : bed_length < 40 ? 5 : bed_length < 300 ? 10 : bed_length < 1000 ? 50 : 100
 
 font = "DejaVu Sans,8"
-# Each terminal has its own unit: all scales below give 8 pt letters and lines of 0.5 pt for a width of 1.
+# Terminals have different units: the scales below give 8 pt letters, and lines of 0.5 pt for a width of 1.
 set_terminal = 'if (pass == 0) { set terminal dumb size 200, 100; set output "/dev/null" }; \
   if (pass == 1) { eval sprintf("set terminal pdfcairo enhanced color rounded size %gcm,%gcm font \"%s\" fontscale 0.75", width, height, font) }; \
   if (pass == 2) { eval sprintf("set terminal svg enhanced rounded size %d,%d font \"%s\" fontscale 1.333 linewidth 0.667", width / 2.54 * 96, height / 2.54 * 96, font) }; \
@@ -33,7 +33,7 @@ set tics in scale 0.6,0.3
 set style fill solid 0.25 noborder
 unset key
 
-# Curves of groups: told apart in gray by dash and symbol.
+# Curves of groups, distinguished in gray by dash and symbol.
 array ink[8] = ["#000000", "#1f4e79", "#b03a2e", "#3d8b7d", "#7a5c99", "#b8860b", "#707070", "#5d9cc9"]
 array dash[8] = ["solid", "(10,4)", "(3,3)", "(12,3,3,3)", "(6,3)", "(12,3,3,3,3,3)", "(2,4)", "(18,4)"]
 array mark[8] = [7, 4, 9, 12, 6, 5, 8, 10]
@@ -43,26 +43,26 @@ do for [k = 1:8] {
 }
 set linetype cycle 8
 colour(g) = ink[int((g - 1) % 8) + 1]
-# Marks of the paper's values, laws and thresholds, and helping lines.
+# Marks of the paper's values, laws and thresholds, and auxiliary lines.
 set style line 101 linecolor rgb "#000000" dashtype solid linewidth 2 pointtype 2 pointsize 0.8 * symbol
 set style line 102 linecolor rgb "#555555" dashtype (1,3) linewidth 2
 set style line 103 linecolor rgb "#999999" dashtype (6,4) linewidth 1.5
 set style line 104 linecolor rgb "#bbbbbb" dashtype solid linewidth 1
 
-# Error bars are vectors: those of gnuplot blank what lies around them.
+# Error bars are vectors, because those of gnuplot blank their surroundings.
 bar_from(name) = scale * (column(name) - column(name . "_error"))
 bar_length(name) = scale * 2 * column(name . "_error")
 
-# Bands around a mean, for width = "_error" or "_deviation". Thin lines are transparent: many of them are behind it.
+# Bands around a mean, for width = "_error" or "_deviation". Thin lines are transparent, because many are behind the mean.
 band_low(name, width) = scale * (column(name) - column(name . width))
 band_high(name, width) = scale * (column(name) + column(name . width))
 opacity(g) = has_runs(g) && value(sprintf("drawn_%d", g)) > 14 ? 5.0 / value(sprintf("drawn_%d", g)) : 0.35
 pale(g) = sprintf("#%02x", 255 * (1 - opacity(g))) . colour(g)[2:7]
 
 # The curves of all groups, `scale` times column `ordinate` over the expression `abscissa`: plot @curves, ...
-# Behind them the bands of the standard deviation, the runs one by one, and the bands of the standard error (none of them
-# where it is NaN); then lines, and symbols unless they are `symbols` = 0. `key_of_curves` has all of these for the key.
-# Without symbols on all rows, a peak between two of them is seen in the line: curves of many ups and downs have none.
+# Behind them are the bands of the standard deviation, the individual runs, and the bands of the standard error (omitted
+# if NaN); then lines, and symbols unless `symbols` = 0. `key_of_curves` has all of these for the key.
+# Symbols are sparse, and curves with many oscillations have none, so that peaks between symbols are visible in the line.
 ordinate = "none"
 scale = 1
 symbols = 1
@@ -82,7 +82,7 @@ key_of_curves = 'do for [g = 1:groups] { entry = marked(g) ? add_curve(sprintf("
     entry = add_box("fillcolor rgb \"#000000\" fillstyle transparent solid 0.4 noborder", "± standard error"); \
     entry = add_box("fillcolor rgb \"#000000\" fillstyle transparent solid 0.13 noborder", "± standard deviation") }'
 
-# The edges of a bed whose contacts are drawn, in a plot in its units: dotted where it is periodic.
+# Edges of a bed whose contacts are drawn, in the units of the bed: dotted if it is periodic.
 bed_edges = 'do for [side = 0:1] { x = side * bed_length; \
   eval sprintf("set arrow from %g, bed_bottom to %g, bed_top nohead %s", x, x, periodic ? "linestyle 102" : "linewidth 2") }; \
   set arrow from 0, bed_bottom to bed_length, bed_bottom nohead linewidth 1'

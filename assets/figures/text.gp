@@ -1,19 +1,19 @@
 
-# Widths of texts in DejaVu Sans, rather too large than too small: keys, margins and axes are made to fit them.
-# Of a character in units of the font size; markup has none.
+# Widths of texts in DejaVu Sans, estimated conservatively, to which keys, margins and axes are fitted.
+# Width of a character in units of the font size; markup has none.
 em(c) = strstrt("{}_^\\", c) > 0 ? 0 : strstrt("ijlI|'", c) > 0 ? 0.3 : strstrt(" .,:;/()[]ftr-!\"°", c) > 0 ? 0.41 : \
   strstrt("mwMW%@", c) > 0 ? 0.98 : strstrt("=+−±×≤≥<>~#", c) > 0 ? 0.84 : strstrt("ABCDEFGHKLNOPQRSTUVXYZΓ", c) > 0 ? 0.76 : 0.64
 plain_em(text) = strlen(text) < 1 ? 0 : (sum [i = 1:strlen(text)] em(text[i:i]))
 times_in(text, part) = strlen(text) < strlen(part) ? 0 : (sum [i = 1:strlen(text) - strlen(part) + 1] (text[i:i + strlen(part) - 1] eq part))
-# cm, of a text with these points; its height takes some 0.045 cm for each point.
+# Width (cm) of a text at the given font size in points; its height is about 0.045 cm per point.
 text_cm(text, points) = 0.0353 * points * (plain_em(text) - times_in(text, "/:Italic ") * plain_em("/:Italic ") - times_in(text, "/:Bold ") * plain_em("/:Bold "))
 
-# The font of a text that is to be no longer than so many cm.
+# Font for a text that may not exceed the given length in cm.
 fitted_points(text, points, longest) = text_cm(text, points) > longest ? points * longest / text_cm(text, points) : points
 fitted(text, points, longest) = sprintf(",%g", fitted_points(text, points, longest))
 
-# Breaks `text_to_break` into `text_lines` lines no longer than `break_cm`: broken[1], broken[2], ... Breaks are at blanks outside of braces;
-# a word that is longer by itself is broken anywhere.
+# Breaks `text_to_break` into `text_lines` lines of at most `break_cm`: broken[1], broken[2], ... Breaks are at blanks outside braces;
+# a longer word is broken anywhere.
 array broken[60]
 break_text = 'text_lines = 0; this_line = ""; text_rest = text_to_break; \
   while (strlen(text_rest) > 0) { \

@@ -107,7 +107,7 @@ def changed_script(text, bed):
             if re.fullmatch(r"label_\d+|label|bed", name):
                 variables[name] = "'" + bed["name"].replace("_", r"\_") + "'"
     last = re.sub(r"if \(pass <= 3\)", "if (pass <= 2)", rest)
-    return "".join(f"{name} = {value}\n" for name, value in variables.items()) + "# What all figures share" + last
+    return "".join(f"{name} = {value}\n" for name, value in variables.items()) + "# Common part of all figures" + last
 
 
 def faults_of(figures, folder, bed):
