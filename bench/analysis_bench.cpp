@@ -1,6 +1,6 @@
-/// What the parts of an analysis cost for a frame, in processor time of one thread: the mean over frames
-/// spread evenly through a run that has been analysed, the least of some rounds. A row of a Markdown table
-/// each.
+/// Cost of the parts of an analysis for a frame, in processor time of one thread: the mean over frames
+/// spread evenly through an analysed run, the smallest of several rounds. Prints a row of a Markdown table
+/// for each part.
 
 #include <cmath>
 #include <cstdio>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Index tile_grains = 4000;
 
-/// No value where the bed is not deposited but tiled.
+/// Returns the scenario of a deposited bed; no value if the bed is tiled.
 std::optional<scenario::Scenario> scenario_of(Index grains) {
   scenario::Scenario scenario;
   switch (grains) {
@@ -61,14 +61,14 @@ void advance_to(session::Phase end, session::Session session, const std::string&
   save(session.scenario(), session.segment(), session.checkpoint(0.0), path);
 }
 
-/// Deposits where that has not been done before.
+/// Returns the flat bed, which is deposited if it is not stored yet.
 io::Checkpoint flat_bed(Index grains, const scenario::Scenario& scenario) {
   const std::string path = path_of(grains, "flat");
   if (!std::filesystem::exists(path)) advance_to(session::Phase::tilt, session::Session(scenario), path);
   return io::RunFile::open(path).checkpoint();
 }
 
-/// Tilts where that has not been done before.
+/// Returns the tilted bed, which is computed if it is not stored yet.
 io::Checkpoint tilted_bed(Index grains, const scenario::Scenario& scenario) {
   const std::string path = path_of(grains, "ten-degrees");
   if (!std::filesystem::exists(path))
@@ -86,8 +86,8 @@ void hold_until_rest(World& world, double h) {
     quiet = dynamics::step(world, settings, workspace).motion.rms_velocity < rest ? quiet + 1 : 0;
 }
 
-/// A bed may be in the midst of a rearrangement when it reaches its angle: holds it there, with steps of h,
-/// where that has not been done before.
+/// Returns the tilted bed after holding it at its angle with steps of h until it is at rest, because it may
+/// be rearranging when it reaches the angle. Computed if it is not stored yet.
 io::Checkpoint rested_bed(Index grains, const scenario::Scenario& scenario, double h) {
   const std::string path =
       path_of(grains, "ten-degrees-rest-" + std::to_string(std::llround(1e9 * h)) + "ns");

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What a second of the paper's tilt costs by Contact Dynamics, and by the Discrete Element Method of LAMMPS, whose
-grains have springs: the same bed, from the frame nearest to 10 deg, on one core each. Prints a Markdown table.
+"""Measures the cost of a second of the paper's tilt by Contact Dynamics and by the Discrete Element Method of LAMMPS: the
+same bed, from the frame nearest to 10 deg, on one core each. Prints a Markdown table.
 
-The springs set the step of LAMMPS. Their stiffness follows from the overlap that the deepest grains may have under the
-weight of the bed, and the step is a thirtieth of the time of a binary contact (LAMMPS advises a fiftieth).
+The springs of the grains determine the step of LAMMPS. Their stiffness follows from the allowed overlap of the deepest grains under the
+weight of the bed, and the step is 1/30 of the duration of a binary contact (LAMMPS recommends 1/50).
 
 usage: dem_bench.py TALUS [--run RUN.h5] [--steps N]
 """
@@ -55,7 +55,7 @@ run {steps}
 
 
 def write_data(frame, run, path):
-    """The grains of the frame, at rest; the thickness of the layer is one metre, the unit of Talus."""
+    """Writes the grains of the frame, at rest; the layer is one metre thick, the unit of Talus."""
     x, y = frame.position.T
     kind = np.where(frame.free, 1, 2)
     with open(path, "w") as out:
@@ -66,9 +66,9 @@ def write_data(frame, run, path):
 
 
 def dem_cost(run, frame, overlap, steps):
-    """Steps of LAMMPS and its wall time for a second of the bed, s, and the kinetic energy at the end, J."""
+    """Returns the steps and the wall time (s) of LAMMPS for a second of the bed, and the final kinetic energy (J)."""
     mass = run.mass[frame.free]
-    depth = len(mass) * run.D / run.length  # grains one above the other
+    depth = len(mass) * run.D / run.length  # number of layers
     kn = depth * mass.mean() * run.gravity / (overlap * run.D)
     reduced = 0.5 * mass.min()
     step = math.pi * math.sqrt(reduced / kn) / STEPS_IN_CONTACT
@@ -77,7 +77,7 @@ def dem_cost(run, frame, overlap, steps):
         with open(os.path.join(folder, "in"), "w") as out:
             out.write(INPUT.format(
                 data=os.path.join(folder, "data"), density=run.scenario["grains"]["density"], kn=kn,
-                # 1/s; for a restitution of 0.1.
+                # 1/s, for a restitution of 0.1.
                 damping=1.7 * math.sqrt(kn / mass.mean()), friction=run.scenario["contact"]["friction"], gravity=run.gravity,
                 gx=math.sin(frame.tilt), gy=-math.cos(frame.tilt), skin=0.2 * run.D, step=step,
                 settle=steps // 10, steps=steps))
@@ -93,12 +93,12 @@ def dem_cost(run, frame, overlap, steps):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("talus", help="the program to measure")
-    parser.add_argument("--run", help="a run of the paper's bed on one thread; made where it is not there")
-    parser.add_argument("--steps", type=int, default=2000, help="of LAMMPS that are timed")
+    parser.add_argument("talus", help="program to measure")
+    parser.add_argument("--run", help="run of the paper's bed on one thread; computed if it does not exist")
+    parser.add_argument("--steps", type=int, default=2000, help="number of timed steps of LAMMPS")
     arguments = parser.parse_args()
     if shutil.which("lmp") is None:
-        raise SystemExit("dem_bench.py: error: there is no lmp; on Debian: apt-get install lammps")
+        raise SystemExit("dem_bench.py: error: lmp is missing; on Debian: apt-get install lammps")
     with tempfile.TemporaryDirectory() as folder:
         path = arguments.run or os.path.join(folder, "run.h5")
         if not os.path.exists(path):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Time and memory of `talus ensemble status`, `average`, `work` and of `talus figures` on an ensemble of many members
-without frames. One member of a tiny bed is computed; the others are copies of it, which is no mistake only where the bed is
-that of a file, in which nothing is random. Prints a Markdown table.
+"""Measures time and memory of `talus ensemble status`, `average`, `work` and of `talus figures` on an ensemble of many members
+without frames. One member of a tiny bed is computed, and the others are copies of it. The bed is read from a file, so that the seed
+has no effect. Prints a Markdown table.
 
 usage: ensemble_bench.py TALUS [--members N...] [--folder DIR]
 """
@@ -25,7 +25,7 @@ SEAL_SIZE = 512
 
 
 def measured(words: list[str], folder: Path) -> tuple[float, float]:
-    """Wall time in s, and the largest memory of the process in MB."""
+    """Returns the wall time (s) and the peak memory (MB) of a command."""
     begin = time.perf_counter()
     process = subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     _, status, usage = os.wait4(process.pid, 0)
@@ -36,7 +36,7 @@ def measured(words: list[str], folder: Path) -> tuple[float, float]:
 
 
 def copy_as(source: Path, target: Path, seed: int) -> None:
-    """A copy of a run file that says another seed, sealed again."""
+    """Copies a run file with another seed and a new seal."""
     shutil.copy(source, target)
     with h5py.File(target, "r+") as run:
         run["provenance/seed"][()] = seed
@@ -66,7 +66,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("talus")
     parser.add_argument("--members", type=int, nargs="+", default=[100, 1000, 10000])
-    parser.add_argument("--folder", help="where the folders are made; default: a temporary one")
+    parser.add_argument("--folder", help="parent of the folders; default: a temporary one")
     arguments = parser.parse_args()
     talus = str(Path(arguments.talus).resolve())
     print("| members | command | wall time | memory |\n|---|---|---|---|")

@@ -1,5 +1,5 @@
 #pragma once
-/// The contact problem of the next step of a bed, frozen to be solved again and again.
+/// The contact problem of the next step of a bed, frozen for repeated solution.
 
 #include "core/world.h"
 #include "dynamics/step.h"
@@ -13,24 +13,24 @@ struct FrozenStep {
   double gravity_step = 0.0;      ///< g h, the velocity that gravity gives a free grain in the step
 };
 
-/// Which near contacts are in the problem: those with a gap below this many mean diameters, and what the
-/// velocities add to it (begin_step).
+/// Limit of the gap of near contacts in the problem, to which the velocities add (begin_step).
 enum class Candidates {
   of_a_run,  ///< 0.002 D
-  close,     ///< 0.0002 D: those that may close in this step; Siconos's error is relative to the largest of
-             ///< three norms, and the gap / h of more distant ones would be all there is in them
+  close,     ///< 0.0002 D: contacts that may close in this step. The gap / h of more distant ones would
+             ///< dominate the norms to which Siconos's error is relative
 };
 
-/// What a run of the paper's scenario asks of a step of length h (s).
+/// Returns the settings that a run of the paper's scenario uses for a step of length h (s).
 dynamics::StepSettings run_settings(double h, Candidates candidates = Candidates::of_a_run);
 
-/// In SI units.
+/// Returns the next step of length h (s), in SI units.
 FrozenStep next_step(World world, double h, Candidates candidates = Candidates::of_a_run);
 
-/// dt sqrt(D / g), s.
+/// Returns dt sqrt(D / g), s.
 double seconds_of(double dt);
 
-/// The step of length `dt` sqrt(D / g) with D, the mean mass m of the grains that move, and g as units.
+/// Returns the step of length `dt` sqrt(D / g) in units of D, of the mean mass m of the free grains, and of
+/// g.
 FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates);
 
 /// No impulses.

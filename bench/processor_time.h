@@ -1,11 +1,11 @@
 #pragma once
-/// Time as the processor counts it.
+/// Processor time.
 
 #include <ctime>
 
 namespace talus::bench {
 
-/// Processor time of the calling thread, s: what a solve on one core costs, whatever else the machine does.
+/// Returns the processor time of the calling thread, s, which hardly depends on other load.
 inline double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

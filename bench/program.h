@@ -1,5 +1,5 @@
 #pragma once
-/// What the main function of each benchmark program does with errors.
+/// Error handling of the main function of each benchmark program.
 
 #include <cstdio>
 
@@ -7,7 +7,7 @@
 
 namespace talus::bench {
 
-/// Runs run(argc, argv) and returns what it returns, or the exit code of its error.
+/// Returns the result of run(argc, argv), or the exit code of its error.
 template <typename Run>
 int run_program(const char* name, const Run& run, int argc, char** argv) {
   try {

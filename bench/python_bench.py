@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What it costs to drive runs from Python: whole runs against `talus run` in turn, each with one thread; reads of numbers and
-views, against a property of Python; the memory of many steps; two beds in two threads. Prints a Markdown table. talus must be
+"""Measures the cost of driving runs from Python: whole runs and `talus run`, alternately, each with one thread; reads of numbers and
+views, compared with a property of Python; memory of many steps; two beds in two threads. Prints a Markdown table. talus must be
 imported from the same build as the program (PYTHONPATH).
 
 usage: python_bench.py TALUS [--pairs N] [--length D]
@@ -31,7 +31,7 @@ while not sim.done:
 
 
 def processor_seconds(command, folder):
-    """Processor time of a command."""
+    """Returns the processor time of a command, s."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     package = os.path.dirname(os.path.dirname(os.path.abspath(talus.__file__)))
     subprocess.run(command, cwd=folder, check=True, env={**os.environ, "PYTHONPATH": package})
@@ -40,7 +40,7 @@ def processor_seconds(command, folder):
 
 
 def whole_runs(program, settings, pairs):
-    """The least of both, as others only add to it."""
+    """Compares the smallest processor times of both, which other load affects least."""
     taken = ([], [])
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "scenario.toml"), "w") as file:
@@ -54,15 +54,15 @@ def whole_runs(program, settings, pairs):
                     command = [program, "run", "scenario.toml", "-o", path, "-q", "--threads", "1"]
                 taken[k].append(processor_seconds(command, folder))
                 ends.append(talus.open(path).frames[-1].position)
-            assert np.array_equal(*ends), "others than the same bits"
+            assert np.array_equal(*ends), "the bits differ"
         start = min(processor_seconds([sys.executable, "-c", "import talus"], folder) for _ in range(pairs))
     run, driven = (min(of) for of in taken)
-    return (f"{run:.2f} s by talus run, {driven:.2f} s by a script, {start:.2f} s of them until Python has started: without these "
+    return (f"{run:.2f} s by talus run, {driven:.2f} s by a script, of which {start:.2f} s start Python; without these "
             f"{(driven - start) / run:.3f} of talus run")
 
 
 def nanoseconds(do, count):
-    """Processor time of a call; the least of five rounds."""
+    """Returns the processor time of a call, ns; the smallest of five rounds."""
     rounds = []
     for _ in range(5):
         begin = time.thread_time()
@@ -73,7 +73,7 @@ def nanoseconds(do, count):
 
 
 class Plain:
-    """A property of Python that looks a number up."""
+    """Class with a property that returns a number."""
 
     def __init__(self):
         self._tilt = 1.0
@@ -91,7 +91,7 @@ def reads():
 
 
 def memory(steps):
-    """kB that it grows by in the second half of so many steps, with views made and dropped."""
+    """Returns the growth of memory (kB) in the second half of the steps, with temporary views."""
     sim = talus.Simulation(SCENARIO, **{"bed.length": 12, "bed.depth": 7})
     sim.deposit()
     sim.tilt_rate = 0
@@ -101,11 +101,11 @@ def memory(steps):
             sim.step(10)
             sim.grains.position, sim.grains.velocity, sim.contacts.force
         half.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
-    return f"{half[1] - half[0]} kB more in the second half, {half[1] / 1024:.0f} MB in all"
+    return f"{half[1] - half[0]} kB more in the second half, {half[1] / 1024:.0f} MB in total"
 
 
 def two_threads(settings, pairs):
-    """Wall times, the median of pairs."""
+    """Compares the wall times of two threads and one; the median of pairs."""
     first = talus.Simulation(SCENARIO, **settings)
     first.deposit()
     ratios = []
@@ -125,19 +125,19 @@ def two_threads(settings, pairs):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("talus", help="the program")
-    parser.add_argument("--pairs", type=int, default=7, help="of runs in turn")
-    parser.add_argument("--length", type=float, default=40, help="of the bed that is run, in D")
+    parser.add_argument("talus", help="program to measure")
+    parser.add_argument("--pairs", type=int, default=7, help="number of pairs of runs")
+    parser.add_argument("--length", type=float, default=40, help="length of the bed, in D")
     arguments = parser.parse_args()
     settings = {"bed.length": arguments.length, "bed.depth": 20}
-    print("| measured | |")
+    print("| quantity | |")
     print("|---|---|")
     tilt, of_python, view = reads()
     print(f"| `sim.tilt` | {tilt}; a property of Python: {of_python} |")
     print(f"| `sim.grains.position` | {view} |")
     print(f"| memory in 100 000 steps of a bed of 90 grains, with views | {memory(10**5)} |", flush=True)
     print(f"| two beds in two threads | {two_threads(settings, arguments.pairs)} |", flush=True)
-    print(f"| a whole run, least processor time of {arguments.pairs} | {whole_runs(os.path.abspath(arguments.talus), settings, arguments.pairs)} |")
+    print(f"| a whole run, smallest processor time of {arguments.pairs} | {whole_runs(os.path.abspath(arguments.talus), settings, arguments.pairs)} |")
 
 
 if __name__ == "__main__":

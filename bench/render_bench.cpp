@@ -1,5 +1,5 @@
-/// Drawing a picture of discs, encoding it as PNG, and both for every frame until the file is on disk. Files
-/// go into the current folder. Threads that draw are those of Mesa: LP_NUM_THREADS.
+/// Time to draw a picture of discs, to encode it as PNG, and to do both until the file is on disk. Files
+/// are written to the current folder. Mesa draws with LP_NUM_THREADS threads.
 
 #include <benchmark/benchmark.h>
 
@@ -29,7 +29,7 @@ void png(benchmark::State& state, const PictureSize& size, bool coloured) {
   state.counters["kB"] = static_cast<double>(bytes) / 1000.0;
 }
 
-/// One after the other.
+/// Draws and writes frames one after the other.
 void frame(benchmark::State& state, const PictureSize& size, bool coloured) {
   render::Renderer renderer(render::make_context(std::nullopt));
   const render::FrameView view = picture(size, coloured);
@@ -37,7 +37,7 @@ void frame(benchmark::State& state, const PictureSize& size, bool coloured) {
   std::filesystem::remove(frame_file);
 }
 
-/// A second thread writes a frame while the next one is drawn.
+/// Writes a frame in a second thread while the next one is drawn.
 void frame_overlapped(benchmark::State& state, const PictureSize& size, bool coloured) {
   render::Renderer renderer(render::make_context(std::nullopt));
   const render::FrameView view = picture(size, coloured);

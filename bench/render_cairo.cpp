@@ -1,6 +1,6 @@
-/// The pictures of render_bench drawn and written as PNG by cairo, and their discs as CSV for other peers:
-/// render_cairo 8000|100000 gray|colour PICTURE.png DISCS.csv. Prints milliseconds of drawing, and of the
-/// whole frame: medians.
+/// Draws the pictures of render_bench and writes them as PNG by cairo, and their discs as CSV for other
+/// peers: render_cairo 8000|100000 gray|colour PICTURE.png DISCS.csv. Prints the median milliseconds of
+/// drawing and of the whole frame.
 
 #include <cairo/cairo.h>
 
@@ -27,7 +27,7 @@ void fill_disc(cairo_t* cairo, double x, double y, double radius, const render::
   cairo_fill(cairo);
 }
 
-/// The rim first, then the fill within it, as wide as the shader has it.
+/// Draws the rim, then the fill within it, with the width of the shader.
 void draw(cairo_t* cairo, const render::FrameView& view, int width) {
   const double scale = width / view.x_max;
   set_colour(cairo, render::white);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The same picture of discs by Talus, cairo, matplotlib and ParaView, until the PNG is on disk. Prints a Markdown table.
+"""Measures drawing and writing the same picture of discs by Talus, cairo, matplotlib and ParaView. Prints a Markdown table.
 
 usage: render_peers.py BUILD
-BUILD is the folder of render_bench and render_cairo. A peer that is not installed is left out, and said so.
+BUILD is the folder of render_bench and render_cairo. A peer that is not installed is omitted and reported.
 """
 import argparse
 import json
@@ -20,7 +20,7 @@ REPEATS = 5
 
 
 def talus(build, folder):
-    """Milliseconds by stage/discs/palette: medians."""
+    """Returns median milliseconds by stage/discs/palette."""
     result = subprocess.run([os.path.join(build, "render_bench"), "--benchmark_repetitions=5", "--benchmark_format=json",
                              "--benchmark_report_aggregates_only=true", "--benchmark_min_time=0.3"],
                             cwd=folder, check=True, capture_output=True, text=True)
@@ -29,14 +29,14 @@ def talus(build, folder):
 
 
 def cairo(build, folder, discs, palette):
-    """Milliseconds of a frame; leaves the discs in discs.csv."""
+    """Returns the milliseconds of a frame, and writes the discs to discs.csv."""
     result = subprocess.run([os.path.join(build, "render_cairo"), str(discs), palette, "cairo.png", "discs.csv"],
                             cwd=folder, check=True, capture_output=True, text=True)
     return float(result.stdout.split()[1])
 
 
 def matplotlib_frame(discs, width, path):
-    """Draws one frame with Agg in a new figure, as a script that makes a series of frames would."""
+    """Draws one frame with Agg in a new figure, like a script that makes a series of frames."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.collections import EllipseCollection
     from matplotlib.figure import Figure
@@ -47,7 +47,7 @@ def matplotlib_frame(discs, width, path):
     axes.set(xlim=(0, width), ylim=(0, width / 4))
     axes.axis("off")
     radius = discs["radius"]
-    rim = np.minimum(0.18 * radius, 2.0)  # a line lies astride the edge of its ellipse
+    rim = np.minimum(0.18 * radius, 2.0)  # a line is centred on the edge of its ellipse
     axes.add_collection(EllipseCollection(
         2 * radius - rim, 2 * radius - rim, np.zeros(len(radius)), units="xy", transOffset=axes.transData,
         offsets=np.column_stack([discs["x"], discs["y"]]), linewidths=0.72 * rim, facecolors=colours(discs, "fill"),
@@ -60,7 +60,7 @@ def colours(discs, part):
 
 
 def paraview_frames(discs, width, path):
-    """A function that draws one frame: discs as point sprites of their size, coloured as they are."""
+    """Returns a function that draws one frame: discs as point sprites with their sizes and colours."""
     from paraview import simple
     from paraview.vtk.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -90,7 +90,7 @@ def paraview_frames(discs, width, path):
 
 
 def median_ms(draw):
-    draw()  # fonts and libraries are loaded once
+    draw()  # loads fonts and libraries
     times = []
     for _ in range(REPEATS):
         start = time.perf_counter()
@@ -110,14 +110,14 @@ def available(module):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", help="folder of render_bench and render_cairo")
-    parser.add_argument("--keep", help="keep the pictures in this folder")
+    parser.add_argument("--keep", help="folder in which to keep the pictures")
     arguments = parser.parse_args()
     build = os.path.abspath(arguments.build)
     peers = [name for name in ("matplotlib", "paraview") if available(name)]
     with tempfile.TemporaryDirectory(dir=build) as temporary:
         folder = arguments.keep or temporary
         ours = talus(build, folder)
-        print("Milliseconds of wall time, medians: a frame is a picture drawn and its PNG on disk; overlapped means that a\n"
+        print("Median wall times in ms: a frame is a picture drawn and its PNG on disk; overlapped means that a\n"
               "second thread writes a frame while the next one is drawn.\n")
         print("| discs | width, px | | Talus: draw | PNG | frame | frame, overlapped | cairo: frame | "
               + " | ".join(f"{name}: frame" for name in peers) + " |")
@@ -133,7 +133,7 @@ def main():
             print(f"| {discs} | {width} | {palette} | " + " | ".join(row) + " |", flush=True)
     for name in ("matplotlib", "paraview"):
         if name not in peers:
-            print(f"\n{name} is not installed here, and left out (Debian: python3-{name}).")
+            print(f"\n{name} is not installed and therefore omitted (Debian: python3-{name}).")
     return 0
 
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, python, view, analysis; all of them with no argument.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, python, view, analysis; all if none is named.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
 readonly build=build/bench results=bench/results
 readonly scale_sizes=(4000 8000 20000 40000 100000 400000)
 readonly dense_solvers=(nsgs cpg lemke enumeration)
-readonly dense_seconds=300 # that a dense solver may take
+readonly dense_seconds=300 # time limit of a dense solver
 export OPENBLAS_NUM_THREADS=1 # Siconos is measured on one core
-revision=$(git -c safe.directory="$PWD" describe --always --dirty) # before a result changes the tree
+revision=$(git -c safe.directory="$PWD" describe --always --dirty) # before results change the tree
 readonly revision
 
 build() {
@@ -17,7 +17,7 @@ build() {
   cmake --build --preset bench
 }
 
-# heading TITLE COMMAND: what was measured, with what, where, when.
+# heading TITLE COMMAND: prints the subject, the command, the build, the machine and the date.
 heading() {
   local compiler
   compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:.*=//p' "$build/CMakeCache.txt")
@@ -27,12 +27,12 @@ heading() {
 - command: \`$2\`
 - Talus: $revision, $("$compiler" --version | head -1), $(sed -n 's/^CMAKE_CXX_FLAGS_RELEASE:[A-Z]*=//p' "$build/CMakeCache.txt")
 - processor: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores
-- load of the machine when it began: $(cut -d ' ' -f 1 /proc/loadavg); date: $(date -u +%F)
+- load of the machine at the start: $(cut -d ' ' -f 1 /proc/loadavg); date: $(date -u +%F)
 
 TEXT
 }
 
-# Only a complete result replaces the last one.
+# keep NAME: replaces the previous result by the complete new one.
 keep() { mv -- "$results/$1.part" "$results/$1"; }
 
 solver() {
@@ -83,7 +83,7 @@ siconos_dense() {
     heading "Siconos's other 2D solvers, and its Gauss-Seidel on a dense matrix: 500 grains, cold, to 1e-4" \
       "$build/siconos_dense_bench SOLVER"
     siconos_version
-    echo "| solver | grains | contacts | info (0: says it converged) | seconds | iterations | Siconos's error |"
+    echo "| solver | grains | contacts | info (0: reports convergence) | seconds | iterations | Siconos's error |"
     echo "|---|--:|--:|--:|--:|--:|--:|"
     for solver in "${dense_solvers[@]}"; do
       status=0
@@ -120,7 +120,7 @@ dem() {
 
 crowded() {
   {
-    heading "A run beside other processes" "bench/run_crowded.py $build/talus"
+    heading "A run with other processes" "bench/run_crowded.py $build/talus"
     /usr/bin/python3 bench/run_crowded.py "$build/talus"
   } >"$results/crowded.md.part"
   keep crowded.md
@@ -128,7 +128,7 @@ crowded() {
 
 frames() {
   {
-    heading "Maps drawn beside a run" "bench/run_frames.py $build/talus"
+    heading "Maps drawn during a run" "bench/run_frames.py $build/talus"
     /usr/bin/python3 bench/run_frames.py "$build/talus"
   } >"$results/frames.md.part"
   keep frames.md
@@ -177,7 +177,7 @@ view() {
   local run=$build/view.h5
   "$build/talus" run assets/scenarios/paper-pbc.toml -o "$run" --overwrite --quiet
   {
-    heading "Pictures of the window a second, without a display" "$build/view_bench assets/scenarios/paper-pbc.toml, and $run"
+    heading "Pictures of the window per second, without a display" "$build/view_bench assets/scenarios/paper-pbc.toml, and $run"
     "$build/view_bench" assets/scenarios/paper-pbc.toml
     echo
     "$build/view_bench" "$run"
@@ -190,7 +190,7 @@ analysis() {
   local run=$build/analysis.h5
   "$build/talus" run assets/scenarios/paper-pbc.toml -o "$run" --overwrite --quiet
   {
-    heading "What the parts of an analysis cost for a frame of the paper's bed" "$build/analysis_bench $run"
+    heading "Cost of the parts of an analysis for a frame of the paper's bed" "$build/analysis_bench $run"
     "$build/analysis_bench" "$run"
   } >"$results/analysis.md.part"
   rm -f -- "$run"
@@ -204,7 +204,7 @@ mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
     solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | python | view | analysis) "$part" ;;
-    *) printf 'bench/run.sh: error: no part "%s"; they are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
+    *) printf 'bench/run.sh: error: unknown part "%s"; the parts are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"
 done

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The run of a scenario on one thread and on two, alone on the machine and beside other processes. Prints a
-Markdown table of its wall times; where two programs are named, they run in turn.
+"""Measures the run of a scenario on one thread and on two, alone and with other processes. Prints a
+Markdown table of wall times; several programs run alternately.
 
 usage: run_crowded.py TALUS [TALUS...] [--scenario FILE] [--repeat N]
 """
@@ -14,16 +14,16 @@ import tempfile
 import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-# Shell commands, that many of each beside the run.
+# Shell commands that run at the same time.
 NEIGHBOURS = {
-    "nothing": [],
+    "none": [],
     "3 busy loops": ["while :; do :; done"] * 3,
     "3 loops that start processes": ["while :; do /bin/true; done"] * 3,
 }
 
 
 @contextlib.contextmanager
-def beside(commands):
+def background(commands):
     """Runs the commands until the block ends."""
     processes = [subprocess.Popen(["/bin/bash", "-c", command]) for command in commands]
     try:
@@ -44,15 +44,15 @@ def seconds(talus, scenario, threads):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("talus", nargs="+", help="the programs to measure")
+    parser.add_argument("talus", nargs="+", help="programs to measure")
     parser.add_argument("--scenario", default=os.path.join(ROOT, "assets/scenarios/demo.toml"))
-    parser.add_argument("--repeat", type=int, default=3, help="runs of which the median is told")
+    parser.add_argument("--repeat", type=int, default=3, help="number of runs, of which the median is printed")
     arguments = parser.parse_args()
-    print("| beside | program | 1 thread | 2 threads |")
+    print("| other processes | program | 1 thread | 2 threads |")
     print("|---|---|--:|--:|")
     for name, commands in NEIGHBOURS.items():
         taken = {(talus, threads): [] for talus in arguments.talus for threads in (1, 2)}
-        with beside(commands):
+        with background(commands):
             for _ in range(arguments.repeat):
                 for talus, threads in taken:
                     taken[talus, threads].append(seconds(talus, arguments.scenario, threads))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What maps cost that are drawn beside a run: the same run without them and with two maps of each frame, in turn.
-Prints a Markdown table of the medians; where several programs are named, they run in turn.
+"""Measures the cost of maps drawn during a run: the same run without them and with two maps of each frame, alternately.
+Prints a Markdown table of the medians; several programs run alternately.
 
 usage: run_frames.py TALUS [TALUS...] [--scenario FILE] [--set KEY=VALUE...] [--repeat N]
 """
@@ -23,7 +23,7 @@ def processor_seconds():
 
 
 def seconds(talus, scenario, settings, maps):
-    """Wall and processor time of the run."""
+    """Returns the wall and processor times of the run, s."""
     with tempfile.TemporaryDirectory() as folder:
         command = [talus, "run", scenario, "-q", "-o", os.path.join(folder, "run.h5")]
         for setting in settings:
@@ -37,20 +37,20 @@ def seconds(talus, scenario, settings, maps):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("talus", nargs="+", help="the programs to measure")
+    parser.add_argument("talus", nargs="+", help="programs to measure")
     parser.add_argument("--scenario", default=os.path.join(ROOT, "assets/scenarios/paper-pbc.toml"))
     parser.add_argument("--set", dest="settings", action="append", metavar="KEY=VALUE",
-                        help="of the scenario (bed.length=100: half of the paper's bed)")
-    parser.add_argument("--repeat", type=int, default=3, help="runs of which the median is told")
+                        help="setting of the scenario (bed.length=100: half of the paper's bed)")
+    parser.add_argument("--repeat", type=int, default=3, help="number of runs, of which the median is printed")
     arguments = parser.parse_args()
     settings = arguments.settings or []
     taken = {(talus, maps): [] for talus in arguments.talus for maps in ("", MAPS)}
     for _ in range(arguments.repeat):
         for talus, maps in taken:
             taken[talus, maps].append(seconds(talus, arguments.scenario, settings, maps))
-    print(f"{', '.join([os.path.basename(arguments.scenario), *settings])}; medians of {arguments.repeat} runs in turn")
+    print(f"{', '.join([os.path.basename(arguments.scenario), *settings])}; medians of {arguments.repeat} alternating runs")
     print()
-    print("| program | maps | takes | shortest, longest | processor time |")
+    print("| program | maps | median | shortest, longest | processor time |")
     print("|---|---|--:|--:|--:|")
     for (talus, maps), times in taken.items():
         wall = [pair[0] for pair in times]

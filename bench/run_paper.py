@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The whole run of the paper's bed: deposition, tilt to failure. Prints a Markdown list of its figures.
+"""Measures the whole run of the paper's bed: deposition and tilt to failure. Prints a Markdown list of results.
 
 usage: run_paper.py TALUS [SCENARIO] [--threads N] [--keep RUN.h5]
 """
@@ -18,18 +18,18 @@ DEPOSITION, TILT = 0, 1
 
 
 def stage_shares(timing):
-    """Share of each stage of the steps in their whole time, largest first."""
+    """Returns the share of each stage in the time of the steps, largest first."""
     stages = {name[len("stage_"):]: timing[name][()] for name in timing if name.startswith("stage_")}
     total = sum(stages.values())
     return sorted(((name, seconds / total) for name, seconds in stages.items()), key=lambda item: -item[1])
 
 
 def phase_line(name, steps, phase, seconds):
-    """Seconds, steps and iterations of one phase."""
+    """Returns a line with seconds, steps and iterations of one phase."""
     of = steps["phase"] == phase
     contacts, iterations = steps["contacts"][of], steps["iterations"][of]
-    return (f"- {name}: {seconds:.1f} s, {of.sum()} steps, {iterations.mean():.0f} iterations a step "
-            f"({np.median(iterations):.0f} median, {iterations.max():.0f} most), "
+    return (f"- {name}: {seconds:.1f} s, {of.sum()} steps, {iterations.mean():.0f} iterations per step "
+            f"({np.median(iterations):.0f} median, {iterations.max():.0f} maximum), "
             f"{1e9 * seconds / (contacts * np.maximum(iterations, 1)).sum():.2f} ns per contact and iteration, all stages included; "
             f"{np.count_nonzero(steps['converged'][of] == 0)} steps not converged")
 
@@ -53,10 +53,10 @@ def report(path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("talus", help="the program to measure")
+    parser.add_argument("talus", help="program to measure")
     parser.add_argument("scenario", nargs="?", default=os.path.join(ROOT, "assets/scenarios/paper-pbc.toml"))
     parser.add_argument("--threads", default="2")
-    parser.add_argument("--keep", help="keep the run file here")
+    parser.add_argument("--keep", help="path at which to keep the run file")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         path = arguments.keep or os.path.join(folder, "run.h5")

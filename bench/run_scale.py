@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Cost and memory against the size of the bed: medians of several rounds, in each of which all sizes are
-measured in turn, so that a slow hour of the machine meets all of them. Prints a Markdown table.
+"""Measures cost and memory against the size of the bed: medians of several rounds over
+all sizes, so that other load affects all of them. Prints a Markdown table.
 
 usage: run_scale.py SCALE_BENCH GRAINS... [--rounds N]
 """
@@ -12,7 +12,7 @@ REFERENCE = 8000  # grains of the paper's bed
 
 
 def measure(program, grains):
-    """The cells that scale_bench prints for a bed of so many grains."""
+    """Returns the cells that scale_bench prints for a bed of the given size."""
     row = subprocess.run([program, str(grains)], check=True, stdout=subprocess.PIPE, text=True).stdout
     return [float(cell) for cell in row.strip().strip("|").split("|")]
 
@@ -20,11 +20,11 @@ def measure(program, grains):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="scale_bench")
-    parser.add_argument("grains", nargs="+", type=int, help=f"sizes, {REFERENCE} among them")
-    parser.add_argument("--rounds", type=int, default=5, help="of which medians are told")
+    parser.add_argument("grains", nargs="+", type=int, help=f"sizes, including {REFERENCE}")
+    parser.add_argument("--rounds", type=int, default=5, help="number of rounds, of which medians are printed")
     arguments = parser.parse_args()
     if REFERENCE not in arguments.grains:
-        parser.error(f"{REFERENCE} grains, which the others are compared with, must be among them")
+        parser.error(f"the sizes must include {REFERENCE} grains, with which the others are compared")
     rows = {grains: [] for grains in arguments.grains}
     for _ in range(arguments.rounds):
         for grains, measured in rows.items():

@@ -1,5 +1,5 @@
-/// Cost of an iteration and peak memory of a step for a bed of a given size; one row of a Markdown table. One
-/// process for each size, so that memory is that of this size alone.
+/// Cost of an iteration and peak memory of a step for a bed of a given size; prints one row of a Markdown
+/// table. Each size needs a separate process, because peak memory is that of the process.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace talus::bench {
 namespace {
 
-/// Wall seconds of one iteration, from a solve of `iterations` of them.
+/// Returns the wall time of one iteration (s), from a solve of `iterations` iterations.
 double seconds_per_iteration(const FrozenStep& step, int threads, int iterations,
                              solver::SolverWorkspace& workspace) {
   solver::SolverSettings settings;
@@ -33,10 +33,10 @@ double seconds_per_iteration(const FrozenStep& step, int threads, int iterations
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / iterations;
 }
 
-/// Medians for one and two threads, measured in turn.
+/// Returns medians for one and two threads, measured alternately.
 std::array<double, 2> pass_seconds(const FrozenStep& step) {
   constexpr int repetitions = 7;
-  // As in a run: a solve of more than 512 iterations, which looks for the mean of iterates, is rare.
+  // At most 512 iterations, as in most solves of a run; longer ones also compute the mean of iterates.
   const int iterations = std::clamp(150'000'000 / step.problem.contact_count(), 100, 400);
   std::array<solver::SolverWorkspace, 2> workspaces;
   std::array<std::array<double, repetitions>, 2> seconds{};
@@ -47,7 +47,7 @@ std::array<double, 2> pass_seconds(const FrozenStep& step) {
   return {seconds[0][repetitions / 2], seconds[1][repetitions / 2]};
 }
 
-/// The named size of this process in bytes (proc(5)).
+/// Returns the named size of this process in bytes (proc(5)).
 double process_bytes(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
@@ -59,9 +59,10 @@ double process_bytes(const std::string& name) {
   throw Error(ExitCode::unavailable, "/proc/self/status has no " + name);
 }
 
-/// Peak resident memory while steps are taken, the world included, beyond that of the bare program, bytes.
+/// Returns the peak resident memory during steps (bytes), the world included, without that of the bare
+/// program.
 double peak_of_steps(World world, double bare_program) {
-  std::ofstream("/proc/self/clear_refs") << 5;  // the peak is counted from here on
+  std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
   dynamics::StepSettings settings = run_settings(scenario::time_step(scenario::Scenario{}));
   settings.solver.max_iterations = 10;
   dynamics::StepWorkspace workspace;
@@ -69,7 +70,7 @@ double peak_of_steps(World world, double bare_program) {
   return process_bytes("VmHWM") - bare_program;
 }
 
-/// Residual of the remembered forces: that of the tile, where copies of it stand in equilibrium as it does.
+/// Returns the residual of the remembered forces, which is that of the tile if its copies are in equilibrium.
 double eta_of_guess(FrozenStep step) {
   solver::velocities_from_impulses(step.problem, step.guess);
   return solver::natural_map_residual(step.problem, step.guess).eta;

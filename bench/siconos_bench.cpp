@@ -1,6 +1,6 @@
-/// Talus and Siconos on the same contact problems, from the same guess to the same error, which is Siconos's
-/// own; one core, one process, in turn. Seconds are processor time. Prints one row of a Markdown table for
-/// each problem.
+/// Talus and Siconos on the same contact problems, from the same guess to the same error, by Siconos's
+/// measure; alternately on one core in one process. Seconds are processor time. Prints one row of a Markdown
+/// table for each problem.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace talus::bench {
 namespace {
 
 struct Limits {
-  double seconds = 60.0;  ///< of a Siconos solve
+  double seconds = 60.0;  ///< longest Siconos solve
   int sweeps = 20000;
   int repetitions = 5;
 };
@@ -60,7 +60,7 @@ std::vector<Impulse> impulses(const ContactSolution& solution) {
   return p;
 }
 
-/// One problem, as both solvers see it.
+/// One problem in the forms of both solvers.
 struct Match {
   FrozenStep step;
   LocalProblem local;
@@ -88,8 +88,8 @@ TalusRun run_talus(Match& match, double eta) {
   return run;
 }
 
-/// The loosest eta, of a fine geometric series, at which the answer of Talus has the error asked for; 0 where
-/// none has. The two measures are alike but not proportional, so it is searched for, outside the time.
+/// Returns the loosest eta of a fine geometric series at which the solution of Talus has the required error,
+/// or 0 if none has. The two measures are similar but not proportional, hence the search, which is not timed.
 double eta_for_error(Match& match, double error) {
   constexpr double loosest = 0.1;
   constexpr double factor = 0.8;
@@ -112,14 +112,14 @@ SiconosRun run_siconos(Match& match, double error, int max_sweeps) {
   return run;
 }
 
-/// Sweeps that Siconos can do within the limits.
+/// Returns the number of sweeps that Siconos can make within the limits.
 int affordable_sweeps(Match& match, const Limits& limits) {
   constexpr int few = 10;
   const double seconds_of_few = run_siconos(match, 0.0, few).report.seconds;
   return static_cast<int>(std::min<double>(limits.sweeps, limits.seconds / seconds_of_few * few));
 }
 
-/// sqrt of the mean of |v1 - v2|^2 over bodies that move; rotation counts with its rim velocity.
+/// Returns sqrt of the mean of |v1 - v2|^2 over free bodies; rotation counts with its rim velocity.
 double rms_difference(const ContactProblem& problem, const ContactSolution& one, const ContactSolution& two) {
   double sum = 0.0;
   int count = 0;
@@ -150,7 +150,7 @@ double relative_impulse_difference(const ContactSolution& one, const ContactSolu
   return norm(n, t) / norm(two.pn, two.pt);
 }
 
-/// || U1 - U2 || over the norm that Siconos's error is relative to.
+/// Returns || U1 - U2 || over the norm to which Siconos's error is relative.
 double relative_velocity_difference(const Match& match, const ContactSolution& one,
                                     const ContactSolution& two) {
   const std::vector<RelativeVelocity> u1 = local_form(match.step.problem, one).u;
@@ -173,11 +173,11 @@ double relative_velocity_difference(const Match& match, const ContactSolution& o
 struct Timing {
   SiconosRun siconos;
   TalusRun talus;
-  std::vector<double> siconos_seconds, talus_seconds;  ///< of each solve
+  std::vector<double> siconos_seconds, talus_seconds;  ///< time of each solve
 };
 
-/// In turn, so that a change in the pace of the machine meets both. A solve of more than ten seconds is not
-/// repeated: it does the same work each time.
+/// Times both solvers alternately, so that other load affects both. A solve of more than ten seconds is not
+/// repeated.
 Timing time_both(Match& match, double error, double eta, const Limits& limits) {
   constexpr double too_long_to_repeat = 10.0;
   const int max_sweeps = affordable_sweeps(match, limits);
@@ -199,7 +199,7 @@ void print_solve(double seconds, std::size_t repetitions, int iterations, bool f
   std::printf("%s%.4g (%zu) | %d | ", fails ? "fails: " : "", seconds, repetitions, iterations);
 }
 
-/// Where Siconos fails, the ratio is a lower bound; where Talus does, there is none.
+/// Prints the ratio: a lower bound if Siconos fails, none if Talus fails.
 void print_ratio(double ratio, bool siconos_fails, bool talus_fails) {
   if (talus_fails)
     std::printf("- |");
@@ -260,8 +260,9 @@ int run(int argc, char** argv) {
   app.add_flag("--si", si,
                "SI units and the step of the paper's run, instead of D = m = g = 1 and dt = 5e-3");
   app.add_option("--seconds", limits.seconds, "Longest Siconos solve")->capture_default_str();
-  app.add_option("--sweeps", limits.sweeps, "Most sweeps of a Siconos solve")->capture_default_str();
-  app.add_option("--repetitions", limits.repetitions, "Solves that the medians are of")
+  app.add_option("--sweeps", limits.sweeps, "Maximum number of sweeps of a Siconos solve")
+      ->capture_default_str();
+  app.add_option("--repetitions", limits.repetitions, "Number of solves, of which medians are printed")
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv)
   print_header();

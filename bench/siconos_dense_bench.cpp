@@ -1,5 +1,5 @@
 /// Siconos's solvers that work on a dense matrix, on the smallest bed: one solver, one row of a Markdown
-/// table. They may need more time than anyone has; run.sh ends them.
+/// table. Their time is practically unlimited; run.sh ends them.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -32,7 +32,7 @@ int run(int argc, char** argv) {
   CLI::App app("One of Siconos's 2D solvers on a dense matrix, cold, on a bed at rest");
   app.add_option("solver", name, "nsgs, cpg, lemke or enumeration")->required()->check(CLI::IsMember(peers));
   app.add_option("--grains", grains, "Size of the bed")->capture_default_str();
-  app.add_option("--tolerance", tolerance, "Siconos's error asked for")->capture_default_str();
+  app.add_option("--tolerance", tolerance, "Required error by Siconos's measure")->capture_default_str();
   CLI11_PARSE(app, argc, argv)
 
   const FrozenStep step =

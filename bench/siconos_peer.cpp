@@ -1,6 +1,6 @@
 #include "siconos_peer.h"
 
-// Siconos's headers are C.
+// The headers of Siconos are C.
 #define restrict __restrict
 #include <FrictionContactProblem.h>
 #include <NonSmoothDrivers.h>
@@ -46,7 +46,7 @@ struct SiconosProblem::State {
   std::vector<double> q, mu, dense;
   std::vector<DelassusBlock> blocks;
   std::vector<double*> block;
-  std::vector<unsigned int> size;  ///< rows up to the end of each block row
+  std::vector<unsigned int> size;  ///< number of rows up to the end of each block row
   std::vector<std::size_t> row_begin, column;
   SparseBlockStructuredMatrix sparse{};
   NumericsMatrix* matrix = nullptr;
@@ -108,7 +108,7 @@ SiconosProblem::SiconosProblem(const LocalProblem& local, Storage storage)
 }
 
 SiconosProblem::~SiconosProblem() {
-  // All arrays belong to the state; Siconos would free them as its own.
+  // The state owns all arrays; Siconos must not free them.
   state_->matrix->matrix0 = nullptr;
   state_->matrix->matrix1 = nullptr;
   state_->problem->q = nullptr;

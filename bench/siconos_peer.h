@@ -1,5 +1,5 @@
 #pragma once
-/// Siconos's solvers for frictional contact in two dimensions, behind plain data.
+/// Siconos's solvers for frictional contact in two dimensions, with an interface of plain data.
 
 #include <memory>
 
@@ -7,7 +7,7 @@
 
 namespace talus::bench {
 
-/// Numbers by which Siconos knows its solvers.
+/// Identifiers of Siconos's solvers.
 enum class SiconosSolver : int {
   nsgs = 400,   ///< nonsmooth Gauss-Seidel, the only one that keeps the matrix sparse
   cpg = 402,    ///< conjugate projected gradient
@@ -16,16 +16,16 @@ enum class SiconosSolver : int {
 };
 
 struct SiconosReport {
-  int info = 0;          ///< 0 where Siconos says that it converged
+  int info = 0;          ///< 0 if Siconos reports convergence
   int iterations = 0;    ///< sweeps
-  double error = 0.0;    ///< what Siconos itself reports
+  double error = 0.0;    ///< error that Siconos reports
   double seconds = 0.0;  ///< processor time of the calling thread
 };
 
-/// How Siconos stores W.
+/// Siconos's storage of W.
 enum class Storage { sparse_blocks, dense };
 
-/// A problem as Siconos holds it. `local` must outlive it: its blocks are used where they are.
+/// A problem in Siconos's form. `local` must outlive it, because its blocks are not copied.
 class SiconosProblem {
  public:
   SiconosProblem(const LocalProblem& local, Storage storage);
@@ -36,7 +36,7 @@ class SiconosProblem {
   /// Solves from the first guess in `p`; only the call of the solver is timed.
   SiconosReport solve(SiconosSolver solver, double tolerance, int max_iterations, std::vector<Impulse>& p);
 
-  /// fc2d_compute_error: relative to the largest of || P ||, || U || and || q ||.
+  /// Returns fc2d_compute_error, relative to the largest of || P ||, || U || and || q ||.
   double error(std::vector<Impulse> p);
 
  private:

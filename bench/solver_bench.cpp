@@ -1,4 +1,4 @@
-/// The solvers on the contact problem of the paper's bed, and the stages of its steps.
+/// Times of the solvers on the contact problem of the paper's bed, and of the stages of its steps.
 
 #include <benchmark/benchmark.h>
 
@@ -17,13 +17,13 @@ const double run_step = scenario::time_step(scenario::Scenario{});
 FrozenStep flat_step() { return next_step(bed(paper_grains, Slope::flat, run_step), run_step); }
 FrozenStep tilting_step() { return next_step(bed(paper_grains, Slope::ten_degrees, run_step), run_step); }
 
-/// Wall time per contact and iteration, printed with its prefix: 3n is 3 ns.
+/// Returns the wall time per contact and iteration, printed with an SI prefix: 3n is 3 ns.
 benchmark::Counter time_per_contact_and_iteration(const solver::ContactProblem& problem, int iterations) {
   return {static_cast<double>(problem.contact_count()) * iterations,
           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
 }
 
-/// A fixed number of iterations from no impulses, on range(0) threads.
+/// Runs a fixed number of iterations from zero impulses, on range(0) threads.
 void accelerated_passes(benchmark::State& state) {
   const FrozenStep step = flat_step();
   solver::SolverSettings settings;
@@ -83,7 +83,7 @@ BENCHMARK(cold_to_1e4)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(
 void warm_to_1e6(benchmark::State& state) { solve_to(state, tilting_step(), 1e-6); }
 BENCHMARK(warm_to_1e6)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-/// Steps of the bed at 10 deg as a run at rest takes them; mean wall time of each stage in ms.
+/// Takes steps of the bed at 10 deg as in a run at rest; reports the mean wall time of each stage in ms.
 void steps_at_ten_degrees(benchmark::State& state) {
   World world = bed(paper_grains, Slope::ten_degrees, run_step);
   dynamics::StepSettings settings = run_settings(run_step);

@@ -1,6 +1,6 @@
-/// Steps of the tilt at 10 deg, as many as each line of the standard input asks for, "THREADS STEPS". Answers
-/// each line with what the steps took, their iterations, and the hash of the state after them:
-/// bench/run_pairs.py asks two programs in turn.
+/// Takes steps of the tilt at 10 deg on request: for each line "THREADS STEPS" of the standard input, prints
+/// the seconds of the steps, their iterations, and the hash of the state after them. bench/run_pairs.py uses
+/// two such programs alternately.
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -33,7 +33,7 @@ void answer(World& world, int threads, int steps, dynamics::StepWorkspace& works
 
 int run(int argc, char** argv) {
   Index grains = 0;
-  CLI::App app("Steps of the tilt at 10 deg, asked for on the standard input");
+  CLI::App app("Steps of the tilt at 10 deg, requested on the standard input");
   app.add_option("grains", grains, "500, 2000 or a multiple of 4000")->required();
   CLI11_PARSE(app, argc, argv)
   World world = bed(grains, Slope::ten_degrees, scenario::time_step(scenario::Scenario{}));

@@ -1,5 +1,5 @@
-/// What it costs to make a run durable: commits of the paper's bed, without and with a frame, in the folder
-/// that holds the beds and in memory; the run packed, opened and read.
+/// Cost of making a run durable: commits of the paper's bed, without and with a frame, in the folder
+/// of the beds and in memory; packing, opening and reading the run.
 
 #include <benchmark/benchmark.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr Index grains = 8000;
 
-/// The bed after the first step of its tilt, which has recorded a frame.
+/// Returns the bed after the first step of its tilt, with a recorded frame.
 const session::Session& tilted() {
   static const session::Session session = [] {
     session::Session begun = session_at_tilt(grains);
@@ -34,7 +34,7 @@ io::RunStore new_store(const std::string& path) {
 
 std::string run_path(const char* folder) { return std::string(folder) + "/store_bench.h5"; }
 
-/// What a run does at a checkpoint, or at a frame: it waits for this.
+/// Commits a checkpoint, or a checkpoint with a frame, for which a run has to wait.
 void commit(benchmark::State& state, const char* folder, bool with_frame) {
   const std::string path = run_path(folder);
   io::Segment segment = tilted().segment();
@@ -59,7 +59,7 @@ void pack(benchmark::State& state) {
   }
 }
 
-/// Of the run that `pack` has left.
+/// Opens the run that `pack` has left.
 void open_run(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(io::RunFile::open(run_path(TALUS_BENCH_BEDS)).frame_tilts().size());

@@ -19,7 +19,8 @@ struct Ids {
   }
 
  private:
-  /// Copies of the block of ids first ... last - 1 follow each other.
+  /// Returns the id of a grain in a copy of the block first ... last - 1; the copies of a block are
+  /// consecutive.
   Index in_block(Index first, Index last, Index grain, Index copy) const {
     return first * copies + copy * (last - first) + grain - first;
   }
@@ -43,7 +44,7 @@ Grains tiled_grains(const Grains& from, const Ids& ids, double length) {
   return to;
 }
 
-/// A contact of the wide bed, and the contact of the tile that it is a copy of.
+/// A contact of the wide bed and the original contact of the tile.
 struct Copy {
   Index a, b;
   std::int8_t shift;
@@ -72,7 +73,7 @@ Contacts tiled_contacts(const Contacts& from, const Ids& ids) {
   to.resize(copies.size());
   for (Index c = 0; c < to.count(); ++c) {
     const Copy& copy = copies[c];
-    // Normal and force turn around together, so their components f_n and f_t stay.
+    // Normal and force are reversed together, so the components f_n and f_t do not change.
     const double sign = copy.reversed ? -1.0 : 1.0;
     to.a[c] = copy.a;
     to.b[c] = copy.b;

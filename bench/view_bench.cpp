@@ -1,6 +1,6 @@
-/// The window of `talus view`, drawn in memory: while a scenario is computed beside it, how many pictures a
-/// second there are when 30 are asked for, and what they cost the solver; and of a run file, how long it
-/// takes from the wish for another frame to its picture. A row of a Markdown table each.
+/// The window of `talus view`, drawn in memory. For a scenario that is computed at the same time: pictures
+/// per second, at most 30, and their cost to the solver. For a run file: the time from the request of another
+/// frame to its picture. Prints a row of a Markdown table for each display.
 
 #include <algorithm>
 #include <chrono>
@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The beginning of a row.
+/// Prints the beginning of a row.
 void print_times(const char* what, std::vector<double> pictures, double elapsed) {
   std::ranges::sort(pictures);
   const auto ms = [&pictures](double share) {
@@ -36,7 +36,7 @@ void print_times(const char* what, std::vector<double> pictures, double elapsed)
               ms(0.5), ms(0.95), ms(1.0));
 }
 
-/// Draws at most 30 pictures a second for a while, each read back, as the run goes on.
+/// Draws and reads back at most 30 pictures a second for a while as the run continues.
 void look(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   const std::int64_t first = model.live()->status().step;
   std::vector<double> pictures;
@@ -52,7 +52,7 @@ void look(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   std::printf(" %.0f |\n", static_cast<double>(model.live()->status().step - first) / elapsed);
 }
 
-/// What is shown, from the least work to the most.
+/// Measures the displays, from the cheapest to the most expensive.
 template <typename Look>
 void look_at_all(view::ViewModel& model, const Look& look) {
   look("gamma, all plots");
@@ -62,7 +62,7 @@ void look_at_all(view::ViewModel& model, const Look& look) {
   look("clusters and forces, a grain selected");
 }
 
-/// All frames of a run one after another, as fast as they can be drawn, each read back.
+/// Draws and reads back all frames of a run as fast as possible.
 void replay(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   std::vector<double> pictures;
   const auto start = Clock::now();
@@ -79,7 +79,7 @@ void replay(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
 void measure_replay(view::ViewModel& model) {
   std::printf("Replay: window of %d x %d px, %zu frames of %d grains.\n\n", width, height,
               model.frame_count(), model.statics().free_count);
-  std::printf("| what is shown | pictures/s | ms each, median | 95 %% | longest |\n|---|--:|--:|--:|--:|\n");
+  std::printf("| display | pictures/s | ms each, median | 95 %% | longest |\n|---|--:|--:|--:|--:|\n");
   gui::OffscreenGui gui(model, width, height);
   look_at_all(model, [&](const char* what) { replay(what, model, gui); });
 }
@@ -92,13 +92,13 @@ void measure_live(view::ViewModel& model) {
   std::printf("Live: window of %d x %d px, %d grains; the solver has one thread.\n\n", width, height,
               model.statics().free_count);
   std::printf(
-      "| what is shown | pictures/s | ms each, median | 95 %% | longest | steps/s "
+      "| display | pictures/s | ms each, median | 95 %% | longest | steps/s "
       "|\n|---|--:|--:|--:|--:|--:|\n");
   model.live()->play();
   const auto start = Clock::now();
   const std::int64_t first = model.live()->status().step;
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds_shown));
-  std::printf("| nothing is drawn | | | | | %.0f |\n",
+  std::printf("| no drawing | | | | | %.0f |\n",
               static_cast<double>(model.live()->status().step - first) / seconds_since(start));
   gui::OffscreenGui gui(model, width, height);
   look_at_all(model, [&](const char* what) { look(what, model, gui); });
