@@ -80,23 +80,23 @@ int measure(int argc, char** argv) {
     (void)analysis::mean_stress_correlation({of.frame, statics}, largest, parameters.bins);
   });
   row("local solid fraction", [&](Sample& of, std::size_t) {
-    analysis::take_local_solid_fraction({of.frame, statics}, of.record);
+    analysis::measure_local_solid_fraction({of.frame, statics}, of.record);
   });
   row("granular temperature", [&](Sample& of, std::size_t) {
-    analysis::take_granular_temperature({of.frame, statics}, of.record);
+    analysis::measure_granular_temperature({of.frame, statics}, of.record);
   });
   row("local deformation", [&](Sample& of, std::size_t) {
-    analysis::take_deformation(of.before, {of.frame, statics}, of.record);
+    analysis::measure_deformation(of.before, {of.frame, statics}, of.record);
   });
   row("rigid clusters", [&](Sample& of, std::size_t) {
-    analysis::take_rigid_clusters({of.frame, statics}, of.record);
+    analysis::measure_rigid_clusters({of.frame, statics}, of.record);
   });
   row("persistence", [&](Sample& of, std::size_t) {
     (void)analysis::force_persistence({of.frame, statics}, 1.0);
   });
   row("change of the network", [&](Sample& of, std::size_t) {
     std::vector<analysis::FrameRecord> records(2);
-    analysis::take_network_changes({of.network_before, of.network}, statics.free_count, records);
+    analysis::measure_network_changes({of.network_before, of.network}, statics.free_count, records);
   });
   row("all of a frame but reading and what it is compared with", [&](Sample& of, std::size_t) {
     (void)analysis::analyse_frame({analysis::with_analysed_gamma(of.stored, statics, parameters), statics},

@@ -95,7 +95,7 @@ struct FrameView {
   bool transparent = false;  ///< nothing behind the discs, instead of white
   bool furniture = true;     ///< false: the bed alone fills the picture, and the members below are not drawn
   double letters = 90.0;     ///< width of the picture in font sizes
-  double most_letters =
+  double max_letters =
       std::numeric_limits<double>::infinity();  ///< upper limit of `letters`, below which the type is legible
   bool left_wall = false;                       ///< a wall at x_min, drawn as a line
   bool right_wall = false;                      ///< a wall at x_max, drawn as a line

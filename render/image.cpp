@@ -12,7 +12,7 @@ std::uint8_t ground(int channels) { return channels == 4 ? 0 : 255; }
 
 }  // namespace
 
-Image beside(const std::vector<Image>& images) {
+Image side_by_side(const std::vector<Image>& images) {
   Image row;
   for (const Image& image : images) {
     if (row.width == 0) row.channels = image.channels;

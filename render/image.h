@@ -29,6 +29,6 @@ using PictureTexts = std::vector<std::pair<std::string, std::string>>;
 /// Puts images with the same number of channels next to each other from left to right, aligned at the top.
 /// The background below shorter images is white, or transparent if there is an alpha channel. Throws
 /// Error(internal) if the numbers of channels differ.
-Image beside(const std::vector<Image>& images);
+Image side_by_side(const std::vector<Image>& images);
 
 }  // namespace talus::render

@@ -19,7 +19,7 @@ constexpr double gap_between_rows = 0.3;
 
 constexpr double smallest_em = 6.0;  // px; smaller type is illegible
 /// Smallest relative font size that is tried before lines are broken.
-constexpr double least_unbroken = 0.8;
+constexpr double min_unbroken = 0.8;
 
 /// Places groups from left to right, `last` at the right end, in as many rows as they need. Returns the lower
 /// edge, px.
@@ -215,12 +215,11 @@ Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutL
   const double wanted_em = std::max(10.0, std::round(width / view.letters));
   for (const bool broken : {false, true})
     for (double em = std::min(wanted_em, limits.largest_em);
-         em >= std::max(width / view.most_letters, broken ? smallest_em : least_unbroken * wanted_em);
-         em -= 0.5)
+         em >= std::max(width / view.max_letters, broken ? smallest_em : min_unbroken * wanted_em); em -= 0.5)
       if (std::optional<Layout> layout = lay_out_with(view, width, em, broken, font, limits)) return *layout;
   throw Error(ExitCode::usage,
               fmt::format("width = {}: the caption and legend of this map do not fit; use a larger width{}",
-                          width, std::isfinite(view.most_letters) ? " in print" : ""));
+                          width, std::isfinite(view.max_letters) ? " in print" : ""));
 }
 
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits) {

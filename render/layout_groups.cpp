@@ -19,7 +19,7 @@ constexpr double line_swatch_width = 1.8;
 Box moved(const Box& box, double x, double y) { return {box.x + x, box.y + y, box.width, box.height}; }
 
 /// Returns the shortest length, px, at which the labels of neighbouring ticks do not touch.
-double least_length(const Bar& bar, const std::vector<double>& widths, double em) {
+double min_length(const Bar& bar, const std::vector<double>& widths, double em) {
   double length = 0.0;
   for (std::size_t k = 1; k < widths.size(); ++k)
     length = std::max(length, (0.5 * (widths[k - 1] + widths[k]) + gap_in_group * em) /
@@ -37,7 +37,7 @@ std::vector<double> label_widths(const Bar& bar, double em, const Font& font) {
 Bar thinned(Bar bar, double room, double em, const Font& font) {
   const auto needed = [&] {
     const std::vector<double> widths = label_widths(bar, em, font);
-    return least_length(bar, widths, em) + 0.5 * (widths.front() + widths.back());
+    return min_length(bar, widths, em) + 0.5 * (widths.front() + widths.back());
   };
   while (bar.ticks.size() > 2 && needed() > room) {
     std::vector<BarTick> kept;
@@ -116,11 +116,11 @@ Group text_with_arrow_group(const std::string& text, double room, double em, con
 Group bar_group(const Bar& whole, double room, double em, const Font& font) {
   const Bar bar = thinned(whole, room, em, font);
   const std::vector<double> widths = label_widths(bar, em, font);
-  const double least = least_length(bar, widths, em);
+  const double least = min_length(bar, widths, em);
   const double wanted = std::max(std::ceil(shortest_bar * em), least);
   const double title = set_text(font, bar.title, em).width;
-  const double beside = bar.title.empty() ? 0.0 : title + gap_in_group * em;
-  const BarEnds plain = ends_of(bar, widths, beside, wanted);
+  const double title_width = bar.title.empty() ? 0.0 : title + gap_in_group * em;
+  const BarEnds plain = ends_of(bar, widths, title_width, wanted);
   if (plain.right <= room)
     return bar_at(bar, widths, text_group(bar.title, title, em, font), plain, 0.0, em, font);
   Group above = text_group(bar.title, room, em, font);

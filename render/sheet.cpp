@@ -57,7 +57,7 @@ std::vector<LayoutLimits> level_rows(std::vector<std::vector<FrameView>>& rows, 
     for (FrameView& view : row) {
       if (!view.furniture) continue;
       view.letters /= static_cast<double>(row.size());
-      view.most_letters /= static_cast<double>(row.size());
+      view.max_letters /= static_cast<double>(row.size());
       const int own = width / static_cast<int>(row.size());
       common.largest_em = std::min(common.largest_em, lay_out(view, own, font).em);
     }
@@ -101,7 +101,7 @@ void fit_to_cells(std::vector<FrameView>& views, const Arrangement& arrangement)
     FrameView& view = views[k];
     const double share = static_cast<double>(width_of(view, k, arrangement)) / arrangement.width;
     view.letters *= share;
-    view.most_letters *= share;
+    view.max_letters *= share;
     if (view.x_max > view.x_min)
       height = std::max(height, view.letters * (view.y_max - view.y_min) / (view.x_max - view.x_min));
   }

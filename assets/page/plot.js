@@ -79,9 +79,9 @@ function curvePlot(holder, go) {
   const moveLine = () => {
     if (!line || !range) return;
     line.setAttribute("d", `M${range.toX(tilt).toFixed(1)} ${plotTop}V${plotHeight - plotBottom}`);
-    tell();
+    report();
   };
-  const tell = () => {
+  const report = () => {
     const at = pointed === null ? tilt : pointed;
     const values = shown.curves.map((curve, k) => element("span", { class: `curve-${k}` }, rich(`${curve.label ? `${curve.label} ` : ""}${numberText(valueNear(curve, at), 4)}`)));
     reading.replaceChildren(element("span", {}, `θ = ${at.toFixed(2)}°`), ...values);
@@ -89,11 +89,11 @@ function curvePlot(holder, go) {
   const clamped = (event) => Math.min(Math.max(range.back(event.clientX - svg.getBoundingClientRect().left), range.xLow), range.xHigh);
   svg.addEventListener("pointermove", (event) => {
     pointed = range && clamped(event);
-    tell();
+    report();
   });
   svg.addEventListener("pointerleave", () => {
     pointed = null;
-    tell();
+    report();
   });
   svg.addEventListener("click", (event) => range && go(clamped(event)));
   onWidth(holder, draw);

@@ -3,10 +3,10 @@
 const lineLeft = 14, lineRight = 14, lineY = 58, lineHeight = 84;
 
 /**
- * Creates the time line. Calls `go` with a frame, and `tell` with an event or null. The result has `show`, which
+ * Creates the time line. Calls `go` with a frame, and `report` with an event or null. The result has `show`, which
  * redraws it, and `move`, which moves its handle.
  */
-function timeLine(go, tell) {
+function timeLine(go, report) {
   const svg = byId("timeline");
   let width = 0, handle = null, passed = null;
   const last = Math.max(1, frames.count - 1);
@@ -17,8 +17,8 @@ function timeLine(go, tell) {
     const mark = shape("g", { class: `event ${event.kind}` },
       shape("path", { class: "bar", d: `M${x} ${lineY - 3}v${-3 - 9 * event.size}` }),
       shape("rect", { x: x - 3, y: lineY - 16, width: 6, height: 16, fill: "transparent" }));
-    mark.addEventListener("pointerenter", () => tell(event));
-    mark.addEventListener("pointerleave", () => tell(null));
+    mark.addEventListener("pointerenter", () => report(event));
+    mark.addEventListener("pointerleave", () => report(null));
     return mark;
   };
   /** Creates the marks, with labels in rows so that neighbours do not overlap. */
@@ -35,8 +35,8 @@ function timeLine(go, tell) {
         shape("circle", { cx: x, cy: lineY, r: 3.5 }),
         shape("rect", { x: x - half, y: 0, width: 2 * half, height: lineY, fill: "transparent" }));
       if (row >= 0) mark.append(richShape(event.label, { x, y: lineY - 20 - 13 * row, "text-anchor": "middle" }));
-      mark.addEventListener("pointerenter", () => tell(event));
-      mark.addEventListener("pointerleave", () => tell(null));
+      mark.addEventListener("pointerenter", () => report(event));
+      mark.addEventListener("pointerleave", () => report(null));
       return mark;
     });
   };

@@ -20,20 +20,20 @@ STATE = ("checkpoint/", "results/", "provenance/timing/")
 def find_run(path: Path) -> Path:
     """Returns the packed file of the run called `path`, or its folder while it is being computed. Raises Error if
     neither exists."""
-    beside = path.parent / (path.name + ".run")
-    if path.is_file() and not replaces_packed(manifest_text(beside)):
+    folder_of_run = path.parent / (path.name + ".run")
+    if path.is_file() and not replaces_packed(manifest_text(folder_of_run)):
         return path
-    for folder in (path, beside):
+    for folder in (path, folder_of_run):
         if (folder / NAME).is_file():
             return folder
     if path.is_file():
         return path
     if (path / "ensemble.manifest").exists():
         raise Error(f"{path}: is the folder of an ensemble; open it with talus.open_ensemble")
-    if beside.is_dir() or path.name.endswith(".run") and path.is_dir():
-        raise Error(f"{beside if beside.is_dir() else path}: nothing is committed there yet; wait for the first "
+    if folder_of_run.is_dir() or path.name.endswith(".run") and path.is_dir():
+        raise Error(f"{folder_of_run if folder_of_run.is_dir() else path}: nothing is committed there yet; wait for the first "
                     "checkpoint, or repeat the command of the run")
-    raise Error(f"{path}: no such run; expected a run file, or a folder {beside}")
+    raise Error(f"{path}: no such run; expected a run file, or a folder {folder_of_run}")
 
 
 def manifest_text(folder: Path) -> str:
@@ -60,7 +60,7 @@ class Storage:
         #: Mark that identifies the contents under this name: the seal, or the manifest.
         self.mark: bytes = manifest.encode("utf-8", "surrogateescape")
         if self.complete:
-            with told_as_damage(place):
+            with reported_as_damage(place):
                 self.mark, self._identities[place] = known if known and read_seal(place) == known else check_seal(place)
             self._stored = {place: StoredFile(place, 0, "")}
             self.header = self.state = place
@@ -101,7 +101,7 @@ class Storage:
         values = [self._whole(path, name) for path in self._files_of(name) if holds(path, name)]
         if len(values) < 2:
             return values[0] if values else np.zeros(0)
-        with told_as_damage(self.place):
+        with reported_as_damage(self.place):
             return joined_offsets(values) if name == "contacts/offset" else np.concatenate(values)
 
     def read_frame(self, name: str, k: int) -> np.ndarray:
@@ -183,12 +183,12 @@ class Storage:
     @contextmanager
     def _file(self, path: Path) -> Iterator[CheckedFile]:
         """Yields the file at `path`; failures to read it are raised as Error."""
-        with told_as_damage(path):
+        with reported_as_damage(path):
             yield self._opened(path)
 
 
 @contextmanager
-def told_as_damage(path: Path) -> Iterator[None]:
+def reported_as_damage(path: Path) -> Iterator[None]:
     """Converts everything that a file can raise in h5py and numpy to Error."""
     try:
         yield

@@ -42,7 +42,7 @@ void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
     if (contacts[i] < min_contacts) frame.gamma[i] = not_known;
 }
 
-void take_packing(const BedFrame& bed, int sections, FrameRecord& record) {
+void measure_packing(const BedFrame& bed, int sections, FrameRecord& record) {
   record.volume = frame_volume(bed);
   record.bulk_solid_fraction = bulk_solid_fraction(bed, record.volume);
   const PackingStress stress = packing_stress(bed, record.volume);
@@ -79,12 +79,12 @@ void take_directions(const Frame& frame, int bins, FrameRecord& record) {
 }
 
 void take_contacts(const BedFrame& bed, int bins, FrameRecord& record) {
-  take_coordination(bed, record);
-  take_networks(bed, record);
-  take_critical_contacts(bed, record);
-  take_failure_distance(bed, record.volume / bed.statics.length, record);
-  take_rigid_clusters(bed, record);
-  take_texture(bed, record);
+  measure_coordination(bed, record);
+  measure_networks(bed, record);
+  measure_critical_contacts(bed, record);
+  measure_failure_distance(bed, record.volume / bed.statics.length, record);
+  measure_rigid_clusters(bed, record);
+  measure_texture(bed, record);
   record.force_density = normal_forces(bed.frame, Histogram(force_edges(bins))).density();
   record.mobilisation_density = mobilised_friction(bed, bins).density();
 }
@@ -116,9 +116,9 @@ void take_directed(const BedFrame& bed, const std::vector<bool>& overloaded, con
 FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& rule,
                                  const ClusterGround& ground, double height) {
   FrameThreshold record;
-  take_overloaded(stress::count_overloaded(bed, rule.threshold), bed.statics, record);
+  measure_overloaded(stress::count_overloaded(bed, rule.threshold), bed.statics, record);
   const CoarseGraining lengths = coarse_graining(bed, rule);
-  take_lengths(lengths, record);
+  measure_lengths(lengths, record);
   record.lc.assign(bed.statics.radius.size(), std::numeric_limits<float>::quiet_NaN());
   std::ranges::transform(lengths.length, record.lc.begin(),
                          [](double length) { return static_cast<float>(length); });
@@ -126,7 +126,7 @@ FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& 
   for (const double gamma : of_free_grains(bed.frame.gamma, bed.statics))
     overloaded.push_back(stress::is_overloaded(gamma, rule.threshold));
   const Clusters clusters = find_clusters(overloaded, ground.links, bed.frame.x, period_of(bed.statics));
-  take_clusters(clusters, ground.edges, record);
+  measure_clusters(clusters, ground.edges, record);
   record.cluster.assign(bed.statics.radius.size(), -1);
   std::ranges::copy(clusters.label, record.cluster.begin());
   take_directed(bed, overloaded, ground, height, record);
@@ -144,19 +144,20 @@ std::vector<Link> links_of(const BedFrame& bed, Joining joining) {
   return joining == Joining::contacts ? force_links(bed) : neighbour_links(bed);
 }
 
-void take_overloaded(const stress::OverloadCount& count, const RunStatics& statics, FrameThreshold& record) {
+void measure_overloaded(const stress::OverloadCount& count, const RunStatics& statics,
+                        FrameThreshold& record) {
   record.overloaded_fraction = count.fraction();
   record.overloaded_fraction_of_all = static_cast<double>(count.overloaded) / statics.free_count;
 }
 
-void take_lengths(const CoarseGraining& lengths, FrameThreshold& record) {
+void measure_lengths(const CoarseGraining& lengths, FrameThreshold& record) {
   record.lc_mean = lengths.mean;
   record.lc_error = lengths.standard_error;
   record.lc_max = lengths.largest;
   record.lc_share_cut = static_cast<double>(lengths.cut_off) / lengths.overloaded;
 }
 
-void take_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record) {
+void measure_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record) {
   const Spanning spanning = find_spanning(clusters, edges);
   record.cluster_count = clusters.count();
   record.largest_cluster = largest_size(clusters);
@@ -212,14 +213,14 @@ FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& paramet
                           const Analysis& analysis) {
   FrameRecord record;
   record.tilt = bed.frame.tilt;
-  take_packing(bed, parameters.sections, record);
+  measure_packing(bed, parameters.sections, record);
   take_gamma(bed, parameters.bins, record);
   take_directions(bed.frame, parameters.bins, record);
   take_contacts(bed, parameters.bins, record);
-  take_weak_contacts(bed, analysis.mobilisation_edge, record);
+  measure_weak_contacts(bed, analysis.mobilisation_edge, record);
   take_correlations(bed, parameters.bins, record);
-  take_local_solid_fraction(bed, record);
-  take_granular_temperature(bed, record);
+  measure_local_solid_fraction(bed, record);
+  measure_granular_temperature(bed, record);
   record.thresholds = analyse_thresholds(bed, parameters, analysis, record.volume);
   return record;
 }

@@ -26,9 +26,10 @@ std::vector<Link> links_of(const BedFrame& bed, Joining joining);
 
 /// Set the members of a record that describe the overloaded grains as a whole, their l_c, and their clusters;
 /// the values of single grains are not set.
-void take_overloaded(const stress::OverloadCount& count, const RunStatics& statics, FrameThreshold& record);
-void take_lengths(const CoarseGraining& lengths, FrameThreshold& record);
-void take_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record);
+void measure_overloaded(const stress::OverloadCount& count, const RunStatics& statics,
+                        FrameThreshold& record);
+void measure_lengths(const CoarseGraining& lengths, FrameThreshold& record);
+void measure_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record);
 
 /// Returns an analysis without frames: its thresholds, the edges of bins and sections, and the directions of
 /// paths. `theta_c` is in rad, NaN if the slope has not failed. There are no thresholds if neither theta_c

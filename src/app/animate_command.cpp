@@ -109,7 +109,7 @@ void animate(AnimateArguments& arguments) {
   if (arguments.quiet) return;
   print("%s: %zu frames, %.3g s\n", movie.output.c_str(), drawn.frames,
         static_cast<double>(drawn.frames) / movie.timing.fps);
-  note_coarse_frames(movie, drawn.most_times);
+  note_coarse_frames(movie, drawn.max_times);
 }
 
 }  // namespace

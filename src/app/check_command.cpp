@@ -111,7 +111,7 @@ void print_report(const CheckArguments& arguments, const scenario::Scenario& sce
 }
 
 /// Reports which pieces of the run are damaged, then rethrows `refusal`.
-[[noreturn]] void tell_damage(const CheckArguments& arguments, const Error& refusal) {
+[[noreturn]] void report_damage(const CheckArguments& arguments, const Error& refusal) {
   const std::vector<std::string> pieces = io::damaged_pieces(arguments.scenario);
   if (arguments.json) {
     const Json json = {{"path", arguments.scenario}, {"whole", false}, {"faults", pieces}};
@@ -130,7 +130,7 @@ io::RunFile open_or_tell(const CheckArguments& arguments) {
     return io::RunFile::open(arguments.scenario);
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) throw;
-    tell_damage(arguments, error);
+    report_damage(arguments, error);
   }
 }
 

@@ -133,7 +133,7 @@ void work(const EnsembleArguments& arguments) {
                           : fmt::format("ended with exit code {}", code).c_str());
         std::fflush(stdout);
       }};
-  options.tell_wait = tell_wait;
+  options.on_wait = on_wait;
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   const ensemble::EnsemblePlan plan =
       ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
@@ -158,7 +158,7 @@ void retry(const EnsembleArguments& arguments) {
   const ensemble::EnsemblePlan plan =
       ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
   std::size_t count = begin_damaged_anew(plan, known);
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].stage != ensemble::MemberStage::failed) continue;
     io::remove_file(ensemble::failure_path(plan.members[m].path));

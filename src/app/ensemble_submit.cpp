@@ -80,7 +80,7 @@ ensemble::SlurmJob submit_array(const SubmitArguments& arguments, std::size_t ta
                  ensemble::job_script(array));
   const CommitOnSignals commit;
   const ProgramOutput output = output_of(
-      ensemble::sbatch_words(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
+      ensemble::sbatch_arguments(array, arguments.options), arguments.folder, ProgramEnvironment::whole,
       "sbatch is not on PATH: run this command on a machine from which jobs can be submitted; without Slurm, "
       "start workers with talus ensemble work, or print their commands with --engine print",
       true);
@@ -177,11 +177,11 @@ void requeue(const std::string& folder) {
   const ensemble::TaskMemory memory =
       ensemble::after_start(ensemble::read_memory(folder, job, task), ensemble::mark_of(view.plan));
   ensemble::write_memory(folder, job, task, memory);
-  if (memory.idle_starts >= ensemble::most_idle_starts)
+  if (memory.idle_starts >= ensemble::max_idle_starts)
     throw Error(ExitCode::stopped,
                 fmt::format("the task is not queued again: {} consecutive starts made no progress on any "
                             "member; give more --time or memory, and submit again",
-                            ensemble::most_idle_starts));
+                            ensemble::max_idle_starts));
   print("queued again\n");
   std::fflush(stdout);  // Slurm ends this process too
   const ProgramOutput output = output_of(ensemble::requeue_words(job, task), ".", ProgramEnvironment::whole,
@@ -204,7 +204,7 @@ void add_submit(CLI::App& ensemble) {
   command
       ->add_option("--tasks", arguments->tasks,
                    "Number of workers [as many as members are missing and not yet queued for, at most 100]")
-      ->check(in_range(std::size_t{1}, ensemble::most_tasks));
+      ->check(in_range(std::size_t{1}, ensemble::max_tasks));
   command->add_option(
       "--time", arguments->time,
       "Time limit of a task, HH:MM or HH:MM:SS; its worker stops in time, and the task is queued again");

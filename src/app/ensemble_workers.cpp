@@ -52,7 +52,7 @@ std::string wait_text(const ensemble::EnsemblePlan& plan, const std::vector<ense
 /// extrapolated from the members that finished since the line was started. `before`: estimate (s) for the
 /// members done before that.
 void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   const std::size_t done = ensemble::count_of(states, ensemble::MemberStage::done),
                     failed = ensemble::count_of(states, ensemble::MemberStage::failed);
   const double finished = estimate_of(plan, states, ensemble::MemberStage::done) - before;
@@ -82,9 +82,9 @@ void renew(AveragesOnTheWay& averages, const std::string& folder, ensemble::Know
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < averages.interval) return;
   averages.made = now;
-  const std::size_t done = ensemble::count_of(
-      ensemble::look_at_members(ensemble::plan_of(ensemble::read_ensemble(folder), folder)),
-      ensemble::MemberStage::done);
+  const std::size_t done =
+      ensemble::count_of(ensemble::scan_members(ensemble::plan_of(ensemble::read_ensemble(folder), folder)),
+                         ensemble::MemberStage::done);
   if (done == averages.members) return;
   averages.members = done;
   try {
@@ -109,7 +109,7 @@ std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
 std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
                                              const ensemble::EnsemblePlan& plan,
                                              ensemble::KnownMembers& known) {
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   const std::size_t missing = states.size() - ensemble::count_of(states, ensemble::MemberStage::done) -
                               ensemble::count_of(states, ensemble::MemberStage::failed);
   if (missing == 0) return {};
@@ -139,7 +139,7 @@ std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
 }  // namespace
 
 std::size_t begin_damaged_anew(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known) {
-  std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   ensemble::look_for_damage(plan, states, known);
   std::size_t count = 0;
   for (std::size_t m = 0; m < states.size(); ++m) {
@@ -158,7 +158,7 @@ void compute_members(const EnsembleWorkers& workers, ensemble::KnownMembers& kno
         ensemble::plan_of(ensemble::read_ensemble(workers.folder), workers.folder);
     begin_damaged_anew(plan, known);
     std::vector<ensemble::FailedJob> killed;
-    if (ensemble::has_work(plan, ensemble::look_at_members(plan), watch))
+    if (ensemble::has_work(plan, ensemble::scan_members(plan), watch))
       killed = run_workers(workers, plan, known);
     const EnsembleView view = view_of_ensemble(workers.folder, known);
     const std::size_t ended_now = count_ended(view);
@@ -184,18 +184,18 @@ void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known) {
 }
 
 void refuse_old_tables(const ensemble::EnsemblePlan& plan) {
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].has_old_table && states[m].stage != ensemble::MemberStage::done)
       throw Error(ExitCode::bad_data,
                   fmt::format("{} is the table of a member whose run was not kept by an earlier version of "
                               "Talus; use another folder, or remove the table to compute the member again",
-                              ensemble::file_beside(plan.members[m].path, ".csv")));
+                              ensemble::second_file(plan.members[m].path, ".csv")));
 }
 
 /// Reports variants that a corrected command has withdrawn from an ensemble.
-static void tell_withdrawn(const std::vector<ensemble::Variant>& before,
-                           const std::vector<ensemble::Variant>& now) {
+static void report_withdrawn(const std::vector<ensemble::Variant>& before,
+                             const std::vector<ensemble::Variant>& now) {
   for (const ensemble::Variant& variant : before)
     if (std::ranges::find(now, variant.name, &ensemble::Variant::name) == now.end())
       print_error("talus: note: %s is withdrawn from the ensemble: none of its members could be computed\n",
@@ -216,7 +216,7 @@ void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest&
   prepare_folder(folder);
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
-  tell_withdrawn(before, ensemble::extend_ensemble(folder, asked).variants);
+  report_withdrawn(before, ensemble::extend_ensemble(folder, asked).variants);
   refuse_old_tables(ensemble::plan_of(ensemble::read_ensemble(folder), folder));
   note_missing_locks();
   drop_old_frames(folder, known);
@@ -232,20 +232,20 @@ EnsembleView compute_ensemble(const ensemble::EnsembleManifest& wanted, const En
 }
 
 void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& consequence) {
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   std::vector<ensemble::FailedJob> failed;
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].stage != ensemble::MemberStage::failed) continue;
     const ensemble::MemberFailure failure = ensemble::read_failure(plan.members[m].path);
     failed.push_back(
-        {ensemble::file_beside(plan.members[m].path, ".log"), failure.exit_code, failure.message});
+        {ensemble::second_file(plan.members[m].path, ".log"), failure.exit_code, failure.message});
   }
   if (failed.empty()) return;
   const char* const them = failed.size() == 1 ? "it" : "them";
   ensemble::refuse(failed, fmt::format("{} until talus ensemble retry queues {} again", consequence, them));
 }
 
-void tell_wait(const std::string& member, const std::string& writer) {
+void on_wait(const std::string& member, const std::string& writer) {
   print_error("talus: note: %s is postponed: %s is writing its run\n", member.c_str(), writer.c_str());
 }
 

@@ -50,6 +50,6 @@ EnsembleView compute_ensemble(const ensemble::EnsembleManifest& wanted, const En
 void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& consequence);
 
 /// Reports that a worker postpones a member, and which process is writing its run.
-void tell_wait(const std::string& member, const std::string& writer);
+void on_wait(const std::string& member, const std::string& writer);
 
 }  // namespace talus::app

@@ -126,7 +126,7 @@ std::string event_table(const runs::RunView& run, const EventUnits& unit, std::s
 }
 
 std::string too_few(double count) {
-  return fmt::format("no law: {:.0f} events, {} needed", count, analysis::fewest_to_tell);
+  return fmt::format("no law: {:.0f} events, {} needed", count, analysis::min_to_distinguish);
 }
 
 std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& unit) {
@@ -243,8 +243,8 @@ std::string events_csv(const runs::RunView& run, bool titles) {
 }
 
 std::string moves_text(const MovedGrains& grains) {
-  constexpr std::size_t most_rows = 20;
-  const std::size_t count = grains.moves.size(), shown = std::min(count, most_rows);
+  constexpr std::size_t max_rows = 20;
+  const std::size_t count = grains.moves.size(), shown = std::min(count, max_rows);
   const EventUnits unit(grains.statics);
   std::string text = fmt::format("{}\n{} of {} grains moved {:.6g} D or more since the tilt began\n",
                                  grains.path, count, grains.statics.free_count, grains.displacement);

@@ -46,7 +46,7 @@ exports::ExportFormat format_of(const std::string& name) {
 }
 
 /// Reports that quantities of overloaded grains are left out if the threshold is unknown.
-void tell_what_is_left_out(const io::RunFile& run, const exports::ExportPlan& plan) {
+void report_omissions(const io::RunFile& run, const exports::ExportPlan& plan) {
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   if (!std::isnan(theta_c) || plan.parameters.gamma_c || plan.format == exports::ExportFormat::vti) return;
   print(
@@ -94,7 +94,7 @@ void export_run(const ExportArguments& arguments) {
   const std::size_t count =
       exports::export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
-  if (format.has_frames) tell_what_is_left_out(run, plan);
+  if (format.has_frames) report_omissions(run, plan);
   print("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
         count == 1 ? "" : "s", std::string(format.program).c_str());
 }

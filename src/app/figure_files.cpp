@@ -125,7 +125,7 @@ void write_figure(const figures::Figure& figure, std::span<const figures::RunGro
   else
     draw_maps(figure, workshop.path, options.size);
   for (const std::string& name : figure_files(figure))
-    give_name((workshop.path / name).string(), (fs::path(folder) / name).string());
+    publish_file((workshop.path / name).string(), (fs::path(folder) / name).string());
 }
 
 }  // namespace talus::app

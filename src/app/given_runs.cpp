@@ -13,7 +13,7 @@ namespace talus::app {
 
 std::vector<ensemble::Member> done_members(const std::string& folder) {
   const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   std::vector<ensemble::Member> done;
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].stage == ensemble::MemberStage::done) done.push_back(plan.members[m]);

@@ -53,7 +53,7 @@ void run(std::vector<std::string> words, CLI::App& app) {
       "display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n74 I/O error, 75 stopped "
       "and resumable.");
   refuse_empty_words(app);
-  talus::app::refuse_words(app, words);
+  talus::app::check_arguments(app, words);
   std::ranges::reverse(words);  // the order that the parser expects
   app.parse(std::move(words));
 }

@@ -16,7 +16,7 @@ OutputRule output_of_scenario(const std::string& file, const scenario::Scenario&
 }
 
 void note_missing_locks() {
-  if (const std::string problem = take_lock_problem(); !problem.empty())
+  if (const std::string problem = fetch_lock_problem(); !problem.empty())
     print_error(
         "talus: note: the file system has no locks (%s): do not start a second command that writes the same "
         "output, because it would not be refused\n",

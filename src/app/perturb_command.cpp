@@ -55,7 +55,7 @@ void perturb_seed(const PerturbArguments& arguments, const ensemble::EnsembleMan
   ensemble::KnownMembers known;
   begin_ensemble(arguments.folder, wanted, {arguments.scenario}, known);
   const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
-  ensemble::WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, tell_wait};
+  ensemble::WorkerOptions options{arguments.folder, {}, {}, {}, plan.members.front().name, on_wait};
   while (ensemble::work_on_ensemble(options).elsewhere > 0)
     std::this_thread::sleep_for(std::chrono::seconds(1));
   refuse_failures(plan, "its trials are not complete");
@@ -154,7 +154,7 @@ void add_perturb_command(CLI::App& app) {
       ->check(in_range(0.0, session::PerturbationPlan::highest));
   command->add_option("--every", arguments->plan.every, "Interval of tilt between these states, deg")
       ->capture_default_str()
-      ->check(in_range(session::PerturbationPlan::least_every, session::PerturbationPlan::highest));
+      ->check(in_range(session::PerturbationPlan::min_every, session::PerturbationPlan::highest));
   command
       ->add_option("--patch", arguments->patch,
                    "Width and depth of the pushed part of the surface, in mean diameters")

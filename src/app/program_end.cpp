@@ -64,7 +64,7 @@ int report_malformed(std::string_view path) {
 }
 
 /// Reports lack of memory at exit, because HDF5 calls exit(-1) if some of its allocations fail.
-void tell_exit_out_of_memory() {
+void report_exit_out_of_memory() {
   if (errno == ENOMEM) _exit(report_out_of_memory());
 }
 
@@ -77,7 +77,7 @@ constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
 /// Reports a crash as lack of memory if the last system error was ENOMEM, because errno stays until the next
 /// error; otherwise as a malformed file if HDF5 is reading one. Any other crash takes its usual course and
 /// leaves a core.
-void tell_crash(int signal) {
+void report_crash(int signal) {
   if (errno == ENOMEM) _exit(report_out_of_memory());
   if (io::file_in_use != nullptr) _exit(report_malformed(io::file_in_use));
   std::signal(signal, SIG_DFL);
@@ -90,7 +90,7 @@ void catch_crashes() {
   const stack_t other = {.ss_sp = stack, .ss_flags = 0, .ss_size = sizeof stack};
   sigaltstack(&other, nullptr);
   struct sigaction action = {};
-  action.sa_handler = tell_crash;
+  action.sa_handler = report_crash;
   action.sa_flags = SA_ONSTACK;
   for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
 }
@@ -98,7 +98,7 @@ void catch_crashes() {
 /// Runs before all other initialisation.
 [[gnu::constructor(101)]] void catch_what_main_does_not_see() {
   std::set_terminate(end_without_main);
-  std::atexit(tell_exit_out_of_memory);
+  std::atexit(report_exit_out_of_memory);
   if (!crashes_are_reported) catch_crashes();
 }
 

@@ -188,7 +188,7 @@ std::string unknown_word(const std::vector<ParsedCommand>& commands) {
 
 }  // namespace
 
-void refuse_words(CLI::App& app, const std::vector<std::string>& words) {
+void check_arguments(CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty() || words[0].starts_with('-')) return;
   CLI::App* command = command_called(app, words[0]);
   if (command == nullptr) refuse_command(app, words[0]);

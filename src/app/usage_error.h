@@ -10,7 +10,7 @@ namespace talus::app {
 /// Checks the words before they are parsed. Throws Error(usage) for a first word that is not a command of
 /// `app`, for a word close to a subcommand (`talus ensemble statsu`), and for a long option with a single
 /// dash, which would be parsed as a short option with a value: `-overwrite` as `-o verwrite`.
-void refuse_words(CLI::App& app, const std::vector<std::string>& words);
+void check_arguments(CLI::App& app, const std::vector<std::string>& words);
 
 /// Returns a line on a parse error: an unknown option and the nearest known one, a superfluous word, or the
 /// message of the parser, each with a pointer to the help.

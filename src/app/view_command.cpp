@@ -45,9 +45,9 @@ struct ViewArguments {
   std::string map;                  ///< empty: default of the window
   std::optional<int> grain;         ///< selected grain
   std::vector<std::string> behind;  ///< runs or ensembles drawn behind the curves
-  std::string beside;               ///< run in the second view
-  std::string beside_map;           ///< map of the second view
-  std::string beside_minus;         ///< angle of the frame subtracted in the second view
+  std::string second_view;          ///< run in the second view
+  std::string second_map;           ///< map of the second view
+  std::string second_minus;         ///< angle of the frame subtracted in the second view
   std::string link;                 ///< empty: chosen from the runs
   std::string select;               ///< condition; empty: none
   std::string screenshot;
@@ -78,22 +78,22 @@ const std::vector<std::pair<std::string, view::PlotAxis>> clocks = {
     {"time", view::PlotAxis::time}};
 
 /// Opens the second view, if requested.
-void show_beside(view::ViewModel& model, const ViewArguments& arguments) {
-  view::BesideState& beside = model.state.beside;
-  if (!arguments.beside_map.empty()) beside.layers = pictures::map_layers(arguments.beside_map);
-  if (!arguments.beside_minus.empty())
-    beside.minus = model.frame_tilts().at(model.frame_at_angle(arguments.beside_minus));
-  beside.shown = beside.minus || !beside.layers.empty();
-  if (arguments.beside.empty()) return;
-  model.open_beside(arguments.beside);
+void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
+  view::SecondViewState& second_view = model.state.second_view;
+  if (!arguments.second_map.empty()) second_view.layers = pictures::map_layers(arguments.second_map);
+  if (!arguments.second_minus.empty())
+    second_view.minus = model.frame_tilts().at(model.frame_at_angle(arguments.second_minus));
+  second_view.shown = second_view.minus || !second_view.layers.empty();
+  if (arguments.second_view.empty()) return;
+  model.open_second_run(arguments.second_view);
   if (arguments.link.empty()) return;
-  beside.clock =
+  second_view.clock =
       std::ranges::find(clocks, arguments.link, &std::pair<std::string, view::PlotAxis>::first)->second;
-  if (!model.has_clock(beside.clock))
+  if (!model.has_clock(second_view.clock))
     throw Error(ExitCode::usage,
                 fmt::format("--link {}: both runs need an angle of repose, and the slope of {} has not "
                             "failed; link them by the tilt",
-                            arguments.link, model.theta_c_known() ? arguments.beside : arguments.file));
+                            arguments.link, model.theta_c_known() ? arguments.second_view : arguments.file));
 }
 
 std::vector<std::string> names_of_themes() {
@@ -116,7 +116,7 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
     model.hold();
     model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
   }
-  show_beside(model, arguments);
+  show_second_view(model, arguments);
   if (arguments.select.empty()) return;
   model.state.selecting.condition = arguments.select;
   model.update(0.0);
@@ -130,7 +130,7 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
 OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
   std::vector<std::string> more = arguments.behind;
-  if (!arguments.beside.empty()) more.push_back(arguments.beside);
+  if (!arguments.second_view.empty()) more.push_back(arguments.second_view);
   if (!io::is_run(arguments.file)) {
     const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
     if (!bed.empty()) more.push_back(bed);
@@ -195,8 +195,9 @@ std::string close(view::ViewModel model) {
 void save_picture(const std::string& path, gui::GuiWindow& window, view::ViewModel& model) {
   output_target(path, {.overwrite = false});
   render::Image picture = window.draw_image(model.first().furnished_map(), picture_width);
-  if (model.state.beside.shown)
-    picture = render::beside({picture, window.draw_image(model.second().furnished_map(), picture_width)});
+  if (model.state.second_view.shown)
+    picture =
+        render::side_by_side({picture, window.draw_image(model.second().furnished_map(), picture_width)});
   render::write_png(path, picture);
   model.state.message = "written: " + path;
 }
@@ -330,11 +331,11 @@ void add_view_command(CLI::App& app) {
           "--behind", arguments->behind,
           "Draw another run, or an ensemble's mean and deviation, behind the curves; can be repeated")
       ->allow_extra_args(false);
-  CLI::Option* beside = command->add_option("--beside", arguments->beside,
-                                            "Show this run (RUN.h5) next to the first, at the same angle");
-  command->add_option("--beside-map", arguments->beside_map,
+  CLI::Option* second_view = command->add_option(
+      "--second", arguments->second_view, "Show this run (RUN.h5) next to the first, at the same angle");
+  command->add_option("--second-map", arguments->second_map,
                       "Show this map in a second view [map of the first view]");
-  command->add_option("--beside-minus", arguments->beside_minus,
+  command->add_option("--second-minus", arguments->second_minus,
                       "Show in a second view the changes since the frame at this angle, or at repose: "
                       "grains, and contacts gained and lost");
   command
@@ -342,7 +343,7 @@ void add_view_command(CLI::App& app) {
                    "Quantity that links the frames of two runs: tilt, angle-left (theta_c - theta) or time "
                    "[tilt, or time if the tilt of both follows a programme]")
       ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
-      ->needs(beside);
+      ->needs(second_view);
   command->add_option("--select", arguments->select,
                       "Select the grains that satisfy a condition, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();

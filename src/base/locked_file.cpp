@@ -66,7 +66,7 @@ bool lock(const Descriptor& file, int operation, const std::string& path) {
 
 /// Acquires the lock for writing; returns false if another process writes the file. A process that removes
 /// the file shares its lock for a moment, so this function waits for it.
-bool take_lock(const Descriptor& file, const std::string& path) {
+bool acquire_lock(const Descriptor& file, const std::string& path) {
   return lock(file, LOCK_EX | LOCK_NB, path) ||
          (lock(file, LOCK_SH | LOCK_NB, path) && lock(file, LOCK_EX, path));
 }
@@ -111,11 +111,11 @@ std::optional<bool> is_locked(const std::string& path) {
   return std::nullopt;
 }
 
-std::string take_lock_problem() {
-  constexpr int told = -1;
+std::string fetch_lock_problem() {
+  constexpr int reported = -1;
   const int error = lock_problem();
   if (error <= 0) return "";
-  lock_problem() = told;
+  lock_problem() = reported;
   return std::generic_category().message(error);
 }
 
@@ -136,7 +136,7 @@ std::optional<Descriptor> create(const std::string& path, bool is_folder) {
         made.get() >= 0 ? std::move(made) : open_found(path, is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR);
     if (file.get() < 0 && errno == ENOENT) continue;
     if (file.get() < 0) throw creation_error("open", path, errno);
-    if (!take_lock(file, path)) return std::nullopt;
+    if (!acquire_lock(file, path)) return std::nullopt;
     if (!is_named(path, file)) continue;  // its last holder has renamed or removed it
     if (is_new) return file;
     std::error_code error;

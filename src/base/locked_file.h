@@ -49,6 +49,6 @@ std::optional<bool> is_locked(const std::string& path);
 
 /// Returns the reason why a file that this process writes could not be locked. It is returned once; empty
 /// otherwise. Files are locked deep inside the program, but only commands print.
-std::string take_lock_problem();
+std::string fetch_lock_problem();
 
 }  // namespace talus

@@ -29,7 +29,7 @@ double of_shell() {
 }
 
 /// Returns the smallest limit of a group and its parents. A file without a number ("max") is no limit.
-double least_limit(const fs::path& root, fs::path group, const char* file) {
+double min_limit(const fs::path& root, fs::path group, const char* file) {
   double least = unlimited;
   for (;; group = group.parent_path()) {
     double limit = 0.0;
@@ -47,9 +47,9 @@ double of_groups() {
     const auto first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
     const std::string kinds = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
-    if (kinds.empty()) least = std::min(least, least_limit("/sys/fs/cgroup", group, "memory.max"));
+    if (kinds.empty()) least = std::min(least, min_limit("/sys/fs/cgroup", group, "memory.max"));
     if (kinds == "memory")
-      least = std::min(least, least_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+      least = std::min(least, min_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
   }
   return least;
 }

@@ -213,7 +213,7 @@ void sync_name(const std::string& path) {
   sync(folder, path);
 }
 
-void give_name(const std::string& made, const std::string& path) {
+void publish_file(const std::string& made, const std::string& path) {
   const std::string target = output_target(path);
   const Descriptor file(::open(made.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   if (file.get() < 0) throw system_error(ExitCode::io_error, "open", made, errno);

@@ -83,7 +83,7 @@ class MemoryFile {
 
 /// Gives a complete file `made` by another program the name `path`, as OutputFile::commit does, even on
 /// another file system. Throws the errors of OutputFile.
-void give_name(const std::string& made, const std::string& path);
+void publish_file(const std::string& made, const std::string& path);
 
 /// Returns the folder that contains `path`; "." for a bare name.
 std::string parent_folder(const std::string& path);

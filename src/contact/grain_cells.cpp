@@ -83,7 +83,7 @@ void sort_into_cells(const Grains& grains, const Boundary& boundary, double cell
   cells.start[0] = 0;
 }
 
-std::size_t most_neighbours(const Grains& grains, const Boundary& boundary) {
+std::size_t max_neighbours(const Grains& grains, const Boundary& boundary) {
   return 3 * grains.x.size() + boundary.planes.size() + 1;
 }
 

@@ -33,7 +33,7 @@ inline std::int8_t shift_of(std::int64_t neighbour) { return static_cast<std::in
 
 /// Returns the largest possible number of neighbours of a grain, three images of each other grain and the
 /// planes, plus one place for a rejected candidate.
-std::size_t most_neighbours(const Grains& grains, const Boundary& boundary);
+std::size_t max_neighbours(const Grains& grains, const Boundary& boundary);
 
 /// A search for the neighbours of grain a: grains with ids from `least` on, and planes, up to a gap of
 /// `range`. The range is at most the size of a cell minus the largest diameter.
@@ -41,7 +41,7 @@ struct NeighbourSearch {
   Index a = 0;
   Index least = 0;
   double range = 0.0;
-  std::int64_t* end = nullptr;  ///< position of the next neighbour; there must be room for most_neighbours
+  std::int64_t* end = nullptr;  ///< position of the next neighbour; there must be room for max_neighbours
 };
 void search_grains(const GrainCells& cells, const Grains& grains, NeighbourSearch& search);
 void search_planes(const Grains& grains, const Boundary& boundary, NeighbourSearch& search);

@@ -50,7 +50,7 @@ void sort_neighbours(std::int64_t* first, std::int64_t* end) {
 /// grain, counted from the first of these grains. Returns the end of the last ones.
 std::size_t find_neighbours(NeighbourList& list, const Grains& grains, const Boundary& boundary, double range,
                             std::size_t first, std::size_t last, std::vector<std::int64_t>& found) {
-  const std::size_t most = most_neighbours(grains, boundary);
+  const std::size_t most = max_neighbours(grains, boundary);
   std::size_t end = 0;
   for (std::size_t a = first; a < last; ++a) {
     list.first_found[a] = end;
@@ -83,7 +83,7 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [count, parts](std::size_t part) { return count * part / parts; };
   // Reserves room for the longest list so far, so that nothing is allocated if the size of the team varies.
-  const std::size_t room = list.pairs.a.capacity() + most_neighbours(grains, boundary);
+  const std::size_t room = list.pairs.a.capacity() + max_neighbours(grains, boundary);
   if (list.found.size() < parts) list.found.resize(parts);
   for (auto& found : list.found)
     if (found.size() < room) found.resize(room);
@@ -121,12 +121,12 @@ void prepare_search(const Grains& grains, const Boundary& boundary, double range
 
 /// Returns the largest number of grains whose pairs are listed again; if more have moved, the entire list is
 /// built.
-std::size_t most_renewed(const Grains& grains) { return grains.x.size() / 8; }
+std::size_t max_renewed(const Grains& grains) { return grains.x.size() / 8; }
 
 /// Reserves memory, so that renewals usually allocate nothing.
 void make_room_for_renewals(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
   const std::size_t pairs = list.pairs.count();
-  list.moved.reserve(most_renewed(grains) + 1);
+  list.moved.reserve(max_renewed(grains) + 1);
   list.has_moved.reserve(grains.x.size() + boundary.planes.size());
   list.renewed.reserve(pairs);
   for (CandidatePairs* const each : {&list.pairs, &list.next}) each->reserve(pairs + pairs / 8);
@@ -176,7 +176,7 @@ bool fits(const NeighbourList& list, const Grains& grains, double reach) {
 /// Finds the grains whose pairs must be listed again, and those whose pairs soon would be. Returns false if
 /// they are too many for this to pay.
 bool find_moved(NeighbourList& list, const Grains& grains, const Boundary& boundary) {
-  const std::size_t most = most_renewed(grains);
+  const std::size_t most = max_renewed(grains);
   list.has_moved.assign(grains.x.size() + boundary.planes.size(), 0);
   list.moved.clear();
   for (std::size_t i = 0; i < grains.x.size(); ++i) {
@@ -194,7 +194,7 @@ void search_moved(NeighbourList& list, const Grains& grains, const Boundary& bou
   const double range = list.reach + (farthest + far + farthest) * list.skin;
   prepare_search(grains, boundary, range, list);
   std::vector<std::int64_t>& found = list.found.front();
-  if (const std::size_t most = most_neighbours(grains, boundary); found.size() < most) found.resize(2 * most);
+  if (const std::size_t most = max_neighbours(grains, boundary); found.size() < most) found.resize(2 * most);
   list.renewed.clear();
   for (const Index grain : list.moved) {
     NeighbourSearch search{.a = grain, .least = 0, .range = range, .end = found.data()};

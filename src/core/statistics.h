@@ -35,7 +35,7 @@ Resamples resamples_of(int values);
 
 /// Largest number of values that are resampled. For more values the bootstrap interval equals that of
 /// Student's t, which is used instead.
-inline constexpr int most_resampled = 200;
+inline constexpr int max_resampled = 200;
 
 /// Returns the summary of the values that are not NaN. `resamples` are those of their number, or empty. With
 /// them the interval is the percentile bootstrap (Efron 1979), from 2.5 % to 97.5 % of the means of all

@@ -61,7 +61,7 @@ Index arrived_by(double time, const PourRule& rule, Index count) {
   return whole + 1.0 >= count ? count : static_cast<Index>(whole) + 1;
 }
 
-Grains with_all_arrivals(Grains grains, std::span<const Arrival> arrivals, double density) {
+Grains with_remaining_grains(Grains grains, std::span<const Arrival> arrivals, double density) {
   Grains waiting;
   for (auto i = static_cast<std::size_t>(grains.free_count); i < arrivals.size(); ++i)
     add_disk(waiting, {arrivals[i].x, 0.0}, arrivals[i].radius, density, false);
@@ -69,7 +69,7 @@ Grains with_all_arrivals(Grains grains, std::span<const Arrival> arrivals, doubl
   return grains;
 }
 
-void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double h, World& world) {
+void add_due_grains(std::span<const Arrival> arrivals, const PourRule& rule, double h, World& world) {
   const Index first = world.grains.free_count;
   const Index due = arrived_by(world.time, rule, static_cast<Index>(arrivals.size()));
   if (due <= first) return;

@@ -35,12 +35,12 @@ Index arrived_by(double time, const PourRule& rule, Index count);
 
 /// Returns the grains with all arrivals that are missing inserted after the free ones. Only sizes and masses
 /// of the inserted grains are meaningful, not their positions.
-Grains with_all_arrivals(Grains grains, std::span<const Arrival> arrivals, double density);
+Grains with_remaining_grains(Grains grains, std::span<const Arrival> arrivals, double density);
 
 /// Adds the arrivals that are due at the time of the world, before a step of length h (s). The free grains of
 /// the world must be the arrivals before them. Each gets the next id of a free grain; the ids of floor grains
 /// and planes increase, in the contacts as well. A grain is placed above the first body in its way by the
 /// distance that it falls in h/2, so that it touches at the midpoint of the step.
-void let_arrive(std::span<const Arrival> arrivals, const PourRule& rule, double h, World& world);
+void add_due_grains(std::span<const Arrival> arrivals, const PourRule& rule, double h, World& world);
 
 }  // namespace talus::dynamics

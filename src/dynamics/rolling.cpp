@@ -7,7 +7,7 @@
 namespace talus::dynamics {
 namespace {
 
-constexpr int most_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains needs some hundreds
+constexpr int max_moves = 1'000'000;  // falls and rolls of one grain; a tower of grains needs some hundreds
 
 /// A grain rolling on a disc. Its centre moves on a circle about that of the disc, from `direction` down to
 /// the equator. Positions are relative to the centre of the disc, so that they are equally precise
@@ -40,7 +40,7 @@ class Path {
   Path(const DiscGrid& bed, const FallingGrain& grain) : bed_(bed), grain_(grain), x_(grain.x) {}
 
   Vec2 end() {
-    for (int move = 0; move < most_moves; ++move)
+    for (int move = 0; move < max_moves; ++move)
       if (const std::optional<Vec2> place = roll_ ? go_on_rolling() : fall()) return *place;
     throw Error(ExitCode::internal, "the position of rest of a grain was not found");
   }

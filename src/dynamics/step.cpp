@@ -234,7 +234,7 @@ StageSeconds begin_step(World& world, const StepSettings& settings, StepWorkspac
   const double h = settings.h;
   Grains& grains = world.grains;
   Contacts& contacts = workspace.contacts;
-  ThreadTeam* const team = solver::team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  ThreadTeam* const team = solver::solver_team(workspace.problem, settings.solver, workspace.solver);
   const double margin = detection_margin(world, settings, team);
   workspace.image.reserve(grains.image.size());
   begin_motion(world, h, team, workspace.before);
@@ -260,7 +260,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   report.solver =
       solver::solve(workspace.problem, settings.solver, workspace.solver, workspace.solution);  // (T7)
   clock.end_of(Stage::solve);
-  ThreadTeam* const team = solver::team_at_hand(workspace.problem, settings.solver, workspace.solver);
+  ThreadTeam* const team = solver::solver_team(workspace.problem, settings.solver, workspace.solver);
   if (!finite(workspace.solution, team)) {
     copy_positions(workspace.before, 0, free_grains(world), world.grains);
     throw Error(ExitCode::internal, fmt::format("step {}: a velocity is not finite", world.step + 1));

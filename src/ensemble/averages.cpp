@@ -18,7 +18,7 @@ const Resamples& resamples_for(const std::vector<double>& values, ResamplesByCou
       static_cast<int>(std::ranges::count_if(values, [](double value) { return !std::isnan(value); }));
   auto found = known.find(count);
   if (found == known.end())
-    found = known.emplace(count, count <= most_resampled ? resamples_of(count) : Resamples{}).first;
+    found = known.emplace(count, count <= max_resampled ? resamples_of(count) : Resamples{}).first;
   return found->second;
 }
 

@@ -34,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* first_line = "talus ensemble 1";
-constexpr std::size_t most_variants = 10000;
+constexpr std::size_t max_variants = 10000;
 constexpr std::size_t longest_name = 255;  // bytes of a folder name
 
 std::string hash_of(const std::string& text) { return hash_text(hash_bytes(std::as_bytes(std::span(text)))); }
@@ -124,8 +124,8 @@ void take_variant(EnsembleManifest& manifest, const std::string& rest) {
   if (!is_name_of_folder(name))
     throw Error(ExitCode::bad_data, "expected a variant whose name is a folder in this one");
   if (is_there(manifest, name)) throw Error(ExitCode::bad_data, "expected unique names");
-  if (manifest.variants.size() == most_variants)
-    throw Error(ExitCode::bad_data, fmt::format("expected at most {} variants", most_variants));
+  if (manifest.variants.size() == max_variants)
+    throw Error(ExitCode::bad_data, fmt::format("expected at most {} variants", max_variants));
   manifest.variants.push_back({name, "", {}, "", {rest.substr(0, end), ""}});
 }
 
@@ -193,7 +193,7 @@ bool has_failed_itself(const Member& member) {
 /// Whether a variant has only failures: no member has a run, is done or is under way.
 bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
   const EnsemblePlan plan = plan_ensemble(found.seeds, {variant}, folder);
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<MemberState> states = scan_members(plan);
   bool has_failed = false;
   for (std::size_t m = 0; m < states.size(); ++m) {
     const MemberStage stage = states[m].stage;
@@ -329,9 +329,9 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
   std::vector<std::vector<std::string>> combinations = {{}};
   for (const std::string& axis : axes) {
     const auto values = parse_axis(axis);
-    if (combinations.size() * values.size() > most_variants)
+    if (combinations.size() * values.size() > max_variants)
       throw Error(ExitCode::usage, fmt::format("--vary: {} combinations of values; expected at most {}",
-                                               combinations.size() * values.size(), most_variants));
+                                               combinations.size() * values.size(), max_variants));
     combinations = combined(combinations, values);
   }
   std::vector<Variant> variants;

@@ -75,7 +75,7 @@ std::size_t drop_frames(const EnsembleManifest& manifest, const EnsemblePlan& pl
 }
 
 void drop_leftovers(const EnsemblePlan& plan) {
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<MemberState> states = scan_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
     const std::string& path = plan.members[m].path;
     if (states[m].stage == MemberStage::done && states[m].has_folder) discard_packed(path);

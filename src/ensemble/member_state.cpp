@@ -63,7 +63,7 @@ MemberState state_of(const FolderNames& names, const std::string& run) {
 
 }  // namespace
 
-std::vector<MemberState> look_at_members(const EnsemblePlan& plan) {
+std::vector<MemberState> scan_members(const EnsemblePlan& plan) {
   std::map<std::string, FolderNames> folders;
   std::vector<MemberState> states;
   states.reserve(plan.members.size());
@@ -78,7 +78,7 @@ std::vector<MemberState> look_at_members(const EnsemblePlan& plan) {
 }
 
 std::vector<std::size_t> done_members(const EnsemblePlan& plan) {
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<MemberState> states = scan_members(plan);
   std::vector<std::size_t> done;
   for (std::size_t m = 0; m < states.size(); ++m)
     if (states[m].stage == MemberStage::done) done.push_back(m);
@@ -89,7 +89,7 @@ std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) 
   return static_cast<std::size_t>(std::ranges::count(states, stage, &MemberState::stage));
 }
 
-std::string failure_path(const std::string& run) { return file_beside(run, failure_ending); }
+std::string failure_path(const std::string& run) { return second_file(run, failure_ending); }
 
 void record_failure(const std::string& run, const MemberFailure& failure) {
   io::write_text(failure_path(run), fmt::format("exit code {}\n{}\n", failure.exit_code, failure.message));

@@ -26,7 +26,7 @@ struct MemberState {
 };
 
 /// Returns the states of all members, in the order of the plan. Scans each folder once.
-std::vector<MemberState> look_at_members(const EnsemblePlan& plan);
+std::vector<MemberState> scan_members(const EnsemblePlan& plan);
 
 /// Returns the indices of the completed members, in the order of the plan.
 std::vector<std::size_t> done_members(const EnsemblePlan& plan);

@@ -109,7 +109,7 @@ std::vector<const analysis::FrameRecord*> frames_to_failure(const analysis::Anal
 
 MemberSeries member_series(const analysis::Analysis& analysis, double mean_diameter) {
   const std::vector<const analysis::FrameRecord*> frames = frames_to_failure(analysis);
-  const bool other_side = analysis::last_rise(analysis.frames).other_side;
+  const bool mirrored_slope = analysis::last_rise(analysis.frames).mirrored_slope;
   MemberSeries found{tilts_of(frames), {}};
   for (const analysis::Quantity& quantity : analysis::quantities()) {
     if (!analysis::is_number_of_frame(quantity)) continue;
@@ -118,7 +118,7 @@ MemberSeries member_series(const analysis::Analysis& analysis, double mean_diame
       NamedSeries series{element_name(quantity.name, f), analysis::scaled_unit(quantity.unit), {}};
       for (const analysis::FrameRecord* frame : frames)
         series.values.push_back(analysis::scaled(
-            quantity.unit, analysis::number_on_one_side(quantity, *frame, f, other_side), mean_diameter));
+            quantity.unit, analysis::number_on_one_side(quantity, *frame, f, mirrored_slope), mean_diameter));
       found.series.push_back(std::move(series));
     }
   }

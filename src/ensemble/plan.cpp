@@ -13,13 +13,13 @@
 namespace talus::ensemble {
 namespace {
 
-constexpr std::size_t most_seeds = 10000;
+constexpr std::size_t max_seeds = 10000;
 constexpr std::uint64_t largest_seed = std::numeric_limits<std::int64_t>::max();  // largest TOML integer
 
 [[noreturn]] void refuse_seeds(const std::string& text) {
   throw Error(ExitCode::usage, fmt::format("--seeds {}: expected seeds such as 1-4, 7 or 1-3,8, at most {}, "
                                            "none above {}",
-                                           visible_word(text), most_seeds, largest_seed));
+                                           visible_word(text), max_seeds, largest_seed));
 }
 
 std::uint64_t parse_seed(const std::string& part, const std::string& text) {
@@ -47,9 +47,9 @@ std::vector<std::uint64_t> parse_seeds(const std::string& text) {
     const std::size_t dash = part.find('-');
     const std::uint64_t first = parse_seed(part.substr(0, dash), text);
     const std::uint64_t last = dash == std::string::npos ? first : parse_seed(part.substr(dash + 1), text);
-    if (last < first || last - first >= most_seeds) refuse_seeds(text);
+    if (last < first || last - first >= max_seeds) refuse_seeds(text);
     for (std::uint64_t k = 0; k <= last - first; ++k) seeds.insert(first + k);
-    if (seeds.size() > most_seeds) refuse_seeds(text);
+    if (seeds.size() > max_seeds) refuse_seeds(text);
   }
   return {seeds.begin(), seeds.end()};
 }
@@ -81,7 +81,7 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan) {
   return seconds;
 }
 
-std::string file_beside(const std::string& path, const char* ending) {
+std::string second_file(const std::string& path, const char* ending) {
   return std::filesystem::path(path).replace_extension(ending).string();
 }
 

@@ -59,6 +59,6 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan);
 std::vector<std::string> split(const std::string& text, char separator);
 
 /// Returns the path of a member with another extension, such as ".log".
-std::string file_beside(const std::string& path, const char* ending);
+std::string second_file(const std::string& path, const char* ending);
 
 }  // namespace talus::ensemble

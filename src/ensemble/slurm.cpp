@@ -89,7 +89,7 @@ exec "$talus" ensemble requeue .
                      joined(worker_words(array), " "));
 }
 
-std::vector<std::string> sbatch_words(const SlurmArray& array, const std::vector<std::string>& options) {
+std::vector<std::string> sbatch_arguments(const SlurmArray& array, const std::vector<std::string>& options) {
   const std::string name = std::filesystem::path(array.folder).filename().string();
   std::vector<std::string> words = {
       "sbatch",

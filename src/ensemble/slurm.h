@@ -20,7 +20,7 @@ struct SlurmArray {
 };
 
 /// Default and largest number of tasks in an array; Slurm accepts the largest with its default settings.
-inline constexpr std::size_t usual_tasks = 100, most_tasks = 1000;
+inline constexpr std::size_t usual_tasks = 100, max_tasks = 1000;
 
 /// Returns the time before the end of a task at which Slurm sends SIGUSR1 to its script, s: one minute, or a
 /// tenth of the time limit if it is below ten minutes. The worker stops by itself at twice that time before
@@ -40,7 +40,7 @@ std::string job_script(const SlurmArray& array);
 
 /// Returns the `sbatch` command for that script, which is `slurm/job.sh` in the working directory of sbatch.
 /// No argument contains a path. `options` come last and so take precedence.
-std::vector<std::string> sbatch_words(const SlurmArray& array, const std::vector<std::string>& options);
+std::vector<std::string> sbatch_arguments(const SlurmArray& array, const std::vector<std::string>& options);
 
 /// A job that was submitted.
 struct SlurmJob {

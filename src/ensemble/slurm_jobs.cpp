@@ -78,7 +78,7 @@ void record_job(const std::string& folder, const SlurmJob& job) {
 
 void forget_job(const std::string& folder, const SlurmJob& job) {
   io::remove_file(job_path(folder, job.id));
-  for (std::size_t task = 1; task <= std::min(job.tasks, most_tasks); ++task)
+  for (std::size_t task = 1; task <= std::min(job.tasks, max_tasks); ++task)
     io::remove_file(memory_path(folder, job.id, std::to_string(task)));
 }
 
@@ -93,7 +93,7 @@ std::vector<SlurmJob> recorded_jobs(const std::string& folder) {
 
 EnsembleMark mark_of(const EnsemblePlan& plan) {
   EnsembleMark mark;
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<MemberState> states = scan_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
     const std::string& path = plan.members[m].path;
     if (states[m].stage == MemberStage::done || states[m].stage == MemberStage::failed) {

@@ -36,7 +36,7 @@ EnsembleMark mark_of(const EnsemblePlan& plan);
 bool is_further(const EnsembleMark& now, const EnsembleMark& before);
 
 /// Largest number of consecutive starts of a task without progress of any member.
-inline constexpr int most_idle_starts = 3;
+inline constexpr int max_idle_starts = 3;
 
 /// The progress that a task remembers from one start to the next.
 struct TaskMemory {

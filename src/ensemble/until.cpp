@@ -63,7 +63,7 @@ bool is_reached(const Precision& precision, const EnsemblePlan& plan,
   }
   return std::ranges::all_of(values, [&](const std::vector<double>& of_variant) {
     const Statistics found = statistics_of(of_variant);
-    return found.count >= least_members && found.error <= precision.error;
+    return found.count >= min_members && found.error <= precision.error;
   });
 }
 

@@ -18,7 +18,7 @@ struct Precision {
 };
 
 /// The standard error is unreliable with fewer values.
-inline constexpr int least_members = 5;
+inline constexpr int min_members = 5;
 
 /// Parses a criterion. Throws Error(usage), naming --until, if the text has another form or the quantity is
 /// not a scalar result.
@@ -29,7 +29,7 @@ Precision parse_precision(const std::string& text);
 std::vector<MemberNumbers> numbers_of(const EnsemblePlan& plan, const std::vector<MemberState>& states,
                                       KnownMembers& known);
 
-/// Whether the mean of each variant has that precision, with at least `least_members` values. `numbers` comes
+/// Whether the mean of each variant has that precision, with at least `min_members` values. `numbers` comes
 /// from numbers_of.
 bool is_reached(const Precision& precision, const EnsemblePlan& plan,
                 const std::vector<MemberNumbers>& numbers);

@@ -50,7 +50,7 @@ struct Taken {
 
 /// Whether a newly acquired claim is valid, for a member that still has to be computed.
 bool still_ours(const EnsemblePlan& plan, std::size_t member, const Claim& claim) {
-  const MemberState now = look_at_members(plan)[member];
+  const MemberState now = scan_members(plan)[member];
   return now.stage == MemberStage::claimed && now.claim == claim.number();
 }
 
@@ -62,9 +62,9 @@ bool is_written(const Member& member, Worker& worker) {
     worker.waits_for.erase(member.name);
     return false;
   }
-  std::string& told = worker.waits_for[member.name];
-  if (told != writer && worker.options.tell_wait) worker.options.tell_wait(member.name, writer);
-  told = writer;
+  std::string& reported = worker.waits_for[member.name];
+  if (reported != writer && worker.options.on_wait) worker.options.on_wait(member.name, writer);
+  reported = writer;
   return true;
 }
 
@@ -120,16 +120,16 @@ void compute(Worker& worker, Taken& taken) {
     arguments.emplace_back("--max-wall");
     arguments.push_back(*left);
   }
-  if (worker.options.tell) worker.options.tell(member.name, -1);
+  if (worker.options.on_end) worker.options.on_end(member.name, -1);
   bool lost = false;
   const auto keep_claim = [&] { return !(lost = lost || !taken.claim.beat()); };
   const std::vector<FailedJob> failed =
-      run_jobs({{std::move(arguments), file_beside(member.path, ".log")}}, "the worker", keep_claim);
+      run_jobs({{std::move(arguments), second_file(member.path, ".log")}}, "the worker", keep_claim);
   const int code = failed.empty() ? 0 : failed.front().exit_code;
   // Another worker continues the member, so that the error of a process that was considered dead does not
   // count as a failure.
   if (lost || (code != 0 && !taken.claim.beat())) return;
-  if (worker.options.tell) worker.options.tell(member.name, code);
+  if (worker.options.on_end) worker.options.on_end(member.name, code);
   if (code == static_cast<int>(ExitCode::stopped))
     throw Error(ExitCode::stopped,
                 "the worker was stopped; the members under way resume from their checkpoints");
@@ -164,7 +164,7 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
   for (;;) {
     const EnsembleManifest manifest = read_ensemble(options.folder);
     const EnsemblePlan plan = plan_of(manifest, options.folder);
-    std::vector<MemberState> states = look_at_members(plan);
+    std::vector<MemberState> states = scan_members(plan);
     if (!manifest.until.empty()) look_for_damage(plan, states, worker.known);
     worker.end.enough = !manifest.until.empty() && is_reached(parse_precision(manifest.until), plan,
                                                               numbers_of(plan, states, worker.known));

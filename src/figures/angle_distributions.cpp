@@ -9,7 +9,7 @@
 namespace talus::figures {
 namespace {
 
-constexpr std::size_t most_bins = 60;
+constexpr std::size_t max_bins = 60;
 constexpr std::size_t panels_in_row = 3;
 
 /// Returns a summary: "mean 19.16 ± 0.09, median 19.17, n = 50".
@@ -75,7 +75,7 @@ HistogramBins bins_for(const std::vector<double>& values) {
   double wanted = 2.0 * (summary.upper_quartile - summary.lower_quartile) /
                   std::cbrt(static_cast<double>(numbers.size()));
   // Rounding may halve the width.
-  wanted = std::max(wanted, (high - low) / static_cast<double>(most_bins) * 2.5);
+  wanted = std::max(wanted, (high - low) / static_cast<double>(max_bins) * 2.5);
   if (!(wanted > 0.0)) wanted = 0.5;
   const double width = round_step(wanted);
   const double first = std::floor(low / width) - 1.0;

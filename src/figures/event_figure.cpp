@@ -140,7 +140,7 @@ void add_laws(Figure& figure, const RunGroup& group, const std::vector<Column>& 
 }
 
 /// Returns the number of rows of the largest table.
-std::size_t most_events(const Figure& figure) {
+std::size_t max_events(const Figure& figure) {
   std::size_t most = 1;
   for (const Table& table : figure.tables) most = std::max(most, table.columns[0].values.size());
   return most;
@@ -200,7 +200,7 @@ std::optional<Figure> event_figure(std::span<const RunGroup> groups) {
   if (figure.groups == 0) return std::nullopt;
   set_range(figure, "energy", "energy");
   set_range(figure, "waiting", "waiting");
-  set_variable(figure, "events_most", static_cast<double>(most_events(figure)));
+  set_variable(figure, "events_most", static_cast<double>(max_events(figure)));
   set_variable(figure, "largest_change", largest_change(figure));
   return figure;
 }

@@ -64,7 +64,7 @@ RunChoice with_distributions(RunChoice runs) {
 FramesAtAngle frames_at_angle(const RunChoice& runs, double tilt) {
   FramesAtAngle result;
   for (const runs::RunView* run : runs)
-    if (stands_at(*run, tilt)) {
+    if (has_frame_near(*run, tilt)) {
       result.runs.push_back(run);
       result.frames.push_back(frame_nearest(*run, tilt));
     }
@@ -140,7 +140,7 @@ void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& ru
     figure.tables.push_back(
         {fmt::format("{}-runs", table_name(group)), runs_one_by_one(runs, columns, abscissa), true});
     set_variable(figure, fmt::format("drawn_{}", figure.groups),
-                 static_cast<double>(std::min(runs.size(), most_runs_drawn)));
+                 static_cast<double>(std::min(runs.size(), max_runs_drawn)));
     set_variable(figure, fmt::format("runs_{}", figure.groups),
                  gnuplot_string(file_of(figure, figure.tables.back())));
   }

@@ -11,7 +11,7 @@
 namespace talus::figures {
 namespace {
 
-constexpr int least_runs = 2;
+constexpr int min_runs = 2;
 
 }  // namespace
 
@@ -22,7 +22,7 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
     for (const RunChoice& runs : choices) {
       std::vector<double>& values = angle.values.emplace_back();
       for (const runs::RunView* run : runs) values.push_back(value_of(*run));
-      is_known = is_known || statistics_of(values).count >= least_runs;
+      is_known = is_known || statistics_of(values).count >= min_runs;
     }
     if (is_known) angles.push_back(std::move(angle));
   };
@@ -41,7 +41,7 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
   RunChoice all;
   for (const RunChoice& runs : choices) all.insert(all.end(), runs.begin(), runs.end());
   if (all.empty()) return angles;
-  std::vector<Estimator> estimators = estimators_of(most_analysed(all));
+  std::vector<Estimator> estimators = estimators_of(max_analysed(all));
   std::ranges::reverse(estimators);
   for (const Estimator& estimator : estimators)
     add({ensemble::element_name(analysis::quantity_of(estimator.member).name, estimator.element),
@@ -55,7 +55,7 @@ std::vector<RunAngle> run_angles(const std::vector<RunChoice>& choices) {
 AngleGroups angle_groups(std::span<const RunGroup> groups) {
   AngleGroups found;
   for (const RunGroup& group : groups) {
-    if (group.runs.size() < least_runs) continue;
+    if (group.runs.size() < min_runs) continue;
     found.groups.push_back(&group);
     found.choices.push_back(all_runs(group));
   }

@@ -53,7 +53,7 @@ std::string folder_name(const RunGroup& group) {
 }
 
 /// Adds the folders to labels that several groups share.
-void tell_folders_apart(std::vector<RunGroup>& groups) {
+void distinguish_folders(std::vector<RunGroup>& groups) {
   std::vector<std::string> labels;
   for (const RunGroup& group : groups) labels.push_back(group.label);
   for (RunGroup& group : groups)
@@ -61,7 +61,7 @@ void tell_folders_apart(std::vector<RunGroup>& groups) {
 }
 
 /// Adds the keys in which they differ to the labels that several groups share.
-void tell_apart(std::vector<RunGroup>& groups) {
+void distinguish_by_name(std::vector<RunGroup>& groups) {
   std::vector<std::string> additions(groups.size()), names;
   for (const RunGroup& group : groups)
     if (auto more = scenario::key_names(essence_of(group)); more.size() > names.size())
@@ -96,8 +96,8 @@ std::vector<RunGroup> group_runs(std::vector<runs::RunView> runs) {
     if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
     group->runs.push_back(std::move(run));
   }
-  tell_apart(groups);
-  tell_folders_apart(groups);
+  distinguish_by_name(groups);
+  distinguish_folders(groups);
   std::ranges::for_each(groups, sort_by_seed);
   std::ranges::stable_sort(groups, {}, [](const RunGroup& group) {
     return group.periodic() ? 0.0 : group.runs.front().scenario.bed.length;

@@ -32,7 +32,7 @@ RunCurve curve_over_tilt(const runs::RunView& run, std::span<const FrameColumn> 
   for (const FrameColumn& column : columns) {
     std::vector<double>& values = curve.values.emplace_back();
     for (std::size_t frame = 0; frame < curve.angles.size(); ++frame)
-      values.push_back((column.has_side && rise.other_side ? -1.0 : 1.0) *
+      values.push_back((column.has_side && rise.mirrored_slope ? -1.0 : 1.0) *
                        column.value(run, rise.first + frame));
   }
   return curve;
@@ -122,7 +122,7 @@ std::size_t frame_nearest(const runs::RunView& run, double tilt) {
          static_cast<std::size_t>(std::ranges::min_element(rise.tilts, {}, distance) - rise.tilts.begin());
 }
 
-bool stands_at(const runs::RunView& run, double tilt) {
+bool has_frame_near(const runs::RunView& run, double tilt) {
   const double theta_c = theta_c_of(run);
   return std::isnan(theta_c) ? runs::last_rise_of(run).tilts.back() > tilt - same_tilt : theta_c > tilt;
 }
@@ -164,7 +164,7 @@ std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
   name_angle(columns[1], abscissa);
   for (const FrameColumn& column : columns_of_frames)
     columns.push_back({column.name, column.unit, column.meaning, {}});
-  for (const runs::RunView* run : runs.first(std::min(runs.size(), most_runs_drawn))) {
+  for (const runs::RunView* run : runs.first(std::min(runs.size(), max_runs_drawn))) {
     const RunCurve curve = curve_of(*run, columns_of_frames, abscissa);
     for (std::size_t k = 0; k < curve.angles.size(); ++k) {
       columns[0].values.push_back(static_cast<double>(run->scenario.seed));

@@ -51,7 +51,7 @@ double theta_c_of(const runs::RunView& run);
 std::size_t frame_nearest(const runs::RunView& run, double tilt);
 
 /// Whether the slope was tilted up to `tilt`, rad, before it failed.
-bool stands_at(const runs::RunView& run, double tilt);
+bool has_frame_near(const runs::RunView& run, double tilt);
 
 /// A number for each frame of a run; NaN for a missing value.
 struct FrameColumn {
@@ -73,9 +73,9 @@ std::vector<Column> means_over_runs(std::span<const runs::RunView* const> runs,
                                     Abscissa abscissa = Abscissa::tilt);
 
 /// Largest number of single runs that are drawn behind their mean.
-inline constexpr std::size_t most_runs_drawn = 100;
+inline constexpr std::size_t max_runs_drawn = 100;
 
-/// Returns the seed, the angle and each column, run by run, for the first most_runs_drawn runs.
+/// Returns the seed, the angle and each column, run by run, for the first max_runs_drawn runs.
 std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames,
                                     Abscissa abscissa = Abscissa::tilt);

@@ -35,7 +35,7 @@ double theta_d_of(const runs::RunView& run, const Estimator& estimator) {
       analysis::number_of(analysis::quantity_of(estimator.member), run.analysis, estimator.element));
 }
 
-const runs::RunView& most_analysed(const std::vector<const runs::RunView*>& runs) {
+const runs::RunView& max_analysed(const std::vector<const runs::RunView*>& runs) {
   const auto found =
       std::ranges::find_if(runs, [](const runs::RunView* run) { return !run->analysis.thresholds.empty(); });
   return found == runs.end() ? *runs.front() : **found;

@@ -26,6 +26,6 @@ std::vector<Estimator> estimators_of(const runs::RunView& run);
 double theta_d_of(const runs::RunView& run, const Estimator& estimator);
 
 /// Returns the first run with thresholds, which has all estimators, or else the first run.
-const runs::RunView& most_analysed(const std::vector<const runs::RunView*>& runs);
+const runs::RunView& max_analysed(const std::vector<const runs::RunView*>& runs);
 
 }  // namespace talus::figures

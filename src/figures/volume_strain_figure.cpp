@@ -88,7 +88,7 @@ std::optional<Figure> volume_strain_figure(std::span<const RunGroup> groups) {
     set_variable(figure, fmt::format("step_{}", strain), tick_step(figure, strain));
   RunChoice all;
   for (const PeriodicRuns& group : chosen) all.insert(all.end(), group.runs.begin(), group.runs.end());
-  const std::vector<Estimator> estimators = estimators_of(most_analysed(all));
+  const std::vector<Estimator> estimators = estimators_of(max_analysed(all));
   set_variable(figure, "estimators", static_cast<double>(estimators.size()));
   for (std::size_t e = 0; e < estimators.size(); ++e)
     set_variable(figure, fmt::format("estimator_{}", e + 1), gnuplot_string(estimators[e].label));

@@ -26,13 +26,13 @@ float height_of_plots(view::ViewModel& model, float width, float height, float e
   const auto map_height = [&](float picture) {
     return map_area_height(model.first().annotated_map(), width, picture, em);
   };
-  const float least_map = std::max(least, map_height(4.0f * em));
-  if (!model.state.show_plots || height < 1.1f * (least_map + least)) return 0.0f;
+  const float min_map = std::max(least, map_height(4.0f * em));
+  if (!model.state.show_plots || height < 1.1f * (min_map + least)) return 0.0f;
   const float wanted = model.state.picture_share > 0.0f
                            ? model.state.picture_share * height
                            : map_height(width / static_cast<float>(model.first().bed_aspect())) *
-                                 (model.state.beside.shown ? 2.1f : 1.0f);
-  return height - std::clamp(wanted, least_map, height - least);
+                                 (model.state.second_view.shown ? 2.1f : 1.0f);
+  return height - std::clamp(wanted, min_map, height - least);
 }
 
 Places lay_out_window(view::ViewModel& model, const ImVec2& size, float em) {

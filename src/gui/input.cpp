@@ -74,7 +74,7 @@ void name_keys(ImGuiIO& io) {
   for (const NamedKey& named : named_keys) io.KeyMap[named.name] = named.key;
 }
 
-void InputQueue::hand_over(ImGuiIO& io) {
+void InputQueue::forward_events(ImGuiIO& io) {
   bool pressed =
       false;  // after a button or key has changed, only its own character may follow in this picture
   while (!events_.empty()) {

@@ -51,7 +51,7 @@ class InputQueue {
   /// Returns whether events remain for a later picture.
   bool waiting() const { return !events_.empty(); }
   /// Delivers the events of one picture; call before ImGui::NewFrame.
-  void hand_over(ImGuiIO& io);
+  void forward_events(ImGuiIO& io);
 
  private:
   std::deque<InputEvent> events_;

@@ -167,23 +167,23 @@ void toggle_trails(Gui& gui) {
 /// Shows or hides the second view; chooses another map for it if it would equal the first view.
 void toggle_second_view(Gui& gui) {
   view::ViewState& state = gui.model.state;
-  view::BesideState& beside = state.beside;
-  beside.shown = !beside.shown;
-  const bool alike = !beside.minus && gui.model.run_beside() == nullptr &&
-                     (beside.layers.empty() || beside.layers == state.map.layers);
-  if (beside.shown && alike)
-    beside.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
-                         ? pictures::MapKind::gamma
-                         : pictures::MapKind::displacement};
+  view::SecondViewState& second_view = state.second_view;
+  second_view.shown = !second_view.shown;
+  const bool alike = !second_view.minus && gui.model.second_run() == nullptr &&
+                     (second_view.layers.empty() || second_view.layers == state.map.layers);
+  if (second_view.shown && alike)
+    second_view.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
+                              ? pictures::MapKind::gamma
+                              : pictures::MapKind::displacement};
 }
 
 /// Shows in the second view what changes from the frame shown on.
 void show_change_since_here(Gui& gui) {
-  view::BesideState& beside = gui.model.state.beside;
-  beside.shown = true;
-  beside.minus = gui.model.frame().tilt;
+  view::SecondViewState& second_view = gui.model.state.second_view;
+  second_view.shown = true;
+  second_view.minus = gui.model.frame().tilt;
   gui.model.state.message =
-      fmt::format("The second view shows the change since {:.2f}°.", degrees(*beside.minus));
+      fmt::format("The second view shows the change since {:.2f}°.", degrees(*second_view.minus));
 }
 
 /// All keys in the order of the list. A test compares docs/view.md with it.

@@ -12,7 +12,7 @@
 namespace talus::gui {
 namespace {
 
-constexpr float least_picture = 4.0f;  ///< em
+constexpr float min_picture = 4.0f;  ///< em
 
 constexpr float caption_line = 1.2f;  ///< em
 
@@ -65,12 +65,12 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
 
 /// Describes the grain under the mouse. A second view of the same run shows the text of the first, and its
 /// own value: another map, or a change.
-void tell_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
-  const view::View told = &view.run == &gui.model ? gui.model.first() : view;
+void describe_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
+  const view::View shown_view = &view.run == &gui.model ? gui.model.first() : view;
   const double diameter = view.run.mean_diameter();
   ImGui::BeginTooltip();
-  rich_text(
-      fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter, grain_text(told, grain)));
+  rich_text(fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter,
+                        grain_text(shown_view, grain)));
   const view::GrainValues none, &shown = view.second ? view.values() : none;
   const auto k = static_cast<std::size_t>(grain);
   if (k < shown.values.size() && !std::isnan(shown.values[k]))
@@ -92,7 +92,7 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
     if (io.MouseWheel != 0.0f)
       zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
     const std::optional<Index> grain = view::find_grain(view.run.bed(), place.x, place.y);
-    if (grain && !ImGui::IsMouseDown(0)) tell_grain(gui, view, place, *grain);
+    if (grain && !ImGui::IsMouseDown(0)) describe_grain(gui, view, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
     if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
       if (&view.run == &gui.model)  // the inspector describes the first run
@@ -155,12 +155,12 @@ std::string grain_text(const view::View& view, Index grain) {
   std::string text = fmt::format("grain {}", grain);
   if (grain >= model.statics().free_count) return "floor " + text;
   const auto of_grain = static_cast<std::size_t>(grain);
-  bool gamma_told = false;
+  bool gamma_reported = false;
   for (const render::Legend& legend : view.annotated_map().legends)
     for (const render::Bar& bar : legend.bars) {
       if (of_grain >= bar.values.size()) continue;
       const double value = bar.values[of_grain];
-      gamma_told = gamma_told || bar.symbol == "γ";
+      gamma_reported = gamma_reported || bar.symbol == "γ";
       if (std::isnan(value))
         text += bar.symbol == "γ" ? ", carries nothing" : fmt::format(", {}: none", bar.symbol);
       else
@@ -168,8 +168,9 @@ std::string grain_text(const view::View& view, Index grain) {
                             bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
       if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + pictures::reading_text(view.state.map);
     }
-  if (gamma_told || !pictures::any_layer(view.state.map.layers,
-                                         [](pictures::MapKind kind) { return pictures::shows_gamma(kind); }))
+  if (gamma_reported || !pictures::any_layer(view.state.map.layers, [](pictures::MapKind kind) {
+        return pictures::shows_gamma(kind);
+      }))
     return text;
   const double gamma = model.frame().gamma[of_grain];
   return std::isnan(gamma)
@@ -191,7 +192,7 @@ void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with
   const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
   ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
   const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
-  const char* name = of.second ? "map beside" : "map";
+  const char* name = of.second ? "second map" : "map";
   ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
                          ImGuiButtonFlags_MouseButtonLeft);
   note_place(gui, name);
@@ -212,13 +213,13 @@ void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with
 }
 
 void draw_map_area(Gui& gui) {
-  if (gui.model.state.beside.shown && draw_pair(gui)) return;
+  if (gui.model.state.second_view.shown && draw_pair(gui)) return;
   const float width = ImGui::GetContentRegionAvail().x;
   const render::FrameView& annotated = gui.model.first().annotated_map();
   draw_caption(annotated, width);
   const float below = below_map(annotated, width, gui.em) + ImGui::GetStyle().ItemSpacing.y;
   const ImVec2 room{std::max(width, 1.0f),
-                    std::max(ImGui::GetContentRegionAvail().y - below, least_picture * gui.em)};
+                    std::max(ImGui::GetContentRegionAvail().y - below, min_picture * gui.em)};
   draw_map_pane(gui, gui.model.first(), room, true);
   draw_legends(gui, annotated, legend_width(width, gui.em), true);
 }

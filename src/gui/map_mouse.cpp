@@ -12,7 +12,7 @@
 namespace talus::gui {
 namespace {
 
-constexpr float least_drag = 4.0f;            ///< px; shorter movements are clicks
+constexpr float min_drag = 4.0f;              ///< px; shorter movements are clicks
 constexpr double contact_reach = 1.0;         ///< D, with ctrl
 constexpr double small_contact_reach = 0.15;  ///< D, without ctrl: farther away the grain is meant
 
@@ -25,7 +25,7 @@ bool shows_contacts(const pictures::MapLayers& layers) {
 
 bool is_far(const ImVec2& mouse, const Vec2& place) {
   return std::hypot(static_cast<double>(mouse.x) - place.x, static_cast<double>(mouse.y) - place.y) >
-         least_drag;
+         min_drag;
 }
 
 /// Returns the corners of a box, or a lasso unchanged; px.
@@ -109,7 +109,7 @@ void hold_at(Gui& gui, Index grain, double x, double y) {
 std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& map) {
   const view::SelectingState& selecting = model.state.selecting;
   if (selecting.outline.size() != 1 || selecting.outline_is_box || ImGui::GetIO().KeyShift) return {};
-  if (!ImGui::IsMouseDragging(0, least_drag)) return {};
+  if (!ImGui::IsMouseDragging(0, min_drag)) return {};
   const Vec2 first = selecting.outline.front();
   const render::Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
   const std::optional<Index> grain = view::find_grain(model.bed(), at.x, at.y);

@@ -11,15 +11,15 @@
 namespace talus::gui {
 namespace {
 
-constexpr float gap = 0.8f;           ///< gap between the two, em
-constexpr float least_width = 12.0f;  ///< minimum width of a picture, em
-constexpr float least_height = 3.0f;
+constexpr float gap = 0.8f;         ///< gap between the two, em
+constexpr float min_width = 12.0f;  ///< minimum width of a picture, em
+constexpr float min_height = 3.0f;
 
 /// Line above a view: the name of its run, its angle, or the title of its map.
 struct HeadLine {
   std::string text;
   bool is_name = false;
-  bool beside_name = false;  ///< drawn on the right, in the line of the name
+  bool second_name = false;  ///< drawn on the right, in the line of the name
 };
 using PaneHead = std::vector<HeadLine>;
 
@@ -54,7 +54,7 @@ PaneHead head_of(const view::View& of, float width) {
 }
 
 int lines_of(const PaneHead& head) {
-  return static_cast<int>(std::ranges::count(head, false, &HeadLine::beside_name));
+  return static_cast<int>(std::ranges::count(head, false, &HeadLine::second_name));
 }
 
 void draw_head(const PaneHead& head, float width, int lines) {
@@ -67,11 +67,11 @@ void draw_head(const PaneHead& head, float width, int lines) {
   for (const HeadLine& of : head) {
     if (of.is_name)
       list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), of.text.c_str());
-    else if (of.beside_name)
+    else if (of.second_name)
       add_rich_text(list, {corner.x + width - rich_width(font, size, of.text), corner.y}, ink, of.text);
     else
       add_rich_text(list, {corner.x, y}, ink, of.text);
-    if (!of.beside_name) y += line;
+    if (!of.second_name) y += line;
   }
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }
@@ -104,7 +104,7 @@ PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, c
 
 /// Returns the width in px that the bed fills; 0 if there is no room.
 float bed_width(const PairLayout& of, double aspect, float em) {
-  if (of.picture.x < least_width * em || of.picture.y < least_height * em) return 0.0f;
+  if (of.picture.x < min_width * em || of.picture.y < min_height * em) return 0.0f;
   return std::min(of.picture.x, of.picture.y * static_cast<float>(aspect));
 }
 

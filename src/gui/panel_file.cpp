@@ -46,8 +46,8 @@ void draw_browser(Gui& gui) {
       if (entry.folder) {
         state.folder = entry.path;
       } else if (ImGui::GetIO().KeyShift) {
-        state.beside.path = entry.path;
-        show_run_beside(gui);
+        state.second_view.path = entry.path;
+        show_second_run(gui);
       } else {
         gui.requests.open_path = entry.path;
       }

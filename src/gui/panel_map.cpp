@@ -108,43 +108,45 @@ void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& nam
 constexpr std::pair<view::PlotAxis, const char*> clocks[] = {
     {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θc − θ"}, {view::PlotAxis::time, "t"}};
 
-void choose_run_beside(Gui& gui) {
+void choose_second_run(Gui& gui) {
   view::ViewModel& model = gui.model;
-  view::BesideState& beside = model.state.beside;
+  view::SecondViewState& second_view = model.state.second_view;
   if (model.is_live()) return;
-  if (model.run_beside() == nullptr) {
-    named_text(gui, "beside path", "run", beside.path, "run file to show next to this one");
-    if (!beside.path.empty() && named_button(gui, "open beside", "Open next to it")) show_run_beside(gui);
+  if (model.second_run() == nullptr) {
+    named_text(gui, "second path", "run", second_view.path, "run file to show next to this one");
+    if (!second_view.path.empty() && named_button(gui, "open second", "Open next to it"))
+      show_second_run(gui);
     return;
   }
-  if (named_button(gui, "close beside", "This run again", "shows the first run in the second view"))
-    return model.close_beside();
+  if (named_button(gui, "close second", "This run again", "shows the first run in the second view"))
+    return model.close_second_run();
   std::vector<std::string> names;
   std::vector<view::PlotAxis> known;
   int chosen = 0;
   for (const auto& [clock, name] : clocks) {
     if (!model.has_clock(clock)) continue;
-    if (beside.clock == clock) chosen = static_cast<int>(names.size());
+    if (second_view.clock == clock) chosen = static_cast<int>(names.size());
     names.emplace_back(name);
     known.push_back(clock);
   }
-  if (named_choice(gui, "beside clock", "linked by", names, chosen))
-    beside.clock = known[static_cast<std::size_t>(chosen)];
+  if (named_choice(gui, "second clock", "linked by", names, chosen))
+    second_view.clock = known[static_cast<std::size_t>(chosen)];
 }
 
 /// Chooses the content of the second view.
-void choose_beside(Gui& gui) {
-  view::BesideState& beside = gui.model.state.beside;
-  named_checkbox(gui, "beside", "a second view", beside.shown, "another map, another run, or a change: P");
-  if (!beside.shown) return;
-  int chosen = beside.layers.empty() ? 0 : place_of(beside.layers[0]) + 1;
-  if (named_choice(gui, "beside map", "its map", kind_names("same as the first"), chosen)) {
-    beside.layers.clear();
-    if (chosen > 0) beside.layers = {pictures::map_kinds()[static_cast<std::size_t>(chosen - 1)]};
+void choose_second_view(Gui& gui) {
+  view::SecondViewState& second_view = gui.model.state.second_view;
+  named_checkbox(gui, "second view", "a second view", second_view.shown,
+                 "another map, another run, or a change: P");
+  if (!second_view.shown) return;
+  int chosen = second_view.layers.empty() ? 0 : place_of(second_view.layers[0]) + 1;
+  if (named_choice(gui, "second view map", "its map", kind_names("same as the first"), chosen)) {
+    second_view.layers.clear();
+    if (chosen > 0) second_view.layers = {pictures::map_kinds()[static_cast<std::size_t>(chosen - 1)]};
   }
-  choose_angle(gui, beside.minus, "beside minus", "minus the frame at an angle",
+  choose_angle(gui, second_view.minus, "second minus", "minus the frame at an angle",
                "change since that angle: grains, and contacts gained and lost; D: since the frame shown");
-  choose_run_beside(gui);
+  choose_second_run(gui);
 }
 
 }  // namespace
@@ -164,7 +166,7 @@ void draw_map_panel(Gui& gui) {
                "averaging diameter of coarse, density, stress, shear_rate and temperature: , and .");
   choose_angle(gui, state.since, "since", "moved since an angle",
                "maps of motion and strain since that tilt, instead of per degree");
-  choose_beside(gui);
+  choose_second_view(gui);
   named_checkbox(gui, "turned", "turned to the slope", state.map.turned, "t");
   named_checkbox(
       gui, "neighbours", "clusters of neighbours", state.map.joined_by_neighbours,

@@ -12,11 +12,11 @@ struct PlotGrid {
   ImVec2 cell;
 };
 
-constexpr float least_width = 17.5f;  // em: fits the longest title
+constexpr float min_width = 17.5f;  // em: fits the longest title
 
 PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   PlotGrid grid;
-  grid.columns = std::clamp(static_cast<int>(room.x / (least_width * em)), 1, count);
+  grid.columns = std::clamp(static_cast<int>(room.x / (min_width * em)), 1, count);
   const int rows = (count + grid.columns - 1) / grid.columns;
   grid.columns = (count + rows - 1) / rows;
   grid.cell = {std::floor(room.x / static_cast<float>(grid.columns)),
@@ -153,10 +153,12 @@ void draw_choices(Gui& gui) {
   draw_axis(gui);
   ImGui::SameLine();
   draw_more(gui);
-  const auto beside = [&](const char* label) { same_line_if_fits(ImGui::CalcTextSize(label).x + gui.em); };
-  beside("export ...");
+  const auto second_view = [&](const char* label) {
+    same_line_if_fits(ImGui::CalcTextSize(label).x + gui.em);
+  };
+  second_view("export ...");
   draw_export(gui);
-  beside("behind ...");
+  second_view("behind ...");
   draw_behind_choice(gui);
 }
 

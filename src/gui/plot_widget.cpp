@@ -67,15 +67,15 @@ void find_ranges(const view::Plot& plot, const view::PlotLook& look, Axes& axes)
 }
 
 void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
-  const int most_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
-  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.x.low, axes.x.high, most_x)) {
+  const int max_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
+  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.x.low, axes.x.high, max_x)) {
     const float x = axes.px(tick.value);
     list.AddLine({x, axes.high.y}, {x, axes.high.y - 0.3f * em}, ink);
     const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
     list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
   }
-  const int most_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
-  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.y.low, axes.y.high, most_y)) {
+  const int max_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
+  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.y.low, axes.y.high, max_y)) {
     const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
     list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);

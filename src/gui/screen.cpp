@@ -94,12 +94,12 @@ GuiRequests GuiScreen::draw(view::ViewModel& model, const Surface& surface, int 
   const float asked = model.state.scale > 0.0 ? static_cast<float>(model.state.scale) : display_scale_;
   const Look look{model.state.theme, fitting_scale(asked, width, height), pixels};
   if (!(look == look_)) put_on(look);
-  input_.hand_over(own);
+  input_.forward_events(own);
   ImGui::NewFrame();
   const DrawMap draw_map = [&](const render::FrameView& view, int map_width, std::size_t texture) {
-    if (texture > 0 && !map_beside_)
-      map_beside_ = std::make_unique<MapTexture>(std::make_unique<SameContext>(*context_), gl_);
-    MapTexture& map = texture > 0 ? *map_beside_ : *map_;
+    if (texture > 0 && !map_of_second_)
+      map_of_second_ = std::make_unique<MapTexture>(std::make_unique<SameContext>(*context_), gl_);
+    MapTexture& map = texture > 0 ? *map_of_second_ : *map_;
     return texture_id(map.draw(view, static_cast<int>(static_cast<float>(map_width) * pixels)));
   };
   places_.clear();

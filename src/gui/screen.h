@@ -57,8 +57,8 @@ class GuiScreen {
 
   const render::Context* context_;  ///< context of map_
   render::Gl gl_;
-  std::unique_ptr<MapTexture> map_;         ///< owns the OpenGL context, therefore destroyed last
-  std::unique_ptr<MapTexture> map_beside_;  ///< map of the second view; null until it is first shown
+  std::unique_ptr<MapTexture> map_;            ///< owns the OpenGL context, therefore destroyed last
+  std::unique_ptr<MapTexture> map_of_second_;  ///< map of the second view; null until it is first shown
   std::unique_ptr<DrawDataPainter> painter_;
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   GLuint font_texture_ = 0;

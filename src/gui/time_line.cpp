@@ -133,7 +133,7 @@ const view::TimelineEvent* event_near(const Gui& gui, const Track& track, float 
 }
 
 /// Describes all events that are too close together to be pointed at separately.
-void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) {
+void show_values(const Gui& gui, const Track& track, const std::vector<double>& tilts) {
   const float x = ImGui::GetIO().MousePos.x;
   const auto frame = static_cast<std::size_t>(std::lround(track.place(x)));
   ImGui::BeginTooltip();
@@ -154,7 +154,7 @@ void tell(const Gui& gui, const Track& track, const std::vector<double>& tilts) 
 
 void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   const float x = ImGui::GetIO().MousePos.x;
-  if (ImGui::IsItemHovered()) tell(gui, track, tilts);
+  if (ImGui::IsItemHovered()) show_values(gui, track, tilts);
   if (!ImGui::IsItemActive()) return;
   const view::TimelineEvent* event = ImGui::IsItemActivated() ? event_near(gui, track, x) : nullptr;
   const bool moved = ImGui::IsItemActivated() || ImGui::GetIO().MouseDelta.x != 0.0f;

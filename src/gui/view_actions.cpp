@@ -93,9 +93,9 @@ void toggle_following(Gui& gui) {
   say(gui, fmt::format("The picture follows grain {}.", *state.selected));
 }
 
-void show_run_beside(Gui& gui) {
+void show_second_run(Gui& gui) {
   try {
-    gui.model.open_beside(gui.model.state.beside.path);
+    gui.model.open_second_run(gui.model.state.second_view.path);
   } catch (const Error& error) {
     gui.model.state.message = error.what();
   }

@@ -86,12 +86,12 @@ WindowHandle make_window(int width, int height) {
 void fit_display(GLFWwindow* window) {
   GLFWmonitor* const display = glfwGetPrimaryMonitor();
   if (display == nullptr) return;
-  int left = 0, top = 0, most_width = 0, most_height = 0, width = 0, height = 0;
-  glfwGetMonitorWorkarea(display, &left, &top, &most_width, &most_height);
-  if (most_width <= 0 || most_height <= 0) return;
+  int left = 0, top = 0, max_width = 0, max_height = 0, width = 0, height = 0;
+  glfwGetMonitorWorkarea(display, &left, &top, &max_width, &max_height);
+  if (max_width <= 0 || max_height <= 0) return;
   glfwGetWindowSize(window, &width, &height);
-  if (width <= most_width && height <= most_height) return;
-  glfwSetWindowSize(window, std::min(width, most_width), std::min(height, most_height));
+  if (width <= max_width && height <= max_height) return;
+  glfwSetWindowSize(window, std::min(width, max_width), std::min(height, max_height));
   glfwSetWindowPos(window, left, top);
 }
 

@@ -11,14 +11,14 @@ namespace {
 
 const std::string checkpoint_group = "/checkpoint/", branch_group = "/branch/";
 
-constexpr double most_steps = std::int64_t{1} << 53;  // every integer up to this is exact as a double
-constexpr Range angle_of_bed = {-1.6, 1.6};           // rad, at most upright
+constexpr double max_steps = std::int64_t{1} << 53;  // every integer up to this is exact as a double
+constexpr Range angle_of_bed = {-1.6, 1.6};          // rad, at most upright
 
 template <typename Checkpoint, typename Direction>
 void for_each_field(const std::string& here, Checkpoint& checkpoint, Direction direction) {
   Fields fields{direction};
   auto& world = checkpoint.world;
-  fields.scalar(here + "step", world.step, Range{0.0, most_steps});
+  fields.scalar(here + "step", world.step, Range{0.0, max_steps});
   fields.scalar(here + "time", world.time, not_negative);
   fields.scalar(here + "tilt", world.tilt, angle_of_bed);
   fields.scalar(here + "gravity", world.gravity, not_negative);

@@ -48,9 +48,9 @@ std::vector<std::string> changed_data_sets(hdf5::Reader& reader) {
   std::vector<std::string> changed = listed_data_sets(reader);
   changed.emplace_back("/contents");
   keep_changed(reader, changed);
-  hdf5::Reader anew = reader.again();  // an analysis may have fewer frames
-  std::vector<std::string> of_analysis = analysis_data_sets(anew);
-  keep_changed(anew, of_analysis);
+  hdf5::Reader reopened = reader.again();  // an analysis may have fewer frames
+  std::vector<std::string> of_analysis = analysis_data_sets(reopened);
+  keep_changed(reopened, of_analysis);
   changed.insert(changed.end(), of_analysis.begin(), of_analysis.end());
   return changed;
 }

@@ -67,10 +67,10 @@ Handle properties(hid_t kind) {
 /// Keeps names in writing order inside their group; a separate index would grow at the end of the file and be
 /// lost with it.
 void keep_names_in_order(const Handle& creation, const std::string& path) {
-  constexpr unsigned most_in_group = 10000;
+  constexpr unsigned max_in_group = 10000;
   checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
           "keep the order of " + path);
-  checked(H5Pset_link_phase_change(creation.get(), most_in_group, 0), "keep the names of " + path);
+  checked(H5Pset_link_phase_change(creation.get(), max_in_group, 0), "keep the names of " + path);
 }
 
 /// Returns the shape of a chunk; empty for contiguous data.

@@ -265,7 +265,7 @@ void RunStore::State::publish(std::string_view made, std::span<const std::byte> 
   file.flush();
   if (check) check(file.temporary_path());
   lock.require();
-  give_name(file.temporary_path(), target);
+  publish_file(file.temporary_path(), target);
   sync_name(target);
 }
 

@@ -77,8 +77,8 @@ const analysis::FrameRecord& MeasuredFrame::record() {
   const analysis::Analysis analysis = analysis::begin_analysis(input_.statics, input_.parameters, theta_c());
   analysis::FrameRecord found =
       analysis::analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
-  analysis::take_topology(analysis::force_persistence({judged(), input_.statics}, found.mean_normal_force),
-                          input_.statics.free_count, analysis.network_threshold, found);
+  analysis::measure_topology(analysis::force_persistence({judged(), input_.statics}, found.mean_normal_force),
+                             input_.statics.free_count, analysis.network_threshold, found);
   if (input_.row) {
     found.volume_strain = at(*input_.row, Observable::volume_strain);
     found.centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);

@@ -2,8 +2,8 @@
 
 namespace talus::pictures {
 
-BackgroundTasks::BackgroundTasks(std::size_t most_waiting)
-    : most_waiting_(most_waiting), thread_([this] { work(); }) {}
+BackgroundTasks::BackgroundTasks(std::size_t max_waiting)
+    : max_waiting_(max_waiting), thread_([this] { work(); }) {}
 
 BackgroundTasks::~BackgroundTasks() {
   {
@@ -16,7 +16,7 @@ BackgroundTasks::~BackgroundTasks() {
 
 void BackgroundTasks::post(std::function<void()> task) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return waiting_.size() < most_waiting_ || failure_; });
+  changed_.wait(lock, [this] { return waiting_.size() < max_waiting_ || failure_; });
   throw_failure();
   waiting_.push_back(std::move(task));
   changed_.notify_all();

@@ -12,8 +12,8 @@ namespace talus::pictures {
 
 class BackgroundTasks {
  public:
-  /// Starts the thread. At most `most_waiting` tasks may wait, which bounds their memory.
-  explicit BackgroundTasks(std::size_t most_waiting);
+  /// Starts the thread. At most `max_waiting` tasks may wait, which bounds their memory.
+  explicit BackgroundTasks(std::size_t max_waiting);
   /// Executes the waiting tasks. Errors are lost, so call finish first.
   ~BackgroundTasks();
   BackgroundTasks(const BackgroundTasks&) = delete;
@@ -36,7 +36,7 @@ class BackgroundTasks {
   void work();
   void throw_failure();
 
-  std::size_t most_waiting_;
+  std::size_t max_waiting_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<void()>> waiting_;

@@ -30,7 +30,7 @@ std::vector<SharedGrains> shared_grains(const analysis::Clusters& clusters,
   return shared;
 }
 
-std::size_t least_worn(const std::vector<Index>& worn) {
+std::size_t min_worn(const std::vector<Index>& worn) {
   return static_cast<std::size_t>(std::ranges::min_element(worn) - worn.begin());
 }
 
@@ -89,7 +89,7 @@ std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& cluste
       tracks_.emplace_back();
     }
     if (colour.palette_index < 0 && clusters.size[k] >= smallest_coloured_cluster) {
-      const std::size_t least = least_worn(worn);
+      const std::size_t least = min_worn(worn);
       worn[least] += clusters.size[k];
       colour.palette_index = static_cast<int>(least);
     }

@@ -183,9 +183,9 @@ std::string angle_name(double tilt, int decimals) {
 }
 
 int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) {
-  constexpr int most_decimals = 9;
+  constexpr int max_decimals = 9;
   std::vector<std::string> names;
-  for (int decimals = 2; decimals <= most_decimals; ++decimals) {
+  for (int decimals = 2; decimals <= max_decimals; ++decimals) {
     names.clear();
     for (const std::size_t k : choice)
       if (k < tilts.size()) names.push_back(angle_name(tilts[k], decimals));

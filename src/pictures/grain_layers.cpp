@@ -52,7 +52,7 @@ MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
 }
 
 MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
-  constexpr int most_steps = 8;
+  constexpr int max_steps = 8;
   const RunStatics& statics = of.statics;
   const double diameter = statics.mean_diameter;
   const auto begin = [&](Index i) {
@@ -78,7 +78,7 @@ MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
   for (std::size_t k = 0; k < colours; ++k)
     bar.colours.push_back(render::colour_at(
         scale.colours, layer_share((static_cast<double>(k) + 0.5) / static_cast<double>(colours))));
-  for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
+  for (const RoundTick& tick : round_ticks(scale.low, scale.high, max_steps))
     bar.ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
   bar.values = std::move(heights);
   layer.legend.bars = {bar};

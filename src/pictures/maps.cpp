@@ -205,7 +205,7 @@ render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent) {
 void print_letters(render::FrameView& view, double width, double points) {
   constexpr double points_per_cm = 72.0 / 2.54, smallest = 7.0 / 8.0;
   view.letters = width * points_per_cm / points;
-  view.most_letters = view.letters / smallest;
+  view.max_letters = view.letters / smallest;
 }
 
 bool has_bar(const MapLayers& layers) {

@@ -61,7 +61,7 @@ render::FrameView heading(const render::FrameView& like, const std::string& titl
                           const std::string& caption) {
   render::FrameView view;
   view.letters = like.letters;
-  view.most_letters = like.most_letters;
+  view.max_letters = like.max_letters;
   view.transparent = like.transparent;
   view.title = title;
   view.caption = caption;
@@ -128,10 +128,10 @@ Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
 }
 
 /// Places this many angles next to each other, and fills up the last row with empty views.
-Rows grouped(const Rows& maps, std::size_t beside) {
+Rows grouped(const Rows& maps, std::size_t side_by_side) {
   Rows rows;
   for (std::size_t k = 0; k < maps.size(); ++k) {
-    if (k % beside == 0) rows.emplace_back();
+    if (k % side_by_side == 0) rows.emplace_back();
     rows.back().insert(rows.back().end(), maps[k].begin(), maps[k].end());
   }
   while (rows.back().size() < rows.front().size()) rows.back().push_back(heading(maps[0][0], "", ""));
@@ -158,9 +158,9 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const P
 
 }  // namespace
 
-Rows panel_rows(Rows maps, const std::string& title, std::size_t beside) {
+Rows panel_rows(Rows maps, const std::string& title, std::size_t side_by_side) {
   const std::size_t kinds = maps.front().size();
-  if (!maps[0][0].furniture) return grouped(maps, beside);
+  if (!maps[0][0].furniture) return grouped(maps, side_by_side);
   const bool one_angle = maps.size() == 1;
   const std::string common = one_angle && title.empty() ? "" : take_rest(maps);
   std::vector<render::FrameView> headings;
@@ -178,7 +178,7 @@ Rows panel_rows(Rows maps, const std::string& title, std::size_t beside) {
   if (!title.empty()) rows.push_back({heading(headings[0], title, common)});
   const auto same = [&](const render::FrameView& view) { return view.title == headings[0].title; };
   const bool one_heading = std::ranges::all_of(headings, same);
-  headings.resize(one_heading ? 1 : kinds * beside, headings[0]);
+  headings.resize(one_heading ? 1 : kinds * side_by_side, headings[0]);
   for (std::size_t k = kinds; k < headings.size(); ++k) headings[k] = headings[k % kinds];
   if (title.empty()) headings.back().caption = common;
   rows.push_back(std::move(headings));
@@ -186,15 +186,16 @@ Rows panel_rows(Rows maps, const std::string& title, std::size_t beside) {
     return std::ranges::all_of(
         row, [](const render::FrameView& view) { return view.title.empty() && view.caption.empty(); });
   });
-  std::ranges::move(grouped(maps, beside), std::back_inserter(rows));
+  std::ranges::move(grouped(maps, side_by_side), std::back_inserter(rows));
   return rows;
 }
 
 render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width, int highest,
                           const render::Font& font) {
   render::Sheet best = render::sheet_of_rows(panel_rows(maps, title, 1), width, font);
-  for (std::size_t beside = 2; beside <= maps.size() && best.height > highest; ++beside) try {
-      render::Sheet sheet = render::sheet_of_rows(panel_rows(maps, title, beside), width, font);
+  for (std::size_t side_by_side = 2; side_by_side <= maps.size() && best.height > highest; ++side_by_side)
+    try {
+      render::Sheet sheet = render::sheet_of_rows(panel_rows(maps, title, side_by_side), width, font);
       if (sheet.height < best.height) best = std::move(sheet);
     } catch (const Error&) {  // the texts do not fit
       break;

@@ -30,7 +30,8 @@ PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked);
 /// and to all captions, appears once above them, with `title` over it. Equal legends, and the scale bar,
 /// appear once below. Several maps have letters (a), (b), ... . Maps without furniture remain without it.
 std::vector<std::vector<render::FrameView>> panel_rows(std::vector<std::vector<render::FrameView>> maps,
-                                                       const std::string& title, std::size_t beside = 1);
+                                                       const std::string& title,
+                                                       std::size_t side_by_side = 1);
 
 /// Returns a panel as a sheet, with a row for each angle. If it would be higher than `highest` (px), more
 /// angles are placed next to each other, as long as this reduces the height and all texts fit. Throws the

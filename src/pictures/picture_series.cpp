@@ -20,7 +20,7 @@ std::string place_text(double x, double y, double diameter) {
   return fmt::format("{:.2f},{:.2f}", x / diameter, y / diameter);
 }
 
-void take_theta_c(PictureSeries& series, const std::optional<double>& measured) {
+void measure_theta_c(PictureSeries& series, const std::optional<double>& measured) {
   for (MapSettings& map : series.plan.maps)
     if (!std::isfinite(map.theta_c) && measured) map.theta_c = *measured;
   if (std::isfinite(series.plan.maps[0].theta_c) || !needs_theta_c(series.plan)) return;
@@ -94,7 +94,7 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
 
 /// Adds an instant. Only a run with a programme knows its last frame of the tilt.
 void add_instant(PictureSeries& series, const Frame& frame) {
-  MetFrames& met = series.met;
+  SeenFrames& met = series.met;
   if (met.instants.empty() || series.has_program || frame.tilt > met.instants[met.highest].tilt)
     met.highest = met.instants.size();
   if (met.instants.empty())
@@ -141,7 +141,7 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
 render::FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame,
                           const Frame* reference, std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
-  const MetFrames& met = series.met;
+  const SeenFrames& met = series.met;
   MapFrame of{{frame, series.run.statics}, reference, !series.since};
   const OverloadRule& rule = settings;
   if (met.rule == rule) {  // colours by another rule belong to other clusters
@@ -167,7 +167,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   series.has_program = run.file.has_program();
   if (run.file.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
-  take_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));
+  measure_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));
   series.since = reference_since(run.file.frame_tilts(), plan.since);
   series.curves.resize(plan.traces.size());
   series.extent = bed_extent(series.run.statics);

@@ -28,7 +28,7 @@ struct TraceCurve {
 };
 
 /// Data on the frames of a run added so far, in their order.
-struct MetFrames {
+struct SeenFrames {
   std::vector<FrameInstant> instants;
   std::size_t highest = 0;  ///< last frame of the tilt; later ones belong to the flow
   OverloadRule rule;        ///< rule that defines their clusters
@@ -46,7 +46,7 @@ struct PictureSeries {
   MapPlan plan;      ///< plan with theta_c set: NaN only if neither the run nor the user has given one
   MapExtent extent;  ///< part of the bed shown, the same in all pictures
   std::optional<std::size_t> since;  ///< frame from which displacements are measured; none: the preceding one
-  MetFrames met;
+  SeenFrames met;
   std::vector<TraceCurve> curves;  ///< one for each trace of the plan
 };
 

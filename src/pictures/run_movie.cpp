@@ -56,7 +56,7 @@ std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, boo
   if (!curves_apart || views.front().traces.empty()) return views;
   render::FrameView curves;
   curves.letters = views.front().letters;
-  curves.most_letters = views.front().most_letters;
+  curves.max_letters = views.front().max_letters;
   curves.traces = views.front().traces;
   for (render::FrameView& view : views) view.traces.clear();
   views.push_back(std::move(curves));
@@ -144,7 +144,7 @@ MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch
     drawn.frames += static_cast<std::size_t>(frame.times);
   }
   for (std::size_t k = 1; k + 1 < frames.size(); ++k)
-    drawn.most_times = std::max(drawn.most_times, frames[k].times);
+    drawn.max_times = std::max(drawn.max_times, frames[k].times);
   fit_to_frames(run, shown);
   try {
     make_movie(run, frames, asked, watch);

@@ -37,7 +37,7 @@ struct MovieAsked {
 
 struct MovieDrawn {
   std::size_t frames = 0;
-  int most_times = 1;  ///< maximum for frames of the run between the first and the last
+  int max_times = 1;  ///< maximum for frames of the run between the first and the last
 };
 
 /// Draws the maps of the plan into a movie (render/movie.h). Throws the errors of Movie and arrange, and

@@ -14,7 +14,7 @@ constexpr double lightest_rim = 0.45;  // shade of gray
 constexpr double rim_darkness = 0.6;   // factor for the channels of a colour
 constexpr double dark_luma = 60.0;     // with a lower luma, a darker rim would be invisible
 constexpr double rim_lightness = 0.2;  // share of white in the rim of a dark colour
-constexpr int most_steps = 5;          // maximum between ticks of a bar
+constexpr int max_steps = 5;           // maximum between ticks of a bar
 
 std::uint8_t darkened(std::uint8_t channel) { return static_cast<std::uint8_t>(rim_darkness * channel); }
 
@@ -25,12 +25,12 @@ std::uint8_t lightened(std::uint8_t channel) {
 /// Returns ticks at these multiples of powers of ten between the ends; over many decades, at every second,
 /// third, ... power. If one label has to be a power, all are.
 std::vector<render::BarTick> decades(const Scale& scale, std::initializer_list<double> factors) {
-  constexpr int most_decades = 10;
+  constexpr int max_decades = 10;
   constexpr double hair = 1e-9;  // tolerance that keeps ticks at the ends
   std::vector<double> values;
   const auto first = static_cast<int>(std::floor(std::log10(scale.low)));
   const auto last = static_cast<int>(std::ceil(std::log10(scale.high)));
-  const int step = std::max(1, (last - first + most_decades - 1) / most_decades);
+  const int step = std::max(1, (last - first + max_decades - 1) / max_decades);
   for (int k = first; k <= last; k += step)
     for (const double factor : factors) {
       const double value = factor * std::pow(10.0, k), share = share_of(scale, value);
@@ -46,7 +46,7 @@ std::vector<render::BarTick> decades(const Scale& scale, std::initializer_list<d
 
 std::vector<render::BarTick> round_shares(const Scale& scale) {
   std::vector<render::BarTick> ticks;
-  for (const RoundTick& tick : round_ticks(scale.low, scale.high, most_steps))
+  for (const RoundTick& tick : round_ticks(scale.low, scale.high, max_steps))
     ticks.push_back({std::clamp(share_of(scale, tick.value), 0.0, 1.0), tick.label});
   return ticks;
 }

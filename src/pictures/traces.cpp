@@ -112,7 +112,7 @@ render::Trace make_trace(TraceKind kind, std::span<const double> places, std::sp
                          const OverloadRule& rule, double place_now, TraceAxis axis) {
   const bool over_tilt = axis == TraceAxis::tilt;
   const auto shown_place = [over_tilt](double place) { return over_tilt ? degrees(place) : place; };
-  constexpr int most_x = 8, most_y = 3;
+  constexpr int max_x = 8, max_y = 3;
   const analysis::Quantity& quantity = trace_quantity(kind);
   render::Trace trace;
   trace.title = analysis::shown_title(quantity);
@@ -123,13 +123,13 @@ render::Trace make_trace(TraceKind kind, std::span<const double> places, std::sp
   trace.mark = shown_place(place_now);
 
   const ScaleRange x = range_of(trace.x, 0.5);
-  const ScaleRange y = rounded(range_of(trace.y, 0.05), most_y);
+  const ScaleRange y = rounded(range_of(trace.y, 0.05), max_y);
   trace.x_min = x.low;
   trace.x_max = x.high;
   trace.y_min = y.low;
   trace.y_max = y.high;
-  trace.x_ticks = axis_ticks(x.low, x.high, most_x);
-  trace.y_ticks = axis_ticks(y.low, y.high, most_y + 1);
+  trace.x_ticks = axis_ticks(x.low, x.high, max_x);
+  trace.y_ticks = axis_ticks(y.low, y.high, max_y + 1);
   const double theta_c = degrees(rule.theta_c);
   if (over_tilt && theta_c > x.low && theta_c <= x.high) {
     trace.event = theta_c;

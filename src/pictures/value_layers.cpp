@@ -19,13 +19,13 @@ const analysis::FrameQuantity& quantity_of(MapKind kind) {
 }
 
 Scale scale_of(MapKind kind, const MapFrame& of, const MapSettings& settings, bool per_degree) {
-  constexpr int most_ticks = 4;
+  constexpr int max_ticks = 4;
   const analysis::ScaleRule rule = quantity_of(kind).map.scale;
   ScaleRange range = fixed_motion_range(kind, per_degree);
   if (fits_frames(kind)) range = settings.motion.of(kind, per_degree).value_or(range);
   if (rule == analysis::ScaleRule::by_depth) {
     const double largest = range.high * std::max(1.0, of.statics.depth / of.statics.mean_diameter);
-    const double step = round_step(largest, most_ticks);
+    const double step = round_step(largest, max_ticks);
     range.high = std::ceil(largest / step) * step;
   }
   return {rule == analysis::ScaleRule::about_zero ? render::ColourMap::diverging : render::ColourMap::viridis,

@@ -52,8 +52,8 @@ void analyse_frames(const io::RunFile& run, const analysis::AnalysisParameters& 
       analysis::FrameRecord& record = analysis.frames[k];
       record = analysis::analyse_frame(bed, parameters, analysis);
       networks[k] = analysis::force_persistence(bed, record.mean_normal_force);
-      analysis::take_topology(networks[k], bed.statics.free_count, analysis.network_threshold, record);
-      if (k > 0) analysis::take_deformation(before, bed, record);
+      analysis::measure_topology(networks[k], bed.statics.free_count, analysis.network_threshold, record);
+      if (k > 0) analysis::measure_deformation(before, bed, record);
       lock.lock();
       ++done;
       if (progress) progress(done);
@@ -63,7 +63,7 @@ void analyse_frames(const io::RunFile& run, const analysis::AnalysisParameters& 
   for (int t = 1; t < threads; ++t) others.push_back(std::async(std::launch::async, work));
   work();
   for (std::future<void>& other : others) other.get();
-  analysis::take_network_changes(networks, run.header().statics.free_count, analysis.frames);
+  analysis::measure_network_changes(networks, run.header().statics.free_count, analysis.frames);
 }
 
 /// Copies the observables of the run into the frames, for each frame from the last row at or before its time.
@@ -110,7 +110,7 @@ void find_failure_ratio(const std::vector<ObservableRow>& rows, analysis::Analys
 }
 
 void find_transitions(analysis::Analysis& analysis) {
-  const auto [first, frames, tilts, other_side] = analysis::last_rise(analysis.frames);
+  const auto [first, frames, tilts, mirrored_slope] = analysis::last_rise(analysis.frames);
   for (std::size_t f = 0; f < analysis.thresholds.size(); ++f) {
     std::vector<double> lengths;
     std::vector<Index> spans;
@@ -131,7 +131,7 @@ void find_transitions(analysis::Analysis& analysis) {
 }
 
 void find_growth(analysis::Analysis& analysis) {
-  const auto [first, frames, tilts, other_side] = analysis::last_rise(analysis.frames);
+  const auto [first, frames, tilts, mirrored_slope] = analysis::last_rise(analysis.frames);
   std::vector<double> means, weighted_means;
   for (const analysis::FrameRecord* frame : frames) {
     means.push_back(frame->critical_mean);

@@ -185,11 +185,11 @@ class EventFrames {
         spans_[e].surface = surface;
         event.frame_tilt[0] = before->tilt;
       }
-      if (now.step >= spans_[e].last) take_movement(now, spans_[e], event);
+      if (now.step >= spans_[e].last) measure_movement(now, spans_[e], event);
     }
   }
 
-  void take_movement(const Frame& now, EventSpan& span, analysis::EventRecord& event) const {
+  void measure_movement(const Frame& now, EventSpan& span, analysis::EventRecord& event) const {
     const analysis::Movement movement =
         analysis::movement_between(*span.before, now, statics_, least_, span.surface);
     event.grains = movement.grains;

@@ -33,10 +33,10 @@ std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
                                   short_text(longest_over_fall), short_text(h / fall))});
   const double grains = scenario.bed.length * scenario.bed.depth;
   const bool from_file = scenario.deposition.method == DepositionMethod::file;
-  if (grains > most_grains && !from_file)
+  if (grains > max_grains && !from_file)
     broken.push_back({{"bed.length", "bed.depth"},
                       fmt::format("at most {} grains, bed.length * bed.depth; they are {}",
-                                  short_text(most_grains), short_text(grains))});
+                                  short_text(max_grains), short_text(grains))});
   if (from_file && scenario.deposition.file.empty())
     broken.push_back({{"deposition.method", "deposition.file"},
                       "deposition.file, the path of a run or of a table, with it; it is not given"});

@@ -8,8 +8,8 @@
 
 namespace talus::scenario {
 
-inline constexpr double gravity = 9.81;     ///< gravitational acceleration of every run, m/s^2
-inline constexpr double most_grains = 2e6;  ///< largest number of grains in a bed
+inline constexpr double gravity = 9.81;    ///< gravitational acceleration of every run, m/s^2
+inline constexpr double max_grains = 2e6;  ///< largest number of grains in a bed
 
 /// A rule that a scenario breaks.
 struct BrokenRule {

@@ -12,7 +12,7 @@ namespace talus::scenario {
 namespace {
 
 constexpr double fastest_push = 100.0;  // sqrt(g D)
-constexpr Index most_dropped = 1000;    // grains
+constexpr Index max_dropped = 1000;     // grains
 constexpr double highest_drop = 100.0;  // D
 constexpr double fastest_tilt = 100.0;  // deg/s
 
@@ -41,8 +41,8 @@ std::string push_fault(const Command& command, const Scenario& scenario, Index f
 
 std::string drop_fault(const Command& command, const Scenario& scenario) {
   const double diameter = scenario.grains.mean_diameter;
-  if (command.grain < 1 || command.grain > most_dropped)
-    return differs(fmt::format("{} grains", command.grain), fmt::format("1 ... {}", most_dropped));
+  if (command.grain < 1 || command.grain > max_dropped)
+    return differs(fmt::format("{} grains", command.grain), fmt::format("1 ... {}", max_dropped));
   if (!std::isfinite(command.x))
     return differs(fmt::format("x = {:.4g} m", command.x), "a position on the bed");
   if (scenario.bed.boundary == BedBoundary::walls)
@@ -108,9 +108,9 @@ std::string table_fault(const ScriptedCommand& command, const std::vector<std::s
       return fmt::format("is \"{}\", which needs {}", word, name);
   }
   const bool from_file = scenario.deposition.method == DepositionMethod::file;
-  const double grains = from_file ? most_grains : std::round(scenario.bed.length * scenario.bed.depth);
+  const double grains = from_file ? max_grains : std::round(scenario.bed.length * scenario.bed.depth);
   const std::string fault =
-      command_fault(command_of(command), scenario, static_cast<Index>(std::min(grains, most_grains)));
+      command_fault(command_of(command), scenario, static_cast<Index>(std::min(grains, max_grains)));
   return fault.empty() ? fault : fmt::format("is \"{}\" with {}", word, fault);
 }
 

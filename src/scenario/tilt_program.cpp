@@ -15,9 +15,9 @@ namespace {
 constexpr double steepest = 60.0;                  // deg
 constexpr double longest_hold = 3600.0;            // s
 constexpr double slowest = 1e-4, fastest = 100.0;  // deg/s
-constexpr double most_times = 10'000.0;
-constexpr std::size_t most_segments = 100'000;
-constexpr double most_steps = 1e12;
+constexpr double max_times = 10'000.0;
+constexpr std::size_t max_segments = 100'000;
+constexpr double max_steps = 1e12;
 constexpr double steepest_rounding = 1e-9;  // tolerance for sums of angles, deg
 
 /// The remaining words of a phrase.
@@ -84,7 +84,7 @@ std::optional<ProgramPhrase> verb_of(Words& words) {
     const std::optional<double> angle = words.number(-steepest, steepest, "deg");
     return angle == 0.0 ? std::nullopt : with(Verb::by, angle);
   }
-  const std::optional<double> times = words.number(1.0, most_times);
+  const std::optional<double> times = words.number(1.0, max_times);
   if (!times || *times != std::floor(*times) || !(words.take("times") || words.take("time")))
     return std::nullopt;
   return with(Verb::times, times);
@@ -103,11 +103,11 @@ struct Course {
 
   /// Adds a segment unless it has no steps.
   void add(double to, double step, double steps) {
-    if (!(steps + static_cast<double>(end()) <= most_steps)) return complain("takes more than 1e12 steps");
+    if (!(steps + static_cast<double>(end()) <= max_steps)) return complain("takes more than 1e12 steps");
     if (std::abs(to) > steepest + steepest_rounding)
       return complain(fmt::format("tilts to {} deg, beyond {} deg", short_text(to), short_text(steepest)));
-    if (segments.size() == most_segments)
-      return complain(fmt::format("has more than {} parts, repetitions included", most_segments));
+    if (segments.size() == max_segments)
+      return complain(fmt::format("has more than {} parts, repetitions included", max_segments));
     if (steps >= 1.0) segments.push_back({tilt(), to, step, end(), static_cast<std::int64_t>(steps)});
   }
 
@@ -186,7 +186,7 @@ std::string program_phrase_forms() {
       "\"to A\" or \"by A\" (an angle in [-{0}, {0}] deg) or \"to repose\", each also with \"at R\" (a rate "
       "in [{1}, {2}] deg/s), \"hold T\" (a time in (0, {3}] s), \"N times\" (1 ... {4}), or \"once\"",
       short_text(steepest), short_text(slowest), short_text(fastest), short_text(longest_hold),
-      short_text(most_times));
+      short_text(max_times));
 }
 
 std::string meant_program_phrase(const std::string& text) {

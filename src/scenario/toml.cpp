@@ -29,8 +29,8 @@ namespace talus::scenario {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20;  // bytes
-constexpr std::size_t most_complaints = 100;                // largest number reported at once
-constexpr std::ptrdiff_t most_dots = 1000;                  // largest number in a line
+constexpr std::size_t max_complaints = 100;                 // largest number reported at once
+constexpr std::ptrdiff_t max_dots = 1000;                   // largest number in a line
 
 /// Place of a value: in the file, or in a setting of the command line.
 struct SourcePlace {
@@ -85,12 +85,12 @@ std::string line_of(const SourcePlace& place, const std::string& message) {
     return order(first.place) < order(second.place);
   });
   std::string text;
-  for (std::size_t i = 0; i < std::min(complaints.size(), most_complaints); ++i) {
+  for (std::size_t i = 0; i < std::min(complaints.size(), max_complaints); ++i) {
     if (i > 0) text += '\n';
     text += line_of(complaints[i].place, complaints[i].message);
   }
-  if (complaints.size() > most_complaints)
-    text += fmt::format("\n{}: error: and {} more", name, complaints.size() - most_complaints);
+  if (complaints.size() > max_complaints)
+    text += fmt::format("\n{}: error: and {} more", name, complaints.size() - max_complaints);
   throw LocatedError(ExitCode::bad_data, text);
 }
 
@@ -251,7 +251,7 @@ toml::table parse_text(const std::string& text, const std::string& name) {
 std::uint32_t line_too_deep(std::string_view text) {
   for (std::uint32_t line = 1;; ++line) {
     const auto end = text.find('\n');
-    if (std::ranges::count(text.substr(0, end), '.') > most_dots) return line;
+    if (std::ranges::count(text.substr(0, end), '.') > max_dots) return line;
     if (end == std::string_view::npos) return 0;
     text.remove_prefix(end + 1);
   }
@@ -411,7 +411,7 @@ void refuse_what_is_no_text(const std::string& text, const std::string& name) {
            fmt::format("the file is too large: expected a scenario of at most {} bytes", largest_file));
   if (const std::uint32_t line = line_too_deep(text))
     refuse(place_in_file(name, {line, 1}),
-           fmt::format("this line has too many dots: expected at most {}", most_dots));
+           fmt::format("this line has too many dots: expected at most {}", max_dots));
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 namespace talus::session {
 namespace {
 
-constexpr std::size_t most_grains = 2'000'000;
+constexpr std::size_t max_grains = 2'000'000;
 constexpr std::uintmax_t largest_table = std::uintmax_t{1} << 30;  // bytes
 
 /// Relative tolerance for equal lengths, which a file may store in single precision.
@@ -172,8 +172,8 @@ std::string meant_unit(double mean, const dynamics::BedPlan& plan) {
 void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
   const std::size_t count = grains.radii.size();
   if (count == 0) refuse(grains.path, "no grains: expected lines with x, y and radius");
-  if (count > most_grains)
-    refuse(grains.path, fmt::format("{} grains: expected at most {}", count, most_grains));
+  if (count > max_grains)
+    refuse(grains.path, fmt::format("{} grains: expected at most {}", count, max_grains));
   const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
                       (static_cast<double>(count) * plan.mean_diameter);
   if (!(std::fabs(mean - 1.0) <= mean_diameter_tolerance))

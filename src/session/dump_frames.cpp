@@ -10,7 +10,7 @@
 namespace talus::session {
 namespace {
 
-constexpr double most_atoms = 1e9;
+constexpr double max_atoms = 1e9;
 
 /// Text that is read line by line.
 struct DumpText {
@@ -39,7 +39,7 @@ std::vector<double> numbers_in(std::string_view line) {
 
 std::optional<std::size_t> count_in(std::string_view line) {
   const std::vector<double> numbers = numbers_in(line);
-  if (numbers.size() != 1 || numbers[0] < 0.0 || numbers[0] > most_atoms ||
+  if (numbers.size() != 1 || numbers[0] < 0.0 || numbers[0] > max_atoms ||
       numbers[0] != std::floor(numbers[0]))
     return std::nullopt;
   return static_cast<std::size_t>(numbers[0]);

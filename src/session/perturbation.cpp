@@ -58,13 +58,13 @@ std::string_view name_of(TrialEnd end) {
 std::vector<Index> grains_in_patch(const World& world, const SurfacePatch& patch, double centre,
                                    double mean_diameter) {
   const double half_width = 0.5 * patch.width * mean_diameter;
-  const auto beside = [&](double x) {
+  const auto in_patch = [&](double x) {
     return std::fabs(offset_along(world.boundary, centre, x)) < half_width;
   };
   const double lower_edge = mean_height(world, centre, half_width) - patch.depth * mean_diameter;
   std::vector<Index> found;
   for (Index i = 0; i < world.grains.free_count; ++i)
-    if (beside(world.grains.x[i]) && world.grains.y[i] > lower_edge) found.push_back(i);
+    if (in_patch(world.grains.x[i]) && world.grains.y[i] > lower_edge) found.push_back(i);
   return found;
 }
 

@@ -47,8 +47,7 @@ std::optional<PerturbationPlan> parse_plan(const std::string& text) {
   if (!found || !read_number(first, plan.first) || !read_number(every, plan.every)) return std::nullopt;
   plan.patch = *found;
   const bool in_range = plan.first >= 0.0 && plan.first <= PerturbationPlan::highest &&
-                        plan.every >= PerturbationPlan::least_every &&
-                        plan.every <= PerturbationPlan::highest;
+                        plan.every >= PerturbationPlan::min_every && plan.every <= PerturbationPlan::highest;
   if (!in_range || plan_text(plan) != text) return std::nullopt;
   return plan;
 }

@@ -17,7 +17,7 @@ struct PerturbationPlan {
   double every = 0.5;   ///< deg, interval between states
   SurfacePatch patch;
 
-  static constexpr double highest = 60.0, least_every = 1e-3;  ///< deg, bounds of both
+  static constexpr double highest = 60.0, min_every = 1e-3;  ///< deg, bounds of both
 
   bool operator==(const PerturbationPlan&) const = default;
 };

@@ -16,7 +16,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void tell(const Session& session, Clock::time_point start, const RunControl& control) {
+void report_progress(const Session& session, Clock::time_point start, const RunControl& control) {
   if (control.on_step) control.on_step({session, seconds_since(start)});
   if (control.on_frame)
     for (const Frame& frame : session.segment().frames) control.on_frame(frame);
@@ -67,7 +67,7 @@ RunEnd run_to_end(Session& session, io::RunStore& store, const RunControl& contr
   while (session.phase() != Phase::done) {
     const Clock::time_point step_start = Clock::now();
     recorder.advance();
-    tell(session, start, control);
+    report_progress(session, start, control);
     const std::vector<TrialRow> trials = control.trials ? control.trials(session) : std::vector<TrialRow>();
     const bool stop = must_stop();
     if (takes_checkpoint(control) || stop || !trials.empty())
@@ -94,7 +94,7 @@ RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> co
     const bool stop = stops(control);
     if (stop || session.world().step >= steps || session.phase() == Phase::done) break;
     advance_to(session, steps);
-    tell(session, start, control);
+    report_progress(session, start, control);
     if (recorder)
       recorder->commit_if_due();
     else

@@ -35,7 +35,7 @@ struct Findings {
     add(what, "is not as it was written: its hash differs");
   }
   void add(const std::string& where, const std::string& what) {
-    if (check.faults.size() < most_faults)
+    if (check.faults.size() < max_faults)
       check.faults.push_back(fmt::format("{}: {}", where, what));
     else
       ++more;

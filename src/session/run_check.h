@@ -12,7 +12,7 @@
 namespace talus::session {
 
 struct RunCheck {
-  /// Faults, one sentence each with the data set or the frame; at most `most_faults`, then the number of
+  /// Faults, one sentence each with the data set or the frame; at most `max_faults`, then the number of
   /// further ones.
   std::vector<std::string> faults;
   std::size_t changed = 0;  ///< number of data sets and frames that do not match their hashes
@@ -22,7 +22,7 @@ struct RunCheck {
   double largest_imbalance = 0.0;  ///< m g, rms over the grains of a frame at rest: sum of forces and weight
   double largest_moment_error = 0.0;  ///< error of an internal moment, over the largest moment of its frame
 };
-inline constexpr std::size_t most_faults = 20;
+inline constexpr std::size_t max_faults = 20;
 
 /// Tolerances for a frame as stored (single precision).
 inline constexpr double overlap_limit = 0.5;         ///< D; larger if the guards of the run allow more

@@ -15,7 +15,7 @@
 namespace talus::session {
 namespace {
 
-constexpr double most_steps = 0x1p53;  // step counts up to this are exact in a double
+constexpr double max_steps = 0x1p53;  // step counts up to this are exact in a double
 
 /// Group of a checkpoint that holds a value. Those of `timing` are not state, and may be missing.
 enum class CheckpointGroup { integers, reals, results, timing };
@@ -156,7 +156,7 @@ void take(double number, const ScheduleField& field, const io::Checkpoint& check
     check(static_cast<double>(Phase::flow), "0, 1, 2 or 3");
     **phase = static_cast<Phase>(static_cast<std::int64_t>(number));
   } else if (std::int64_t* const* steps = std::get_if<std::int64_t*>(&field.value)) {
-    check(most_steps, "a number of steps");
+    check(max_steps, "a number of steps");
     **steps = static_cast<std::int64_t>(number);
   } else if (Index* const* grain = std::get_if<Index*>(&field.value)) {
     check(static_cast<double>(checkpoint.world.grains.free_count) - 1.0, "a free grain");

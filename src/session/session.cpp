@@ -68,7 +68,7 @@ dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const W
 RunStatics run_statics(const scenario::Scenario& scenario, const World& world) {
   RunStatics statics;
   const Grains grains =
-      dynamics::with_all_arrivals(world.grains, arrivals_of(scenario), scenario.grains.density);
+      dynamics::with_remaining_grains(world.grains, arrivals_of(scenario), scenario.grains.density);
   statics.free_count = grains.free_count;
   statics.radius = grains.radius;
   statics.mass = grains.mass;
@@ -102,7 +102,7 @@ Session::Session(const scenario::Scenario& scenario)
         !fault.empty())
       throw Error(ExitCode::bad_data, fmt::format("{}: {}", scenario::command_section(k), fault));
   reserve_grains();
-  dynamics::let_arrive(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
+  dynamics::add_due_grains(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
 }
 
 Session::Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint, const std::string& origin,
@@ -257,7 +257,7 @@ bool Session::have_all_arrived() const {
 void Session::advance_deposition() {
   take_step();
   if (!have_all_arrived()) {
-    dynamics::let_arrive(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
+    dynamics::add_due_grains(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
     return;
   }
   if (is_at_rest() && report_.solver.converged) {

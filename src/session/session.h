@@ -84,7 +84,7 @@ class Session {
   const io::Segment& segment() const { return segment_; }
   void clear_segment() { segment_ = {}; }
   /// Restores the recorded data of a run that returns to an earlier state.
-  void put_back(io::Segment segment) { segment_ = std::move(segment); }
+  void restore_segment(io::Segment segment) { segment_ = std::move(segment); }
 
   /// Returns the remark of bed_of_file on a new run; otherwise empty.
   const std::string& bed_remark() const { return bed_remark_; }

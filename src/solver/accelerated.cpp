@@ -15,11 +15,11 @@ namespace {
 // rounding errors. Without a guess it is renewed sooner at first, because || P || grows from zero.
 constexpr int sweeps_to_renewal = 128;
 constexpr int first_renewal_cold = 16;
-// The residual is computed when its estimate falls below `hopeful` times the tolerance. If that is too early,
-// the ratio of the two and the factor `cautious` set the estimate at which it is computed next. If the guess
-// is within `near_solution` tolerances of a solution, the bed is quiet, and the solve aims at `ahead` times
-// the tolerance, so that the next steps are often solved already.
-constexpr double hopeful = 1.1;
+// The residual is computed when its estimate falls below `target_fraction` times the tolerance. If that is
+// too early, the ratio of the two and the factor `cautious` set the estimate at which it is computed next. If
+// the guess is within `near_solution` tolerances of a solution, the bed is quiet, and the solve aims at
+// `ahead` times the tolerance, so that the next steps are often solved already.
+constexpr double target_fraction = 1.1;
 constexpr double cautious = 0.85;
 constexpr double near_solution = 10.0;
 constexpr double ahead = 0.8;
@@ -93,7 +93,7 @@ struct TeamMember {
   ExactResidual look() {
     sum_exact_velocities(problem, sweeper.kernels, first_body, last_body, at);
     wait_for_all();
-    look_at_contacts(problem, sweeper.kernels, first_block, last_block, at);
+    linearise_contacts(problem, sweeper.kernels, first_block, last_block, at);
     wait_for_all();
     return exact_residual(at);
   }
@@ -189,7 +189,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
   Momentum momentum = at.cold ? Momentum{} : warm_momentum();
   int next_momentum = sweeps_of_momentum;
   const double share = at.residual.eta < near_solution * tolerance ? ahead : 1.0;
-  double aim = share * hopeful * tolerance;
+  double aim = share * target_fraction * tolerance;
   int interval = at.cold ? first_renewal_cold : sweeps_to_renewal;
   int averaged = 0;
   if (!member.begin_sweeps()) return outcome;
@@ -205,7 +205,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
     if (estimate > aim)
       interval = std::min(2 * interval, sweeps_to_renewal);
     else if (at.pressed == 0)
-      aim = share * cautious * tolerance * std::min(hopeful, estimate / at.residual.eta);
+      aim = share * cautious * tolerance * std::min(target_fraction, estimate / at.residual.eta);
     if (outcome.iterations >= next_momentum) {
       momentum = warm_momentum();
       next_momentum = 2 * outcome.iterations;
@@ -233,7 +233,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
 /// measured costs of teams are kept, because the number of useful threads rises and falls while a bed is
 /// poured.
 ThreadTeam* team_for(const ContactProblem& problem, AcceleratedWorkspace& w, int threads) {
-  const int useful = std::clamp(most_members(problem), 1, threads);
+  const int useful = std::clamp(max_members(problem), 1, threads);
   if (useful == 1) return nullptr;  // an existing team is kept for later solves
   if (!w.team || w.team->size() != useful) w.team = std::make_unique<ThreadTeam>(useful);
   return w.team.get();
@@ -245,7 +245,7 @@ constexpr int iterations_for_the_rest = 17;
 
 }  // namespace
 
-ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace) {
+ThreadTeam* solver_team(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace) {
   ThreadTeam* const team = team_for(problem, workspace, threads);
   return team != nullptr && workspace.choice.in_team() ? team : nullptr;
 }
@@ -254,7 +254,7 @@ AcceleratedOutcome solve_accelerated(const ContactProblem& problem, double toler
                                      int threads, AcceleratedWorkspace& workspace,
                                      ContactSolution& solution) {
   ThreadTeam* const useful = team_for(problem, workspace, threads);
-  ThreadTeam* const team = team_at_hand(problem, threads, workspace);
+  ThreadTeam* const team = solver_team(problem, threads, workspace);
   prepare(problem, solution, team, workspace.linearisation);
   for (auto* field : {&solution.vx, &solution.vy, &solution.omega})
     field->resize(static_cast<std::size_t>(problem.body_count()));

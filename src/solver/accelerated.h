@@ -29,7 +29,7 @@ struct AcceleratedOutcome {
 };
 
 /// Returns the team that would solve this problem at present; null if one thread would.
-ThreadTeam* team_at_hand(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace);
+ThreadTeam* solver_team(const ContactProblem& problem, int threads, AcceleratedWorkspace& workspace);
 
 /// Solves until the natural-map residual is at most `tolerance` or `max_iterations` have been made. Contacts
 /// must be sorted by their first body. `solution` is as in solve(), and `threads` >= 1.

@@ -217,8 +217,8 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& guess, 
   }
 }
 
-void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
-                      Index last_block, Linearisation& w) {
+void linearise_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
+                        Index last_block, Linearisation& w) {
   LookArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
                     problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
                     w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),

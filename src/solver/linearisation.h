@@ -78,8 +78,8 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& impulse
 void sum_exact_velocities(const ContactProblem& problem, const SweepKernels& kernels, Index first, Index last,
                           Linearisation& w);
 /// Computes the relative velocities at P0 and the sums of the blocks.
-void look_at_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
-                      Index last_block, Linearisation& w);
+void linearise_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
+                        Index last_block, Linearisation& w);
 
 /// The natural-map residual at P0, as defined by natural_map_residual.
 struct ExactResidual {

@@ -16,17 +16,17 @@ struct Momentum {
   static constexpr double theta_begun_anew = 0.25;
 
   double theta = 1.0;
-  double beta = 0.0;          ///< extrapolation: y = P + beta (P - P of the previous sweep)
-  double least_change = 0.0;  ///< smallest change of a sweep since the last restart; 0: no sweep yet
+  double beta = 0.0;        ///< extrapolation: y = P + beta (P - P of the previous sweep)
+  double min_change = 0.0;  ///< smallest change of a sweep since the last restart; 0: no sweep yet
 
   /// Updates theta and beta after a sweep. `change` is || P_new - y ||; `ascent` is
   /// (y - P_new) . (P_new - P), which is positive if the momentum points uphill.
   void update(double change, double ascent) {
-    least_change = least_change > 0.0 ? std::min(least_change, change) : change;
-    if (ascent > 0.0 || change > tolerated_growth * least_change) {
+    min_change = min_change > 0.0 ? std::min(min_change, change) : change;
+    if (ascent > 0.0 || change > tolerated_growth * min_change) {
       theta = theta_begun_anew;
       beta = 0.0;
-      least_change = change;
+      min_change = change;
       return;
     }
     grow();

@@ -25,10 +25,10 @@ int solve_gauss_seidel(const ContactProblem& problem, const SolverSettings& sett
 
 }  // namespace
 
-ThreadTeam* team_at_hand(const ContactProblem& problem, const SolverSettings& settings,
-                         SolverWorkspace& workspace) {
+ThreadTeam* solver_team(const ContactProblem& problem, const SolverSettings& settings,
+                        SolverWorkspace& workspace) {
   if (settings.kind != SolverKind::accelerated) return nullptr;
-  return team_at_hand(problem, settings.threads, workspace.accelerated);
+  return solver_team(problem, settings.threads, workspace.accelerated);
 }
 
 SolverReport solve(const ContactProblem& problem, const SolverSettings& settings, SolverWorkspace& workspace,

@@ -34,8 +34,8 @@ struct SolverWorkspace {
 
 /// Returns the team that would solve this problem at present; null if one thread would, or if the solver has
 /// no team.
-ThreadTeam* team_at_hand(const ContactProblem& problem, const SolverSettings& settings,
-                         SolverWorkspace& workspace);
+ThreadTeam* solver_team(const ContactProblem& problem, const SolverSettings& settings,
+                        SolverWorkspace& workspace);
 
 /// Solves the problem, (T7) with (T9) and (T10), from the first guess in `solution` to the tolerance, and
 /// judges the result by natural_map_residual. The same problem and guess give the same bits.

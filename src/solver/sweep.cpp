@@ -19,7 +19,7 @@ void wait_for_all(const Sweeper& sweeper) {
 
 /// Returns the index of the first sum of a sweep.
 Index first_sum(const Sweeper& sweeper, Index sweep) {
-  return (sweeper.turn * most_sweeps_in_a_row + sweep) * sweeper.at.order.part_count();
+  return (sweeper.turn * max_sweeps_in_a_row + sweep) * sweeper.at.order.part_count();
 }
 
 void sweep_part(const Sweeper& sweeper, Index part, std::span<const float> beta, std::size_t sweep) {
@@ -92,7 +92,7 @@ SweepSums sums_of(const Sweeper& sweeper, int sweep) {
 }  // namespace
 
 int sweeps_in_a_row(const SweepOrder& order) {
-  return order.is_ring() && order.domain_count() >= domains_for_wave ? most_sweeps_in_a_row : 1;
+  return order.is_ring() && order.domain_count() >= domains_for_wave ? max_sweeps_in_a_row : 1;
 }
 
 bool fits_wave(const SweepOrder& order, int sweeps, int size) {
@@ -141,7 +141,7 @@ void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta) {
 }
 
 double sweep(Sweeper& sweeper, int count, Momentum& momentum) {
-  std::array<float, most_sweeps_in_a_row> beta{};
+  std::array<float, max_sweeps_in_a_row> beta{};
   Momentum ahead = momentum;
   for (int k = 0; k < count; ++k) {
     beta[static_cast<std::size_t>(k)] = static_cast<float>(ahead.beta);

@@ -11,16 +11,16 @@
 namespace talus::solver {
 
 /// Largest number of sweeps in succession before the momentum is updated.
-inline constexpr int most_sweeps_in_a_row = 4;
+inline constexpr int max_sweeps_in_a_row = 4;
 
 /// Number of sums of each part of a sweep: one for each sweep in succession, in two turns. While one member
 /// still reads the sums of a turn, another may already work on the next turn, but not on the one after it.
-inline constexpr int sums_of_part = 2 * most_sweeps_in_a_row;
+inline constexpr int sums_of_part = 2 * max_sweeps_in_a_row;
 
 /// State of one member of a team during sweeps. All members call the functions below together.
 struct Sweeper {
   Linearisation& at;
-  /// Sums of the parts; entry (t * most_sweeps_in_a_row + s) * part_count + k is part k in sweep s of turn t.
+  /// Sums of the parts; entry (t * max_sweeps_in_a_row + s) * part_count + k is part k in sweep s of turn t.
   std::vector<SweepSums>& sums;
   ThreadTeam* team;  ///< null: single thread
   int member, size;
@@ -42,7 +42,7 @@ void sweep_by_phases(const Sweeper& sweeper, std::span<const float> beta);
 /// so that one read of a domain from memory serves all of them. Requires fits_wave().
 void sweep_in_wave(const Sweeper& sweeper, std::span<const float> beta);
 
-/// Makes `count` sweeps, at most most_sweeps_in_a_row, in a wave if that fits, each with the momentum that it
+/// Makes `count` sweeps, at most max_sweeps_in_a_row, in a wave if that fits, each with the momentum that it
 /// has if no sweep before it causes a restart. Then updates `momentum` with their changes. Returns
 /// || p_new - y || of the last sweep. The next call uses the other turn.
 double sweep(Sweeper& sweeper, int count, Momentum& momentum);

@@ -27,8 +27,7 @@ Domains domains_of(const ContactProblem& problem) {
   const Index contacts = problem.contact_count();
   if (contacts < contacts_for_four) return {1, false};
   const bool by_columns = problem.columns >= 2 * least;
-  const Index most =
-      by_columns ? std::min(problem.columns / 4 * 2, SweepOrder::most_domains) : most_of_bodies;
+  const Index most = by_columns ? std::min(problem.columns / 4 * 2, SweepOrder::max_domains) : most_of_bodies;
   return {std::clamp(2 * (contacts / contacts_for_a_pair), least, most), by_columns};
 }
 
@@ -161,7 +160,7 @@ void begin_order(const ContactProblem& problem, const std::vector<Index>& first_
 
 void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                 const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order) {
-  std::array<Index, SweepOrder::most_parts> share{};
+  std::array<Index, SweepOrder::max_parts> share{};
   const auto last = static_cast<std::size_t>(part_begin(problem.contact_count(), member + 1, size));
   for (auto c = static_cast<std::size_t>(part_begin(problem.contact_count(), member, size)); c < last; ++c) {
     if (!swept[c]) continue;
@@ -186,7 +185,7 @@ void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& 
 void order_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,
                  const std::vector<std::uint8_t>& swept, int member, int size, SweepOrder& order) {
   const Index bodies = problem.body_count();
-  std::array<bool, SweepOrder::most_parts> is_mine{};
+  std::array<bool, SweepOrder::max_parts> is_mine{};
   for (std::size_t part = 0; part < is_mine.size(); ++part)
     is_mine[part] = static_cast<int>(part) % size == member;
   for (std::size_t c = 0; c < swept.size(); ++c) {
@@ -225,6 +224,6 @@ void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std:
     if (swept[c]) order.slot[c] += lane_count * order.part_begin[order.part[c]];
 }
 
-int most_members(const ContactProblem& problem) { return (domains_of(problem).count + 1) / 2; }
+int max_members(const ContactProblem& problem) { return (domains_of(problem).count + 1) / 2; }
 
 }  // namespace talus::solver

@@ -23,7 +23,7 @@ namespace talus::solver {
 /// The order follows from the problem alone, so that the bits of a result do not depend on the threads.
 struct SweepOrder {
   static constexpr int phases = 3;
-  static constexpr Index most_domains = 256, most_parts = most_domains + 1;
+  static constexpr Index max_domains = 256, max_parts = max_domains + 1;
   std::vector<Index> slot;          ///< slot of each contact: lane_count * group + lane
   std::vector<Index> row_a, row_b;  ///< rows of the bodies of each contact
   /// Runs of rows. The bodies of a domain have consecutive rows, in three runs. In an odd domain these are
@@ -61,7 +61,7 @@ struct SweepOrder {
 
   // Working memory. A place is a set of interleaved groups, before empty ones are removed.
   std::vector<Index> domain, row, part, owner, first_place, room, contacts_of_column, domain_of_column;
-  std::vector<std::array<Index, most_parts>> shares;  ///< number of contacts of each part, by member
+  std::vector<std::array<Index, max_parts>> shares;  ///< number of contacts of each part, by member
   std::vector<std::uint8_t> fill;
   std::array<std::vector<Index>, phases> next_place;
 };
@@ -93,6 +93,6 @@ void place_slots(const std::vector<std::uint8_t>& swept, std::size_t first, std:
                  SweepOrder& order);
 
 /// Returns the number of members of a team that have work in each phase of a sweep.
-int most_members(const ContactProblem& problem);
+int max_members(const ContactProblem& problem);
 
 }  // namespace talus::solver

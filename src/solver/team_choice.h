@@ -23,9 +23,9 @@ class TeamChoice {
   bool on_trial_ = false;
   double seconds_ = 0.0, work_ = 0.0;  ///< time and work of the present window
   double usual_cost_ = 0.0;            ///< s per unit of work in recent windows, trials excluded
-  double least_alone_ = 0.0;           ///< smallest cost of a single thread; 0: never tried
-  int settled_ = 0;                    ///< windows since the last trial
-  int patience_ = 0;                   ///< windows between two trials
+  double min_alone_ = 0.0;             ///< smallest cost of a single thread; 0: never tried
+  int windows_since_trial_ = 0;        ///< windows since the last trial
+  int trial_interval_ = 0;             ///< windows between two trials
 };
 
 }  // namespace talus::solver

@@ -185,9 +185,9 @@ ChainConclusion conclude(std::span<const ReadingResult> results) {
       conclusion.best.clear();
     if (conclusion.best.empty() || !is_nearer(results[conclusion.best.front()], result))
       conclusion.best.push_back(r);
-    const auto& least = conclusion.least_deviation;
+    const auto& least = conclusion.smallest_deviation;
     if (!std::isnan(result.deviation) && (!least || result.deviation < results[*least].deviation))
-      conclusion.least_deviation = r;
+      conclusion.smallest_deviation = r;
   }
   for (const std::size_t r : conclusion.best)
     conclusion.complete =

@@ -56,8 +56,8 @@ ReadingResult judge_reading(std::size_t preparation, std::size_t reading,
 /// Conclusions from all results together.
 struct ChainConclusion {
   std::vector<std::size_t> best;  ///< results with the highest score; of these, with the smallest deviation
-  std::optional<std::size_t> least_deviation;  ///< the result with the smallest deviation of all
-  bool complete = false;                       ///< a best result agrees in every comparable value
+  std::optional<std::size_t> smallest_deviation;  ///< the result with the smallest deviation of all
+  bool complete = false;                          ///< a best result agrees in every comparable value
   /// A value of the chain that no result brings within tolerance, and the result that comes nearest, if the
   /// value occurs in any.
   struct Missed {

@@ -49,7 +49,7 @@ double common_angle(const std::vector<RunReach>& reaches) {
 StudyResult read_study(const StudyPlan& plan, std::optional<double> reference) {
   StudyResult result{plan, 0.0, {}};
   std::vector<RunReach> reaches;
-  const std::vector<ensemble::MemberState> states = ensemble::look_at_members(plan);
+  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   ensemble::KnownMembers known;
   const std::vector<ensemble::MemberNumbers> numbers = ensemble::numbers_of(plan, states, known);
   for (std::size_t m = 0; m < plan.members.size(); ++m) {

@@ -189,7 +189,7 @@ std::vector<std::string> threshold_conclusion(const ReproductionPlan& plan,
   const ChainConclusion conclusion = conclude(results);
   const std::string verdict = sentences.back();
   sentences.pop_back();
-  const auto least = conclusion.least_deviation;
+  const auto least = conclusion.smallest_deviation;
   if (least && std::isfinite(results[*least].deviation) && std::ranges::count(conclusion.best, *least) == 0)
     sentences.push_back(least_text(plan, results, *least));
   sentences.push_back(scores_text(plan, conclusion));

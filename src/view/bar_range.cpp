@@ -6,7 +6,7 @@
 namespace talus::view {
 namespace {
 
-constexpr double least_share = 0.02;  // minimum width of the new range, as a share of the old one
+constexpr double min_share = 0.02;  // minimum width of the new range, as a share of the old one
 
 /// Rounds to hundredths of the power of ten of the range or, on a logarithmic bar, of the value.
 double rounded(double value, const BarEnds& bar) {
@@ -27,10 +27,10 @@ std::array<double, 2> pulled(const HeldBar& held, double share) {
   double low = 0.0, high = 1.0;  // as shares of the previous bar
   switch (held.part) {
     case HeldBar::Part::low:
-      low = std::min(share, 1.0 - least_share);
+      low = std::min(share, 1.0 - min_share);
       break;
     case HeldBar::Part::high:
-      high = std::max(1.0 + share, least_share);
+      high = std::max(1.0 + share, min_share);
       break;
     case HeldBar::Part::middle:
       low = -share;

@@ -58,7 +58,7 @@ void FrameSeries::set_counts(std::size_t frames, std::size_t of_tilt) {
   shared_.changed.notify_all();
 }
 
-bool FrameSeries::take_in(pictures::PictureSeries& pictures) {
+bool FrameSeries::collect_ready(pictures::PictureSeries& pictures) {
   const std::scoped_lock lock(shared_.mutex);
   const bool failed = shared_.error != error_;
   error_ = shared_.error;

@@ -33,7 +33,7 @@ class FrameSeries {
 
   /// Collects the finished results; returns whether there were any. Everything below, and what the pictures
   /// know of the frames added, changes only here.
-  bool take_in(pictures::PictureSeries& pictures);
+  bool collect_ready(pictures::PictureSeries& pictures);
 
   const pictures::OverloadRule& rule() const { return rule_; }
   /// Returns the values known so far, of the first frames of the tilt.
@@ -54,7 +54,7 @@ class FrameSeries {
     pictures::OverloadRule rule;
     std::size_t known = 0, frames = 0, of_tilt = 0;
     std::vector<analysis::FrameRecord> ready;
-    std::optional<pictures::MetFrames> met;  ///< empty once it has been collected
+    std::optional<pictures::SeenFrames> met;  ///< empty once it has been collected
     pictures::MapExtent extent;
     std::string error;
   };

@@ -12,7 +12,7 @@ namespace {
 constexpr double slowest = 1e-3;  // deg/s
 
 /// Returns how many frames of that size are cached: all of the paper's bed, which has about 90 of 1.6 MB.
-std::size_t most_kept(const Frame& frame) {
+std::size_t max_kept(const Frame& frame) {
   constexpr std::size_t budget = 256u << 20, of_grain = 90, of_contact = 60;  // bytes
   const std::size_t size = of_grain * frame.x.size() + of_contact * frame.contacts.a.size() + 1;
   return std::max<std::size_t>(2, budget / size);
@@ -69,7 +69,7 @@ std::shared_ptr<const Frame> RunFrames::kept(std::size_t k) const {
 
 void RunFrames::keep(std::size_t k, std::shared_ptr<const Frame> frame) {
   std::erase_if(kept_, [k](const auto& kept) { return kept.first == k; });
-  const std::size_t most = most_kept(*frame);
+  const std::size_t most = max_kept(*frame);
   kept_.emplace_front(k, std::move(frame));
   while (kept_.size() > most) kept_.pop_back();
 }

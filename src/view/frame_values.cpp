@@ -27,9 +27,9 @@ analysis::CoarseGrainingRule coarse_graining_rule(const pictures::OverloadRule& 
 analysis::FrameRecord overload_record(const BedFrame& bed, const analysis::Clusters& clusters,
                                       const pictures::OverloadRule& rule) {
   analysis::FrameThreshold at;
-  analysis::take_overloaded(stress::count_overloaded(bed, pictures::threshold_of(rule)), bed.statics, at);
-  analysis::take_lengths(analysis::coarse_graining(bed, coarse_graining_rule(rule, bed.statics)), at);
-  analysis::take_clusters(clusters, analysis::bed_edges(bed), at);
+  analysis::measure_overloaded(stress::count_overloaded(bed, pictures::threshold_of(rule)), bed.statics, at);
+  analysis::measure_lengths(analysis::coarse_graining(bed, coarse_graining_rule(rule, bed.statics)), at);
+  analysis::measure_clusters(clusters, analysis::bed_edges(bed), at);
   return {.tilt = bed.frame.tilt, .thresholds = {at}};
 }
 

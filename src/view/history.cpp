@@ -48,7 +48,7 @@ void HistorySeries::ask(const Selection& question, std::size_t frames) {
   shared_.frames = frames;
 }
 
-bool HistorySeries::take_in() {
+bool HistorySeries::collect_ready() {
   const std::scoped_lock lock(shared_.mutex);
   if (shared_.ready.empty()) return false;
   std::ranges::move(shared_.ready, std::back_inserter(instants_));

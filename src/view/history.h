@@ -50,7 +50,7 @@ class HistorySeries {
   /// else only the frames not yet read.
   void ask(const Selection& question, std::size_t frames);
   /// Collects what has been read; returns whether there was anything.
-  bool take_in();
+  bool collect_ready();
 
   const Selection& question() const { return question_; }
   /// Returns the instants read so far, of the first frames. A frame that cannot be read ends them.

@@ -23,7 +23,7 @@ struct LiveHistory {
 };
 
 /// Maximum number of rows of steps kept.
-inline constexpr std::size_t most_live_steps = 4000;
+inline constexpr std::size_t max_live_steps = 4000;
 
 /// Adds rows of steps. When there are too many, every second row is dropped, and the stride of later rows
 /// doubles.
@@ -34,7 +34,7 @@ inline void add_steps(std::span<const StepRow> rows, LiveHistory& history) {
   for (const StepRow& row : rows) {
     if (is_left_out(row)) continue;
     history.steps.push_back(row);
-    if (history.steps.size() <= most_live_steps) continue;
+    if (history.steps.size() <= max_live_steps) continue;
     history.stride *= 2;
     std::erase_if(history.steps, is_left_out);
   }

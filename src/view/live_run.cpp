@@ -46,7 +46,7 @@ struct Taken {
   std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
 };
 
-constexpr std::size_t most_marks = 64;  // some megabytes each in a bed of 8000 grains
+constexpr std::size_t max_marks = 64;  // some megabytes each in a bed of 8000 grains
 
 /// State of the run before a command.
 struct Mark {
@@ -122,7 +122,7 @@ struct LiveRun::State {
   void take_step();
   void wait_for_pace(const std::stop_token& stop);
   void keep(const std::function<void()>& store_something);
-  void take_in();
+  void collect_ready();
   void describe();
   void show_frame();
   void show_pause();
@@ -207,12 +207,12 @@ void LiveRun::State::apply(const Command& command) {
                        steps.size()};  // only this thread changes it
     Mark mark{session.checkpoint(0.0), now};
     session.apply(command);
-    if (marks.size() == most_marks) marks.erase(marks.begin());
+    if (marks.size() == max_marks) marks.erase(marks.begin());
     marks.push_back(std::move(mark));
   } else {
     session.apply(command);
   }
-  take_in();
+  collect_ready();
   const std::lock_guard lock(mutex);
   describe();
 }
@@ -242,7 +242,7 @@ void LiveRun::State::back(const std::string& output) {
     store.emplace(std::move(next));
     recorder.emplace(session, *store);
   }
-  before.put_back(std::move(segment));
+  before.restore_segment(std::move(segment));
   session = std::move(before);
   taken = whole;
   steps.resize(whole.steps);
@@ -276,7 +276,7 @@ void LiveRun::State::take_step() {
     failed = true;
     fail(error);
   }
-  take_in();
+  collect_ready();
   keep([this, failed] {
     if (!recorder) return;
     if (failed)
@@ -314,7 +314,7 @@ void LiveRun::State::keep(const std::function<void()>& store_something) {
 }
 
 /// Copies new entries of the segment to the history.
-void LiveRun::State::take_in() {
+void LiveRun::State::collect_ready() {
   const io::Segment& segment = session.segment();
   std::vector<std::shared_ptr<const Frame>> frames;
   for (std::size_t k = taken.frames; k < segment.frames.size(); ++k)
@@ -406,7 +406,7 @@ LiveRun::LiveRun(const scenario::Scenario& scenario, const std::string& scenario
     : state_(std::make_unique<State>(
           scenario, session::RunOrigin{scenario_text, {}, command_line, solver_threads(), branch})) {
   state_->session.use_threads(state_->origin.threads);
-  state_->take_in();
+  state_->collect_ready();
   if (!output.empty()) state_->record(output, overwrite);
   state_->show_pause();
   state_->solver = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });

@@ -16,9 +16,9 @@ namespace talus::view {
 namespace {
 
 constexpr render::Colour length_colour{220, 50, 0}, circle_colour{70, 110, 170}, cluster_colour{240, 130, 0};
-constexpr std::size_t few = 500;                   // maximum number of grains whose rings are drawn finely
-constexpr double largest_ring_width = 0.05;        // D
-constexpr double least_ring_width = 1.0 / 2500.0;  // relative to the width of the picture: about a pixel
+constexpr std::size_t few = 500;                 // maximum number of grains whose rings are drawn finely
+constexpr double largest_ring_width = 0.05;      // D
+constexpr double min_ring_width = 1.0 / 2500.0;  // relative to the width of the picture: about a pixel
 
 /// Adds a circle made of straight lines, with its images in a periodic bed.
 void add_circle(render::FrameView& view, Vec2 centre, double radius, double half_width,
@@ -129,7 +129,7 @@ void add_looked_at(render::FrameView& view, const BedFrame& bed, const Overlay& 
 /// Adds the rest of the selection, and its trails.
 void add_selection(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   const double d = bed.statics.mean_diameter, width = view.x_max - view.x_min;
-  const double half_width = std::clamp(least_ring_width * width, 0.02 * d, largest_ring_width * d);
+  const double half_width = std::clamp(min_ring_width * width, 0.02 * d, largest_ring_width * d);
   const int lines = overlay.grains.size() > few ? 12 : 32;
   for (const auto& [pen, colour] : {std::pair{2.0 * half_width, render::white}, {half_width, trail_colour}})
     for (const std::vector<Vec2>& trail : overlay.trails) add_trail(view, bed, trail, pen, colour);

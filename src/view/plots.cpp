@@ -10,7 +10,7 @@
 namespace talus::view {
 namespace {
 
-constexpr std::size_t most_points = 2000;  // maximum for a curve over steps: about the number of pixels
+constexpr std::size_t max_points = 2000;  // maximum for a curve over steps: about the number of pixels
 constexpr int gamma_bins = 50;
 
 Plot& plot_of(std::vector<Plot>& plots, PlotKind kind) { return plots[static_cast<std::size_t>(kind)]; }
@@ -210,7 +210,7 @@ void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots) {
   PlotSeries& residual = plot_of(plots, PlotKind::residual).series[0];
   PlotSeries& iterations = plot_of(plots, PlotKind::iterations).series[0];
   for (PlotSeries* series : {&residual, &iterations}) clear(*series);
-  const std::size_t together = (steps.size() + most_points - 1) / most_points;
+  const std::size_t together = (steps.size() + max_points - 1) / max_points;
   for (std::size_t k = 0; k < steps.size(); k += together) {
     const auto rows = steps.subspan(k, std::min(together, steps.size() - k));
     const double x = at(rows.front(), StepField::step);

@@ -28,7 +28,7 @@ std::vector<Index> combined(const std::vector<Index>& before, const std::vector<
   std::vector<Index> grains;
   const auto into = std::back_inserter(grains);
   switch (mode) {
-    case SelectionMode::anew:
+    case SelectionMode::replace:
       return found;
     case SelectionMode::add:
       std::ranges::set_union(before, found, into);

@@ -26,10 +26,10 @@ struct Selection {
 
 /// Combination of the grains found with the current selection.
 enum class SelectionMode {
-  anew,    ///< replaces the selection
-  add,     ///< adds to the selection
-  remove,  ///< removes from the selection
-  common,  ///< intersects with the selection
+  replace,  ///< replaces the selection
+  add,      ///< adds to the selection
+  remove,   ///< removes from the selection
+  common,   ///< intersects with the selection
 };
 
 /// Combines two lists; both, and the result, are sorted by id without duplicates.

@@ -24,7 +24,7 @@ struct EventList {
   const TimelineSource& source;
   std::size_t rise_begins;                   ///< frame
   std::vector<double> rise_tilts;            ///< rad, absolute values
-  bool other_side;                           ///< whether the bed slopes backwards in the rise
+  bool mirrored_slope;                       ///< whether the bed slopes backwards in the rise
   std::vector<double> row_tilts, row_times;  ///< rows of the rise: absolute tilts (rad) and times (s)
   std::vector<TimelineEvent> events;
 
@@ -32,7 +32,7 @@ struct EventList {
     const analysis::SeriesPart rise = analysis::last_rise(of.tilts);
     rise_begins = rise.first;
     rise_tilts = analysis::magnitudes(of.tilts, rise);
-    other_side = analysis::is_to_other_side(of.tilts, rise);
+    mirrored_slope = analysis::slopes_backwards(of.tilts, rise);
     const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(of.rows);
     row_tilts = column_of(rows, Observable::tilt);
     row_times = column_of(rows, Observable::time);
@@ -42,7 +42,7 @@ struct EventList {
   void add(const char* name, const char* label, const std::string& what, double tilt,
            TimelineEvent::Kind kind = TimelineEvent::Kind::transition) {
     if (!std::isfinite(tilt)) return;
-    add_at(name, label, what, other_side ? -tilt : tilt,
+    add_at(name, label, what, mirrored_slope ? -tilt : tilt,
            static_cast<double>(rise_begins) + place_among(rise_tilts, tilt), time_of(tilt), kind);
   }
 
@@ -108,7 +108,7 @@ void add_of_frames(EventList& list, double theta_c) {
                 static_cast<double>(k), k < source.times.size() ? source.times[k] : not_known,
                 TimelineEvent::Kind::transition);
   if (source.may_change || source.values.size() < source.tilts.size()) return;
-  const auto [begin, frames, tilts, other_side] = analysis::last_rise(source.values);
+  const auto [begin, frames, tilts, mirrored_slope] = analysis::last_rise(source.values);
   std::vector<double> lengths;
   std::vector<Index> spans;
   for (const analysis::FrameRecord* frame : frames) {
@@ -123,8 +123,8 @@ void add_of_frames(EventList& list, double theta_c) {
 
 /// Decades of energy below the largest rearrangement over which sizes differ, and the size of all smaller
 /// ones.
-constexpr double told_decades = 4.0;
-constexpr double least_size = 0.2;
+constexpr double labelled_decades = 4.0;
+constexpr double min_size = 0.2;
 
 /// Adds the rearrangements except the flow that ends the slope, which theta_c marks.
 void add_rearrangements(EventList& list) {
@@ -142,8 +142,8 @@ void add_rearrangements(EventList& list) {
                               event.energy / list.source.energy_unit, event.grains,
                               event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
                   event.begin, event.time, TimelineEvent::Kind::rearrangement);
-    const double below = std::log10(largest / event.energy) / told_decades;
-    list.events.back().size = std::isfinite(below) ? std::clamp(1.0 - below, least_size, 1.0) : least_size;
+    const double below = std::log10(largest / event.energy) / labelled_decades;
+    list.events.back().size = std::isfinite(below) ? std::clamp(1.0 - below, min_size, 1.0) : min_size;
   }
 }
 

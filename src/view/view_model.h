@@ -102,8 +102,8 @@ class ViewModel {
   ViewState state;  ///< changed by the caller
 
   View first() { return {*this, state, map_, false}; }
-  /// Returns the second view, as state.beside requests it. A second run shows the frame that corresponds to
-  /// the frame shown.
+  /// Returns the second view, as state.second_view requests it. A second run shows the frame that corresponds
+  /// to the frame shown.
   View second();
 
   bool is_live() const { return live_ != nullptr; }
@@ -181,11 +181,11 @@ class ViewModel {
 
   /// Opens another run next to the current one; both must be replays. Throws as open() does, and Error(usage)
   /// if either is computed. Shows the second view, linked by time if both runs have a programme.
-  void open_beside(const std::string& path);
+  void open_second_run(const std::string& path);
   /// Returns the second view to this run.
-  void close_beside();
+  void close_second_run();
   /// Returns the second run; null if the second view shows this run.
-  const ViewModel* run_beside() const { return other_.get(); }
+  const ViewModel* second_run() const { return other_.get(); }
   /// Returns whether frames of the second run can be found by this clock: theta_c - theta requires that both
   /// runs have failed.
   bool has_clock(PlotAxis clock) const;
@@ -218,7 +218,7 @@ class ViewModel {
   std::vector<Plot> contact_history() const;
   /// Maximum number of grains whose trails are drawn; if more are selected, every second, third, ... has a
   /// trail.
-  static constexpr std::size_t most_trails = 500;
+  static constexpr std::size_t max_trails = 500;
 
   /// Writes all quantities of the selected grains as grains_table to a new file. Reports success or the error
   /// in state.message.
@@ -276,7 +276,7 @@ class ViewModel {
   /// Computes frame_ unless `mapped` is given.
   void make_frame(std::shared_ptr<const Frame> mapped = nullptr);
   /// Collects the results of a live run; returns whether its frame has changed.
-  bool take_live();
+  bool poll_live_run();
   /// Shows a recorded frame of a live run, or follows the run again.
   void hold_at(std::optional<std::size_t> frame);
   /// Returns the report on a live run that has just failed or ended; else empty.
@@ -322,17 +322,17 @@ class ViewModel {
   /// Moves the camera to the inspected grain, if requested.
   void follow_grain();
 
-  // view_beside.cpp: the links between the two views.
+  // second_view.cpp: the links between the two views.
   /// Returns the instants of all frames, theta_c, and the number of frames of the tilt.
   RunInstants instants() const;
   std::vector<double> tilts_of_tilt() const;
   std::vector<double> times_of_tilt() const;
-  ViewState beside_state() const;
+  ViewState second_view_state() const;
   /// Returns whether both views show the same map, of two runs.
   bool same_map() const;
   /// Brings the second run to the corresponding frame and part of the bed; returns whether its content has
   /// changed.
-  bool follow_beside(double seconds);
+  bool follow_second_run(double seconds);
   void link_ranges();
 
   /// Pictures of the run, with the current map and part of the bed.
@@ -359,7 +359,7 @@ class ViewModel {
     std::optional<pictures::ScaleRange> range;
   } linked_;  ///< common range of a map that both runs show
   std::optional<pictures::MapExtent>
-      bed_beside_;          ///< m of this run: height of the second run, for a common scale
+      second_bed_;          ///< m of this run: height of the second run, for a common scale
   ViewState second_state_;  ///< state of a second view of this run, when last requested
 
   // Members of a replay.

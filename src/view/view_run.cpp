@@ -187,7 +187,7 @@ void ViewModel::make_frame(std::shared_ptr<const Frame> mapped) {
   plot_gamma(bed(), plots_);
 }
 
-bool ViewModel::take_live() {
+bool ViewModel::poll_live_run() {
   auto next = live_->frame();
   const LiveStatus status = live_->status();
   theta_c_ = status.theta_c;
@@ -229,7 +229,7 @@ bool ViewModel::follow_frames(const pictures::OverloadRule& rule) {
     series_->begin(rule,
                    threshold ? stored_records(*analysis_, *threshold) : std::vector<analysis::FrameRecord>{});
   }
-  if (series_->take_in(pictures_)) {
+  if (series_->collect_ready(pictures_)) {
     if (replay_) pictures::extend(bed_, series_->extent());
     if (!series_->error().empty()) error_ = series_->error();
     changed = true;
@@ -387,7 +387,7 @@ void ViewModel::set_speed(double degrees_per_second) {
 
 bool ViewModel::update(double seconds) {
   if (live_) live_->set_pace(live_paces[state.pace]);
-  bool changed = live_ && take_live();
+  bool changed = live_ && poll_live_run();
   if (replay_ && replay_->advance(seconds)) {
     show_replayed();
     changed = true;
@@ -402,7 +402,7 @@ bool ViewModel::update(double seconds) {
   changed = follow_history() || changed;
   follow_grain();
   state.camera = centred(clamped(state.camera, bed_, mean_diameter()), first().part(aspect_));
-  changed = follow_beside(seconds) || changed;
+  changed = follow_second_run(seconds) || changed;
   if (const std::string end = take_end(); !end.empty()) state.announcement = end;
   if (!error_.empty()) state.message = std::exchange(error_, {});
   return changed;

@@ -68,7 +68,7 @@ bool ViewModel::follow_history() {
   if (selecting.trails) {
     question.grains = selecting.selection.grains;
     if (question.grains.empty() && state.selected) question.grains = {*state.selected};
-    question.grains = thinned(question.grains, most_trails);
+    question.grains = thinned(question.grains, max_trails);
   }
   if (question == Selection{} || frame_count() == 0) {
     history_.reset();
@@ -77,7 +77,7 @@ bool ViewModel::follow_history() {
   if (!history_)
     history_ = std::make_unique<HistorySeries>([from = frames_](std::size_t k) { return from->read(k); });
   history_->ask(question, frame_count());
-  return history_->take_in();
+  return history_->collect_ready();
 }
 
 double ViewModel::friction_at(std::int64_t step) const {
@@ -153,7 +153,7 @@ void ViewModel::select_by_condition() {
       found = grains_where(condition, grain_source(true));
       if (!condition.names.empty() && !selecting.in_each_frame) selecting.quantity = condition.names.front();
     }
-    const SelectionMode mode = selecting.in_each_frame ? SelectionMode::anew : selecting.mode;
+    const SelectionMode mode = selecting.in_each_frame ? SelectionMode::replace : selecting.mode;
     select(combined(selected_grains(), found, mode));
     condition_frame_ = frame_;
   } catch (const Error& failure) {

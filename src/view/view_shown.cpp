@@ -63,7 +63,7 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
 
 pictures::MapExtent ViewModel::viewed_bed() const {
   pictures::MapExtent viewed = bed_;
-  if (bed_beside_) pictures::extend(viewed, *bed_beside_);
+  if (second_bed_) pictures::extend(viewed, *second_bed_);
   return viewed;
 }
 

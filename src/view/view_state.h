@@ -23,7 +23,7 @@ struct ViewCamera {
 };
 
 /// State of the second view.
-struct BesideState {
+struct SecondViewState {
   bool shown = false;
   pictures::MapLayers layers{};     ///< empty: same as the first view
   std::optional<double> minus{};    ///< rad: show the frame minus that at this tilt
@@ -41,7 +41,7 @@ struct PlotLook {
 /// Selection in addition to the inspected grain, and how it is made.
 struct SelectingState {
   Selection selection;                           ///< two or more grains, or a contact; empty: neither
-  SelectionMode mode = SelectionMode::anew;      ///< applies to a box, a lasso or a condition
+  SelectionMode mode = SelectionMode::replace;   ///< applies to a box, a lasso or a condition
   std::string condition;                         ///< text being edited, or last applied
   std::string error;                             ///< why the condition selects nothing
   bool in_each_frame = false;                    ///< whether the condition selects again in each frame
@@ -63,7 +63,7 @@ struct GrainDrag {
 struct ViewState {
   pictures::MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
-  BesideState beside;
+  SecondViewState second_view;
   std::optional<double> minus;    ///< rad, for a view that shows a frame minus that at this tilt
   double scale = 0.0;             ///< scale of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; empty: per degree

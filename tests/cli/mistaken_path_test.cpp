@@ -109,7 +109,7 @@ TEST_F(MistakenPath, the_folder_of_an_ensemble_is_told_with_what_takes_it) {
   expect_refused({"check", "X"}, "beds", {"beds is the folder of an ensemble"});
   for (const Words& words : takers_of_scenarios)
     expect_refused(words, "beds",
-                   {"not a scenario but the folder of an ensemble; talus ensemble work beds goes on"});
+                   {"not a scenario but the folder of an ensemble; talus ensemble work beds resumes"});
 }
 
 TEST_F(MistakenPath, a_folder_without_a_run_is_told) {

@@ -192,10 +192,10 @@ TEST(Perturb, of_one_seed_computes_no_other_and_is_an_ensemble_that_others_may_c
   const Outcome begun = run_talus(perturb("p", {"--seeds", "1-3", "--jobs", "0"}), folder.path());
   EXPECT_EQ(begun.exit_code, 0) << begun.err;
   EXPECT_NE(begun.out.find("p: 0 of 3 done"), std::string::npos) << begun.out;
-  const pid_t beside = start_talus(perturb("p", {"--seed", "2"}), folder.path());
+  const pid_t side_by_side = start_talus(perturb("p", {"--seed", "2"}), folder.path());
   EXPECT_EQ(run_talus(perturb("p", {"--seed", "2"}), folder.path()).exit_code, 0) << "it waits";
   EXPECT_TRUE(std::filesystem::exists(folder.path("p/seed-2.h5")));
-  EXPECT_EQ(wait_for(beside), 0);
+  EXPECT_EQ(wait_for(side_by_side), 0);
   for (const char* other : {"p/seed-1.h5", "p/seed-3.h5", "p/perturb.md"})
     EXPECT_FALSE(std::filesystem::exists(folder.path(other))) << other;
   ASSERT_EQ(run_talus({"ensemble", "work", "p"}, folder.path()).exit_code, 0);

@@ -157,7 +157,7 @@ TEST(Run, is_resumed_by_its_name_or_its_folder_alone) {
                                      "output.checkpoint_every=0", "--set", "tilt.end_angle=60"},
                                     folder.path());
     ASSERT_EQ(begun.exit_code, 75) << begun.err;
-    EXPECT_NE(begun.err.find("; talus run --resume bed.h5 goes on.\n"), std::string::npos) << begun.err;
+    EXPECT_NE(begun.err.find("; talus run --resume bed.h5 continues.\n"), std::string::npos) << begun.err;
     const Outcome again = run_talus({"run", "--resume", name, "--max-wall", "00:00:01"}, folder.path());
     EXPECT_EQ(again.exit_code, 75) << again.err;
     EXPECT_EQ(again.err.find("was started by version"), std::string::npos) << again.err;

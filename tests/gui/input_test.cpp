@@ -26,7 +26,7 @@ class Input : public testing::Test {
 
   /// Simulates one picture.
   void picture() {
-    queue_.hand_over(ImGui::GetIO());
+    queue_.forward_events(ImGui::GetIO());
     ImGui::NewFrame();
     clicks_ += ImGui::IsMouseClicked(0) ? 1 : 0;
     enters_ += ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ? 1 : 0;
@@ -88,7 +88,7 @@ TEST_F(Input, a_character_comes_with_its_key) {
 TEST_F(Input, wheel_steps_add_up) {
   queue_.add({Kind::wheel, 0.0f, 1.0f, 0, false});
   queue_.add({Kind::wheel, 0.5f, 2.0f, 0, false});
-  queue_.hand_over(ImGui::GetIO());
+  queue_.forward_events(ImGui::GetIO());
   EXPECT_EQ(ImGui::GetIO().MouseWheel, 3.0f);
   EXPECT_EQ(ImGui::GetIO().MouseWheelH, 0.5f);
 }

@@ -71,23 +71,25 @@ TEST_F(Replay, all_of_the_legend_is_seen_beside_the_arrow_of_gravity) {
 
 TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
   model_.go_to(2);
-  const auto told = [&](pictures::MapKind kind) {
+  const auto shown_view = [&](pictures::MapKind kind) {
     model_.state.map.layers = {kind};
     gui_.frame();
     return gui::grain_text(model_.first(), 7);
   };
-  EXPECT_NE(told(pictures::MapKind::speed).find("speed = "), std::string::npos);
-  EXPECT_TRUE(told(pictures::MapKind::speed).ends_with(" √(gD)")) << told(pictures::MapKind::speed);
-  EXPECT_TRUE(told(pictures::MapKind::pressure).ends_with(" ρgD")) << told(pictures::MapKind::pressure);
-  EXPECT_TRUE(told(pictures::MapKind::rotation).ends_with("° per degree"))
-      << told(pictures::MapKind::rotation);
-  EXPECT_TRUE(told(pictures::MapKind::displacement).ends_with(" D per degree"))
-      << told(pictures::MapKind::displacement);
-  EXPECT_NE(told(pictures::MapKind::overloaded).find("γ = "), std::string::npos);
-  EXPECT_EQ(told(pictures::MapKind::forces), "grain 7");
+  EXPECT_NE(shown_view(pictures::MapKind::speed).find("speed = "), std::string::npos);
+  EXPECT_TRUE(shown_view(pictures::MapKind::speed).ends_with(" √(gD)"))
+      << shown_view(pictures::MapKind::speed);
+  EXPECT_TRUE(shown_view(pictures::MapKind::pressure).ends_with(" ρgD"))
+      << shown_view(pictures::MapKind::pressure);
+  EXPECT_TRUE(shown_view(pictures::MapKind::rotation).ends_with("° per degree"))
+      << shown_view(pictures::MapKind::rotation);
+  EXPECT_TRUE(shown_view(pictures::MapKind::displacement).ends_with(" D per degree"))
+      << shown_view(pictures::MapKind::displacement);
+  EXPECT_NE(shown_view(pictures::MapKind::overloaded).find("γ = "), std::string::npos);
+  EXPECT_EQ(shown_view(pictures::MapKind::forces), "grain 7");
   for (const pictures::MapKind kind : pictures::map_kinds()) {
     if (!pictures::has_bar({kind})) continue;
-    EXPECT_NE(told(kind).find(" = "), std::string::npos) << pictures::map_name(kind);
+    EXPECT_NE(shown_view(kind).find(" = "), std::string::npos) << pictures::map_name(kind);
   }
 }
 

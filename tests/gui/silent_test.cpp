@@ -84,8 +84,8 @@ void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = 
     const std::size_t commands = model.is_live() ? window->status().commands_given : 0;
     const std::size_t frame = model.frame_index();
     window->gui.key(key);
-    const bool told = !model.state.message.empty();
-    EXPECT_TRUE(told || window->runs() || !(seen(window->gui) == before))
+    const bool shown_view = !model.state.message.empty();
+    EXPECT_TRUE(shown_view || window->runs() || !(seen(window->gui) == before))
         << name_of_key(key) << " has no effect and no message";
     const bool same_run = !window->runs() && model.frame_index() == frame && !window->gui.requests().quit &&
                           run == (model.is_live() ? window->status().state_hash : "replay") &&
@@ -135,26 +135,26 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   const auto window = at_frame(0)();
   test::DrivenGui& gui = window->gui;
   std::string& message = window->model.state.message;
-  const auto expect_told = [&](const char* part) {
+  const auto expect_reported = [&](const char* part) {
     EXPECT_NE(message.find(part), std::string::npos) << part << ": " << message;
     message.clear();
   };
   gui.settle();
   gui.scroll("map", -1.0f);
-  expect_told("The whole bed is visible");
+  expect_reported("The whole bed is visible");
   gui.drag("map", 0.4f, 0.5f, 0.6f, 0.5f);
-  expect_told("The bed ends there");
+  expect_reported("The bed ends there");
   gui.click("map", 0.003f, 0.003f);
-  expect_told("No grain is there");
+  expect_reported("No grain is there");
   gui.hold(gui::key_left_shift, true);
   gui.click("map", 0.003f, 0.003f);
-  expect_told("No grain is there");
+  expect_reported("No grain is there");
   gui.drag("map", 0.0f, 0.0f, 1.0f, 1.0f);
-  expect_told("; selected: ");
+  expect_reported("; selected: ");
   gui.hold(gui::key_left_shift, false);
   gui.hold(gui::key_left_control, true);
   gui.click("map", 0.003f, 0.003f);
-  expect_told("No contact");
+  expect_reported("No contact");
   gui.hold(gui::key_left_control, false);
 }
 

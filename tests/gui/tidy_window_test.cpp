@@ -110,14 +110,14 @@ TEST_F(TidyWindow, at_every_size_and_scale) {
 
 TEST_F(TidyWindow, with_two_views) {
   model_.go_to(3);
-  model_.state.beside.shown = true;
+  model_.state.second_view.shown = true;
   for (const double scale : {1.0, 1.5, 2.0})
     for (const auto& [width, height] : {std::pair{1280, 800}, {2560, 1440}, {900, 1400}}) {
       model_.state.scale = scale;
       gui_.resize(width, height);
       for (const bool minus : {false, true})
         for (const char* map : {"coarse+forces", "clusters+displacement"}) {
-          model_.state.beside.minus = minus ? std::optional(0.005) : std::nullopt;
+          model_.state.second_view.minus = minus ? std::optional(0.005) : std::nullopt;
           model_.state.map.layers = pictures::map_layers(map);
           expect_tidy(fmt::format("{}, {} x {} at scale {}", map, width, height, scale));
         }

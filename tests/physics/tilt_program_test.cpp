@@ -47,20 +47,20 @@ TEST(TiltProgram, a_bed_that_is_lowered_keeps_the_contact_law_and_its_stress_fol
   EXPECT_EQ(session.world().tilt, 0.0);
   // In a periodic bed at rest, force balance alone fixes sigma_T/sigma_N, for rising and falling tilts on
   // either side; Gamma is its sine except for the normal stress difference.
-  int rising = 0, falling = 0, other_side = 0;
+  int rising = 0, falling = 0, mirrored_slope = 0;
   double before = -1.0;
   for (const ObservableRow& row : session.segment().observables) {
     const double tilt = at(row, Observable::tilt);
     if (std::abs(tilt) > radians(2.0) && at(row, Observable::at_rest) == 1.0) {
       EXPECT_NEAR(at(row, Observable::sigma_t_over_n) / (sine(tilt) / cosine(tilt)), 1.0, 0.05)
           << degrees(tilt);
-      ++(tilt < 0.0 ? other_side : tilt > before ? rising : falling);
+      ++(tilt < 0.0 ? mirrored_slope : tilt > before ? rising : falling);
     }
     before = tilt;
   }
   EXPECT_GT(rising, 5);
   EXPECT_GT(falling, 5);
-  EXPECT_GT(other_side, 5);
+  EXPECT_GT(mirrored_slope, 5);
 }
 
 TEST(TiltProgram, a_bed_that_is_held_comes_to_rest) {

@@ -79,9 +79,9 @@ TEST_F(Wave, is_for_beds_that_do_not_stay_in_the_caches) {
   solver::SweepOrder order = workspace_.linearisation.order;
   order.phase_begin = {0, 32, 64, 65};
   order.part_begin.assign(66, 0);
-  EXPECT_EQ(solver::sweeps_in_a_row(order), solver::most_sweeps_in_a_row);
-  EXPECT_TRUE(solver::fits_wave(order, solver::most_sweeps_in_a_row, 4));
-  EXPECT_FALSE(solver::fits_wave(order, solver::most_sweeps_in_a_row, 5));
+  EXPECT_EQ(solver::sweeps_in_a_row(order), solver::max_sweeps_in_a_row);
+  EXPECT_TRUE(solver::fits_wave(order, solver::max_sweeps_in_a_row, 4));
+  EXPECT_FALSE(solver::fits_wave(order, solver::max_sweeps_in_a_row, 5));
   order.by_columns = false;
   EXPECT_EQ(solver::sweeps_in_a_row(order), 1);
   EXPECT_FALSE(solver::fits_wave(order, 1, 1));
@@ -103,7 +103,7 @@ TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   EXPECT_EQ(one.theta, other.theta);
   EXPECT_EQ(one.beta, other.beta);
   EXPECT_GT(one.beta, 0.0);
-  EXPECT_EQ(one.least_change, other.least_change);
+  EXPECT_EQ(one.min_change, other.min_change);
   expect_same_bits(together.at.increment, apart.at.increment, "impulses");
 }
 
@@ -135,11 +135,11 @@ TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
     for (auto k = swept.sums.begin() + first; k < swept.sums.begin() + last; ++k) sum += k->change;
     return sum;
   };
-  solver::sweep(sweeper, solver::most_sweeps_in_a_row, momentum);
+  solver::sweep(sweeper, solver::max_sweeps_in_a_row, momentum);
   const double first = changes(0, half);
   EXPECT_GT(first, 0.0);
   EXPECT_EQ(changes(half, 2 * half), 0.0);
-  solver::sweep(sweeper, solver::most_sweeps_in_a_row, momentum);
+  solver::sweep(sweeper, solver::max_sweeps_in_a_row, momentum);
   EXPECT_EQ(changes(0, half), first);
   EXPECT_GT(changes(half, 2 * half), 0.0);
 }
@@ -217,7 +217,7 @@ TEST(Waves, do_not_change_a_bit_of_a_solve) {
     const solver::AcceleratedOutcome outcome =
         solver::solve_accelerated(problem, 1e-300, 9, threads, workspace, solution);
     EXPECT_EQ(outcome.iterations, 9);
-    EXPECT_EQ(solver::sweeps_in_a_row(workspace.linearisation.order), solver::most_sweeps_in_a_row);
+    EXPECT_EQ(solver::sweeps_in_a_row(workspace.linearisation.order), solver::max_sweeps_in_a_row);
     return solution;
   };
   const solver::ContactSolution alone = solve(1);

@@ -62,8 +62,8 @@ def test_pictures_are_small_and_all_shown():
 
 def test_command_of_the_page_draws_again_what_is_named(book):
     assert "    docs/images/cookbook/make.py " in PAGE
-    told = subprocess.run([make.__file__, "--help"], capture_output=True, text=True)
-    assert told.returncode == 0 and "NAME" in told.stdout
+    reported = subprocess.run([make.__file__, "--help"], capture_output=True, text=True)
+    assert reported.returncode == 0 and "NAME" in reported.stdout
 
 
 def test_run_of_the_page_is_what_it_says(book):

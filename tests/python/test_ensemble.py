@@ -31,15 +31,15 @@ def test_members_and_means_are_those_of_talus_ensemble_status(ensemble, folder_o
     names = [str(member.path.relative_to(folder_of).with_suffix("")) for member in ensemble.members]
     assert names == list(status["members"])
     for member, name in zip(ensemble.members, names):
-        told = status["members"][name]
-        assert (member.stage, member.state_hash, member.seconds) == ("done", told["state_hash"], told["seconds"])
+        reported = status["members"][name]
+        assert (member.stage, member.state_hash, member.seconds) == ("done", reported["state_hash"], reported["seconds"])
     for variant, means in status["variants"].items():
-        for name, told in means.items():
+        for name, reported in means.items():
             mean = ensemble.mean(name, variant)
-            told = {key: np.nan if value is None else value for key, value in told.items()}
-            expected = (told["n"], told["mean"], told["deviation"], told["error"])
+            reported = {key: np.nan if value is None else value for key, value in reported.items()}
+            expected = (reported["n"], reported["mean"], reported["deviation"], reported["error"])
             assert mean == pytest.approx(expected, rel=1e-12, nan_ok=True), name
-            assert not mean.count or ensemble.unit(name) == told["unit"]
+            assert not mean.count or ensemble.unit(name) == reported["unit"]
 
 
 def test_numbers_are_those_of_members_csv(ensemble, folder_of):
@@ -92,7 +92,7 @@ def test_stages_of_members_that_are_not_done(folder_of, tmp_path):
     status = json_of("ensemble", "status", copy)
     ensemble = talus.open_ensemble(copy)
     stages = [member.stage for member in ensemble.members]
-    assert stages == [told["stage"] for told in status["members"].values()]
+    assert stages == [reported["stage"] for reported in status["members"].values()]
     assert stages[::2] == ["failed", "claimed", "waiting", "done"] and stages[1::2] == ["done"] * 4
     assert ensemble.mean("theta_c", VARIANTS[0]).count == 1 and len(ensemble.done()) == 5
 

@@ -222,10 +222,10 @@ def ensemble_with(folder, analysed, scenario, manifest=None, seeds=(1, 2)):
     """Creates an ensemble of two members with one state hash, whose manifest has the hash of a scenario;
     the scenario is then replaced by `scenario`. `manifest` is the declared scenario; `seeds` are those of
     finished members."""
-    told = xxhash.xxh3_64_hexdigest((scenario if manifest is None else manifest).encode())
+    reported = xxhash.xxh3_64_hexdigest((scenario if manifest is None else manifest).encode())
     (folder / "scenarios").mkdir()
     (folder / "scenarios/scenario.toml").write_text(scenario)
-    text = f"talus ensemble 1\nversion 0.1.0\nseeds 1-2\nvariant {told} \nhash \n"
+    text = f"talus ensemble 1\nversion 0.1.0\nseeds 1-2\nvariant {reported} \nhash \n"
     (folder / "ensemble.manifest").write_text(sealed_text(text))
     for seed in seeds:
         copy = shutil.copy(analysed, folder / f"seed-{seed}.h5")

@@ -77,7 +77,7 @@ def test_root_mean_square_has_the_error_of_its_mean():
 
 @pytest.fixture
 def ensemble(tmp_path):
-    """Creates an ensemble.h5 of twelve beds that fail from 18 to 22 deg. `told` predicts the distance
+    """Creates an ensemble.h5 of twelve beds that fail from 18 to 22 deg. `reported` predicts the distance
     except for a scale of each bed, `strain` except for an offset, `steep` is the sine of the tilt, `noise`
     predicts nothing; `same` does not vary, and `lc/mean` is at two thresholds."""
     theta_c = 18 + 4 * (5 * np.arange(12) % 12) / 11
@@ -87,7 +87,7 @@ def ensemble(tmp_path):
     def write(file, group, tilts, left):
         noise = RANDOM.uniform(size=tilts.shape)
         growth = np.exp(-left / 3)
-        for name, values in {"told": scale * (1 + growth) * (1 + 0.001 * noise), "strain": scale - 2 + growth + 0.02 * noise,
+        for name, values in {"reported": scale * (1 + growth) * (1 + 0.001 * noise), "strain": scale - 2 + growth + 0.02 * noise,
                              "steep": np.sin(np.radians(tilts)), "noise": noise, "same": 0.5 + 0 * tilts,
                              "lc/mean": 20 - left + 0.1 * noise, "lc/mean[1]": 20 - left + noise}.items():
             file[f"variants/0/{group}/{name}/values"] = np.where((tilts < 0) | (left < 0), np.nan, values)
@@ -111,12 +111,12 @@ def test_ranking_has_the_best_measure_first_and_the_tilt_to_compare_with(ensembl
     assert of["steep"]["error"] == pytest.approx(of["tilt"]["error"], abs=0.02)
     assert of["steep"]["gain"] == pytest.approx(0, abs=0.1)
     assert of["noise"]["error"] > 2
-    assert of["told"]["error"] < 0.6, "by the ratio: each bed has a different scale"
+    assert of["reported"]["error"] < 0.6, "by the ratio: each bed has a different scale"
     assert of["strain"]["error"] < 0.6, "by the difference: it has either sign"
-    assert of["told"]["gain"] > 3 * of["told"]["gain_error"]
-    assert of["told"]["contrast_1"] > of["told"]["contrast_3"] > 0
+    assert of["reported"]["gain"] > 3 * of["reported"]["gain_error"]
+    assert of["reported"]["contrast_1"] > of["reported"]["contrast_3"] > 0
     assert {row["beds"] for row in rows} == {12}
-    assert [of[name]["own_threshold"] for name in ("lc/mean", "lc/mean[1]", "told")] == [1, 1, 0]
+    assert [of[name]["own_threshold"] for name in ("lc/mean", "lc/mean[1]", "reported")] == [1, 1, 0]
 
 
 def test_few_beds_are_refused(ensemble):

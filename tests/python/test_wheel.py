@@ -29,18 +29,18 @@ def check_installed(folder, path, extension):
     assert len(files) == len(FILES) + extension
     words = """
 import sys, talus
-told = [talus.__file__, len(talus.open(sys.argv[1]).frames)]
+reported = [talus.__file__, len(talus.open(sys.argv[1]).frames)]
 try:
     sim = talus.Simulation({"bed": {"length": 10, "depth": 3}})
     sim.step(3)
-    told.append(sim.step_count)
+    reported.append(sim.step_count)
 except talus.Error as error:
-    told.append("talus._core" in str(error) and "./bootstrap wheel" in str(error))
-print(*told)
+    reported.append("talus._core" in str(error) and "./bootstrap wheel" in str(error))
+print(*reported)
 """
     environment = {**os.environ, "PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
-    told = call(sys.executable, "-c", words, path, env=environment, cwd="/")
-    assert told == f"{folder}/talus/__init__.py {json_of('info', path)['frames']} {3 if extension else True}"
+    reported = call(sys.executable, "-c", words, path, env=environment, cwd="/")
+    assert reported == f"{folder}/talus/__init__.py {json_of('info', path)['frames']} {3 if extension else True}"
 
 
 def has_extension():

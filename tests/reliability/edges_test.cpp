@@ -165,7 +165,7 @@ TEST_F(Edges, a_run_that_is_packed_while_it_is_checked_is_whole) {
   EXPECT_EQ(check.steps, steps);
 }
 
-std::string told_by(const std::string& path) try {
+std::string reported_by(const std::string& path) try {
   const session::RunCheck check = session::check_run(io::RunFile::open(path), {});
   return check.faults.empty() ? "" : check.faults.front();
 } catch (const Error& error) {
@@ -180,10 +180,10 @@ TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
   std::erase_if(paths, [](const std::string& data_set) { return data_set.starts_with("/help/"); });  // texts
   const std::uint64_t whole = hostile::values_hash(good);
   const std::string path = folder->path("changed.h5");
-  ASSERT_EQ(told_by(folder->path("run.h5")), "");
+  ASSERT_EQ(reported_by(folder->path("run.h5")), "");
   const char* asked = std::getenv("TALUS_TRIES");
   const int count = asked != nullptr ? std::atoi(asked) : 100;
-  int told = 0;
+  int reported = 0;
   Random random(40);
   for (int k = 0; k < count; ++k) {
     const hostile::Spoil spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
@@ -193,13 +193,13 @@ TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
                                   {}};
     const hostile::Bytes changed = hostile::spoilt(good, std::vector<hostile::Spoil>{spoil});
     hostile::write_bytes(path, changed);
-    if (!told_by(path).empty())
-      ++told;
+    if (!reported_by(path).empty())
+      ++reported;
     else
       EXPECT_EQ(hostile::values_hash(changed), whole)
           << spoil.path << " at " << spoil.index << ", " << spoil.bits;
   }
-  std::printf("%d changes: %d reported, %d without effect\n", count, told, count - told);
+  std::printf("%d changes: %d reported, %d without effect\n", count, reported, count - reported);
 }
 
 /// Limits the memory of this process and its children to a number of bytes during its lifetime.

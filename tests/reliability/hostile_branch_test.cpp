@@ -275,7 +275,7 @@ TEST_F(HostileBranch, that_begins_with_no_state_of_its_run_is_refused_by_name) {
 }
 
 /// Expects one message without terminal control sequences.
-void expect_told(const test::Outcome& outcome, bool refused) {
+void expect_reported(const test::Outcome& outcome, bool refused) {
   EXPECT_EQ(outcome.exit_code, refused ? bad_data : done) << outcome.err;
   EXPECT_EQ(outcome.err.find_first_of("\x1b\a\r\x7f"), std::string::npos);
   EXPECT_EQ(outcome.out.find_first_of("\x1b\a\r\x7f"), std::string::npos);
@@ -293,19 +293,19 @@ TEST_F(HostileBranch, is_told_by_every_command) {
     SCOPED_TRACE(named);
     with_start(change);
     fs::remove(folder->path("view.png"));
-    expect_told(talus({"info", "changed.h5"}), !read);
-    expect_told(talus({"info", "changed.h5", "--json"}), !read);
-    expect_told(talus({"check", "changed.h5"}), true);
-    expect_told(talus({"replay", "changed.h5"}), true);
-    expect_told(
+    expect_reported(talus({"info", "changed.h5"}), !read);
+    expect_reported(talus({"info", "changed.h5", "--json"}), !read);
+    expect_reported(talus({"check", "changed.h5"}), true);
+    expect_reported(talus({"replay", "changed.h5"}), true);
+    expect_reported(
         talus({"render", "changed.h5", "--map", "pressure", "--at", "1.3", "-o", "maps", "--overwrite"}),
         !read);
     const test::Outcome view = talus({"view", "changed.h5", "--screenshot", "view.png", "--size", "400x300"});
-    if (view.err.find("without its window") == std::string::npos) expect_told(view, !read);
+    if (view.err.find("without its window") == std::string::npos) expect_reported(view, !read);
     EXPECT_TRUE(read || !fs::exists(folder->path("view.png")));
-    expect_told(talus({"repair", "changed.h5", "-o", "repaired.h5"}), !read);
+    expect_reported(talus({"repair", "changed.h5", "-o", "repaired.h5"}), !read);
     EXPECT_FALSE(fs::exists(folder->path("repaired.h5")));
-    expect_told(talus({"run", "--resume", "changed.h5", "-q"}), !read);
+    expect_reported(talus({"run", "--resume", "changed.h5", "-q"}), !read);
   };
   in("a bed of other grains", false, [](io::BranchOrigin& of) { of.start.world.grains.radius[3] *= 1.1; });
   in("a frame out of range", false, [](io::BranchOrigin& of) { of.frame = std::int64_t{1} << 40; });
@@ -372,7 +372,7 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   EXPECT_EQ(replay.exit_code, bad_data);
   EXPECT_NE(replay.err.find("its first state is lost"), std::string::npos) << replay.err;
   EXPECT_THROW(session::checkpoint_at_frame(kept, 1), Error)
-      << "what had been set before is not known any more";
+      << "earlier settings are no longer known";
 }
 
 /// Flips a byte, writes up to 4 KiB of zeros, or truncates.

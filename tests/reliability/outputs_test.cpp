@@ -154,7 +154,7 @@ TEST_F(Outputs, written_again_keep_mode_owner_and_link) {
   for (const Writer& writer : writers()) {
     if (writer.of_folder) continue;
     const std::string old = "old" + fs::path(writer.output).extension().string();
-    write_file(folder_, old, "what was there before");
+    write_file(folder_, old, "earlier content");
     Words words = writer.words;
     words.emplace_back("--overwrite");
     expect_kept(old, words);
@@ -167,7 +167,7 @@ TEST_F(Outputs, that_are_write_protected_are_not_replaced) {
     if (writer.of_folder) continue;
     SCOPED_TRACE(writer.name);
     const std::string old = "old" + fs::path(writer.output).extension().string();
-    write_file(folder_, old, "what was there before");
+    write_file(folder_, old, "earlier content");
     ASSERT_EQ(chmod(path(old).c_str(), 0444), 0);
     const auto before = identity(path(old));
     Words words = with_output(writer.words, old);

@@ -69,7 +69,7 @@ __attribute__((constructor)) void arm_by_environment() {
   if (all_later_too || std::strcmp(kind, "memory") == 0) failing_allocation = first;
 }
 
-__attribute__((destructor)) void tell_counts() {
+__attribute__((destructor)) void report_counts() {
   const char* path = getenv("TALUS_FAULT_COUNT");
   if (path == nullptr) return;
   char text[320];

@@ -22,7 +22,7 @@ void fail_every_allocation(const std::string& kind) {
   const int allocations = count_calls(command, folder).allocations;
   ASSERT_GT(allocations, 1000);
   const std::string reference = digest(folder.path("run.h5"));
-  int tried = 0, told = 0;
+  int tried = 0, reported = 0;
   for (int number = 1; number <= allocations; number += stride(allocations, 12)) {
     SCOPED_TRACE(kind + " " + std::to_string(number));
     std::filesystem::remove(folder.path("run.h5"));
@@ -30,16 +30,16 @@ void fail_every_allocation(const std::string& kind) {
         run_talus(command, folder.path(), with_fault(kind + " " + std::to_string(number)));
     EXPECT_TRUE(outcome.exit_code == 71 || outcome.exit_code == 0) << outcome.exit_code << " " << outcome.err;
     ++tried;
-    told += outcome.exit_code == 71;
+    reported += outcome.exit_code == 71;
     std::vector<std::string> resumed = command;
     resumed.emplace_back("--resume");
     const Outcome after = run_talus(resumed, folder.path());
     EXPECT_EQ(after.exit_code, 0) << after.err;
     EXPECT_EQ(digest(folder.path("run.h5")), reference);
   }
-  EXPECT_GT(told, 5) << "no fault occurred, so nothing was tested";
+  EXPECT_GT(reported, 5) << "no fault occurred, so nothing was tested";
   std::printf("%s: %d allocations, %d tried: %d reported, %d harmless\n", kind.c_str(), allocations, tried,
-              told, tried - told);
+              reported, tried - reported);
 }
 
 TEST(RunMemory, one_allocation_that_fails_is_told) { fail_every_allocation("memory"); }

@@ -211,7 +211,7 @@ TEST_F(LongRun, ends_with_a_checkpoint_before_its_time_is_over) {
       run_talus({"run", "bed.toml", "-o", "run.h5", "--max-wall", "00:00:01", "--quiet"}, folder_.path());
   std::printf("--max-wall 00:00:01 took %.3f s\n", seconds_since(start));
   EXPECT_EQ(outcome.exit_code, 75);
-  EXPECT_NE(outcome.err.find("for --max-wall; talus run --resume run.h5 goes on.\n"), std::string::npos)
+  EXPECT_NE(outcome.err.find("for --max-wall; talus run --resume run.h5 continues.\n"), std::string::npos)
       << outcome.err;
   EXPECT_GT(io::RunFile::open(run_).checkpoint().world.step, 0);
 }

@@ -22,19 +22,19 @@ constexpr int commits = 3;
 constexpr int defect = 98;  // exit code of a child that detected an error
 
 /// Report of a child process to its parent, in shared memory.
-struct Told {
+struct Reported {
   int committed = 0;
   int calls = 0;
   int begun = 0;   ///< number of calls up to the end of the first commit
   int ending = 0;  ///< number of calls up to packing
 };
 
-struct SharedTold {
-  SharedTold()
-      : told(static_cast<Told*>(
-            mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
-  ~SharedTold() { munmap(told, sizeof(Told)); }
-  Told* told;
+struct SharedReported {
+  SharedReported()
+      : reported(static_cast<Reported*>(
+            mmap(nullptr, sizeof(Reported), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
+  ~SharedReported() { munmap(reported, sizeof(Reported)); }
+  Reported* reported;
 };
 
 /// Performs an action, and repeats it if it throws.
@@ -49,34 +49,34 @@ void persist(const Action& action) {
 
 /// Computes the entire run in place of what exists under its name; `again` repeats each call that throws,
 /// once.
-void compute(const std::string& path, bool again, Told& told) {
+void compute(const std::string& path, bool again, Reported& reported) {
   const auto attempt = [again](const auto& action) { again ? persist(action) : action(); };
   std::optional<io::RunStore> store;
   attempt([&] { store = io::RunStore::create(path, example::header(), true); });
   for (int k = 0; k < commits; ++k) {
     attempt([&] { store->commit(example::segment(k), example::checkpoint(k)); });
-    told.committed = k + 1;
-    if (k == 0) told.begun = faults::calls();
+    reported.committed = k + 1;
+    if (k == 0) reported.begun = faults::calls();
   }
-  told.ending = faults::calls();
+  reported.ending = faults::calls();
   attempt([&] { store->pack(); });
 }
 
 /// Computes the run in a child process under a fault, and returns the exit code of the child.
-int compute_under(const faults::Fault& fault, bool again, const std::string& path, Told& told) {
-  told = {};
+int compute_under(const faults::Fault& fault, bool again, const std::string& path, Reported& reported) {
+  reported = {};
   const pid_t child = fork();
   if (child == 0) {
     int code = defect;
     try {
       faults::arm(fault);
-      compute(path, again, told);
+      compute(path, again, reported);
       code = 0;
     } catch (const Error& error) {
       code = static_cast<int>(error.code());
     } catch (...) {
     }
-    told.calls = faults::calls();
+    reported.calls = faults::calls();
     _exit(code);
   }
   int status = 0;
@@ -118,8 +118,8 @@ class StoreFaults : public testing::Test {
   StoreFaults() {
     example::store_with_commits(folder_.path("reference.h5"), commits).pack();
     reference_ = example::file_text(folder_.path("reference.h5"));
-    EXPECT_EQ(compute_under({}, false, folder_.path("counted.h5"), *shared_.told), 0);
-    calls_ = shared_.told->calls;
+    EXPECT_EQ(compute_under({}, false, folder_.path("counted.h5"), *shared_.reported), 0);
+    calls_ = shared_.reported->calls;
     EXPECT_GT(calls_, 60);
   }
 
@@ -127,9 +127,9 @@ class StoreFaults : public testing::Test {
     for (fault.call = 1; fault.call <= calls_; ++fault.call) {
       SCOPED_TRACE("call " + std::to_string(fault.call));
       const std::string path = folder_.path("run" + std::to_string(fault.call) + ".h5");
-      const int code = compute_under(fault, again, path, *shared_.told);
+      const int code = compute_under(fault, again, path, *shared_.reported);
       EXPECT_TRUE(std::ranges::count(allowed_codes, code) == 1) << "exit code " << code;
-      const int acknowledged = shared_.told->committed;
+      const int acknowledged = shared_.reported->committed;
       const int found = commits_in(path);
       EXPECT_GE(found, acknowledged) << "lost";
       EXPECT_LE(found, acknowledged + 1);
@@ -139,7 +139,7 @@ class StoreFaults : public testing::Test {
   }
 
   example::TemporaryFolder folder_;
-  SharedTold shared_;
+  SharedReported shared_;
   std::string reference_;
 
  private:
@@ -178,8 +178,8 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
     begin_old_run(old_path_, is_whole_);
     if (is_whole_) old_ = example::file_text(old_path_);
     put_old_run_back();
-    EXPECT_EQ(compute_under({}, false, path_, *shared_.told), 0);
-    all_ = *shared_.told;
+    EXPECT_EQ(compute_under({}, false, path_, *shared_.reported), 0);
+    all_ = *shared_.reported;
   }
 
   void put_old_run_back() const {
@@ -196,17 +196,17 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
   }
 
   void bring_the_new_one_to_its_end(bool is_begun) const {
-    Told told;
+    Reported reported;
     if (is_begun)
       bring_to_end(path_, commits_in(path_));
     else
-      compute(path_, false, told);
+      compute(path_, false, reported);
     EXPECT_TRUE(example::file_text(path_) == reference_) << "the end differs";
   }
 
   bool is_whole_ = GetParam();
   std::string path_ = folder_.path("replaced.h5"), old_path_ = folder_.path("old.h5"), old_;
-  Told all_;
+  Reported all_;
 };
 
 TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
@@ -215,10 +215,10 @@ TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
     if (call > all_.begun && call <= all_.ending) continue;
     SCOPED_TRACE("call " + std::to_string(call));
     put_old_run_back();
-    ASSERT_EQ(compute_under({.kind = faults::Kind::kill, .call = call}, false, path_, *shared_.told),
+    ASSERT_EQ(compute_under({.kind = faults::Kind::kill, .call = call}, false, path_, *shared_.reported),
               faults::killed);
     const bool is_new = is_new_run_found(path_, old_, reference_);
-    EXPECT_TRUE(is_new || shared_.told->committed == 0) << "lost";
+    EXPECT_TRUE(is_new || shared_.reported->committed == 0) << "lost";
     const bool is_ended = is_new && io::run_presence(path_) == io::RunPresence::packed;
     if (is_ended && std::filesystem::exists(io::run_folder(path_)) && ++left_folders > 0)
       expect_found_when_analysed();

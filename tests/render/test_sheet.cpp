@@ -80,7 +80,7 @@ TEST(Sheet, TypeThatWouldBeTooSmallIsRefused) {
   view.title = "A-title-of-one-word-that-cannot-be-broken-into-lines-and-that-takes-a-much-smaller-type";
   view.letters = 40.0;
   EXPECT_NO_THROW(lay_out(view, 1600, embedded_font()));
-  view.most_letters = 45.0;
+  view.max_letters = 45.0;
   EXPECT_THROW(lay_out(view, 1600, embedded_font()), Error);
 }
 

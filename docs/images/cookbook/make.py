@@ -65,7 +65,7 @@ def main(names):
     if "--help" in names or "-h" in names:
         print(__doc__)
         return
-    import matplotlib.pyplot  # noqa: F401 once for all recipes
+    import matplotlib.pyplot  # noqa: F401 imported once, for every recipe
     from PIL import Image  # comes with matplotlib
 
     folder = ROOT / "build/images"

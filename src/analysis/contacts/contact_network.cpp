@@ -63,7 +63,7 @@ double mobilisation_of(const BedFrame& bed, Index c) {
   return allowed > 0.0 ? std::min(1.0, std::fabs(bed.frame.contacts.ft[c]) / allowed) : 1.0;
 }
 
-void take_coordination(const BedFrame& bed, FrameRecord& record) {
+void measure_coordination(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
   const std::vector<Index> degree =
       stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
@@ -108,7 +108,7 @@ std::vector<double> mobilised_friction_of_grains(const BedFrame& bed) {
   return sum;
 }
 
-void take_networks(const BedFrame& bed, FrameRecord& record) {
+void measure_networks(const BedFrame& bed, FrameRecord& record) {
   record.mean_normal_force = mean_normal_force(bed.frame.contacts);
   Tensor2 strong, weak;
   Index strong_count = 0;
@@ -137,7 +137,7 @@ void take_networks(const BedFrame& bed, FrameRecord& record) {
   }
 }
 
-void take_critical_contacts(const BedFrame& bed, FrameRecord& record) {
+void measure_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
   std::vector<bool> touched(static_cast<std::size_t>(bed.statics.free_count), false);
   std::vector<Link> links;

@@ -13,7 +13,7 @@ namespace talus::analysis {
 // Each take_ function sets members of a record that are defined in the table of quantities.
 
 /// Sets the coordination numbers, 0 if no grain carries force, and the share of rattlers.
-void take_coordination(const BedFrame& bed, FrameRecord& record);
+void measure_coordination(const BedFrame& bed, FrameRecord& record);
 
 /// Counts the normal forces, divided by their mean, into `bins`.
 Histogram normal_forces(const Frame& frame, Histogram bins);
@@ -31,11 +31,11 @@ std::vector<double> mobilised_friction_of_grains(const BedFrame& bed);
 /// the weak network (Radjai et al. 1998). The stress of a network is its contribution to the internal moments
 /// of the free grains. The strong share of the deviator Q is the part along the principal axes of the total.
 /// The fabric of each network is the second Fourier component of its directions (fabric.h).
-void take_networks(const BedFrame& bed, FrameRecord& record);
+void measure_networks(const BedFrame& bed, FrameRecord& record);
 
 /// Sets the quantities of critical contacts, those with fully mobilised friction (status sliding), joined
 /// into clusters if they share a free grain. Their share is NaN without contacts. The mean cluster sizes, in
 /// contacts, and the correlation length (clusters.h, over the grains they join) are NaN if no contact slides.
-void take_critical_contacts(const BedFrame& bed, FrameRecord& record);
+void measure_critical_contacts(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

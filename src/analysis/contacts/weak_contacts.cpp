@@ -54,7 +54,7 @@ WeakContacts weak_contacts(const BedFrame& bed, double mean_normal_force, std::s
   return weak;
 }
 
-void take_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record) {
+void measure_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record) {
   const WeakContacts weak = weak_contacts(bed, record.mean_normal_force, edges);
   record.coherent_share = weak.coherent_share;
   record.coherent_fabric = weak.coherent_fabric;

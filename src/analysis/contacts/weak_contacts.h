@@ -29,6 +29,6 @@ struct WeakContacts {
 WeakContacts weak_contacts(const BedFrame& bed, double mean_normal_force, std::span<const double> edges);
 
 /// Sets members of a record that are defined in the table of quantities; its mean normal force must be set.
-void take_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record);
+void measure_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -171,7 +171,7 @@ std::vector<double> granular_temperatures(const BedFrame& bed, double cutoff) {
   return temperatures;
 }
 
-void take_granular_temperature(const BedFrame& bed, FrameRecord& record) {
+void measure_granular_temperature(const BedFrame& bed, FrameRecord& record) {
   const std::vector<double> temperatures =
       granular_temperatures(bed, 0.5 * temperature_width * bed.statics.mean_diameter);
   double sum = 0.0, mass = 0.0;

@@ -80,6 +80,6 @@ class CoarseFields {
 std::vector<double> granular_temperatures(const BedFrame& bed, double cutoff);
 
 /// Sets members of a record that are defined in the table of quantities.
-void take_granular_temperature(const BedFrame& bed, FrameRecord& record);
+void measure_granular_temperature(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -79,7 +79,7 @@ double vorticity(const Tensor2& gradient) {
   return 2.0 * std::atan2(gradient.yx - gradient.xy, 2.0 + gradient.xx + gradient.yy);
 }
 
-void take_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record) {
+void measure_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record) {
   std::vector<double> shears;
   double nonaffine = 0.0, largest = 0.0;
   for (const LocalDeformation& of : local_deformations(before, bed)) {
@@ -92,7 +92,7 @@ void take_deformation(const Frame& before, const BedFrame& bed, FrameRecord& rec
   const auto count = static_cast<double>(shears.size());
   std::ranges::sort(shears, std::greater());
   const double sum = std::accumulate(shears.begin(), shears.end(), 0.0);
-  const auto top = static_cast<std::ptrdiff_t>(std::ceil(most_strained * count));
+  const auto top = static_cast<std::ptrdiff_t>(std::ceil(max_strained * count));
   record.local_shear = sum / count;
   record.local_shear_share = std::accumulate(shears.begin(), shears.begin() + top, 0.0) / sum;
   record.nonaffine = std::sqrt(nonaffine / count);

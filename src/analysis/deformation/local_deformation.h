@@ -13,7 +13,7 @@ namespace talus::analysis {
 inline constexpr double deformation_reach = 2.0;
 
 /// Share of the grains, those with the largest strain, that measures localisation.
-inline constexpr double most_strained = 0.1;
+inline constexpr double max_strained = 0.1;
 
 /// Deformation of the neighbours of one grain. NaN if they do not span the plane: fewer than two, or in one
 /// line.
@@ -42,6 +42,6 @@ double area_strain(const Tensor2& gradient);
 double vorticity(const Tensor2& gradient);
 
 /// Sets members of a record that are defined in the table of quantities.
-void take_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record);
+void measure_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -9,7 +9,7 @@ namespace talus::analysis {
 
 /// Smallest number of values for an exponent. With fewer, the standard error of alpha - 1 is about a third or
 /// more.
-inline constexpr int fewest_to_tell = 10;
+inline constexpr int min_to_distinguish = 10;
 
 /// A continuous power law, density ~ x^-alpha for x >= `minimum` (Clauset, Shalizi and Newman 2009, Eqs. 3.1,
 /// 3.2 and 3.9).
@@ -24,13 +24,13 @@ struct PowerLaw {
   double share_from(double x) const;
 };
 
-/// Fits the values at or above `minimum` > 0. The exponent is NaN with fewer than fewest_to_tell values or if
-/// all are equal; the count is set in any case.
+/// Fits the values at or above `minimum` > 0. The exponent is NaN with fewer than min_to_distinguish values
+/// or if all are equal; the count is set in any case.
 PowerLaw power_law_from(std::span<const double> values, double minimum);
 
 /// Fits with the value as minimum that gives the smallest distance, among those that leave at least
-/// fewest_to_tell values (Clauset, Shalizi and Newman 2009, section 3.3). Values that are not positive are
-/// ignored.
+/// min_to_distinguish values (Clauset, Shalizi and Newman 2009, section 3.3). Values that are not positive
+/// are ignored.
 PowerLaw power_law(std::span<const double> values);
 
 /// An exponential law of waiting angles.
@@ -41,7 +41,7 @@ struct ExponentialLaw {
 };
 
 /// Fits the values at or above `minimum`, ignoring NaN. The minimum is subtracted from them because shorter
-/// values cannot be resolved. The mean is NaN with fewer than fewest_to_tell values.
+/// values cannot be resolved. The mean is NaN with fewer than min_to_distinguish values.
 ExponentialLaw exponential_law(std::span<const double> values, double minimum);
 
 }  // namespace talus::analysis

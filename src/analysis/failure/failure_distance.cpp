@@ -33,7 +33,7 @@ std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int lay
   return counts;
 }
 
-void take_failure_distance(const BedFrame& bed, double height, FrameRecord& record) {
+void measure_failure_distance(const BedFrame& bed, double height, FrameRecord& record) {
   ForceCount whole;
   for (const ForceCount& layer : count_forces(bed, height, critical_layers)) {
     record.layer_critical_share.push_back(layer.share());

@@ -34,7 +34,7 @@ struct ForceCount {
 std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int layers);
 
 /// Sets members of a record that are defined in the table of quantities, except the share of the whole bed,
-/// which take_critical_contacts sets. `height`: mean height of the bed, m.
-void take_failure_distance(const BedFrame& bed, double height, FrameRecord& record);
+/// which measure_critical_contacts sets. `height`: mean height of the bed, m.
+void measure_failure_distance(const BedFrame& bed, double height, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -23,7 +23,7 @@ std::vector<double> magnitudes(std::span<const double> tilts, const SeriesPart& 
   return found;
 }
 
-bool is_to_other_side(std::span<const double> tilts, const SeriesPart& part) {
+bool slopes_backwards(std::span<const double> tilts, const SeriesPart& part) {
   return part.size() > 0 && tilts[part.end - 1] < 0.0;
 }
 
@@ -32,9 +32,9 @@ bool has_side(const Quantity& quantity) {
 }
 
 double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f,
-                          bool other_side) {
+                          bool mirrored_slope) {
   const double number = number_of(quantity, frame, f);
-  if (!other_side) return number;
+  if (!mirrored_slope) return number;
   if (has_side(quantity)) return -number;
   return quantity.member == QuantityMember(&FrameRecord::texture_axis) ? std::numbers::pi - number : number;
 }
@@ -43,7 +43,7 @@ FramesOfRise last_rise(std::span<const FrameRecord> frames) {
   std::vector<double> tilts;
   for (const FrameRecord& frame : frames) tilts.push_back(frame.tilt);
   const SeriesPart part = last_rise(tilts);
-  FramesOfRise rise{part.first, {}, magnitudes(tilts, part), is_to_other_side(tilts, part)};
+  FramesOfRise rise{part.first, {}, magnitudes(tilts, part), slopes_backwards(tilts, part)};
   for (const FrameRecord& frame : frames.subspan(part.first, part.size())) rise.frames.push_back(&frame);
   return rise;
 }
@@ -54,7 +54,7 @@ std::vector<ObservableRow> rows_of_last_rise(std::span<const ObservableRow> rows
   const SeriesPart part = last_rise(tilts);
   const auto of_rise = rows.subspan(part.first, part.size());
   std::vector<ObservableRow> rise(of_rise.begin(), of_rise.end());
-  if (!is_to_other_side(tilts, part)) return rise;
+  if (!slopes_backwards(tilts, part)) return rise;
   for (ObservableRow& row : rise)
     for (const Observable field :
          {Observable::tilt, Observable::sigma_t_over_n, Observable::surface_displacement})

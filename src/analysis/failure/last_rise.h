@@ -35,14 +35,14 @@ SeriesPart last_rise(std::span<const double> tilts);
 std::vector<double> magnitudes(std::span<const double> tilts, const SeriesPart& part);
 
 /// Whether the bed slopes backwards at the end of such a part: its tilt is negative.
-bool is_to_other_side(std::span<const double> tilts, const SeriesPart& part);
+bool slopes_backwards(std::span<const double> tilts, const SeriesPart& part);
 
 /// The frames of the last rise and the magnitudes of their tilts.
 struct FramesOfRise {
   std::size_t first = 0;  ///< number of the first frame of the rise in the run
   std::vector<const FrameRecord*> frames;
   std::vector<double> tilts;  ///< rad
-  bool other_side = false;
+  bool mirrored_slope = false;
 };
 /// Returns the last rise of the frames of a run.
 FramesOfRise last_rise(std::span<const FrameRecord> frames);
@@ -52,7 +52,8 @@ bool has_side(const Quantity& quantity);
 
 /// Returns a number of a frame of such a rise as if the bed were always tilted to the same side: for a bed
 /// that slopes backwards, sigma_T/sigma_N changes sign and a direction relative to the bed is mirrored.
-double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f, bool other_side);
+double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f,
+                          bool mirrored_slope);
 
 /// Returns the observables of the last rise as if the bed were always tilted to the same side: for negative
 /// tilts, the tilt, sigma_T/sigma_N and the displacement of the surface change sign.

@@ -92,7 +92,7 @@ double number_at(const Analysis& analysis, const NumberOfRun& number, std::size_
   if (number.place == Place::run) return number_of(quantity, analysis, f);
   const FramesOfRise rise = last_rise(analysis.frames);
   const auto k = frame_at(analysis, rise, number.place, f);
-  return k ? number_on_one_side(quantity, *rise.frames[*k], f, rise.other_side) : not_known;
+  return k ? number_on_one_side(quantity, *rise.frames[*k], f, rise.mirrored_slope) : not_known;
 }
 
 }  // namespace talus::analysis

@@ -9,7 +9,7 @@ namespace talus::analysis {
 namespace {
 
 constexpr std::size_t lasting = 3;  // frames in which a cluster has to span the bed
-constexpr std::size_t fewest_to_fit = 5;
+constexpr std::size_t min_to_fit = 5;
 
 /// Returns the number of tilts up to theta_c, or of all tilts if it is NaN.
 std::size_t count_up_to(std::span<const double> tilts, double theta_c) {
@@ -82,7 +82,7 @@ GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const do
       x.push_back(std::log(left));
       y.push_back(std::log(sizes[k]));
     }
-  if (x.size() < fewest_to_fit) return {not_known, not_known};
+  if (x.size() < min_to_fit) return {not_known, not_known};
   const auto n = static_cast<double>(x.size());
   const double mean_x = std::accumulate(x.begin(), x.end(), 0.0) / n;
   const double mean_y = std::accumulate(y.begin(), y.end(), 0.0) / n;

@@ -8,14 +8,14 @@ namespace talus::analysis {
 std::size_t sort_nearest(std::vector<Near>& near, double low, double high, std::vector<Near>& scratch) {
   // The squared distances of grains that are evenly spread over an area are uniformly distributed, so this
   // number of buckets gives about one grain each.
-  constexpr Index most_buckets = 256;
-  const Index buckets = std::clamp<Index>(static_cast<Index>(near.size()), 1, most_buckets);
+  constexpr Index max_buckets = 256;
+  const Index buckets = std::clamp<Index>(static_cast<Index>(near.size()), 1, max_buckets);
   const double scale = std::isfinite(high) && high > low ? buckets / (high - low) : 0.0;
   const auto bucket_of = [&](const Near& one) {
     if (one.square > high) return buckets;
     return std::min(buckets - 1, static_cast<Index>((one.square - low) * scale));
   };
-  std::array<Index, most_buckets + 2> start;
+  std::array<Index, max_buckets + 2> start;
   std::fill_n(start.begin(), buckets + 2, 0);
   for (const Near& one : near) ++start[bucket_of(one) + 1];
   for (Index k = 1; k <= buckets; ++k) start[k] += start[k - 1];

@@ -125,7 +125,7 @@ std::vector<double> local_solid_fractions(const BedFrame& bed) {
   return fractions;
 }
 
-void take_local_solid_fraction(const BedFrame& bed, FrameRecord& record) {
+void measure_local_solid_fraction(const BedFrame& bed, FrameRecord& record) {
   double sum = 0.0, squares = 0.0, count = 0.0;
   const std::vector<double> fractions = local_solid_fractions(bed);
   for (const double fraction : fractions)

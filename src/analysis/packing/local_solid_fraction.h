@@ -30,6 +30,6 @@ std::vector<GrainCell> grain_cells(const BedFrame& bed);
 std::vector<double> local_solid_fractions(const BedFrame& bed);
 
 /// Sets members of a record that are defined in the table of quantities.
-void take_local_solid_fraction(const BedFrame& bed, FrameRecord& record);
+void measure_local_solid_fraction(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -44,7 +44,7 @@ Texture texture_of(const BedFrame& bed) {
   return texture;
 }
 
-void take_texture(const BedFrame& bed, FrameRecord& record) {
+void measure_texture(const BedFrame& bed, FrameRecord& record) {
   const Texture texture = texture_of(bed);
   record.texture_axis = texture.axis;
   record.texture_contacts = texture.contacts;

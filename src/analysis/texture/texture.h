@@ -25,6 +25,6 @@ struct Texture {
 Texture texture_of(const BedFrame& bed);
 
 /// Sets members of a record that are defined in the table of quantities.
-void take_texture(const BedFrame& bed, FrameRecord& record);
+void measure_texture(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -34,6 +34,6 @@ RigidClusters find_rigid_clusters(Index bodies, std::span<const Bond> bonds);
 std::vector<Bond> bonds_of(const BedFrame& bed);
 
 /// Sets members of a record that are defined in the table of quantities.
-void take_rigid_clusters(const BedFrame& bed, FrameRecord& record);
+void measure_rigid_clusters(const BedFrame& bed, FrameRecord& record);
 
 }  // namespace talus::analysis

@@ -144,8 +144,8 @@ double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> 
   return distance(project(one), project(other));
 }
 
-void take_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
-                   FrameRecord& record) {
+void measure_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
+                      FrameRecord& record) {
   for (const double threshold : thresholds) {
     const GraphCount count = count_at(diagram, threshold);
     record.network_components.push_back(count.components);
@@ -155,8 +155,8 @@ void take_topology(const PersistenceDiagram& diagram, Index free_count, std::spa
   record.loop_persistence = total_persistence(diagram.loops) / free_count;
 }
 
-void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
-                          std::vector<FrameRecord>& frames) {
+void measure_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
+                             std::vector<FrameRecord>& frames) {
   std::array<Projections, 2> before, now;
   for (std::size_t k = 0; k < frames.size(); ++k, std::swap(before, now)) {
     now = {project(diagrams[k].components), project(diagrams[k].loops)};

@@ -47,12 +47,12 @@ double sliced_distance(std::span<const Lifetime> one, std::span<const Lifetime> 
 
 /// Sets members of a record that are defined in the table of quantities. `diagram` and `thresholds` are in
 /// units of the mean normal force of all contacts.
-void take_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
-                   FrameRecord& record);
+void measure_topology(const PersistenceDiagram& diagram, Index free_count, std::span<const double> thresholds,
+                      FrameRecord& record);
 
 /// Sets the change of the network from frame to frame. `diagrams` are those of the frames, in units of their
 /// mean normal forces.
-void take_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
-                          std::vector<FrameRecord>& frames);
+void measure_network_changes(const std::vector<PersistenceDiagram>& diagrams, Index free_count,
+                             std::vector<FrameRecord>& frames);
 
 }  // namespace talus::analysis

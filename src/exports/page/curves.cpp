@@ -17,7 +17,7 @@ namespace talus::exports {
 namespace {
 
 constexpr int digits = 5;
-constexpr std::size_t most_rows = 1000;  // rows of a curve: about the number of pixels
+constexpr std::size_t max_rows = 1000;  // rows of a curve: about the number of pixels
 
 struct PageCurve {
   std::string label;  ///< rich text, empty if there is only one curve
@@ -28,7 +28,7 @@ struct PageCurve {
 /// Returns every row, or an even selection of about as many as there are pixels.
 std::vector<ObservableRow> shown_rows(const io::RunFile& file) {
   std::vector<ObservableRow> rows = file.observables(), shown;
-  const std::size_t together = (rows.size() + most_rows - 1) / most_rows;
+  const std::size_t together = (rows.size() + max_rows - 1) / max_rows;
   for (std::size_t k = 0; k < rows.size(); k += together) shown.push_back(rows[k]);
   return shown;
 }

@@ -21,7 +21,7 @@ using namespace talus;
 using namespace talus::hostile;
 
 constexpr std::size_t record_size = 12;
-constexpr std::size_t most_harms = 4;
+constexpr std::size_t max_harms = 4;
 
 struct GoodRun {
   GoodRun() {
@@ -51,7 +51,7 @@ Spoil spoil_of(const std::uint8_t* record, const std::vector<std::string>& paths
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const GoodRun good;
   std::vector<Spoil> spoils;
-  for (std::size_t k = 0; k < std::min(size / record_size, most_harms); ++k)
+  for (std::size_t k = 0; k < std::min(size / record_size, max_harms); ++k)
     spoils.push_back(spoil_of(data + k * record_size, good.paths));
   const std::string path = good.folder.path("bad.h5");
   const Bytes bad = spoilt(good.bytes, spoils);

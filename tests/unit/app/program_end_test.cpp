@@ -44,9 +44,9 @@ TEST(ProgramEnd, of_an_exception_is_its_exit_code) {
 
 TEST(ProgramEnd, on_request_is_a_plain_sentence) {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(code_of(Error(ExitCode::stopped, "stopped at 12.250 deg; talus run --resume a.h5 goes on")), 75);
+  EXPECT_EQ(code_of(Error(ExitCode::stopped, "stopped at 12.250 deg; talus run --resume a.h5 continues")), 75);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "Stopped at 12.250 deg; talus run --resume a.h5 goes on.\n");
+            "Stopped at 12.250 deg; talus run --resume a.h5 continues.\n");
 }
 
 TEST(ProgramEnd, of_another_thread_is_that_of_its_exception) {

@@ -163,7 +163,7 @@ TEST(OutputFile, keeps_the_mode_and_the_link_of_what_it_replaces) {
 TEST(OutputFile, gives_a_name_to_what_another_program_made) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path("made")) << "abc";
-  give_name(folder.path("made"), folder.path("file"));
+  publish_file(folder.path("made"), folder.path("file"));
   EXPECT_EQ(fs::file_size(folder.path("file")), 3u);
   EXPECT_FALSE(fs::exists(folder.path("made")));
 }

@@ -187,7 +187,7 @@ TEST(NeighbourList, is_made_anew_where_many_grains_have_moved) {
 }
 
 /// Adds a free grain at a random place, after the existing ones.
-void let_arrive(World& world, Random& random) {
+void add_due_grains(World& world, Random& random) {
   Grains& grains = world.grains;
   World alone;
   add_disk(alone.grains, {world.boundary.length * random.uniform(), 14.0 * radius * random.uniform()},
@@ -244,7 +244,7 @@ TEST(NeighbourList, lists_the_pairs_of_a_few_grains_anew) {
         EXPECT_EQ(keys_of(through_aged), brute_force(world.grains, world.boundary, margin))
             << seed << ' ' << round;
         expect_same(through_aged, through_fresh);
-        if (round % 3 == 1) let_arrive(world, random);
+        if (round % 3 == 1) add_due_grains(world, random);
         Grains& grains = world.grains;
         for (Index i = 0; i < grains.free_count; ++i) {
           const double way = i % 40 == 0 ? 0.1 * radius

@@ -102,7 +102,7 @@ TEST(LetArrive, a_grain_stands_half_a_step_of_its_fall_above_what_it_touches_fir
       World world = bare_floor(plan);
       for (Index i = 0; i < plan.grain_count; ++i) {
         world.time = (i + 0.5) * rule.interval;
-        let_arrive(arrivals, rule, h, world);
+        add_due_grains(arrivals, rule, h, world);
         ASSERT_EQ(world.grains.free_count, i + 1);
         EXPECT_EQ(world.grains.x[i], arrivals[static_cast<std::size_t>(i)].x);
         EXPECT_EQ(world.grains.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
@@ -120,7 +120,7 @@ TEST(LetArrive, those_that_are_due_together_do_not_overlap) {
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
   world.time = 59.5 * rule.interval;
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   ASSERT_EQ(world.grains.free_count, 60);
   for (Index i = 0; i < 60; ++i) EXPECT_GE(smallest_gap(world, i), -1e-16);
 }
@@ -129,14 +129,14 @@ TEST(LetArrive, does_nothing_before_the_next_is_due_and_after_the_last) {
   const BedPlan plan = plan_of(true, true, 2);
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   const std::uint64_t with_one = state_hash(world);
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   EXPECT_EQ(state_hash(world), with_one);
   world.time = 1.0;
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   world.time = 2.0;
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   EXPECT_EQ(world.grains.free_count, 2);
 }
 
@@ -144,7 +144,7 @@ TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
   const BedPlan plan = plan_of(false, true, 3);  // 10 floor grains, followed by planes 10 and 11
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   world.contacts.resize(3);  // the first grain on a floor grain, and at each wall
   world.contacts.a = {0, 0, 0};
   world.contacts.b = {4, 11, 12};
@@ -152,7 +152,7 @@ TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
   world.contacts.ft = {0.5, -0.5, 0.25};
   const double floor_x = world.grains.x[4];
   world.time = 1.0;
-  let_arrive(arrivals, rule, h, world);
+  add_due_grains(arrivals, rule, h, world);
   EXPECT_EQ(world.grains.free_count, 3);
   EXPECT_EQ(world.contacts.a, (std::vector<Index>{0, 0, 0}));
   EXPECT_EQ(world.contacts.b, (std::vector<Index>{6, 13, 14}));
@@ -168,21 +168,22 @@ TEST(WithAllArrivals, lists_those_on_their_way_behind_the_free_grains) {
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
   world.time = 1.5 * rule.interval;
-  let_arrive(arrivals, rule, h, world);
-  const Grains all = with_all_arrivals(world.grains, arrivals, rule.density);
+  add_due_grains(arrivals, rule, h, world);
+  const Grains all = with_remaining_grains(world.grains, arrivals, rule.density);
   EXPECT_EQ(world.grains.free_count, 2);
   EXPECT_EQ(all.free_count, 5);
   EXPECT_EQ(all.count(), 15);
   for (Index i = 0; i < 5; ++i) EXPECT_EQ(all.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
   EXPECT_EQ(all.mass[1], world.grains.mass[1]);
   EXPECT_EQ(all.x[5], world.grains.x[2]);
-  EXPECT_EQ(with_all_arrivals(world.grains, {}, rule.density).count(), 12);  // for a bed that is not poured
+  EXPECT_EQ(with_remaining_grains(world.grains, {}, rule.density).count(),
+            12);  // for a bed that is not poured
 }
 
 void pour_steps(const std::vector<Arrival>& arrivals, int steps, World& world, StepWorkspace& workspace) {
   const StepSettings settings = test::bed_step(1e-4);
   for (int k = 0; k < steps; ++k) {
-    let_arrive(arrivals, {.speed = 1.0, .interval = 1.1e-3, .density = 2500.0}, settings.h, world);
+    add_due_grains(arrivals, {.speed = 1.0, .interval = 1.1e-3, .density = 2500.0}, settings.h, world);
     step(world, settings, workspace);
   }
 }
@@ -209,7 +210,7 @@ TEST(Pour, a_grain_that_arrives_touches_in_its_first_step) {
   const std::vector<Arrival> arrivals = pour_arrivals(plan);
   World world = bare_floor(plan);
   StepWorkspace workspace;
-  let_arrive(arrivals, rule, 1e-3, world);
+  add_due_grains(arrivals, rule, 1e-3, world);
   step(world, test::exact_step(solver::SolverKind::accelerated), workspace);
   EXPECT_NEAR(world.grains.vy[0], 0.0, 1e-9);
   EXPECT_NEAR(world.grains.y[0], world.grains.radius[0], 1e-9);

@@ -270,7 +270,7 @@ TEST_F(EnsembleManifestTest, of_which_all_fails_begins_anew_with_the_corrected_c
   const EnsembleManifest found = read_ensemble(ensemble);
   EXPECT_EQ(found.seeds, Seeds{1});
   EXPECT_EQ(found.variants.front().scenario.contact.friction, 0.4);
-  EXPECT_EQ(count_of(look_at_members(plan_of(found, ensemble)), MemberStage::waiting), 1u);
+  EXPECT_EQ(count_of(scan_members(plan_of(found, ensemble)), MemberStage::waiting), 1u);
 }
 
 TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun) {

@@ -26,7 +26,7 @@ TEST(MemberState, follows_from_the_files_beside_the_run) {
   touch(folder.path("a/seed-4.csv"));  // leftover of an earlier file layout
   std::filesystem::create_directory(folder.path("a/seed-4.h5.run"));
   std::filesystem::create_directory(folder.path("a/seed-2.h5"));
-  const std::vector<MemberState> states = look_at_members(plan);
+  const std::vector<MemberState> states = scan_members(plan);
   ASSERT_EQ(states.size(), 8u);
   EXPECT_EQ(states[0].stage, MemberStage::done);
   EXPECT_EQ(states[2].stage, MemberStage::failed);

@@ -55,7 +55,7 @@ TEST(Starts, that_bring_no_member_further_are_counted) {
   EXPECT_EQ(memory.idle_starts, 2);
   EXPECT_EQ(after_start(memory, {0, 11}).idle_starts, 0) << "steps";
   EXPECT_EQ(after_start(memory, {1, 0}).idle_starts, 0) << "a finished member";
-  EXPECT_EQ(after_start(memory, {0, 10}).idle_starts, most_idle_starts);
+  EXPECT_EQ(after_start(memory, {0, 10}).idle_starts, max_idle_starts);
 }
 
 TEST(Starts, are_remembered_from_one_to_the_next) {

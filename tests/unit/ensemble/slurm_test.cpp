@@ -41,12 +41,12 @@ TEST(SlurmScript, of_a_task_without_end_has_no_limit) {
   SlurmArray array = array_in("/shared/e");
   array.time.reset();
   EXPECT_FALSE(has(job_script(array), "--max-wall"));
-  EXPECT_TRUE(has_word(sbatch_words(array, {}), "--signal=B:USR1@120"));
+  EXPECT_TRUE(has_word(sbatch_arguments(array, {}), "--signal=B:USR1@120"));
 }
 
 TEST(SbatchWords, name_no_path_and_end_with_the_options_of_the_user) {
   const std::vector<std::string> words =
-      sbatch_words(array_in("/shared/-x"), {"--partition=long", "-A", "me"});
+      sbatch_arguments(array_in("/shared/-x"), {"--partition=long", "-A", "me"});
   const std::vector<std::string> expected = {"sbatch",
                                              "--parsable",
                                              "--array=1-3",
@@ -66,7 +66,7 @@ TEST(SbatchWords, name_no_path_and_end_with_the_options_of_the_user) {
 
 TEST(SbatchWords, let_slurm_write_no_log_where_it_would_mistake_the_folder) {
   for (const char* folder : {"/shared/50%j", "/sha\\red/e"})
-    EXPECT_TRUE(has_word(sbatch_words(array_in(folder), {}), "--output=/dev/null")) << folder;
+    EXPECT_TRUE(has_word(sbatch_arguments(array_in(folder), {}), "--output=/dev/null")) << folder;
   EXPECT_TRUE(has(job_script(array_in("/shared/50%j")),
                   "exec >>\"workers/slurm-${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID.log\" 2>&1\n"));
 }

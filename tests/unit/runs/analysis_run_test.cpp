@@ -228,7 +228,7 @@ TEST(AnalysisOfAStoredRun, deformation_is_that_since_the_frame_before) {
     for (std::size_t k = 1; k < a.frames.size(); ++k) {
       const Frame before = run.frame(k - 1), now = run.frame(k);
       analysis::FrameRecord expected;
-      analysis::take_deformation(before, {now, run.header().statics}, expected);
+      analysis::measure_deformation(before, {now, run.header().statics}, expected);
       EXPECT_GT(a.frames[k].nonaffine, 0.0);
       EXPECT_EQ(a.frames[k].nonaffine, expected.nonaffine) << k;
       EXPECT_EQ(a.frames[k].local_shear_share, expected.local_shear_share) << k;

@@ -130,20 +130,20 @@ void overlap_two_grains(io::Segment& segment) {
 }
 
 TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
-  const auto is_told = [](const Session& session) {
+  const auto is_reported = [](const Session& session) {
     return faults_of(check_with(overlap_two_grains, session)).find("two grains overlap") != std::string::npos;
   };
-  EXPECT_TRUE(is_told(finished_run()));
+  EXPECT_TRUE(is_reported(finished_run()));
   scenario::Scenario scenario = checked_bed();
   scenario.guards.overlap = 10.0;
-  EXPECT_FALSE(is_told(run_of(scenario)));
+  EXPECT_FALSE(is_reported(run_of(scenario)));
   scenario.guards = {};
   scenario.guards.action = scenario::GuardAction::warn;
-  EXPECT_FALSE(is_told(run_of(scenario))) << "the overlap is recorded and is not a damage";
+  EXPECT_FALSE(is_reported(run_of(scenario))) << "the overlap is recorded and is not a damage";
 }
 
 TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
-  const auto is_told = [](double rest_velocity, double factor) {
+  const auto is_reported = [](double rest_velocity, double factor) {
     scenario::Scenario scenario = checked_bed();
     scenario.deposition.rest_velocity = rest_velocity;
     // Scales all forces of the flat bed, which unbalances the weight by 1 - factor.
@@ -157,9 +157,9 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
     return faults_of(check_with(scale_forces, run_of(scenario))).find("forces and weight differ") !=
            std::string::npos;
   };
-  EXPECT_TRUE(is_told(0.005, 0.9));
-  EXPECT_FALSE(is_told(0.05, 0.9)) << "0.1 m g, of 4 times 0.05";
-  EXPECT_TRUE(is_told(0.05, 0.7));
+  EXPECT_TRUE(is_reported(0.005, 0.9));
+  EXPECT_FALSE(is_reported(0.05, 0.9)) << "0.1 m g, of 4 times 0.05";
+  EXPECT_TRUE(is_reported(0.05, 0.7));
 }
 
 TEST(RunCheck, judges_the_first_frame_by_the_friction_of_the_deposition) {
@@ -173,7 +173,7 @@ TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   const RunCheck check = check_with([](io::Segment& s) {
     for (StepRow& row : s.steps) at(row, StepField::residual) = std::numeric_limits<double>::infinity();
   });
-  EXPECT_EQ(check.faults.size(), most_faults + 1);
+  EXPECT_EQ(check.faults.size(), max_faults + 1);
   EXPECT_NE(check.faults.back().find("more"), std::string::npos);
 }
 

@@ -80,7 +80,7 @@ World light_between_floor_and_heavy(double mass_ratio) {
 }
 
 /// Returns a column, a disk far from it, and one that almost touches the plane.
-World rattlers_beside_a_column() {
+World rattlers_next_to_a_column() {
   World world = test::column(10);
   add_disk(world.grains, {0.5, 0.5}, test::radius, test::density, false);
   add_disk(world.grains, {0.7, 1.01 * test::radius}, test::radius, test::density, false);
@@ -262,7 +262,7 @@ INSTANTIATE_TEST_SUITE_P(
          .problem = problem_of(test::column(200)),
          .converges = Converges::accelerated,
          .rests = true},
-        {.name = "rattlers", .problem = problem_of(rattlers_beside_a_column())},
+        {.name = "rattlers", .problem = problem_of(rattlers_next_to_a_column())},
         {.name = "two_contacts_of_one_pair", .problem = problem_of(pair_that_meets_twice())},
         {.name = "crushed", .problem = problem_of(crushed())},
         {.name = "crushed_rough", .problem = problem_of(crushed(), 10.0), .converges = Converges::nobody}}),

@@ -278,11 +278,11 @@ TEST(OrderOfSweep, with_a_contact_across_columns_is_no_ring) {
 }
 
 TEST(OrderOfSweep, has_work_for_several_threads_on_a_large_bed_only) {
-  EXPECT_EQ(most_members(graph(300, 2, 20).problem), 1);
+  EXPECT_EQ(max_members(graph(300, 2, 20).problem), 1);
   const Graph large = graph(20000, 2, 400);
   const SweepOrder order = order_of(large);
-  EXPECT_GE(most_members(large.problem), 2);
-  EXPECT_EQ(most_members(large.problem), order.phase_begin[1]);
+  EXPECT_GE(max_members(large.problem), 2);
+  EXPECT_EQ(max_members(large.problem), order.phase_begin[1]);
   const Index left = order.part_begin[order.phase_begin[3]] - order.part_begin[order.phase_begin[2]];
   EXPECT_LT(left, order.group_count() / 20) << "groups that no part of a phase can contain";
 }

@@ -104,7 +104,7 @@ TEST(Conclusion, breaks_a_tie_of_scores_by_the_deviation) {
   const ReadingResult results[] = {result_of(0, 0, far), result_of(0, 1, near), result_of(1, 1, near)};
   ASSERT_EQ(results[0].agreeing, results[1].agreeing);
   EXPECT_EQ(conclude(results).best, (std::vector<std::size_t>{1, 2}));
-  EXPECT_EQ(conclude(results).least_deviation, 1u);
+  EXPECT_EQ(conclude(results).smallest_deviation, 1u);
 }
 
 TEST(Conclusion, names_the_best_and_what_none_reaches) {

@@ -27,12 +27,12 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
 }
 
 /// Collects results until `frames` frames have been processed, and returns what is known of them.
-pictures::MetFrames wait_for(FrameSeries& series, std::size_t frames) {
+pictures::SeenFrames wait_for(FrameSeries& series, std::size_t frames) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   pictures::PictureSeries pictures;
   while (pictures.met.instants.size() < frames && series.error().empty() &&
          std::chrono::steady_clock::now() < end) {
-    series.take_in(pictures);
+    series.collect_ready(pictures);
     std::this_thread::yield();
   }
   return pictures.met;
@@ -42,7 +42,7 @@ TEST(FrameSeries, has_the_values_of_each_frame) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 6);
   pictures::PictureSeries pictures;
-  EXPECT_FALSE(series.take_in(pictures)) << "nothing was begun";
+  EXPECT_FALSE(series.collect_ready(pictures)) << "nothing was begun";
   series.begin(rule, {});
   EXPECT_FALSE(series.has_all_values());
   wait_for(series, 6);
@@ -70,7 +70,7 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 4);
   series.begin(rule, {});
-  const pictures::MetFrames met = wait_for(series, 6);
+  const pictures::SeenFrames met = wait_for(series, 6);
   EXPECT_EQ(series.values().size(), 4u);
   ASSERT_EQ(met.cluster_colours.size(), 6u);
   EXPECT_TRUE(met.cluster_colours[0].empty());
@@ -98,7 +98,7 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   other.threshold_factor = 4.0;  // above 1, so that nothing is overloaded
   series.begin(other, {});
   EXPECT_TRUE(series.values().empty());
-  const pictures::MetFrames met = wait_for(series, 6);
+  const pictures::SeenFrames met = wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.0);
   EXPECT_EQ(series.rule(), other);
@@ -182,7 +182,7 @@ TEST(FrameSeries, says_why_a_frame_cannot_be_read) {
   wait_for(series, 6);
   EXPECT_EQ(series.error(), "frame 2 is damaged");
   pictures::PictureSeries pictures;
-  while (series.take_in(pictures)) {
+  while (series.collect_ready(pictures)) {
   }
   EXPECT_EQ(series.values().size(), 2u);
 }

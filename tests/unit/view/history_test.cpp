@@ -36,7 +36,7 @@ std::shared_ptr<const Frame> read_frame(std::size_t k) {
 
 bool wait_for(HistorySeries& series, std::size_t count) {
   for (int k = 0; k < 2000 && series.instants().size() < count; ++k) {
-    series.take_in();
+    series.collect_ready();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return series.instants().size() == count;

@@ -15,7 +15,7 @@ const BedFrame bed{frame, statics};
 
 TEST(Selected, sets_are_combined) {
   const std::vector<Index> before = {2, 5, 7}, found = {5, 9};
-  EXPECT_EQ(combined(before, found, SelectionMode::anew), found);
+  EXPECT_EQ(combined(before, found, SelectionMode::replace), found);
   EXPECT_EQ(combined(before, found, SelectionMode::add), (std::vector<Index>{2, 5, 7, 9}));
   EXPECT_EQ(combined(before, found, SelectionMode::remove), (std::vector<Index>{2, 7}));
   EXPECT_EQ(combined(before, found, SelectionMode::common), (std::vector<Index>{5}));

@@ -19,7 +19,7 @@ Packing three_grains() {
   return packing;
 }
 
-TEST(ContactChanges, tell_what_came_and_what_went) {
+TEST(ContactChanges, report_changes) {
   Packing before = three_grains(), after = three_grains();
   add_contact(before, 0, 1, 1.0);
   add_contact(before, 1, 2, 1.0);

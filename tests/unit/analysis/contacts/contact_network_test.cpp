@@ -42,7 +42,7 @@ Packing triangle_with_chain() {
 
 TEST(Coordination, counts_ends_at_free_grains) {
   const Packing packing = triangle_with_chain();
-  const FrameRecord z = found(take_coordination, packing);
+  const FrameRecord z = found(measure_coordination, packing);
   EXPECT_EQ(z.coordination_number, 11.0 / 5.0);
   EXPECT_EQ(z.coordination_number_of_all, 11.0 / 6.0);
 }
@@ -51,7 +51,7 @@ TEST(Coordination, counts_ends_at_free_grains) {
 // ends.
 TEST(Coordination, without_rattlers_takes_them_away_again_and_again) {
   const Packing packing = triangle_with_chain();
-  const FrameRecord z = found(take_coordination, packing);
+  const FrameRecord z = found(measure_coordination, packing);
   EXPECT_EQ(z.coordination_number_without_rattlers, 7.0 / 3.0);
   EXPECT_EQ(z.rattler_fraction, 3.0 / 6.0);
 }
@@ -106,7 +106,7 @@ Packing cross(double strong, double weak) {
 // and weak ones -1/2.
 TEST(Networks, share_the_stress) {
   const Packing packing = cross(3.0, 1.0);
-  const FrameRecord result = found(take_networks, packing);
+  const FrameRecord result = found(measure_networks, packing);
   EXPECT_EQ(result.mean_normal_force, 2.0);
   EXPECT_EQ(result.strong_share, 0.5);
   EXPECT_EQ(result.strong_share_of_mean_stress, 0.75);
@@ -127,7 +127,7 @@ TEST(Networks, have_together_the_moments_of_the_grains) {
   test::moments_from_contacts(packing);
   const Tensor2 whole = stress::sum_of_moments(packing.frame.internal_moment, 0, packing.statics.free_count);
   // If all contacts but one are strong, its share follows from the total.
-  const FrameRecord result = found(take_networks, packing);
+  const FrameRecord result = found(measure_networks, packing);
   double strong_trace = 0.0;
   for (Index c : {2, 5}) strong_trace += packing.frame.contacts.fn[c] * (c == 5 ? 0.5 : 1.0);
   EXPECT_NEAR(result.strong_share_of_mean_stress, strong_trace / (whole.xx + whole.yy), 1e-12);
@@ -138,13 +138,13 @@ TEST(Networks, count_friction) {
   Packing packing = triangle_with_chain();
   packing.frame.contacts.fn = {1.0, 1.0, 9.0, 1.0, 1.0, 1.0};  // the strong contact is at 120 deg to the bed
   packing.frame.contacts.ft = {0.0, 0.0, 4.5, 0.0, 0.0, 0.0};
-  EXPECT_NEAR(found(take_networks, packing).strong_stress_ratio, std::sqrt(1.25), 1e-12);
+  EXPECT_NEAR(found(measure_networks, packing).strong_stress_ratio, std::sqrt(1.25), 1e-12);
 }
 
 TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
   Packing packing = triangle_with_chain();
   for (Index c : {0, 4, 5}) packing.frame.contacts.status[c] = ContactStatus::sliding;
-  const FrameRecord critical = found(take_critical_contacts, packing);
+  const FrameRecord critical = found(measure_critical_contacts, packing);
   EXPECT_EQ(critical.critical_share, 0.5);
   // left-right and left-floor are connected through the left grain; link-end is separate. Both are pairs at
   // distance 1.
@@ -156,14 +156,14 @@ TEST(CriticalContacts, are_joined_where_they_share_a_grain) {
   // Neighbouring contacts without a common contact are not joined: the top grain touches both, with sticking
   // contacts.
   packing.frame.contacts.status[3] = ContactStatus::sliding;
-  EXPECT_EQ(found(take_critical_contacts, packing).critical_largest, 2);
+  EXPECT_EQ(found(measure_critical_contacts, packing).critical_largest, 2);
   packing.frame.contacts.status[1] = ContactStatus::sliding;
-  EXPECT_EQ(found(take_critical_contacts, packing).critical_largest, 5);
+  EXPECT_EQ(found(measure_critical_contacts, packing).critical_largest, 5);
 }
 
 TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
   const Packing packing = triangle_with_chain();
-  const FrameRecord critical = found(take_critical_contacts, packing);
+  const FrameRecord critical = found(measure_critical_contacts, packing);
   EXPECT_EQ(critical.critical_share, 0.0);
   EXPECT_EQ(critical.critical_clusters, 0);
   EXPECT_TRUE(std::isnan(critical.critical_mean));

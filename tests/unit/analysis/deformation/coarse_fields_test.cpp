@@ -219,7 +219,7 @@ TEST(CoarseFields, temperature_is_that_of_independent_velocities) {
     packing.frame.vy[i] += random.uniform(-1.0, 1.0) * deviation * std::sqrt(3.0);
   }
   FrameRecord record;
-  take_granular_temperature(packing, record);
+  measure_granular_temperature(packing, record);
   EXPECT_NEAR(record.granular_temperature, deviation * deviation, 0.06 * deviation * deviation);
 }
 

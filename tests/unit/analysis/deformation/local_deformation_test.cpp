@@ -145,8 +145,8 @@ TEST(LocalDeformation, of_a_slip_is_localised) {
   for (std::size_t i = 0; i < now.x.size(); ++i)
     if (now.y[i] > 17.5) now.x[i] += slip;
   FrameRecord slipped, sheared;
-  take_deformation(bed.frame, {now, bed.statics}, slipped);
-  take_deformation(bed.frame, {uniform, bed.statics}, sheared);
+  measure_deformation(bed.frame, {now, bed.statics}, slipped);
+  measure_deformation(bed.frame, {uniform, bed.statics}, sheared);
   EXPECT_GT(slipped.local_shear_share, 0.99) << "four of forty rows contain all of it";
   EXPECT_NEAR(sheared.local_shear_share, 0.1, 1e-9);
   EXPECT_NEAR(sheared.local_shear, 0.01, 1e-12);
@@ -161,7 +161,7 @@ TEST(LocalDeformation, of_a_slip_is_localised) {
 TEST(LocalDeformation, of_a_bed_that_does_not_move_has_no_share) {
   const Packing bed = random_bed();
   FrameRecord record;
-  take_deformation(bed.frame, bed, record);
+  measure_deformation(bed.frame, bed, record);
   EXPECT_EQ(record.local_shear, 0.0);
   EXPECT_EQ(record.nonaffine_largest, 0.0);
   EXPECT_TRUE(std::isnan(record.local_shear_share));

@@ -31,7 +31,7 @@ Packing two_layers() {
 // 2 M = 10 components of forces and 9 equations: 2 - 9/5 = 1/5 of the contacts may be critical.
 TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
   FrameRecord record;
-  take_failure_distance(two_layers(), 2.0, record);
+  measure_failure_distance(two_layers(), 2.0, record);
   EXPECT_NEAR(record.critical_bound, 0.2, 1e-15);
   EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are critical, so this is not an equilibrium
 }
@@ -41,14 +41,14 @@ TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
   Packing packing = two_layers();
   packing.statics.friction = packing.statics.wall_friction = 0.0;
   FrameRecord record;
-  take_failure_distance(packing, 2.0, record);
+  measure_failure_distance(packing, 2.0, record);
   EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
   packing.statics.wall_friction = 0.5;
   packing.frame.contacts.nx.back() = 0.0;  // with the floor
-  take_failure_distance(packing, 2.0, record);
+  measure_failure_distance(packing, 2.0, record);
   EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
   packing.frame.contacts.nx.back() = 1.0;  // with a wall
-  take_failure_distance(packing, 2.0, record);
+  measure_failure_distance(packing, 2.0, record);
   EXPECT_NEAR(record.critical_bound, 2.0 - 7.0 / 5.0, 1e-15) << "the torque on one grain";
 }
 
@@ -78,7 +78,7 @@ TEST(FailureDistance, of_a_bed_without_contacts_is_not_known) {
   Packing packing = test::empty_packing(10.0, true);
   test::add_grain(packing, 2.0, 0.5);
   FrameRecord record;
-  take_failure_distance(packing, 1.0, record);
+  measure_failure_distance(packing, 1.0, record);
   EXPECT_TRUE(std::isnan(record.critical_bound));
   EXPECT_TRUE(std::isnan(record.critical_share_of_bound));
   EXPECT_EQ(record.layer_critical_share.size(), 10u);

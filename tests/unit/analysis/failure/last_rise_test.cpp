@@ -60,9 +60,9 @@ TEST(LastRise, of_frames_tells_them_and_their_tilts) {
   EXPECT_EQ(rise.first, 1u);
   EXPECT_EQ(rise.tilts, (std::vector<double>{0.1, 0.2}));
   EXPECT_EQ(rise.frames, (std::vector<const FrameRecord*>{&frames[1], &frames[2]}));
-  EXPECT_TRUE(rise.other_side);
+  EXPECT_TRUE(rise.mirrored_slope);
   frames[3].tilt = 0.3;
-  EXPECT_FALSE(last_rise(frames).other_side);
+  EXPECT_FALSE(last_rise(frames).mirrored_slope);
 }
 
 TEST(LastRise, of_a_bed_that_slopes_to_the_other_side_is_mirrored) {
@@ -70,8 +70,8 @@ TEST(LastRise, of_a_bed_that_slopes_to_the_other_side_is_mirrored) {
   frame.sigma_t_over_n = -0.25;
   frame.stress_ratio = 0.5;
   frame.texture_axis = 2.0;
-  const auto number = [&frame](const QuantityMember& member, bool other_side) {
-    return number_on_one_side(quantity_of(member), frame, 0, other_side);
+  const auto number = [&frame](const QuantityMember& member, bool mirrored_slope) {
+    return number_on_one_side(quantity_of(member), frame, 0, mirrored_slope);
   };
   EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, false), -0.25);
   EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, true), 0.25);

@@ -100,7 +100,7 @@ TEST(LocalSolidFraction, of_a_triangular_lattice) {
   // The lowest row lies on a smooth floor, so one corner less is cut off.
   EXPECT_NEAR(fractions[0], 0.25 * pi / (0.5 + 0.25 * std::numbers::sqrt3), 1e-12);
   FrameRecord record;
-  take_local_solid_fraction(packing, record);
+  measure_local_solid_fraction(packing, record);
   const double inner = pi / (2.0 * std::numbers::sqrt3), lowest = fractions[0];
   EXPECT_NEAR(record.local_solid_fraction, (6.0 * inner + lowest) / 7.0, 1e-12);
   EXPECT_NEAR(record.local_solid_fraction_spread, (inner - lowest) * std::sqrt(6.0) / 7.0, 1e-12);

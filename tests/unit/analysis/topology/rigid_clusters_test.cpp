@@ -107,7 +107,7 @@ TEST(RigidClusters, are_not_counted_without_friction) {
   test::add_contact(packing, 1, 2, 1.0);
   packing.statics.friction = 0.0;
   FrameRecord record;
-  take_rigid_clusters(packing, record);
+  measure_rigid_clusters(packing, record);
   EXPECT_EQ(record.rigid_clusters, -1);
   for (const double value : {record.rigid_largest_share, record.rigid_contact_share,
                              record.rigid_floppy_modes, record.rigid_redundant})
@@ -128,7 +128,7 @@ TEST(RigidClusters, of_a_bed_stand_on_its_floor) {
   test::add_contact(packing, 0, floor, 1.0);
   test::add_contact(packing, 1, floor + 1, 1.0);
   FrameRecord record;
-  take_rigid_clusters(packing, record);
+  measure_rigid_clusters(packing, record);
   EXPECT_EQ(record.rigid_clusters, 1);
   EXPECT_EQ(record.rigid_largest_share, 0.75);
   EXPECT_EQ(record.rigid_contact_share, 5.0 / 6.0);

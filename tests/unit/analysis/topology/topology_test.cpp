@@ -66,7 +66,7 @@ TEST(Topology, a_row_around_the_period_is_a_loop) {
 TEST(Topology, thresholds_are_of_the_mean_force) {
   const Packing packing = two_triangles();
   FrameRecord record;
-  take_topology(force_persistence(packing, 2.0), 7, std::vector<double>{0.5, 0.75, 2.0}, record);
+  measure_topology(force_persistence(packing, 2.0), 7, std::vector<double>{0.5, 0.75, 2.0}, record);
   EXPECT_EQ(record.network_components, (std::vector<double>{1.0, 2.0, 2.0}));
   EXPECT_EQ(record.network_loops, (std::vector<double>{2.0, 2.0, 0.0}));
 }
@@ -130,7 +130,7 @@ TEST(Topology, change_is_from_the_frame_before_and_for_each_grain) {
   diagrams[1].components = {{2.0, 1.0}};
   diagrams[2].components = {{2.0, 1.0}};
   diagrams[2].loops = {{1.0, 0.0}};
-  take_network_changes(diagrams, 10, frames);
+  measure_network_changes(diagrams, 10, frames);
   EXPECT_TRUE(std::isnan(frames[0].network_change[0]) && std::isnan(frames[0].network_change[1]));
   EXPECT_DOUBLE_EQ(frames[1].network_change[0], sliced_distance(diagrams[1].components, {}) / 10.0);
   EXPECT_EQ(frames[1].network_change[1], 0.0);

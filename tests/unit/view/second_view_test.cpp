@@ -26,7 +26,7 @@ class TwoViews : public testing::Test {
     example::write_bed_run(other_, 12.0);
     model_.emplace(opened(path_));
   }
-  double tilt_beside() const { return degrees(model_->run_beside()->frame().tilt); }
+  double second_tilt() const { return degrees(model_->second_run()->frame().tilt); }
 
   test::TemporaryFolder folder_;
   std::string path_, other_;
@@ -34,7 +34,7 @@ class TwoViews : public testing::Test {
 };
 
 TEST_F(TwoViews, another_map_of_the_same_frame) {
-  model_->state.beside = {.shown = true, .layers = {pictures::MapKind::pressure}};
+  model_->state.second_view = {.shown = true, .layers = {pictures::MapKind::pressure}};
   model_->go_to(3);
   model_->update(0.0);
   const render::FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
@@ -45,23 +45,23 @@ TEST_F(TwoViews, another_map_of_the_same_frame) {
   EXPECT_EQ(model_->first().annotated_map().caption, model_->second().annotated_map().caption);
   EXPECT_NE(model_->first().furnished_map().title, model_->second().furnished_map().title);
   EXPECT_EQ(model_->second().values().values.size(), 40u);
-  EXPECT_EQ(model_->run_beside(), nullptr);
+  EXPECT_EQ(model_->second_run(), nullptr);
 }
 
 TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
-  model_->state.beside = {.shown = true, .minus = 0.0};
+  model_->state.second_view = {.shown = true, .minus = 0.0};
   model_->go_to(3);
   const render::FrameView* first = &model_->first().annotated_map();
   const render::FrameView* second = &model_->second().annotated_map();
-  const render::Disc *discs = first->discs.data(), *discs_beside = second->discs.data();
+  const render::Disc *discs = first->discs.data(), *discs_next_to = second->discs.data();
   for (int k = 0; k < 3; ++k) {
     EXPECT_EQ(model_->first().annotated_map().discs.data(), discs);
-    EXPECT_EQ(model_->second().annotated_map().discs.data(), discs_beside);
+    EXPECT_EQ(model_->second().annotated_map().discs.data(), discs_next_to);
   }
 }
 
 TEST_F(TwoViews, a_frame_minus_another_one) {
-  model_->state.beside = {.shown = true, .minus = radians(5.0)};
+  model_->state.second_view = {.shown = true, .minus = radians(5.0)};
   model_->go_to(3);
   const GrainValues none = model_->second().values();  // nothing has been drawn yet
   EXPECT_TRUE(none.values.empty());
@@ -74,48 +74,48 @@ TEST_F(TwoViews, a_frame_minus_another_one) {
   EXPECT_NEAR(changes[30], 1.0, 1e-6);
   EXPECT_EQ(changes[31], 0.0);
   EXPECT_EQ(model_->second().annotated_map().legends.at(1).swatches.at(0).label, "contacts gained: 0");
-  model_->state.beside.minus = radians(15.0);
+  model_->state.second_view.minus = radians(15.0);
   model_->second().annotated_map();
   EXPECT_EQ(std::ranges::max(model_->second().values().values), 0.0) << "minus itself";
 }
 
 TEST_F(TwoViews, another_run_at_the_same_tilt) {
   model_->go_to(1);
-  model_->open_beside(other_);
-  EXPECT_TRUE(model_->state.beside.shown);
-  EXPECT_NEAR(tilt_beside(), 5.0, 1e-6);
+  model_->open_second_run(other_);
+  EXPECT_TRUE(model_->state.second_view.shown);
+  EXPECT_NEAR(second_tilt(), 5.0, 1e-6);
   model_->go_to(4);
   EXPECT_TRUE(model_->update(0.0));
-  EXPECT_NEAR(tilt_beside(), 20.0, 1e-6);
+  EXPECT_NEAR(second_tilt(), 20.0, 1e-6);
   EXPECT_NE(model_->first().annotated_map().caption, model_->second().annotated_map().caption)
       << "of theta_c";
-  model_->close_beside();
-  EXPECT_EQ(model_->run_beside(), nullptr);
+  model_->close_second_run();
+  EXPECT_EQ(model_->second_run(), nullptr);
   EXPECT_EQ(model_->first().annotated_map().caption, model_->second().annotated_map().caption);
 }
 
 TEST_F(TwoViews, another_run_as_far_from_failure) {
   model_->go_to(4);
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   ASSERT_TRUE(model_->has_clock(PlotAxis::angle_left));
-  model_->state.beside.clock = PlotAxis::angle_left;
+  model_->state.second_view.clock = PlotAxis::angle_left;
   model_->update(0.0);
-  EXPECT_NEAR(tilt_beside(), 10.0, 1e-6) << "0 deg left for 20, and the nearest to 12";
+  EXPECT_NEAR(second_tilt(), 10.0, 1e-6) << "0 deg left for 20, and the nearest to 12";
 }
 
 TEST_F(TwoViews, the_angle_left_is_no_clock_where_one_has_not_failed) {
   example::write_bed_run(other_, std::nan(""));
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   EXPECT_FALSE(model_->has_clock(PlotAxis::angle_left));
   EXPECT_TRUE(model_->has_clock(PlotAxis::tilt));
-  model_->state.beside.clock = PlotAxis::angle_left;
+  model_->state.second_view.clock = PlotAxis::angle_left;
   model_->go_to(3);
   model_->update(0.0);
-  EXPECT_NEAR(tilt_beside(), 0.0, 1e-6) << "stays";
+  EXPECT_NEAR(second_tilt(), 0.0, 1e-6) << "stays";
 }
 
 TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   model_->update(0.0);
   const auto end = [](const render::FrameView& view) {
     return view.legends.at(0).bars.at(0).ticks.back().label;
@@ -127,7 +127,7 @@ TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
   model_->update(0.0);
   EXPECT_EQ(end(model_->first().annotated_map()), "0.25");
   EXPECT_EQ(end(model_->second().annotated_map()), "0.25");
-  model_->state.beside.layers = {pictures::MapKind::pressure};
+  model_->state.second_view.layers = {pictures::MapKind::pressure};
   model_->update(0.0);
   EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that belongs to another map";
   model_->state.map.range_low = model_->state.map.range_high = std::nullopt;
@@ -136,7 +136,7 @@ TEST_F(TwoViews, of_two_runs_have_one_range_of_colours) {
 }
 
 TEST_F(TwoViews, show_the_same_place) {
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   model_->state.camera = {3.0, 2.0, 2.0};
   model_->update(0.0);
   const render::FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
@@ -151,36 +151,36 @@ TEST_F(TwoViews, show_the_same_place) {
 
 TEST_F(TwoViews, a_selection_is_of_the_first_run) {
   model_->state.selected = 5;
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   model_->update(0.0);
   EXPECT_EQ(model_->second().run.inspection(), nullptr);
   EXPECT_NE(model_->inspection(), nullptr);
 }
 
 TEST_F(TwoViews, what_cannot_be_beside_is_said_and_leaves_what_is_shown) {
-  EXPECT_THROW(model_->open_beside(folder_.path("none.h5")), Error);
+  EXPECT_THROW(model_->open_second_run(folder_.path("none.h5")), Error);
   std::ofstream(folder_.path("a.toml")) << "seed = 1\n";
-  EXPECT_THROW(model_->open_beside(folder_.path("a.toml")), Error);
-  EXPECT_FALSE(model_->state.beside.shown);
-  EXPECT_EQ(model_->run_beside(), nullptr);
-  model_->open_beside(other_);
-  EXPECT_THROW(model_->open_beside(folder_.path("none.h5")), Error);
-  EXPECT_NE(model_->run_beside(), nullptr) << "the previous one";
+  EXPECT_THROW(model_->open_second_run(folder_.path("a.toml")), Error);
+  EXPECT_FALSE(model_->state.second_view.shown);
+  EXPECT_EQ(model_->second_run(), nullptr);
+  model_->open_second_run(other_);
+  EXPECT_THROW(model_->open_second_run(folder_.path("none.h5")), Error);
+  EXPECT_NE(model_->second_run(), nullptr) << "the previous one";
 }
 
 TEST_F(TwoViews, a_run_that_is_computed_stands_alone) {
   std::ofstream(folder_.path("a.toml")) << "[bed]\nlength = 10\ndepth = 3\n";
   ViewModel live = opened(folder_.path("a.toml"));
-  EXPECT_THROW(live.open_beside(path_), Error);
-  live.state.beside = {.shown = true, .layers = {pictures::MapKind::pressure}, .minus = 0.0};
+  EXPECT_THROW(live.open_second_run(path_), Error);
+  live.state.second_view = {.shown = true, .layers = {pictures::MapKind::pressure}, .minus = 0.0};
   EXPECT_FALSE(live.second().annotated_map().title.empty()) << "there is no frame to subtract yet";
 }
 
 TEST_F(TwoViews, both_rest_while_another_run_is_opened) {
-  model_->open_beside(other_);
+  model_->open_second_run(other_);
   model_->hold();
   *model_ = opened(other_);
-  EXPECT_EQ(model_->run_beside(), nullptr);
+  EXPECT_EQ(model_->second_run(), nullptr);
 }
 
 }  // namespace

@@ -50,14 +50,15 @@ int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
     model.state.map.layers = {kind};
     gui.frame();
     for (Index grain = 0; grain < model.statics().free_count; ++grain) {
-      const std::string told = gui::grain_text(model.first(), grain);
+      const std::string shown_view = gui::grain_text(model.first(), grain);
       const bool loaded = !std::isnan(model.frame().gamma[static_cast<std::size_t>(grain)]);
       idle += loaded ? 0 : 1;
-      EXPECT_EQ(told.find("nan"), std::string::npos) << told;
-      EXPECT_EQ(told.find("γ = ") != std::string::npos, pictures::shows_gamma(kind) && loaded)
-          << pictures::map_name(kind) << ": " << told;
-      EXPECT_EQ(told.find("carries nothing") != std::string::npos, pictures::shows_gamma(kind) && !loaded)
-          << told;
+      EXPECT_EQ(shown_view.find("nan"), std::string::npos) << shown_view;
+      EXPECT_EQ(shown_view.find("γ = ") != std::string::npos, pictures::shows_gamma(kind) && loaded)
+          << pictures::map_name(kind) << ": " << shown_view;
+      EXPECT_EQ(shown_view.find("carries nothing") != std::string::npos,
+                pictures::shows_gamma(kind) && !loaded)
+          << shown_view;
     }
   }
   return idle;

@@ -12,8 +12,8 @@
 namespace talus::view {
 namespace {
 
-const pictures::MapLayers& layers_beside(const ViewState& asked) {
-  return asked.beside.layers.empty() ? asked.map.layers : asked.beside.layers;
+const pictures::MapLayers& second_layers(const ViewState& asked) {
+  return asked.second_view.layers.empty() ? asked.map.layers : asked.second_view.layers;
 }
 
 /// Returns a range that contains both, with ends of few digits.
@@ -50,13 +50,13 @@ std::vector<double> ViewModel::times_of_tilt() const {
 }
 
 bool ViewModel::same_map() const {
-  return other_ && !state.beside.minus && layers_beside(state) == state.map.layers;
+  return other_ && !state.second_view.minus && second_layers(state) == state.map.layers;
 }
 
-ViewState ViewModel::beside_state() const {
+ViewState ViewModel::second_view_state() const {
   ViewState of = state;
-  of.map.layers = layers_beside(state);
-  of.minus = state.beside.minus;
+  of.map.layers = second_layers(state);
+  of.minus = state.second_view.minus;
   if (of.minus || of.map.layers != state.map.layers) {  // these belong to another map
     of.map.range_low.reset();
     of.map.range_high.reset();
@@ -74,7 +74,7 @@ ViewState ViewModel::beside_state() const {
 
 View ViewModel::second() {
   if (other_) return {*other_, other_->state, other_->map_, true};
-  second_state_ = beside_state();
+  second_state_ = second_view_state();
   return {*this, second_state_, second_map_, true};
 }
 
@@ -99,14 +99,14 @@ void ViewModel::link_ranges() {
   if (one && two && !(*one == *two)) linked_.range = common_range(*one, *two);
 }
 
-bool ViewModel::follow_beside(double seconds) {
+bool ViewModel::follow_second_run(double seconds) {
   if (!other_) return false;
   link_ranges();
-  other_->state = beside_state();
+  other_->state = second_view_state();
   const RunInstants shown = instants();
   const bool in_flow = frame_index() >= shown.tilt_count;
   const auto k =
-      linked_frame(state.beside.clock, shown, {frame_->tilt, frame_->time, in_flow}, other_->instants());
+      linked_frame(state.second_view.clock, shown, {frame_->tilt, frame_->time, in_flow}, other_->instants());
   const bool goes = k && *k != other_->frame_index();
   if (goes) other_->go_to(*k);
   const bool changed = other_->update(seconds) || goes;
@@ -117,14 +117,14 @@ bool ViewModel::follow_beside(double seconds) {
     extent.y_max *= scale;
     return extent;
   };
-  bed_beside_ = as_high(*other_, *this);
-  other_->bed_beside_ = as_high(*this, *other_);
+  second_bed_ = as_high(*other_, *this);
+  other_->second_bed_ = as_high(*this, *other_);
   if (!other_->state.message.empty() && other_->state.message != state.message)
     error_ = other_->state.message;
   return changed;
 }
 
-void ViewModel::open_beside(const std::string& path) {
+void ViewModel::open_second_run(const std::string& path) {
   if (is_live())
     throw Error(ExitCode::usage, path + ": another run can be shown only next to a replay; " + this->path() +
                                      " is being computed. Show another map of it, or its change");
@@ -139,15 +139,15 @@ void ViewModel::open_beside(const std::string& path) {
     other_ = std::move(next);
   }
   linked_ = {};
-  state.beside.shown = true;
-  state.beside.clock = has_program() && other_->has_program() ? PlotAxis::time : PlotAxis::tilt;
-  follow_beside(0.0);
+  state.second_view.shown = true;
+  state.second_view.clock = has_program() && other_->has_program() ? PlotAxis::time : PlotAxis::tilt;
+  follow_second_run(0.0);
 }
 
-void ViewModel::close_beside() {
+void ViewModel::close_second_run() {
   other_.reset();
   linked_ = {};
-  bed_beside_.reset();
+  second_bed_.reset();
 }
 
 bool ViewModel::has_clock(PlotAxis clock) const {
