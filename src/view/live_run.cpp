@@ -60,8 +60,7 @@ bool begins(const Command& command, const std::optional<session::Drag>& drag) {
   return command.kind != CommandKind::release;
 }
 
-/// Returns the number of solver threads. One core is left to the window; on two cores the solver has the
-/// other.
+/// Returns the number of solver threads, which leaves one core to the window.
 int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
 
 std::string one_line(std::string text) {

@@ -447,7 +447,7 @@ TEST(Ensemble, begins_a_member_anew_whose_folder_is_damaged) {
   const Outcome work = run_talus({"ensemble", "work", "e"}, folder.path());
   EXPECT_NE(work.out.find("seed-1 done\n"), std::string::npos) << work.out;
   const std::string log = text_of(folder.path("e/seed-1.log"));
-  EXPECT_NE(log.find("is e/seed-1.h5.damaged now; the member is restarted"), std::string::npos) << log;
+  EXPECT_NE(log.find("is in e/seed-1.h5.damaged; the member is restarted"), std::string::npos) << log;
   EXPECT_TRUE(std::filesystem::exists(folder.path("e/seed-1.h5.damaged/manifest"))) << "nothing is lost";
   EXPECT_FALSE(std::filesystem::exists(folder.path("e/seed-1.failed")));
 }

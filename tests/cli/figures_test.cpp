@@ -178,7 +178,8 @@ TEST_F(Figures, that_need_a_failure_are_left_out_of_a_bed_that_stands) {
   const Outcome outcome = figures();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_parts(outcome.err, {"left out: fig07-wall-ratio needs a bed between walls that has failed",
-                             "left out: fig09-overloaded-fraction needs a periodic bed with a threshold"});
+                             "left out: fig09-overloaded-fraction needs a periodic bed that has failed, or "
+                             "has a threshold by --set gamma_c"});
   expect_parts(outcome.out, {"fig04-shear-stress", "fig05-stress-ratio", "fig14-volume-strain"});
   const Outcome none = figures({"--only", "9", "--overwrite"});
   EXPECT_EQ(none.exit_code, 65);
@@ -199,7 +200,7 @@ TEST_F(Figures, that_exist_are_replaced_only_on_request) {
 TEST_F(Figures, with_unknown_names_are_refused_with_the_nearest) {
   const Outcome outcome = figures({"--only", "fig09-overloaded-friction"});
   EXPECT_EQ(outcome.exit_code, 64);
-  expect_parts(outcome.err, {"--only fig09-overloaded-friction: there is no such figure; did you mean "
+  expect_parts(outcome.err, {"--only fig09-overloaded-friction: no such figure; did you mean "
                              "'fig09-overloaded-fraction'?"});
   EXPECT_EQ(figures({"--only", "3"}).exit_code, 64);
   EXPECT_FALSE(fs::exists(out("")));

@@ -71,7 +71,7 @@ TEST_F(Problem, is_solved_to_what_the_run_asked_unless_told_otherwise) {
   EXPECT_LT(std::stod(json_value(as_run.out, "bed_velocity")), 0.003);
   EXPECT_EQ(json_value(talus({"solve", "p.h5", "--tol", "1e-5", "--json"}).out, "asked_by"), "option");
   const Outcome text = talus({"solve", "p.h5"});
-  EXPECT_NE(text.out.find("(converged, asked for 3.0e-07 by the run)"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("(converged, 3.0e-07 required by the run)"), std::string::npos) << text.out;
   EXPECT_EQ(text.out.find("moving"), std::string::npos) << text.out;
 }
 
@@ -87,7 +87,7 @@ TEST_F(Problem, of_a_file_that_tells_no_tolerance_is_solved_to_the_default) {
     EXPECT_EQ(json_value(outcome.out, "asked_by"), "default");
     EXPECT_EQ(json_value(outcome.out, "bed_velocity"), "null");
     const std::string text = talus({"solve", "other.h5"}).out;
-    EXPECT_NE(text.find("asked for 1.0e-06 by default)"), std::string::npos) << text;
+    EXPECT_NE(text.find("1.0e-06 required by default)"), std::string::npos) << text;
     EXPECT_EQ(text.find("moving"), std::string::npos) << text;
   }
 }

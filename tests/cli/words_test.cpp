@@ -146,7 +146,7 @@ TEST_F(TypedWords, seeds_of_one_run_are_told_where_several_are_computed) {
   expect_refused({"run", "x.toml", "--seed", "1-3"},
                  "--seed: expected a whole number, found 1-3; talus ensemble SCENARIO --seeds 1-3 -o FOLDER");
   expect_refused({"run", "x.toml", "--seed", "seven"},
-                 "expected a whole number, found seven; talus run --help");
+                 "expected a whole number, found seven; see talus run --help");
 }
 
 TEST_F(TypedWords, help_is_a_command_too) {

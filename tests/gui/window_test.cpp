@@ -114,7 +114,7 @@ TEST(View, refuses_a_beginning_that_is_none) {
       {{"--map", "gamm"}, "expected one of"},
       {{"--grain", "100000"}, "0 to"},
       {{"--select", "gama > 1"},
-       "--select 'gama > 1', column 1: gama is no quantity of a grain; did you mean 'gamma'?"}};
+       "--select 'gama > 1', column 1: gama is not a quantity of a grain; did you mean 'gamma'?"}};
   EXPECT_EQ(run_talus({"view", "bed.toml", "--screenshot", "view.png", "--behind", "none.h5"}, folder.path())
                 .exit_code,
             66);

@@ -371,8 +371,7 @@ TEST_F(HostileBranch, of_which_the_start_is_damaged_is_repaired_without_it) {
   const test::Outcome replay = talus({"replay", "kept.h5"});
   EXPECT_EQ(replay.exit_code, bad_data);
   EXPECT_NE(replay.err.find("its first state is lost"), std::string::npos) << replay.err;
-  EXPECT_THROW(session::checkpoint_at_frame(kept, 1), Error)
-      << "earlier settings are no longer known";
+  EXPECT_THROW(session::checkpoint_at_frame(kept, 1), Error) << "earlier settings are no longer known";
 }
 
 /// Flips a byte, writes up to 4 KiB of zeros, or truncates.

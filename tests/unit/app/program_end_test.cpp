@@ -44,7 +44,8 @@ TEST(ProgramEnd, of_an_exception_is_its_exit_code) {
 
 TEST(ProgramEnd, on_request_is_a_plain_sentence) {
   testing::internal::CaptureStderr();
-  EXPECT_EQ(code_of(Error(ExitCode::stopped, "stopped at 12.250 deg; talus run --resume a.h5 continues")), 75);
+  EXPECT_EQ(code_of(Error(ExitCode::stopped, "stopped at 12.250 deg; talus run --resume a.h5 continues")),
+            75);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
             "Stopped at 12.250 deg; talus run --resume a.h5 continues.\n");
 }

@@ -34,7 +34,7 @@ TEST(Pool, does_all_jobs_and_returns_those_that_failed) {
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].log, bad);
   EXPECT_EQ(failed[0].exit_code, 1);
-  EXPECT_NE(io::read_text(bad).find("as it should"), std::string::npos);
+  EXPECT_NE(io::read_text(bad).find("as expected"), std::string::npos);
   EXPECT_NE(io::read_text(good).find("1 test"), std::string::npos) << "its folder was created";
 }
 

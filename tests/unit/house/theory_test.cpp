@@ -85,7 +85,7 @@ TEST(Theory, sources_stand_among_the_references) {
 TEST(Theory, numbers_are_recognised) {
   EXPECT_EQ(defined_in("    a = b    (T7)"), std::vector<std::string>{"T7"});
   EXPECT_TRUE(defined_in("As (T7)").empty());
-  EXPECT_EQ(cited_in("/// By (T4) and (T12)."), (std::vector<std::string>{"T4", "T12"}));
+  EXPECT_EQ(cited_in("/// Computes (T4) and (T12)."), (std::vector<std::string>{"T4", "T12"}));
   EXPECT_TRUE(cited_in("f(T t)").empty());
 }
 

@@ -76,7 +76,7 @@ TEST(Condition, what_is_wrong_is_said_with_its_place) {
   const std::pair<const char*, const char*> cases[] = {
       {"", "column 1: expected a condition, such as gamma > 0.7, found the end"},
       {"gamma >", "column 8: expected a number, a name or (, found the end"},
-      {"gama > 1", "column 1: gama is no quantity of a grain; did you mean 'gamma'?"},
+      {"gama > 1", "column 1: gama is not a quantity of a grain; did you mean 'gamma'?"},
       {"y > 1 && gama > 1", "column 10: gama"},
       {"gamma = 0.7", "column 7: expected an operator or the end, found '='; did you mean '=='?"},
       {"gamma => 1", "found '=>'; did you mean '>='?"},
@@ -84,7 +84,7 @@ TEST(Condition, what_is_wrong_is_said_with_its_place) {
       {"not gamma > 1", "found 'not'; did you mean '!'?"},
       {"gamma > 1 & y > 2", "column 11: expected an operator or the end, found '&'; did you mean '&&'?"},
       {"0.5 < gamma < 0.7", "column 13: expected && or || between two comparisons, found '<'"},
-      {"gamma > 0,7", "found ','; decimals follow a point"},
+      {"gamma > 0,7", "found ','; write a decimal point, as in 0.7"},
       {"y > 30 D", "column 8: expected an operator or the end, found 'D'"},
       {"y > 30D", "column 7: expected an operator or the end after 30, found 'D'; numbers are without units"},
       {"(gamma > 1", "column 11: expected an operator or ), found the end"},
@@ -93,7 +93,7 @@ TEST(Condition, what_is_wrong_is_said_with_its_place) {
       {"y > 1 && gamma", "column 10: expected a condition"},
       {"(gamma > 1) + 1 > 1", "column 1: expected a number, found a condition"},
       {"2 * (gamma > 1) > 1", "column 5: expected a number, found a condition"},
-      {"sin(y) > 1", "column 1: sin is no function; there are abs and sqrt"},
+      {"sin(y) > 1", "column 1: sin is not a function; use abs or sqrt"},
       {"y > 1e999", "column 5: 1e999 is out of range"},
       {"\xCE\xB3 > 1", "column 1: expected a number, a name or (, found"},
   };
