@@ -68,11 +68,12 @@ class Beds:
 
 
 def summary(values):
-    """Mean, standard error and standard deviation, least, largest and number of some values."""
+    """Mean, standard error and standard deviation of some values, the mean in standard errors, their least, largest, number and sum."""
     values = list(values)
     deviation = statistics.stdev(values) if len(values) > 1 else math.nan
     return {"mean": statistics.mean(values) if values else math.nan, "deviation": deviation, "n": len(values),
-            "error": deviation / math.sqrt(len(values)) if values else math.nan, "min": min(values, default=math.nan),
+            "error": deviation / math.sqrt(len(values)) if values else math.nan,
+            "errors": statistics.mean(values) / (deviation / math.sqrt(len(values))) if len(values) > 1 and deviation else math.nan, "min": min(values, default=math.nan),
             "max": max(values, default=math.nan), "sum": sum(values)}
 
 
@@ -87,7 +88,9 @@ class Values:
     """Values by name:
 
     demo.theta_c                     of a run of the first pages: demo, smooth, collapse, paper (class method of_run)
-    paper-pbc.theta_c                a mean over beds, with its standard error; .error, .deviation, .n, .min, .max give one of these
+    paper-pbc.theta_c                a mean over beds, with its standard error; .error, .deviation, .n, .min, .max give one of these, .errors
+                                     the mean in standard errors
+    paper-pbc.theta_c-lc_jump        the same of a difference, bed by bed
     poured.theta_c.7                 of one seed
     paper-pbc.theta_c~lc_jump        a correlation over beds; .errors gives its distance from 0 in standard errors
     paper-pbc.theta_c--collapse      a difference between two groups of beds; .errors gives it in its standard errors

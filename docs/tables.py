@@ -203,12 +203,35 @@ def metastability(_):
     rows = []
     for low, high in CLASSES:
         here = [state for state in states() if low < state["distance"] <= high]
-        found = [value for value in map(threshold, here) if not math.isnan(value)]
+        found = [threshold(state) if state["holds"] else 0.0 for state in here]
         brackets = [state for state in here if state["holds"] and 0 < threshold(state) < math.inf or not state["monotone"]]
         rows.append([f"{low:g} to {high:g}" if high < math.inf else f"above {low:g}", str(len(here)), str(sum(not s["holds"] for s in here)),
                      str(sum(math.isinf(v) for v in found)), str(sum(not s["monotone"] for s in brackets)),
-                     *(push_text(f(found)) if found else "–" for f in (min, statistics.median_low, max))])
+                     *(push_text(f(found)) if found else "–" for f in (min, statistics.median, max))])
     return markdown(["theta_c - theta, deg", "states", "do not hold", "no avalanche up to 5", "erratic", "least", "median", "largest"], rows)
+
+
+def metastability_numbers(beds):
+    """How the threshold ends at theta_c, and where pushes of up to 5 sqrt(g D) begin to start avalanches, compared with theta_d by the jump of
+    l_c and with theta_r of the same beds (`dynamic-angle`)."""
+    by_seed = {}
+    for state in states():
+        if state["distance"] > 0:
+            by_seed.setdefault(int(state["seed"]), []).append(state)
+    last = [min(each, key=lambda state: state["distance"]) for each in by_seed.values()]
+    onset = {seed: max((state["theta"] for state in each if state["theta"] <= min(
+        [s["theta"] for s in each if s["holds"] and threshold(s) < math.inf] or [math.inf])), default=math.nan) for seed, each in by_seed.items()}
+    onset = {seed: theta for seed, theta in onset.items() if not math.isnan(theta)}
+    found = {"beds": len(last), "last.fail": sum(not s["holds"] for s in last), "last.smallest": sum(threshold(s) == 0 for s in last),
+             "last.others": sum(threshold(s) > 0 for s in last), "nearest": min(s["distance"] for s in last), "farthest": max(s["distance"] for s in last)}
+    brackets = [state for state in states() if state["holds"] and 0 < threshold(state) < math.inf]
+    found |= {"brackets": len(brackets), "erratic": sum(not s["monotone"] for s in states() if s["holds"])}
+    theta_c = {int(state["seed"]): state["theta_c"] for state in states()}
+    pairs = {"theta_c": theta_c, "lc_jump": beds.values("dynamic-angle", "lc_jump"), "theta_r": beds.values("dynamic-angle", "theta_r")}
+    for name, angle in pairs.items():
+        difference = summary(onset[seed] - angle[seed] for seed in onset if seed in angle)
+        found |= {f"onset-{name}": (difference["mean"], difference["error"]), f"onset-{name}.errors": difference["mean"] / difference["error"]}
+    return found | {"onset.min": min(onset.values()), "onset.max": max(onset.values())}
 
 
 # ---- The dynamic angle.
@@ -374,4 +397,4 @@ TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparati
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
-REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers}
+REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers}
