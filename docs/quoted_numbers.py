@@ -27,6 +27,8 @@ ANY_MARK = re.compile(r"<!--=.*?-->", re.DOTALL)
 #: Groups of beds in docs/data/beds.csv whose first member is a run of the first pages.
 FIRST_MEMBERS = {"demo:deposition.method=pour": "runs/demo.h5", "demo:deposition.method=collapse": "runs/collapse.h5",
                  "paper-pbc": "runs/paper.h5"}
+#: Runs of the first pages whose numbers are quoted.
+RUNS = ("demo", "smooth", "collapse", "paper")
 #: Short names of groups.
 SHORT = {"poured": "demo:deposition.method=pour", "collapsed": "demo:deposition.method=collapse",
          **{f"lowered-{name}": f"dynamic-angle-rates:tilt.lowering_rate={rate}" for name, rate in (("fast", 1), ("half", 0.5), ("slow", 0.2))}}
@@ -123,6 +125,8 @@ class Values:
         group, _, rest = name.partition(".")
         if group in self.reports:
             return self.reports[group]()[rest]
+        if group not in RUNS:
+            raise KeyError(f"{name}: no such beds in docs/data/beds.csv, report of docs/tables.py or run ({', '.join(RUNS)})")
         if group not in self.runs:
             self.runs[group] = self.of_run(group)
         return self.runs[group][rest]
