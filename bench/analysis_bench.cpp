@@ -69,38 +69,39 @@ int measure(int argc, char** argv) {
   };
   std::printf("| part | ms a frame |\n|---|--:|\n");
   row("frame read", [&](Sample&, std::size_t k) { (void)run.frame(k); });
-  row("gamma of neighbourhoods",
-      [&](Sample& of, std::size_t) { (void)analysis::with_analysed_gamma(of.stored, statics, parameters); });
-  row("thresholds: l_c, clusters, directed paths", [&](Sample& of, std::size_t) {
-    (void)analysis::analyse_thresholds({of.frame, statics}, parameters, analysis, 1.0);
+  row("gamma of neighbourhoods", [&](Sample& sample, std::size_t) {
+    (void)analysis::with_analysed_gamma(sample.stored, statics, parameters);
   });
-  row("correlations of forces, gamma and mean stress", [&](Sample& of, std::size_t) {
-    (void)analysis::force_correlation({of.frame, statics}, largest, parameters.bins);
-    (void)analysis::stress_ratio_correlation({of.frame, statics}, largest, parameters.bins);
-    (void)analysis::mean_stress_correlation({of.frame, statics}, largest, parameters.bins);
+  row("thresholds: l_c, clusters, directed paths", [&](Sample& sample, std::size_t) {
+    (void)analysis::analyse_thresholds({sample.frame, statics}, parameters, analysis, 1.0);
   });
-  row("local solid fraction", [&](Sample& of, std::size_t) {
-    analysis::measure_local_solid_fraction({of.frame, statics}, of.record);
+  row("correlations of forces, gamma and mean stress", [&](Sample& sample, std::size_t) {
+    (void)analysis::force_correlation({sample.frame, statics}, largest, parameters.bins);
+    (void)analysis::stress_ratio_correlation({sample.frame, statics}, largest, parameters.bins);
+    (void)analysis::mean_stress_correlation({sample.frame, statics}, largest, parameters.bins);
   });
-  row("granular temperature", [&](Sample& of, std::size_t) {
-    analysis::measure_granular_temperature({of.frame, statics}, of.record);
+  row("local solid fraction", [&](Sample& sample, std::size_t) {
+    analysis::measure_local_solid_fraction({sample.frame, statics}, sample.record);
   });
-  row("local deformation", [&](Sample& of, std::size_t) {
-    analysis::measure_deformation(of.before, {of.frame, statics}, of.record);
+  row("granular temperature", [&](Sample& sample, std::size_t) {
+    analysis::measure_granular_temperature({sample.frame, statics}, sample.record);
   });
-  row("rigid clusters", [&](Sample& of, std::size_t) {
-    analysis::measure_rigid_clusters({of.frame, statics}, of.record);
+  row("local deformation", [&](Sample& sample, std::size_t) {
+    analysis::measure_deformation(sample.before, {sample.frame, statics}, sample.record);
   });
-  row("persistence", [&](Sample& of, std::size_t) {
-    (void)analysis::force_persistence({of.frame, statics}, 1.0);
+  row("rigid clusters", [&](Sample& sample, std::size_t) {
+    analysis::measure_rigid_clusters({sample.frame, statics}, sample.record);
   });
-  row("change of the network", [&](Sample& of, std::size_t) {
+  row("persistence", [&](Sample& sample, std::size_t) {
+    (void)analysis::force_persistence({sample.frame, statics}, 1.0);
+  });
+  row("change of the network", [&](Sample& sample, std::size_t) {
     std::vector<analysis::FrameRecord> records(2);
-    analysis::measure_network_changes({of.network_before, of.network}, statics.free_count, records);
+    analysis::measure_network_changes({sample.network_before, sample.network}, statics.free_count, records);
   });
-  row("all of a frame but reading and what it is compared with", [&](Sample& of, std::size_t) {
-    (void)analysis::analyse_frame({analysis::with_analysed_gamma(of.stored, statics, parameters), statics},
-                                  parameters, analysis);
+  row("all of a frame but reading and what it is compared with", [&](Sample& sample, std::size_t) {
+    (void)analysis::analyse_frame(
+        {analysis::with_analysed_gamma(sample.stored, statics, parameters), statics}, parameters, analysis);
   });
   return 0;
 }

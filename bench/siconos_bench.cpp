@@ -207,18 +207,18 @@ void print_ratio(double ratio, bool siconos_fails, bool talus_fails) {
     std::printf("%s%.*f |", siconos_fails ? "> " : "", ratio < 10.0 ? 1 : 0, ratio);
 }
 
-void print_row(Match& match, Index grains, const Case& of, const Timing& timing) {
+void print_row(Match& match, Index grains, const Case& setting, const Timing& timing) {
   const ContactProblem& problem = match.step.problem;
   const ContactSolution theirs = with_impulses(problem, timing.siconos.p);
   const ContactSolution& ours = timing.talus.solution;
   const double their_error = match.siconos.error(timing.siconos.p);
   const double our_error = match.siconos.error(impulses(ours));
-  const bool siconos_fails = their_error > of.tolerance;
-  const bool talus_fails = our_error > of.tolerance;
+  const bool siconos_fails = their_error > setting.tolerance;
+  const bool talus_fails = our_error > setting.tolerance;
   const double their_seconds = median(timing.siconos_seconds);
   const double our_seconds = median(timing.talus_seconds);
   std::printf("| %d | %d | %s | %.0e | ", grains, problem.contact_count(),
-              of.warm ? "10 deg, warm" : "flat, cold", of.tolerance);
+              setting.warm ? "10 deg, warm" : "flat, cold", setting.tolerance);
   print_solve(their_seconds, timing.siconos_seconds.size(), timing.siconos.report.iterations, siconos_fails);
   print_solve(our_seconds, timing.talus_seconds.size(), timing.talus.report.iterations, talus_fails);
   print_ratio(their_seconds / our_seconds, siconos_fails, talus_fails);
@@ -239,16 +239,16 @@ void print_header() {
       "differ |\n|--:|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
 }
 
-void run_case(Index grains, const Case& of, bool si, const Limits& limits) {
+void run_case(Index grains, const Case& setting, bool si, const Limits& limits) {
   constexpr double dt = 5e-3;
   const double h = si ? time_step(Scenario{}) : seconds_of(dt);
-  const World world = bed(grains, of.slope, h);
+  const World world = bed(grains, setting.slope, h);
   FrozenStep step =
       si ? next_step(world, h, Candidates::close) : dimensionless_next_step(world, dt, Candidates::close);
-  if (!of.warm) step.guess = cold_guess(step.problem);
+  if (!setting.warm) step.guess = cold_guess(step.problem);
   Match match(std::move(step));
-  const double eta = eta_for_error(match, of.tolerance);
-  print_row(match, grains, of, time_both(match, of.tolerance, eta, limits));
+  const double eta = eta_for_error(match, setting.tolerance);
+  print_row(match, grains, setting, time_both(match, setting.tolerance, eta, limits));
 }
 
 int run(int argc, char** argv) {
@@ -267,7 +267,7 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv)
   print_header();
   for (const Index grains : sizes)
-    for (const Case& of : cases) run_case(grains, of, si, limits);
+    for (const Case& setting : cases) run_case(grains, setting, si, limits);
   return 0;
 }
 

@@ -12,7 +12,7 @@ namespace {
 struct Ids {
   Index free_count, count, copies, layer;
 
-  Index of(Index grain, Index copy) const {
+  Index id(Index grain, Index copy) const {
     if (grain >= free_count) return in_block(free_count, count, grain, copy);
     const Index first = grain / layer * layer;
     return in_block(first, std::min(first + layer, free_count), grain, copy);
@@ -32,7 +32,7 @@ Grains tiled_grains(const Grains& from, const Ids& ids, double length) {
   const auto spread = [&](auto Grains::*field) {
     (to.*field).resize((from.*field).size() * static_cast<std::size_t>(ids.copies));
     for (Index copy = 0; copy < ids.copies; ++copy)
-      for (Index i = 0; i < from.count(); ++i) (to.*field)[ids.of(i, copy)] = (from.*field)[i];
+      for (Index i = 0; i < from.count(); ++i) (to.*field)[ids.id(i, copy)] = (from.*field)[i];
   };
   for (auto field :
        {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy, &Grains::omega, &Grains::radius,
@@ -40,7 +40,7 @@ Grains tiled_grains(const Grains& from, const Ids& ids, double length) {
     spread(field);
   spread(&Grains::image);
   for (Index copy = 0; copy < ids.copies; ++copy)
-    for (Index i = 0; i < from.count(); ++i) to.x[ids.of(i, copy)] += copy * length;
+    for (Index i = 0; i < from.count(); ++i) to.x[ids.id(i, copy)] += copy * length;
   return to;
 }
 
@@ -58,8 +58,8 @@ Copy copy_of(const Contacts& contacts, Index c, Index copy, const Ids& ids) {
   const Index neighbour = copy + contacts.shift[c];
   const Index copy_b = (neighbour + ids.copies) % ids.copies;
   const auto shift = static_cast<std::int8_t>((neighbour - copy_b) / ids.copies);
-  const Index a = ids.of(contacts.a[c], copy);
-  const Index b = ids.of(contacts.b[c], copy_b);
+  const Index a = ids.id(contacts.a[c], copy);
+  const Index b = ids.id(contacts.b[c], copy_b);
   if (a < b) return {a, b, shift, c, false};
   return {b, a, static_cast<std::int8_t>(-shift), c, true};
 }

@@ -151,10 +151,10 @@ std::vector<std::vector<FrameView>> sample_of(const std::vector<std::vector<Fram
 /// nothing if none fits. Narrower cells may need more height because their texts break into more lines.
 std::optional<Arrangement> largest_fit(const std::vector<std::vector<FrameView>>& pictures, int width,
                                        int height, int columns, int least, const Font& font) {
-  const auto fit = [&](const std::vector<std::vector<FrameView>>& of,
+  const auto fit = [&](const std::vector<std::vector<FrameView>>& rows,
                        int cell) -> std::optional<Arrangement> {
     try {
-      Arrangement found = arrange_with(of, width, columns, cell, font);
+      Arrangement found = arrange_with(rows, width, columns, cell, font);
       if (found.height <= height) return found;
     } catch (const Error&) {  // no legible layout
     }

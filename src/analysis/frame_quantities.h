@@ -69,7 +69,7 @@ struct FrameQuantity {
   std::string_view definition;  ///< one sentence
   /// Returns the values row by row, floor included, in the order of ids or keys. `threshold` is the number of
   /// the threshold, for a quantity that depends on one.
-  std::vector<double> (*values)(const GrainSource& of, std::size_t threshold) = nullptr;
+  std::vector<double> (*values)(const GrainSource& source, std::size_t threshold) = nullptr;
   FrameNeed need = FrameNeed::nothing;
   bool flag = false;  ///< whether the values are 1 or 0
   MapRule map{};
@@ -114,7 +114,7 @@ const GrainNumber& grain_number(std::string_view name);
 
 /// Returns the values of all grains by id, at the first threshold, in the unit of tables (`scaled` in
 /// quantities.h). NaN for a grain without a value.
-std::vector<double> values_of(const GrainNumber& number, const GrainSource& of);
+std::vector<double> values_of(const GrainNumber& number, const GrainSource& source);
 
 /// Appends the shortest decimal that reads back as the same number, in single precision if the quantity has
 /// no more digits; appends `nan` for NaN.

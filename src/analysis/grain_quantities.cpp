@@ -32,8 +32,8 @@ Numbers each(Index count, const Says&... says) {
 }
 
 template <typename... Says>
-Numbers each_grain(const GrainSource& of, const Says&... says) {
-  return each(of.frame.grain_count(), says...);
+Numbers each_grain(const GrainSource& source, const Says&... says) {
+  return each(source.frame.grain_count(), says...);
 }
 
 template <typename Number>
@@ -46,41 +46,41 @@ Numbers copied(const std::vector<Number>& array) {
   return {array.begin(), array.end()};
 }
 
-Numbers displacements(const GrainSource& of) {
-  const std::size_t count = of.frame.x.size();
-  if (of.first == nullptr || of.first->x.size() != count) return Numbers(2 * count, not_known);
+Numbers displacements(const GrainSource& source) {
+  const std::size_t count = source.frame.x.size();
+  if (source.first == nullptr || source.first->x.size() != count) return Numbers(2 * count, not_known);
   return each_grain(
-      of, [&](Index i) { return displacement(of, *of.first, i).x; },
-      [&](Index i) { return displacement(of, *of.first, i).y; });
+      source, [&](Index i) { return displacement(source, *source.first, i).x; },
+      [&](Index i) { return displacement(source, *source.first, i).y; });
 }
 
-Numbers moments(const GrainSource& of) {
-  const std::vector<Tensor2>& moment = of.frame.internal_moment;
+Numbers moments(const GrainSource& source) {
+  const std::vector<Tensor2>& moment = source.frame.internal_moment;
   return each_grain(
-      of, [&](Index i) { return moment[i].xx; }, [&](Index i) { return moment[i].xy; },
+      source, [&](Index i) { return moment[i].xx; }, [&](Index i) { return moment[i].xy; },
       [&](Index i) { return moment[i].yx; }, [&](Index i) { return moment[i].yy; });
 }
 
-Numbers pressures(const GrainSource& of) {
-  return each_grain(of, [&](Index i) {
-    const Tensor2& moment = of.frame.internal_moment[i];
-    const double radius = of.statics.radius[i];
+Numbers pressures(const GrainSource& source) {
+  return each_grain(source, [&](Index i) {
+    const Tensor2& moment = source.frame.internal_moment[i];
+    const double radius = source.statics.radius[i];
     return (moment.xx + moment.yy) / (std::numbers::pi * radius * radius);
   });
 }
 
-Numbers coordination(const GrainSource& of) {
-  const FrameContacts& contacts = of.frame.contacts;
-  return copied(stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, of.frame.grain_count()));
+Numbers coordination(const GrainSource& source) {
+  const FrameContacts& contacts = source.frame.contacts;
+  return copied(stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, source.frame.grain_count()));
 }
 
-Numbers sliding(const GrainSource& of) {
-  const FrameContacts& contacts = of.frame.contacts;
-  Numbers counts(of.frame.x.size(), 0.0);
+Numbers sliding(const GrainSource& source) {
+  const FrameContacts& contacts = source.frame.contacts;
+  Numbers counts(source.frame.x.size(), 0.0);
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
     if (contacts.status[c] != ContactStatus::sliding) continue;
     for (const Index body : {contacts.a[c], contacts.b[c]})
-      if (body < of.frame.grain_count()) counts[static_cast<std::size_t>(body)] += 1.0;
+      if (body < source.frame.grain_count()) counts[static_cast<std::size_t>(body)] += 1.0;
   }
   return counts;
 }
@@ -88,22 +88,22 @@ Numbers sliding(const GrainSource& of) {
 /// Returns the values of free grains at a threshold. Floor grains have `other`, as do all grains if the
 /// threshold does not exist.
 template <typename Number>
-Numbers at_threshold(const GrainSource& of, std::size_t threshold,
+Numbers at_threshold(const GrainSource& source, std::size_t threshold,
                      const std::vector<Number> FrameThreshold::*member, double other) {
-  Numbers numbers(of.frame.x.size(), other);
-  if (threshold < of.thresholds.size()) {
-    const std::vector<Number>& known = of.thresholds[threshold].*member;
+  Numbers numbers(source.frame.x.size(), other);
+  if (threshold < source.thresholds.size()) {
+    const std::vector<Number>& known = source.thresholds[threshold].*member;
     std::copy(known.begin(), known.end(), numbers.begin());
   }
   return numbers;
 }
 
-Numbers clusters(const GrainSource& of, std::size_t threshold) {
-  return at_threshold(of, threshold, &FrameThreshold::cluster, -1.0);
+Numbers clusters(const GrainSource& source, std::size_t threshold) {
+  return at_threshold(source, threshold, &FrameThreshold::cluster, -1.0);
 }
 
-Numbers overloaded(const GrainSource& of, std::size_t threshold) {
-  Numbers numbers = clusters(of, threshold);
+Numbers overloaded(const GrainSource& source, std::size_t threshold) {
+  Numbers numbers = clusters(source, threshold);
   for (double& number : numbers) number = number >= 0.0 ? 1.0 : 0.0;
   return numbers;
 }
@@ -114,45 +114,46 @@ double material_density(const RunStatics& statics) {
 }
 
 /// Appends NaN for the floor grains to the values of the free grains.
-Numbers with_floor(Numbers of_free, const GrainSource& of) {
-  of_free.resize(of.frame.x.size(), not_known);
-  return of_free;
+Numbers with_floor(Numbers free_values, const GrainSource& source) {
+  free_values.resize(source.frame.x.size(), not_known);
+  return free_values;
 }
 
 template <typename Value>
-Numbers each_free(const GrainSource& of, const Value& value) {
-  return with_floor(each(of.statics.free_count, value), of);
+Numbers each_free(const GrainSource& source, const Value& value) {
+  return with_floor(each(source.statics.free_count, value), source);
 }
 
 /// Returns value(earlier frame, i) for each free grain, per degree; 0 if there is no such frame.
 template <typename Value>
-Numbers since_earlier(const GrainSource& of, const Value& value) {
-  const bool known = of.earlier != nullptr && of.earlier->grain_count() == of.frame.grain_count();
-  return each_free(of, [&](Index i) { return known ? value(*of.earlier, i) / of.degrees : 0.0; });
+Numbers since_earlier(const GrainSource& source, const Value& value) {
+  const bool known = source.earlier != nullptr && source.earlier->grain_count() == source.frame.grain_count();
+  return each_free(source, [&](Index i) { return known ? value(*source.earlier, i) / source.degrees : 0.0; });
 }
 
 template <typename Value>
-Numbers of_neighbourhoods(const GrainSource& of, const Value& value) {
+Numbers of_neighbourhoods(const GrainSource& source, const Value& value) {
   std::vector<LocalDeformation> all;
-  if (of.earlier != nullptr) all = local_deformations(*of.earlier, of);
-  return since_earlier(of, [&](const Frame&, Index i) { return value(all[static_cast<std::size_t>(i)]); });
+  if (source.earlier != nullptr) all = local_deformations(*source.earlier, source);
+  return since_earlier(source,
+                       [&](const Frame&, Index i) { return value(all[static_cast<std::size_t>(i)]); });
 }
 
 template <double (*strain)(const Tensor2&)>
-Numbers strains(const GrainSource& of, std::size_t) {
-  return of_neighbourhoods(of, [](const LocalDeformation& each) { return strain(each.gradient); });
+Numbers strains(const GrainSource& source, std::size_t) {
+  return of_neighbourhoods(source, [](const LocalDeformation& each) { return strain(each.gradient); });
 }
 
-Numbers distances(const GrainSource& of, std::size_t) {
-  return since_earlier(of, [&](const Frame& earlier, Index i) {
-    const Vec2 moved = displacement(of, earlier, i);
+Numbers distances(const GrainSource& source, std::size_t) {
+  return since_earlier(source, [&](const Frame& earlier, Index i) {
+    const Vec2 moved = displacement(source, earlier, i);
     return std::hypot(moved.x, moved.y);
   });
 }
 
-Numbers rotations(const GrainSource& of, std::size_t) {
-  return since_earlier(of,
-                       [&](const Frame& earlier, Index i) { return of.frame.angle[i] - earlier.angle[i]; });
+Numbers rotations(const GrainSource& source, std::size_t) {
+  return since_earlier(
+      source, [&](const Frame& earlier, Index i) { return source.frame.angle[i] - earlier.angle[i]; });
 }
 
 double solid_fraction(const CoarseField& field, const RunStatics& statics) {
@@ -169,9 +170,11 @@ double rate_of_shear(const CoarseField& field, const RunStatics&) {
 }
 
 template <double (*value)(const CoarseField& field, const RunStatics& statics)>
-Numbers coarse_values(const GrainSource& of, std::size_t) {
-  const CoarseFields fields(of, 0.5 * of.length);
-  return each_free(of, [&](Index i) { return value(fields.at(of.frame.x[i], of.frame.y[i]), of.statics); });
+Numbers coarse_values(const GrainSource& source, std::size_t) {
+  const CoarseFields fields(source, 0.5 * source.length);
+  return each_free(source, [&](Index i) {
+    return value(fields.at(source.frame.x[i], source.frame.y[i]), source.statics);
+  });
 }
 
 constexpr std::string_view turned = ", counter-clockwise positive";
@@ -183,72 +186,82 @@ constexpr FrameQuantity mapped(FrameQuantity quantity, const MapRule& map) {
 
 constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     {"id", FieldShape::scalar, FieldNumber::integer, "1", "stable id of a grain; free grains come first",
-     [](const GrainSource& of, std::size_t) { return each_grain(of, [](Index i) { return i; }); }},
+     [](const GrainSource& source, std::size_t) { return each_grain(source, [](Index i) { return i; }); }},
     {"type", FieldShape::scalar, FieldNumber::integer, "1", "1 free grain, 2 grain glued to the floor",
-     [](const GrainSource& of, std::size_t) {
-       return each_grain(of, [&](Index i) { return i < of.statics.free_count ? 1 : 2; });
+     [](const GrainSource& source, std::size_t) {
+       return each_grain(source, [&](Index i) { return i < source.statics.free_count ? 1 : 2; });
      }},
     {"", FieldShape::vector, FieldNumber::single, "m",
      "centre: x along the bed, downslope, y across it, above the floor",
-     [](const GrainSource& of, std::size_t) { return each_grain(of, in(of.frame.x), in(of.frame.y)); }},
+     [](const GrainSource& source, std::size_t) {
+       return each_grain(source, in(source.frame.x), in(source.frame.y));
+     }},
     {"radius", FieldShape::scalar, FieldNumber::real, "m", "radius",
-     [](const GrainSource& of, std::size_t) { return of.statics.radius; }},
+     [](const GrainSource& source, std::size_t) { return source.statics.radius; }},
     {"mass", FieldShape::scalar, FieldNumber::real, "kg/m", "mass, per metre of thickness",
-     [](const GrainSource& of, std::size_t) { return of.statics.mass; }},
+     [](const GrainSource& source, std::size_t) { return source.statics.mass; }},
     {"image", FieldShape::vector, FieldNumber::integer, "1",
      "number of exits through the right periodic edge minus those through the left, and 0",
-     [](const GrainSource& of, std::size_t) {
-       return each_grain(of, in(of.frame.image), [](Index) { return 0; });
+     [](const GrainSource& source, std::size_t) {
+       return each_grain(source, in(source.frame.image), [](Index) { return 0; });
      }},
     {"velocity", FieldShape::vector, FieldNumber::single, "m/s", "velocity",
-     [](const GrainSource& of, std::size_t) { return each_grain(of, in(of.frame.vx), in(of.frame.vy)); }},
+     [](const GrainSource& source, std::size_t) {
+       return each_grain(source, in(source.frame.vx), in(source.frame.vy));
+     }},
     {"angle", FieldShape::scalar, FieldNumber::single, "rad",
      "angle turned since the beginning of the run, counter-clockwise positive",
-     [](const GrainSource& of, std::size_t) { return of.frame.angle; }},
+     [](const GrainSource& source, std::size_t) { return source.frame.angle; }},
     {"angular_velocity", FieldShape::scalar, FieldNumber::single, "rad/s",
      "rotation velocity, counter-clockwise positive",
-     [](const GrainSource& of, std::size_t) { return of.frame.omega; }},
+     [](const GrainSource& source, std::size_t) { return source.frame.omega; }},
     {"displacement", FieldShape::vector, FieldNumber::real, "m",
      "displacement since the first frame of the run",
-     [](const GrainSource& of, std::size_t) { return displacements(of); }},
+     [](const GrainSource& source, std::size_t) { return displacements(source); }},
     {"internal_moment", FieldShape::tensor, FieldNumber::single, "J/m",
      "internal moment tensor M_ij per metre of thickness (paper, Eq. 4), compression positive; the stress is "
      "M over an area",
-     [](const GrainSource& of, std::size_t) { return moments(of); }},
+     [](const GrainSource& source, std::size_t) { return moments(source); }},
     // Below a depth of H grains the mean pressure in grains is about 2 rho g H and that of the bed about 1.5
     // rho g H. Both are larger where forces concentrate.
     mapped({"pressure", FieldShape::scalar, FieldNumber::real, "Pa",
             "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk",
-            [](const GrainSource& of, std::size_t) { return pressures(of); }},
+            [](const GrainSource& source, std::size_t) { return pressures(source); }},
            {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain",
             "P = σ_1 + σ_2 in ρgD", "P", ScaleRule::by_depth, 0.0, 3.0}),
     {"gamma", FieldShape::scalar, FieldNumber::single, "1",
      "stress ratio q/p of the single grain; no value if it carries nothing",
-     [](const GrainSource& of, std::size_t) { return of.frame.gamma; }},
+     [](const GrainSource& source, std::size_t) { return source.frame.gamma; }},
     {"gamma_neighbourhood", FieldShape::scalar, FieldNumber::real, "1",
      "stress ratio of the neighbourhood of the grain, of diameter l_min; no value if the grain carries "
      "nothing",
-     [](const GrainSource& of, std::size_t) { return Numbers(of.gamma.begin(), of.gamma.end()); }},
+     [](const GrainSource& source, std::size_t) {
+       return Numbers(source.gamma.begin(), source.gamma.end());
+     }},
     {"coordination", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that carry force",
-     [](const GrainSource& of, std::size_t) { return coordination(of); }},
+     [](const GrainSource& source, std::size_t) { return coordination(source); }},
     {"sliding", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that slide",
-     [](const GrainSource& of, std::size_t) { return sliding(of); }},
+     [](const GrainSource& source, std::size_t) { return sliding(source); }},
     mapped({"speed", FieldShape::scalar, FieldNumber::single, "m/s", "magnitude of the velocity",
-            [](const GrainSource& of, std::size_t) {
-              return each_grain(of, [&](Index i) { return std::hypot(of.frame.vx[i], of.frame.vy[i]); });
+            [](const GrainSource& source, std::size_t) {
+              return each_grain(source,
+                                [&](Index i) { return std::hypot(source.frame.vx[i], source.frame.vy[i]); });
             }},
            {"speed", "speed of each grain, over sqrt(g D)", "Speed of grains", "in √(gD)", "speed",
             ScaleRule::sizes, 1e-5, 1.0}),
-    mapped(
-        {"mobilised_friction", FieldShape::scalar, FieldNumber::real, "1",
-         "mobilised friction, the mean over the contacts of a grain; no value without contacts",
-         [](const GrainSource& of, std::size_t) { return with_floor(mobilised_friction_of_grains(of), of); }},
-        {"mobilised", "mobilised friction of each grain, the mean over its contacts",
-         "Mobilised friction of grains", "|f_t| / μf_n, mean over the contacts of a grain", "|f_t| / μf_n",
-         ScaleRule::fixed, 0.0, 1.0, true, "no contact"}),
+    mapped({"mobilised_friction", FieldShape::scalar, FieldNumber::real, "1",
+            "mobilised friction, the mean over the contacts of a grain; no value without contacts",
+            [](const GrainSource& source, std::size_t) {
+              return with_floor(mobilised_friction_of_grains(source), source);
+            }},
+           {"mobilised", "mobilised friction of each grain, the mean over its contacts",
+            "Mobilised friction of grains", "|f_t| / μf_n, mean over the contacts of a grain", "|f_t| / μf_n",
+            ScaleRule::fixed, 0.0, 1.0, true, "no contact"}),
     mapped({"solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
             "share of its cell that a grain fills; no value at the free surface",
-            [](const GrainSource& of, std::size_t) { return with_floor(local_solid_fractions(of), of); }},
+            [](const GrainSource& source, std::size_t) {
+              return with_floor(local_solid_fractions(source), source);
+            }},
            {"cells", "local solid fraction: the share of its cell that each grain fills",
             "Local solid fraction", "area of a grain over that of its cell", "solid fraction",
             ScaleRule::fixed, 0.65, 0.95, true, "at the surface"}),
@@ -257,8 +270,8 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
      overloaded, FrameNeed::threshold, true},
     {"lc", FieldShape::scalar, FieldNumber::single, "m",
      "coarse-graining length l_c of an overloaded grain; no value for other grains",
-     [](const GrainSource& of, std::size_t threshold) {
-       return at_threshold(of, threshold, &FrameThreshold::lc, not_known);
+     [](const GrainSource& source, std::size_t threshold) {
+       return at_threshold(source, threshold, &FrameThreshold::lc, not_known);
      },
      FrameNeed::threshold},
     {"cluster", FieldShape::scalar, FieldNumber::integer, "1",
@@ -274,9 +287,9 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
             -30.0, 30.0, false, "", -10.0, 10.0, turned}),
     mapped({"nonaffine_displacement", FieldShape::scalar, FieldNumber::real, "m",
             "root mean square displacement of the neighbours relative to their common strain",
-            [](const GrainSource& of, std::size_t) {
+            [](const GrainSource& source, std::size_t) {
               return of_neighbourhoods(
-                  of, [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
+                  source, [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
             },
             FrameNeed::earlier_frame},
            {"nonaffine",
@@ -312,16 +325,16 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
            {"shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "Shear rate", "in √(g/D)",
             "shear rate", ScaleRule::sizes, 1e-6, 0.1, true}),
     mapped({"temperature", FieldShape::scalar, FieldNumber::real, "m^2/s^2", "granular temperature",
-            [](const GrainSource& of, std::size_t) {
-              return with_floor(granular_temperatures(of, 0.5 * of.length), of);
+            [](const GrainSource& source, std::size_t) {
+              return with_floor(granular_temperatures(source, 0.5 * source.length), source);
             },
             FrameNeed::length},
            {"temperature", "granular temperature, over g D", "Granular temperature", "in gD", "temperature",
             ScaleRule::sizes, 1e-10, 1e-2, true}),
 });
 
-Numbers strong(const GrainSource& of) {
-  const FrameContacts& contacts = of.frame.contacts;
+Numbers strong(const GrainSource& source) {
+  const FrameContacts& contacts = source.frame.contacts;
   double sum = 0.0;
   for (const double force : contacts.fn) sum += force;
   return each(contacts.count(), [&](Index c) { return contacts.fn[c] * contacts.count() > sum ? 1 : 0; });
@@ -329,41 +342,41 @@ Numbers strong(const GrainSource& of) {
 
 constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
     {"a", FieldShape::scalar, FieldNumber::integer, "1", "id of the first grain",
-     [](const GrainSource& of, std::size_t) { return copied(of.frame.contacts.a); }},
+     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.a); }},
     {"b", FieldShape::scalar, FieldNumber::integer, "1",
      "id of the second body; an id not below the number of grains is a plane: a side wall or a smooth floor",
-     [](const GrainSource& of, std::size_t) { return copied(of.frame.contacts.b); }},
+     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.b); }},
     {"shift", FieldShape::scalar, FieldNumber::integer, "1",
      "periodic image: b touches a from x_b + shift * L",
-     [](const GrainSource& of, std::size_t) { return copied(of.frame.contacts.shift); }},
+     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.shift); }},
     {"point", FieldShape::vector, FieldNumber::single, "m", "contact point",
-     [](const GrainSource& of, std::size_t) {
-       return each(of.frame.contacts.count(), in(of.frame.contacts.px), in(of.frame.contacts.py));
+     [](const GrainSource& source, std::size_t) {
+       return each(source.frame.contacts.count(), in(source.frame.contacts.px), in(source.frame.contacts.py));
      }},
     {"normal", FieldShape::vector, FieldNumber::single, "1", "unit normal n, from a to b",
-     [](const GrainSource& of, std::size_t) {
-       return each(of.frame.contacts.count(), in(of.frame.contacts.nx), in(of.frame.contacts.ny));
+     [](const GrainSource& source, std::size_t) {
+       return each(source.frame.contacts.count(), in(source.frame.contacts.nx), in(source.frame.contacts.ny));
      }},
     {"normal_force", FieldShape::scalar, FieldNumber::single, "N/m",
      "f_n on b along n, per metre of thickness; compression positive",
-     [](const GrainSource& of, std::size_t) { return of.frame.contacts.fn; }},
+     [](const GrainSource& source, std::size_t) { return source.frame.contacts.fn; }},
     {"tangential_force", FieldShape::scalar, FieldNumber::single, "N/m",
      "f_t on b along t = (-n_y, n_x), per metre of thickness",
-     [](const GrainSource& of, std::size_t) { return of.frame.contacts.ft; }},
+     [](const GrainSource& source, std::size_t) { return source.frame.contacts.ft; }},
     {"mobilisation", FieldShape::scalar, FieldNumber::real, "1",
      "mobilised friction, the magnitude of f_t over mu f_n",
-     [](const GrainSource& of, std::size_t) {
-       return each(of.frame.contacts.count(), [&](Index c) { return mobilisation_of(of, c); });
+     [](const GrainSource& source, std::size_t) {
+       return each(source.frame.contacts.count(), [&](Index c) { return mobilisation_of(source, c); });
      }},
     {"status", FieldShape::scalar, FieldNumber::integer, "1",
      "1 sticking, 2 sliding (friction fully mobilised)",
-     [](const GrainSource& of, std::size_t) {
-       return each(of.frame.contacts.count(),
-                   [&](Index c) { return static_cast<int>(of.frame.contacts.status[c]); });
+     [](const GrainSource& source, std::size_t) {
+       return each(source.frame.contacts.count(),
+                   [&](Index c) { return static_cast<int>(source.frame.contacts.status[c]); });
      }},
     {"strong", FieldShape::scalar, FieldNumber::integer, "1",
      "1 if f_n is above its mean over the contacts of the frame, else 0",
-     [](const GrainSource& of, std::size_t) { return strong(of); }},
+     [](const GrainSource& source, std::size_t) { return strong(source); }},
 });
 
 }  // namespace
@@ -410,13 +423,13 @@ const GrainNumber& grain_number(std::string_view name) {
   return *found;
 }
 
-std::vector<double> values_of(const GrainNumber& number, const GrainSource& of) {
-  if (number.quantity->need == FrameNeed::length && std::isnan(of.length))
-    return Numbers(of.frame.x.size(), not_known);
-  const std::vector<double> rows = number.quantity->values(of, 0);
+std::vector<double> values_of(const GrainNumber& number, const GrainSource& source) {
+  if (number.quantity->need == FrameNeed::length && std::isnan(source.length))
+    return Numbers(source.frame.x.size(), not_known);
+  const std::vector<double> rows = number.quantity->values(source, 0);
   std::vector<double> values;
   for (std::size_t k = number.component; k < rows.size(); k += components(*number.quantity))
-    values.push_back(scaled(number.quantity->unit, rows[k], of.statics.mean_diameter));
+    values.push_back(scaled(number.quantity->unit, rows[k], source.statics.mean_diameter));
   return values;
 }
 

@@ -220,7 +220,7 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
   for (const view::Plot& plot : model.plots()) {
     const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
     const bool empty =
-        std::ranges::all_of(plot.series, [](const view::PlotSeries& of) { return of.x.empty(); });
+        std::ranges::all_of(plot.series, [](const view::PlotSeries& series) { return series.x.empty(); });
     if (shown && !empty)
       figures.push_back(plot_figure(plot, model.state.plot_looks[plot.name], model.plot_marks(),
                                     model.is_live() ? model.recording().output : model.path(),

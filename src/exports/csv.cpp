@@ -33,20 +33,20 @@ void append_columns(std::string& text, std::span<const FieldColumn> columns, std
 
 }  // namespace
 
-CsvRows frame_csv(const analysis::GrainSource& of) {
-  return {"frame,step,time (s),tilt (rad)\n",
-          fmt::format("{},{},{},{}\n", of.number, of.frame.step, of.frame.time, of.frame.tilt)};
+CsvRows frame_csv(const analysis::GrainSource& source) {
+  return {"frame,step,time (s),tilt (rad)\n", fmt::format("{},{},{},{}\n", source.number, source.frame.step,
+                                                          source.frame.time, source.frame.tilt)};
 }
 
-CsvRows grains_csv(const analysis::GrainSource& of) {
-  const std::vector<FieldColumn> all = grain_columns(of);
+CsvRows grains_csv(const analysis::GrainSource& source) {
+  const std::vector<FieldColumn> all = grain_columns(source);
   const auto before = std::span(all).first(columns_before_centre),
              after = std::span(all).subspan(columns_before_centre);
   CsvRows csv = {fmt::format("frame{},x (m),y (m){}\n", heads_of(before), heads_of(after)), ""};
-  for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
-    csv.rows += fmt::format("{}", of.number);
+  for (std::size_t i = 0; i < source.frame.x.size(); ++i) {
+    csv.rows += fmt::format("{}", source.number);
     append_columns(csv.rows, before, i);
-    for (const double coordinate : {of.frame.x[i], of.frame.y[i]}) {
+    for (const double coordinate : {source.frame.x[i], source.frame.y[i]}) {
       csv.rows += ',';
       analysis::append_number(csv.rows, coordinate, analysis::FieldNumber::single);
     }
@@ -56,11 +56,11 @@ CsvRows grains_csv(const analysis::GrainSource& of) {
   return csv;
 }
 
-CsvRows contacts_csv(const analysis::GrainSource& of) {
-  const std::vector<FieldColumn> columns = contact_columns(of);
+CsvRows contacts_csv(const analysis::GrainSource& source) {
+  const std::vector<FieldColumn> columns = contact_columns(source);
   CsvRows csv = {fmt::format("frame{}\n", heads_of(columns)), ""};
-  for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {
-    csv.rows += fmt::format("{}", of.number);
+  for (std::size_t c = 0; c < source.frame.contacts.a.size(); ++c) {
+    csv.rows += fmt::format("{}", source.number);
     append_columns(csv.rows, columns, c);
     csv.rows += '\n';
   }

@@ -59,38 +59,39 @@ std::vector<KeyedColumn> keyed(std::string_view owner, const std::vector<FieldCo
 }
 
 void append_row(std::string& text, const std::vector<KeyedColumn>& columns, std::size_t row) {
-  for (const KeyedColumn& of : columns)
-    for (std::size_t c = 0; c < of.keys.size(); ++c)
-      append_datum(text, of.keys[c], of.column.values[row * of.keys.size() + c], of.column.field.number);
+  for (const KeyedColumn& entry : columns)
+    for (std::size_t c = 0; c < entry.keys.size(); ++c)
+      append_datum(text, entry.keys[c], entry.column.values[row * entry.keys.size() + c],
+                   entry.column.field.number);
 }
 
-void append_grains(std::string& text, const analysis::GrainSource& of,
+void append_grains(std::string& text, const analysis::GrainSource& source,
                    const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("node", columns);
-  for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
+  for (std::size_t i = 0; i < source.frame.x.size(); ++i) {
     text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">{}</data>", i,
-                        i < static_cast<std::size_t>(of.statics.free_count) ? "free" : "floor");
-    append_datum(text, "node.x", of.frame.x[i], analysis::FieldNumber::single);
-    append_datum(text, "node.y", of.frame.y[i], analysis::FieldNumber::single);
+                        i < static_cast<std::size_t>(source.statics.free_count) ? "free" : "floor");
+    append_datum(text, "node.x", source.frame.x[i], analysis::FieldNumber::single);
+    append_datum(text, "node.y", source.frame.y[i], analysis::FieldNumber::single);
     append_row(text, keys, i);
     text += "</node>\n";
   }
 }
 
-void append_planes(std::string& text, const analysis::GrainSource& of) {
+void append_planes(std::string& text, const analysis::GrainSource& source) {
   std::set<Index> planes;
-  for (const Index b : of.frame.contacts.b)
-    if (b >= of.frame.grain_count()) planes.insert(b);
+  for (const Index b : source.frame.contacts.b)
+    if (b >= source.frame.grain_count()) planes.insert(b);
   for (const Index plane : planes)
     text += fmt::format("<node id=\"{}\"><data key=\"node.kind\">plane</data></node>\n", plane);
 }
 
-void append_contacts(std::string& text, const analysis::GrainSource& of,
+void append_contacts(std::string& text, const analysis::GrainSource& source,
                      const std::vector<FieldColumn>& columns) {
   const std::vector<KeyedColumn> keys = keyed("edge", columns);
-  for (std::size_t c = 0; c < of.frame.contacts.a.size(); ++c) {
-    text += fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", c, of.frame.contacts.a[c],
-                        of.frame.contacts.b[c]);
+  for (std::size_t c = 0; c < source.frame.contacts.a.size(); ++c) {
+    text += fmt::format("<edge id=\"{}\" source=\"{}\" target=\"{}\">", c, source.frame.contacts.a[c],
+                        source.frame.contacts.b[c]);
     append_row(text, keys, c);
     text += "</edge>\n";
   }
@@ -98,8 +99,8 @@ void append_contacts(std::string& text, const analysis::GrainSource& of,
 
 }  // namespace
 
-std::string graphml_text(const analysis::GrainSource& of) {
-  const std::vector<FieldColumn> grains = grain_columns(of), contacts = contact_columns(of);
+std::string graphml_text(const analysis::GrainSource& source) {
+  const std::vector<FieldColumn> grains = grain_columns(source), contacts = contact_columns(source);
   const auto graph_datum = [](std::string_view name, const auto& value) {
     return fmt::format("<data key=\"graph.{}\">{}</data>\n", name, value);
   };
@@ -119,14 +120,14 @@ std::string graphml_text(const analysis::GrainSource& of) {
     text += key_text(key);
   text.append(keys_text("node", grains)).append(keys_text("edge", contacts));
   text.append("<graph edgedefault=\"undirected\">\n")
-      .append(graph_datum("frame", of.number))
-      .append(graph_datum("step", of.frame.step))
-      .append(graph_datum("time", of.frame.time))
-      .append(graph_datum("tilt", of.frame.tilt))
-      .append(graph_datum("period", of.statics.periodic ? of.statics.length : 0.0));
-  append_grains(text, of, grains);
-  append_planes(text, of);
-  append_contacts(text, of, contacts);
+      .append(graph_datum("frame", source.number))
+      .append(graph_datum("step", source.frame.step))
+      .append(graph_datum("time", source.frame.time))
+      .append(graph_datum("tilt", source.frame.tilt))
+      .append(graph_datum("period", source.statics.periodic ? source.statics.length : 0.0));
+  append_grains(text, source, grains);
+  append_planes(text, source);
+  append_contacts(text, source, contacts);
   return text + "</graph>\n</graphml>\n";
 }
 

@@ -37,14 +37,14 @@ std::string piece_head(std::size_t points, std::size_t vertices, std::size_t lin
 }
 
 /// Returns for each contact the centre of a and the end point of the line to b.
-std::vector<double> line_ends(const analysis::GrainSource& of) {
-  const Frame& frame = of.frame;
+std::vector<double> line_ends(const analysis::GrainSource& source) {
+  const Frame& frame = source.frame;
   const FrameContacts& contacts = frame.contacts;
   std::vector<double> ends;
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
     const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
     const bool is_grain = b < frame.x.size();
-    const double x = is_grain ? frame.x[b] + contacts.shift[c] * of.statics.length : contacts.px[c];
+    const double x = is_grain ? frame.x[b] + contacts.shift[c] * source.statics.length : contacts.px[c];
     const double y = is_grain ? frame.y[b] : contacts.py[c];
     ends.insert(ends.end(), {frame.x[a], frame.y[a], 0.0, x, y, 0.0});
   }

@@ -22,17 +22,17 @@ std::string properties(const std::vector<FieldColumn>& columns) {
   return text;
 }
 
-std::string box_line(const analysis::GrainSource& of, const std::vector<FieldColumn>& columns) {
-  const BedBounds bounds = bed_bounds(of);
-  const double d = of.statics.mean_diameter;
+std::string box_line(const analysis::GrainSource& source, const std::vector<FieldColumn>& columns) {
+  const BedBounds bounds = bed_bounds(source);
+  const double d = source.statics.mean_diameter;
   return fmt::format(
       "Lattice=\"{} 0 0 0 {} 0 0 0 {}\" Origin=\"{} {} {}\" Properties={} pbc=\"{} F F\" Time={} tilt={} "
       "step={} "
       "frame={} mean_diameter={} units=\"lengths in mean diameters; all else SI, per metre of thickness\"\n",
       (bounds.x_high - bounds.x_low) / d, (bounds.y_high - bounds.y_low) / d,
       (bounds.z_high - bounds.z_low) / d, bounds.x_low / d, bounds.y_low / d, bounds.z_low / d,
-      properties(columns), of.statics.periodic ? 'T' : 'F', of.frame.time, of.frame.tilt, of.frame.step,
-      of.number, d);
+      properties(columns), source.statics.periodic ? 'T' : 'F', source.frame.time, source.frame.tilt,
+      source.frame.step, source.number, d);
 }
 
 void append_column(std::string& text, const FieldColumn& column, std::size_t row, double mean_diameter) {
@@ -49,12 +49,12 @@ void append_column(std::string& text, const FieldColumn& column, std::size_t row
 
 }  // namespace
 
-std::string xyz_text(const analysis::GrainSource& of) {
-  const double d = of.statics.mean_diameter;
-  const std::vector<FieldColumn> columns = grain_columns(of);
-  std::string text = fmt::format("{}\n{}", of.frame.grain_count(), box_line(of, columns));
-  for (std::size_t i = 0; i < of.frame.x.size(); ++i) {
-    text += fmt::format("X {} {} 0", of.frame.x[i] / d, of.frame.y[i] / d);
+std::string xyz_text(const analysis::GrainSource& source) {
+  const double d = source.statics.mean_diameter;
+  const std::vector<FieldColumn> columns = grain_columns(source);
+  std::string text = fmt::format("{}\n{}", source.frame.grain_count(), box_line(source, columns));
+  for (std::size_t i = 0; i < source.frame.x.size(); ++i) {
+    text += fmt::format("X {} {} 0", source.frame.x[i] / d, source.frame.y[i] / d);
     for (const FieldColumn& column : columns) append_column(text, column, i, d);
     text += '\n';
   }

@@ -35,8 +35,8 @@ std::vector<FrameColumn> columns_over_tilt(const runs::RunView& run) {
       column_of("coordination", analysis::quantity_of(&analysis::FrameRecord::coordination_number)),
       column_of("critical", analysis::quantity_of(&analysis::FrameRecord::critical_share)),
       {"anisotropy", "1", analysis::quantity_of(&analysis::FrameRecord::fabric_amplitude).definition,
-       [](const runs::RunView& of, std::size_t frame) {
-         return of.analysis.frames.at(frame).fabric_amplitude[0];
+       [](const runs::RunView& run_view, std::size_t frame) {
+         return run_view.analysis.frames.at(frame).fabric_amplitude[0];
        }},
   };
   columns.push_back(

@@ -45,13 +45,13 @@ std::vector<Column> event_columns(const std::vector<FigureEvent>& events) {
       {"volume_strain", "1e-6", "change of the volume strain", {}},
       {"centre_of_mass_strain", "1e-6", "change of the strain of the centre of mass", {}},
   };
-  for (const FigureEvent& of : events) {
-    const analysis::EventRecord& event = *of.event;
-    const double diameter = of.run->statics.mean_diameter;
-    const double time = std::sqrt(diameter / of.run->file->header().statics.gravity);
+  for (const FigureEvent& entry : events) {
+    const analysis::EventRecord& event = *entry.event;
+    const double diameter = entry.run->statics.mean_diameter;
+    const double time = std::sqrt(diameter / entry.run->file->header().statics.gravity);
     const double row[] = {degrees(std::abs(event.begin)),
-                          static_cast<double>(of.run->scenario.seed),
-                          of.energy,
+                          static_cast<double>(entry.run->scenario.seed),
+                          entry.energy,
                           degrees(event.waiting),
                           event.duration / time,
                           static_cast<double>(event.grains),

@@ -122,11 +122,11 @@ std::vector<Column> difference_columns(const std::vector<Column>& first, const s
     Column error{
         column.name + "_error", column.unit, "root of the sum of the squares of both standard errors", {}};
     for (const auto& [a, b] : rows) {
-      const auto of = [&](const std::vector<Column>& columns_of, const std::string& name, std::size_t row) {
-        return (*find_values(columns_of, name))[row];
+      const auto value = [&](const std::vector<Column>& table, const std::string& name, std::size_t row) {
+        return (*find_values(table, name))[row];
       };
-      difference.values.push_back(of(second, column.name, b) - of(first, column.name, a));
-      error.values.push_back(std::hypot(of(second, error.name, b), of(first, error.name, a)));
+      difference.values.push_back(value(second, column.name, b) - value(first, column.name, a));
+      error.values.push_back(std::hypot(value(second, error.name, b), value(first, error.name, a)));
     }
     columns.push_back(std::move(difference));
     columns.push_back(std::move(error));

@@ -80,8 +80,8 @@ void describe_grain(Gui& gui, const view::View& view, const render::Point& place
 
 void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
-  const auto in_first = [&](const render::Point& of) {
-    return view::place_in(gui.model.statics(), view.run.statics(), of.x, of.y);
+  const auto in_first = [&](const render::Point& point) {
+    return view::place_in(gui.model.statics(), view.run.statics(), point.x, point.y);
   };
   const render::Point place = shown.bed_place(io.MousePos);
   const Vec2 linked = in_first(place);
@@ -185,19 +185,19 @@ float map_area_height(const render::FrameView& annotated, float width, float pic
          2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
-void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with_gravity) {
+void draw_map_pane(Gui& gui, const view::View& pane, const ImVec2& room, bool with_gravity) {
   const int pixels = std::max(static_cast<int>(room.x), render::smallest_width);
-  const render::FrameView view = of.map(static_cast<double>(room.x) / static_cast<double>(room.y));
+  const render::FrameView view = pane.map(static_cast<double>(room.x) / static_cast<double>(room.y));
   const render::Layout layout = render::lay_out(view, pixels, render::embedded_font());
   const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
   ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
   const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
-  const char* name = of.second ? "second map" : "map";
+  const char* name = pane.second ? "second map" : "map";
   ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
                          ImGuiButtonFlags_MouseButtonLeft);
   note_place(gui, name);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddImage(gui.draw_map(view, pixels, of.second ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
+  list.AddImage(gui.draw_map(view, pixels, pane.second ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
   if (shows_gravity(room.x, gui.em) && with_gravity) {
@@ -207,9 +207,9 @@ void draw_map_pane(Gui& gui, const view::View& of, const ImVec2& room, bool with
   }
   if (shows_scale(room.x, gui.em) && with_gravity) {
     draw_scale(gui, {under.x - 2.8f * gui.em, under.y - 0.5f * gui.em},
-               of.run.mean_diameter() * layout.bed.camera.scale);
+               pane.run.mean_diameter() * layout.bed.camera.scale);
   }
-  use_mouse(gui, of, shown);
+  use_mouse(gui, pane, shown);
 }
 
 void draw_map_area(Gui& gui) {

@@ -40,11 +40,11 @@ std::string shortened(const std::string& name, float width) {
 }
 
 /// Lays out name and angle, in one line if both have room.
-PaneHead head_of(const view::View& of, float width) {
-  const render::FrameView& annotated = of.annotated_map();
+PaneHead head_of(const view::View& pane, float width) {
+  const render::FrameView& annotated = pane.annotated_map();
   const ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
-  const std::string name = shortened(std::filesystem::path(of.run.path()).filename().string(), width);
+  const std::string name = shortened(std::filesystem::path(pane.run.path()).filename().string(), width);
   const bool both =
       ImGui::CalcTextSize(name.c_str()).x + rich_width(font, size, annotated.caption) + size < width;
   PaneHead head = {{name, true, false}};
@@ -64,14 +64,15 @@ void draw_head(const PaneHead& head, float width, int lines) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   float y = corner.y;
-  for (const HeadLine& of : head) {
-    if (of.is_name)
-      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), of.text.c_str());
-    else if (of.second_name)
-      add_rich_text(list, {corner.x + width - rich_width(font, size, of.text), corner.y}, ink, of.text);
+  for (const HeadLine& text_line : head) {
+    if (text_line.is_name)
+      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), text_line.text.c_str());
+    else if (text_line.second_name)
+      add_rich_text(list, {corner.x + width - rich_width(font, size, text_line.text), corner.y}, ink,
+                    text_line.text);
     else
-      add_rich_text(list, {corner.x, y}, ink, of.text);
-    if (!of.second_name) y += line;
+      add_rich_text(list, {corner.x, y}, ink, text_line.text);
+    if (!text_line.second_name) y += line;
   }
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }
@@ -89,23 +90,25 @@ struct PairLayout {
 PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, const ImVec2& room,
                        bool columns) {
   const float em = gui.em;
-  PairLayout of;
-  of.columns = columns;
-  of.pane = columns ? ImVec2{0.5f * (room.x - gap * em), room.y} : ImVec2{room.x, 0.5f * (room.y - gap * em)};
+  PairLayout layout;
+  layout.columns = columns;
+  layout.pane =
+      columns ? ImVec2{0.5f * (room.x - gap * em), room.y} : ImVec2{room.x, 0.5f * (room.y - gap * em)};
   for (std::size_t k = 0; k < views.size(); ++k) {
-    of.heads[k] = head_of(views[k], of.pane.x);
-    of.lines = std::max(of.lines, lines_of(of.heads[k]));
-    of.below = std::max(of.below, legend_height(views[k].annotated_map(), of.pane.x));
+    layout.heads[k] = head_of(views[k], layout.pane.x);
+    layout.lines = std::max(layout.lines, lines_of(layout.heads[k]));
+    layout.below = std::max(layout.below, legend_height(views[k].annotated_map(), layout.pane.x));
   }
   const float between = ImGui::GetStyle().ItemSpacing.y;
-  of.picture = {of.pane.x, of.pane.y - of.below - 1.2f * static_cast<float>(of.lines) * em - 3.0f * between};
-  return of;
+  layout.picture = {layout.pane.x, layout.pane.y - layout.below -
+                                       1.2f * static_cast<float>(layout.lines) * em - 3.0f * between};
+  return layout;
 }
 
 /// Returns the width in px that the bed fills; 0 if there is no room.
-float bed_width(const PairLayout& of, double aspect, float em) {
-  if (of.picture.x < min_width * em || of.picture.y < min_height * em) return 0.0f;
-  return std::min(of.picture.x, of.picture.y * static_cast<float>(aspect));
+float bed_width(const PairLayout& layout, double aspect, float em) {
+  if (layout.picture.x < min_width * em || layout.picture.y < min_height * em) return 0.0f;
+  return std::min(layout.picture.x, layout.picture.y * static_cast<float>(aspect));
 }
 
 }  // namespace
@@ -124,14 +127,14 @@ bool draw_pair(Gui& gui) {
     return false;
   }
   if (message == no_room) message.clear();
-  const PairLayout& of = by_columns >= by_rows ? columns : rows;
+  const PairLayout& layout = by_columns >= by_rows ? columns : rows;
   for (std::size_t k = 0; k < views.size(); ++k) {
-    if (k == 1 && of.columns) ImGui::SameLine(0.0f, gap * gui.em);
-    ImGui::BeginChild(k == 0 ? "first view" : "second view", of.pane, false,
+    if (k == 1 && layout.columns) ImGui::SameLine(0.0f, gap * gui.em);
+    ImGui::BeginChild(k == 0 ? "first view" : "second view", layout.pane, false,
                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    draw_head(of.heads[k], of.pane.x, of.lines);
-    draw_map_pane(gui, views[k], of.picture, false);
-    draw_legends(gui, views[k].annotated_map(), of.pane.x, k == 0);
+    draw_head(layout.heads[k], layout.pane.x, layout.lines);
+    draw_map_pane(gui, views[k], layout.picture, false);
+    draw_legends(gui, views[k].annotated_map(), layout.pane.x, k == 0);
     ImGui::EndChild();
   }
   return true;

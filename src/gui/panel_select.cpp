@@ -87,9 +87,10 @@ void draw_histogram(Gui& gui, const std::vector<Index>& grains) {
   const std::vector<double>& values = gui.model.grain_values(number);
   const std::vector<double> known = view::known_values(grains, values);
   if (!known.empty()) {
-    const Statistics of = statistics_of(known);
-    fact("mean", std::isnan(of.deviation) ? fmt::format("{:.4g}", of.mean)
-                                          : fmt::format("{:.4g} ± {:.3g}", of.mean, of.deviation));
+    const Statistics statistics = statistics_of(known);
+    fact("mean", std::isnan(statistics.deviation)
+                     ? fmt::format("{:.4g}", statistics.mean)
+                     : fmt::format("{:.4g} ± {:.3g}", statistics.mean, statistics.deviation));
     const auto [least, largest] = std::ranges::minmax(known);
     fact("from, to", fmt::format("{:.4g}, {:.4g}", least, largest));
   }

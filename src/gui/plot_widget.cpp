@@ -199,9 +199,9 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
   list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, packed(colours.range));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
-    const view::RangeStatistics of = view::statistics_of(plot.series[k], low, high);
-    const std::string text =
-        fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", of.mean, of.deviation, of.slope, of.count);
+    const view::RangeStatistics statistics = view::statistics_of(plot.series[k], low, high);
+    const std::string text = fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", statistics.mean,
+                                         statistics.deviation, statistics.slope, statistics.count);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     list.AddRectFilled({left, y}, {left + width, y + 1.1f * em}, packed(colours.note));
     list.AddText({left, y}, curve_colour(colours, k), text.c_str());
@@ -276,7 +276,7 @@ void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, cons
 double value_near(const view::PlotSeries& series, double x) {
   if (series.x.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (!std::ranges::is_sorted(series.x)) {  // not monotonic: takes the first of the nearest points
-    const auto distance = [x](double of) { return std::abs(of - x); };
+    const auto distance = [x](double value) { return std::abs(value - x); };
     return series
         .y[static_cast<std::size_t>(std::ranges::min_element(series.x, {}, distance) - series.x.begin())];
   }

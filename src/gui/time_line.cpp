@@ -90,7 +90,8 @@ void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
       const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), event.label);
       const float low = std::min(track.px(event.place) - 0.5f * width, track.high.x - width);
       const float high = low + width + 0.4f * em;
-      if (std::ranges::any_of(taken, [=](const auto& of) { return low < of.second && of.first < high; }))
+      if (std::ranges::any_of(
+              taken, [=](const auto& interval) { return low < interval.second && interval.first < high; }))
         continue;
       taken.emplace_back(low, high);
       add_rich_text(list, {low, track.low.y - 1.25f * em}, event_colour(colours, event.kind), event.label);

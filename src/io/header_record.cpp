@@ -73,30 +73,30 @@ double stored_wall_friction(const hdf5::Reader& reader, const std::string& scena
 }
 
 /// Whether `inverse` is the inverse of a mass, or 0 for a grain of the floor.
-bool is_inverse(double inverse, double of, bool free) {
-  return free ? std::abs(inverse * of - 1.0) < 1e-9 : inverse == 0.0;
+bool is_inverse(double inverse, double value, bool free) {
+  return free ? std::abs(inverse * value - 1.0) < 1e-9 : inverse == 0.0;
 }
 
 /// Checks that the state from which a branch begins belongs to the bed of the run.
 void check_branch(const hdf5::Reader& reader, const World& start, const RunStatics& statics) {
-  const Grains& of = start.grains;
+  const Grains& grains = start.grains;
   const auto must = [&reader](bool holds, const char* name) {
     if (!holds) reader.refuse(std::string("/branch/").append(name), "is not that of the bed of the run");
   };
-  must(of.radius == statics.radius, "radius");
-  must(of.mass == statics.mass, "mass");
-  must(of.free_count == statics.free_count, "free_count");
+  must(grains.radius == statics.radius, "radius");
+  must(grains.mass == statics.mass, "mass");
+  must(grains.free_count == statics.free_count, "free_count");
   must(start.gravity == statics.gravity, "gravity");
   must(start.boundary.periodic == statics.periodic, "periodic");
   must(start.boundary.length == statics.length, "length");
-  for (std::size_t i = 0; i < of.mass.size(); ++i) {
+  for (std::size_t i = 0; i < grains.mass.size(); ++i) {
     const bool free = static_cast<Index>(i) < statics.free_count;
-    must(is_inverse(of.inverse_mass[i], of.mass[i], free), "inverse_mass");
-    must(is_inverse(of.inverse_inertia[i], of.inertia[i], free), "inverse_inertia");
+    must(is_inverse(grains.inverse_mass[i], grains.mass[i], free), "inverse_mass");
+    must(is_inverse(grains.inverse_inertia[i], grains.inertia[i], free), "inverse_inertia");
   }
   const double farthest = farthest_place(statics);
-  reader.check("/branch/x", of.x, {-farthest, farthest});
-  reader.check("/branch/y", of.y, {-farthest, farthest});
+  reader.check("/branch/x", grains.x, {-farthest, farthest});
+  reader.check("/branch/y", grains.y, {-farthest, farthest});
 }
 
 }  // namespace

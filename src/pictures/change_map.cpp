@@ -24,8 +24,8 @@ bool gives_numbers(MapKind kind) {
 }
 
 /// Returns the part of a title that names both tilts, "12.00° minus 5.00°".
-std::string between(const MapFrame& of, const Frame& before) {
-  return fmt::format("{:.2f}° minus {:.2f}°", degrees(of.frame.tilt), degrees(before.tilt));
+std::string between(const MapFrame& bed, const Frame& before) {
+  return fmt::format("{:.2f}° minus {:.2f}°", degrees(bed.frame.tilt), degrees(before.tilt));
 }
 
 std::string begun_small(std::string text) {
@@ -33,13 +33,13 @@ std::string begun_small(std::string text) {
   return text;
 }
 
-MapLayer difference_layer(const MapFrame& of, const Frame& before, MapSettings settings,
+MapLayer difference_layer(const MapFrame& bed, const Frame& before, MapSettings settings,
                           const MapExtent& extent) {
   settings.range_low.reset();
   settings.range_high.reset();
   settings.colours.reset();
-  const MapLayer after = make_layer(of, settings, extent, 0);
-  const MapFrame reference{{before, of.statics}};
+  const MapLayer after = make_layer(bed, settings, extent, 0);
+  const MapFrame reference{{before, bed.statics}};
   const MapLayer earlier = make_layer(reference, settings, extent, 0);
   const Scale& scale = after.scale.value();
   std::vector<double> changes(after.values.size());
@@ -52,7 +52,7 @@ MapLayer difference_layer(const MapFrame& of, const Frame& before, MapSettings s
   const Scale about_zero{render::ColourMap::diverging, -half, half};
   const std::string& unit = after.legend.bars.at(0).title;
   return scaled_layer_with_outlines(
-      fmt::format("Change of {}, {}", begun_small(after.title), between(of, before)), about_zero,
+      fmt::format("Change of {}, {}", begun_small(after.title), between(bed, before)), about_zero,
       std::move(changes), bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit));
 }
 
@@ -64,48 +64,48 @@ render::Line line_between(double x0, double y0, double x1, double y1, double hal
 
 /// Returns the vector, m, from grain a to body b of contact c of `at`, with their current positions; for a
 /// plane, the vector along the normal.
-Vec2 towards(const MapFrame& of, const Frame& at, Index c) {
+Vec2 towards(const MapFrame& bed, const Frame& at, Index c) {
   const FrameContacts& contacts = at.contacts;
   const Index a = contacts.a[c], b = contacts.b[c];
   if (b >= at.grain_count())
-    return {of.statics.radius[a] * contacts.nx[c], of.statics.radius[a] * contacts.ny[c]};
+    return {bed.statics.radius[a] * contacts.nx[c], bed.statics.radius[a] * contacts.ny[c]};
   // The images that touched then, even if a periodic edge has come between them since.
   const Index image = contacts.shift[c] + at.image[a] - at.image[b];
-  const Index shift = image - of.frame.image[a] + of.frame.image[b];
-  const double period = of.statics.periodic ? shift * of.statics.length : 0.0;
-  return {of.frame.x[b] + period - of.frame.x[a], of.frame.y[b] - of.frame.y[a]};
+  const Index shift = image - bed.frame.image[a] + bed.frame.image[b];
+  const double period = bed.statics.periodic ? shift * bed.statics.length : 0.0;
+  return {bed.frame.x[b] + period - bed.frame.x[a], bed.frame.y[b] - bed.frame.y[a]};
 }
 
-void add_gained(std::vector<render::Line>& lines, const MapFrame& of, Index c) {
-  const Index a = of.frame.contacts.a[c];
-  const double x = of.frame.x[a], y = of.frame.y[a];
-  const Vec2 way = towards(of, of.frame, c);
+void add_gained(std::vector<render::Line>& lines, const MapFrame& bed, Index c) {
+  const Index a = bed.frame.contacts.a[c];
+  const double x = bed.frame.x[a], y = bed.frame.y[a];
+  const Vec2 way = towards(bed, bed.frame, c);
   lines.push_back(
-      line_between(x, y, x + way.x, y + way.y, gained_half_width * of.statics.mean_diameter, gained_colour));
+      line_between(x, y, x + way.x, y + way.y, gained_half_width * bed.statics.mean_diameter, gained_colour));
 }
 
 /// Adds lines from the centre of each grain to its edge, so that the space between them stays empty, however
 /// far apart they are.
-void add_lost(std::vector<render::Line>& lines, const MapFrame& of, const Frame& before, Index c) {
+void add_lost(std::vector<render::Line>& lines, const MapFrame& bed, const Frame& before, Index c) {
   const Index a = before.contacts.a[c], b = before.contacts.b[c];
-  const Vec2 way = towards(of, before, c);
+  const Vec2 way = towards(bed, before, c);
   const double distance = std::hypot(way.x, way.y);
   if (!(distance > 0.0)) return;
   const Vec2 along{way.x / distance, way.y / distance};
-  const double half_width = lost_half_width * of.statics.mean_diameter;
+  const double half_width = lost_half_width * bed.statics.mean_diameter;
   const auto stub = [&](double x, double y, double length) {
     lines.push_back(line_between(x, y, x + length * along.x, y + length * along.y, half_width, lost_colour));
   };
-  stub(of.frame.x[a], of.frame.y[a], of.statics.radius[a]);
-  if (b < before.grain_count()) stub(of.frame.x[b], of.frame.y[b], -of.statics.radius[b]);
+  stub(bed.frame.x[a], bed.frame.y[a], bed.statics.radius[a]);
+  if (b < before.grain_count()) stub(bed.frame.x[b], bed.frame.y[b], -bed.statics.radius[b]);
 }
 
-MapLayer contacts_layer(const MapFrame& of, const Frame& before) {
-  const analysis::ContactChanges changes = analysis::contact_changes(before, of.frame);
+MapLayer contacts_layer(const MapFrame& bed, const Frame& before) {
+  const analysis::ContactChanges changes = analysis::contact_changes(before, bed.frame);
   MapLayer layer;
   layer.title = "Contacts gained and lost";
-  for (const Index c : changes.lost) add_lost(layer.lines, of, before, c);
-  for (const Index c : changes.gained) add_gained(layer.lines, of, c);
+  for (const Index c : changes.lost) add_lost(layer.lines, bed, before, c);
+  for (const Index c : changes.gained) add_gained(layer.lines, bed, c);
   const auto swatch = [](const render::Colour& colour, const std::string& label) {
     return render::Swatch{render::Swatch::Kind::line, colour, colour, 0.25, label};
   };

@@ -42,11 +42,11 @@ render::Swatch line_swatch(const render::Colour& colour, double width, const std
 
 }  // namespace
 
-MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
+MapLayer forces_layer(const MapFrame& bed, const OverColour& over) {
   const render::Colour strong_colour = over.value_or(render::black);
   render::Colour weak_colour = over.value_or(render::gray(0.4));
   if (over) weak_colour.alpha = 110;  // keeps the grains below visible
-  const FrameContacts& contacts = of.frame.contacts;
+  const FrameContacts& contacts = bed.frame.contacts;
   const double mean = std::accumulate(contacts.fn.begin(), contacts.fn.end(), 0.0) / contacts.count();
   MapLayer layer;
   layer.title = "Force chains, width by f_n";
@@ -56,9 +56,9 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
     for (Index c = 0; c < contacts.count(); ++c) {
       const double force = contacts.fn[c] / mean;
       if ((force > 1.0) != strong) continue;
-      render::Line line = centre_line(of, c);
+      render::Line line = centre_line(bed, c);
       line.half_width = static_cast<float>(force_lines.half_width * std::min(force, force_lines.widest) *
-                                           of.statics.mean_diameter);
+                                           bed.statics.mean_diameter);
       line.colour = strong ? strong_colour : weak_colour;
       layer.lines.push_back(line);
     }
@@ -67,14 +67,14 @@ MapLayer forces_layer(const MapFrame& of, const OverColour& over) {
   return layer;
 }
 
-MapLayer critical_layer(const MapFrame& of, const OverColour& over) {
+MapLayer critical_layer(const MapFrame& bed, const OverColour& over) {
   const render::Colour colour = over.value_or(render::Colour{200, 40, 0});
-  const FrameContacts& contacts = of.frame.contacts;
+  const FrameContacts& contacts = bed.frame.contacts;
   MapLayer layer;
   for (Index c = 0; c < contacts.count(); ++c) {
     if (contacts.status[c] != ContactStatus::sliding) continue;
-    render::Line line = sliding_line(contacts, c, critical_lines.length * of.statics.mean_diameter);
-    line.half_width = static_cast<float>(critical_lines.half_width * of.statics.mean_diameter);
+    render::Line line = sliding_line(contacts, c, critical_lines.length * bed.statics.mean_diameter);
+    line.half_width = static_cast<float>(critical_lines.half_width * bed.statics.mean_diameter);
     line.colour = colour;
     layer.lines.push_back(line);
   }

@@ -97,7 +97,8 @@ FrameChoice sorted(FrameChoice choice) {
 
 std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt) {
   if (tilts.empty() || std::isnan(tilt)) return std::nullopt;
-  const auto nearest = std::ranges::min_element(tilts, {}, [tilt](double of) { return std::abs(of - tilt); });
+  const auto nearest =
+      std::ranges::min_element(tilts, {}, [tilt](double frame_tilt) { return std::abs(frame_tilt - tilt); });
   return static_cast<std::size_t>(nearest - tilts.begin());
 }
 
@@ -158,7 +159,7 @@ FrameChoice frames_every(const std::vector<double>& tilts, double every) {
       const bool up = tilts[first + 1] >= tilts[first];
       std::size_t last = first + 1;
       while (last + 1 < tilts.size() && (tilts[last + 1] >= tilts[last]) == up) ++last;
-      add_every(analysis::SeriesPart{first, last + 1}.of(tilts), first, every, spacing, choice);
+      add_every(analysis::SeriesPart{first, last + 1}.slice(tilts), first, every, spacing, choice);
       choice.push_back(last);
       first = last;
     }

@@ -32,9 +32,9 @@ bool in_second_column(double x, double length, double diameter) {
 
 }  // namespace
 
-MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
+MapLayer size_layer(const MapFrame& bed, const ScaleChoice& choice) {
   constexpr double alike = 0.05;  // fraction of D: range of sizes that count as equal
-  const RunStatics& statics = of.statics;
+  const RunStatics& statics = bed.statics;
   std::vector<double> sizes;
   for (Index i = 0; i < statics.free_count; ++i)
     sizes.push_back(2.0 * statics.radius[i] / statics.mean_diameter);
@@ -51,13 +51,13 @@ MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice) {
   return scaled_layer("Size of grains", scale, std::move(sizes), bar_of(scale, "diameter in D"));
 }
 
-MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice) {
+MapLayer dyed_layer(const MapFrame& bed, const ScaleChoice& choice) {
   constexpr int max_steps = 8;
-  const RunStatics& statics = of.statics;
+  const RunStatics& statics = bed.statics;
   const double diameter = statics.mean_diameter;
   const auto begin = [&](Index i) {
     const auto grain = static_cast<std::size_t>(i);
-    return grain < of.dyed_at.size() ? of.dyed_at[grain] : Vec2{of.frame.x[grain], of.frame.y[grain]};
+    return grain < bed.dyed_at.size() ? bed.dyed_at[grain] : Vec2{bed.frame.x[grain], bed.frame.y[grain]};
   };
   double highest = diameter;
   for (Index i = 0; i < statics.free_count; ++i) highest = std::max(highest, begin(i).y);

@@ -22,7 +22,7 @@ struct MapLayer {
 
 // maps.cpp
 /// Returns layer k of the settings.
-MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k);
+MapLayer make_layer(const MapFrame& bed, const MapSettings& settings, const MapExtent& extent, std::size_t k);
 /// Returns the colour of lines over layer k: black, or, if its grains can be dark, a colour that differs from
 /// theirs and, also in gray, from black and white.
 render::Colour colour_over(const MapSettings& settings, std::size_t k);
@@ -45,24 +45,24 @@ render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings
                               std::vector<MapLayer> layers);
 
 // stress_layers.cpp
-MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
-MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice);
+MapLayer gamma_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice);
+MapLayer coarse_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice);
 
 // overload_layers.cpp; `over_grains`: as marks in grains that another layer fills
-MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
-MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains);
+MapLayer overloaded_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains);
+MapLayer clusters_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains);
 
 // value_layers.cpp
 /// Returns a map of shown_quantity. Throws Error(internal) for other kinds.
-MapLayer value_layer(MapKind kind, const MapFrame& of, const MapSettings& settings,
+MapLayer value_layer(MapKind kind, const MapFrame& bed, const MapSettings& settings,
                      const ScaleChoice& choice);
 /// Returns the value of each free grain, in the unit of map_reading, per degree if motion_span is; NaN if
 /// there is no value, and 0 or NaN without a required reference.
-std::vector<double> map_values(MapKind kind, const MapFrame& of, const MapSettings& settings);
+std::vector<double> map_values(MapKind kind, const MapFrame& bed, const MapSettings& settings);
 
 // grain_layers.cpp
-MapLayer size_layer(const MapFrame& of, const ScaleChoice& choice);
-MapLayer dyed_layer(const MapFrame& of, const ScaleChoice& choice);
+MapLayer size_layer(const MapFrame& bed, const ScaleChoice& choice);
+MapLayer dyed_layer(const MapFrame& bed, const ScaleChoice& choice);
 
 /// The colour of lines over grains that another layer fills; none if they are outlines.
 using OverColour = std::optional<render::Colour>;
@@ -77,7 +77,7 @@ void add_borders(std::vector<render::Line>& lines, double border);
 /// Returns an arrow for each free grain, or for one in each square of side `spacing` (m) if that exceeds D;
 /// arrows are then longer in proportion. Lengths are the displacements times a round factor, which the legend
 /// states; the longest are cut.
-MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
+MapLayer displacement_arrows(const MapFrame& bed, const MotionRanges& motion, const OverColour& over,
                              double spacing);
 
 // contact_layers.cpp
@@ -86,15 +86,15 @@ MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, con
 inline constexpr struct { double half_width, widest; } force_lines = {0.05, 6.0};
 /// D: the line of a contact with fully mobilised friction.
 inline constexpr struct { double length, half_width; } critical_lines = {0.7, 0.11};
-MapLayer forces_layer(const MapFrame& of, const OverColour& over);
-MapLayer critical_layer(const MapFrame& of, const OverColour& over);
+MapLayer forces_layer(const MapFrame& bed, const OverColour& over);
+MapLayer critical_layer(const MapFrame& bed, const OverColour& over);
 
 // support_layers.cpp: how contacts support each grain; `over_grains` as above
-MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice);
-MapLayer rigid_layer(const MapFrame& of, bool over_grains);
+MapLayer coordination_layer(const MapFrame& bed, const ScaleChoice& choice);
+MapLayer rigid_layer(const MapFrame& bed, bool over_grains);
 
 /// Returns the diameter over which coarse maps average, m. Throws Error(usage) if it exceeds the bed.
-double coarse_length(const MapFrame& of, const MapSettings& settings);
+double coarse_length(const MapFrame& bed, const MapSettings& settings);
 
 /// Returns Gamma_c = sin(theta_c).
 double gamma_c_of(const MapSettings& settings);

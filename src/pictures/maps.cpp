@@ -63,12 +63,12 @@ void add_grains(render::FrameView& view, const BedFrame& bed, std::span<const st
 }
 
 /// Sets the symbol and unit of a bar, which are shown with the value of a grain.
-void name_reading(MapKind kind, const MapFrame& of, render::Bar& bar) {
-  const MapReading reading = map_reading(kind, of.statics);
+void name_reading(MapKind kind, const MapFrame& bed, render::Bar& bar) {
+  const MapReading reading = map_reading(kind, bed.statics);
   bar.symbol = reading.symbol;
   bar.unit = reading.unit;
   if (!needs_reference(kind)) return;
-  bar.unit += motion_span(of).unit;
+  bar.unit += motion_span(bed).unit;
   if (bar.unit.starts_with(' ')) bar.unit.erase(0, 1);
 }
 
@@ -102,36 +102,36 @@ render::Bar measuring(render::Bar bar, std::vector<double> values) {
 namespace {
 
 /// Returns the layer without borders of its lines; `spacing` of arrows, m.
-MapLayer bare_layer(const MapFrame& of, const MapSettings& settings, double spacing, std::size_t k) {
+MapLayer bare_layer(const MapFrame& bed, const MapSettings& settings, double spacing, std::size_t k) {
   const ScaleChoice choice = choice_of(settings, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
   const OverColour over = over_grains ? OverColour(colour_over(settings, 1 - k)) : OverColour();
   switch (settings.layers[k]) {
     case MapKind::gamma:
-      return gamma_layer(of, settings, choice);
+      return gamma_layer(bed, settings, choice);
     case MapKind::overloaded:
-      return overloaded_layer(of, settings, over_grains && k == 1);
+      return overloaded_layer(bed, settings, over_grains && k == 1);
     case MapKind::clusters:
-      return clusters_layer(of, settings, over_grains && k == 1);
+      return clusters_layer(bed, settings, over_grains && k == 1);
     case MapKind::coarse:
-      return coarse_layer(of, settings, choice);
+      return coarse_layer(bed, settings, choice);
     case MapKind::forces:
-      return forces_layer(of, over);
+      return forces_layer(bed, over);
     case MapKind::critical:
-      return critical_layer(of, over);
+      return critical_layer(bed, over);
     case MapKind::coordination:
-      return coordination_layer(of, choice);
+      return coordination_layer(bed, choice);
     case MapKind::rigid:
-      return rigid_layer(of, over_grains && k == 1);
+      return rigid_layer(bed, over_grains && k == 1);
     case MapKind::size:
-      return size_layer(of, choice);
+      return size_layer(bed, choice);
     case MapKind::dyed:
-      return dyed_layer(of, choice);
+      return dyed_layer(bed, choice);
     case MapKind::displacement:
-      if (k > 0) return displacement_arrows(of, settings.motion, over, spacing);
+      if (k > 0) return displacement_arrows(bed, settings.motion, over, spacing);
       [[fallthrough]];
     default:
-      return value_layer(settings.layers[k], of, settings, choice);
+      return value_layer(settings.layers[k], bed, settings, choice);
   }
 }
 
@@ -151,10 +151,11 @@ void add_borders(std::vector<render::Line>& lines, double border) {
   lines.insert(lines.end(), above.begin(), above.end());
 }
 
-MapLayer make_layer(const MapFrame& of, const MapSettings& settings, const MapExtent& extent, std::size_t k) {
+MapLayer make_layer(const MapFrame& bed, const MapSettings& settings, const MapExtent& extent,
+                    std::size_t k) {
   constexpr double arrows_across = 60.0;  // upper limit that keeps arrows distinguishable
-  const double spacing = (extent.x_max - extent.x_min) / arrows_across, diameter = of.statics.mean_diameter;
-  MapLayer layer = bare_layer(of, settings, spacing, k);
+  const double spacing = (extent.x_max - extent.x_min) / arrows_across, diameter = bed.statics.mean_diameter;
+  MapLayer layer = bare_layer(bed, settings, spacing, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
   const bool has_arrows = settings.layers[k] == MapKind::displacement;
   if (over_grains)

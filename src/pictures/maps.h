@@ -30,7 +30,7 @@ struct ScaleRange {
 struct MotionRanges {
   std::map<MapKind, std::array<std::optional<ScaleRange>, 2>> fitting;
 
-  std::optional<ScaleRange> of(MapKind kind, bool per_degree) const {
+  std::optional<ScaleRange> range(MapKind kind, bool per_degree) const {
     const auto found = fitting.find(kind);
     return found == fitting.end() ? std::nullopt : found->second[per_degree];
   }

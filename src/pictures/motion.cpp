@@ -35,12 +35,12 @@ std::optional<ScaleRange> signed_range(const LogHistogram& turned) {
 
 }  // namespace
 
-MotionSpan motion_span(const MapFrame& of) {
-  const double begin = of.reference != nullptr ? of.reference->tilt : of.frame.tilt;
-  const double tilted = degrees(of.frame.tilt - begin);
+MotionSpan motion_span(const MapFrame& bed) {
+  const double begin = bed.reference != nullptr ? bed.reference->tilt : bed.frame.tilt;
+  const double tilted = degrees(bed.frame.tilt - begin);
   // During the flow after failure the bed is not tilted, so there is nothing to divide by.
-  const bool moved = of.reference != nullptr && of.reference->step != of.frame.step;
-  if (of.per_degree && (tilted > 0.0 || !moved))
+  const bool moved = bed.reference != nullptr && bed.reference->step != bed.frame.step;
+  if (bed.per_degree && (tilted > 0.0 || !moved))
     return {true, tilted > 0.0 ? tilted : 1.0, " per degree of tilt", " per degree"};
   return {false, 1.0, fmt::format(" since {:.2f}°", degrees(begin)), ""};
 }
@@ -70,12 +70,12 @@ MotionSample::MotionSample(const MapLayers& maps, const MapSettings& settings) :
   }
 }
 
-void MotionSample::add(const MapFrame& of) {
-  const MotionSpan span = motion_span(of);
+void MotionSample::add(const MapFrame& bed) {
+  const MotionSpan span = motion_span(bed);
   for (auto& [kind, sizes] : sizes_) {
     const bool moving = needs_reference(kind);
-    if (moving && of.reference == nullptr) continue;
-    for (const double value : map_values(kind, of, settings_))
+    if (moving && bed.reference == nullptr) continue;
+    for (const double value : map_values(kind, bed, settings_))
       if (!std::isnan(value)) sizes[moving && span.per_degree].add(std::abs(value));
   }
 }

@@ -18,7 +18,7 @@ struct MotionSpan {
   std::string title;     ///< for example " since 5.00°"
   std::string unit;      ///< for example " per degree"
 };
-MotionSpan motion_span(const MapFrame& of);
+MotionSpan motion_span(const MapFrame& bed);
 
 /// Counts of non-negative values in narrow classes, which give quantiles of any number of values in little
 /// memory.
@@ -43,7 +43,7 @@ class MotionSample {
   /// Makes an empty sample for these maps of motion (fits_frames), drawn with these settings.
   explicit MotionSample(const MapLayers& maps, const MapSettings& settings = {});
   /// Adds a frame with its reference; one without a reference adds only velocities.
-  void add(const MapFrame& of);
+  void add(const MapFrame& bed);
   MotionRanges ranges() const;
 
  private:

@@ -13,14 +13,14 @@ namespace {
 
 /// Returns all free grains or, if `spacing` exceeds D, the one with the smallest id in each square of that
 /// side.
-std::vector<Index> evenly_spread(const MapFrame& of, double spacing) {
+std::vector<Index> evenly_spread(const MapFrame& bed, double spacing) {
   std::vector<Index> grains;
   std::set<std::pair<long, long>> taken;
-  const bool all = spacing <= of.statics.mean_diameter;
+  const bool all = spacing <= bed.statics.mean_diameter;
   const auto is_first_of_square = [&](Index i) {
-    return taken.emplace(std::lround(of.frame.x[i] / spacing), std::lround(of.frame.y[i] / spacing)).second;
+    return taken.emplace(std::lround(bed.frame.x[i] / spacing), std::lround(bed.frame.y[i] / spacing)).second;
   };
-  for (Index i = 0; i < of.statics.free_count; ++i)
+  for (Index i = 0; i < bed.statics.free_count; ++i)
     if (all || is_first_of_square(i)) grains.push_back(i);
   return grains;
 }
@@ -50,32 +50,32 @@ double magnification(double high, double longest) {
 
 /// Returns a displacement, in D, per degree if the span is, that exceeds 99 % of those in the frames that are
 /// drawn or, if these are unknown, in this frame.
-double largest_displacement(const MapFrame& of, const MotionRanges& motion, const MotionSpan& span) {
-  if (const auto range = motion.of(MapKind::displacement, span.per_degree)) return range->high;
+double largest_displacement(const MapFrame& bed, const MotionRanges& motion, const MotionSpan& span) {
+  if (const auto range = motion.range(MapKind::displacement, span.per_degree)) return range->high;
   MotionSample sample({MapKind::displacement});
-  sample.add(of);
-  const auto own = sample.ranges().of(MapKind::displacement, span.per_degree);
+  sample.add(bed);
+  const auto own = sample.ranges().range(MapKind::displacement, span.per_degree);
   return own.value_or(fixed_motion_range(MapKind::displacement, span.per_degree)).high;
 }
 
 }  // namespace
 
-MapLayer displacement_arrows(const MapFrame& of, const MotionRanges& motion, const OverColour& over,
+MapLayer displacement_arrows(const MapFrame& bed, const MotionRanges& motion, const OverColour& over,
                              double spacing) {
   constexpr double longest = 1.6, cut = 2.0, shortest = 0.2, half_width = 0.04;  // D, or spacing
   const render::Colour colour = over.value_or(render::Colour{0, 90, 180});
-  const MotionSpan span = motion_span(of);
-  const double diameter = of.statics.mean_diameter, unit = std::max(spacing, diameter);
-  const double times = magnification(largest_displacement(of, motion, span), longest * unit / diameter);
+  const MotionSpan span = motion_span(bed);
+  const double diameter = bed.statics.mean_diameter, unit = std::max(spacing, diameter);
+  const double times = magnification(largest_displacement(bed, motion, span), longest * unit / diameter);
   MapLayer layer;
   layer.title = "Displacement" + span.title;
-  for (const Index i : evenly_spread(of, spacing)) {
-    const Vec2 moved = of.reference != nullptr ? displacement(of, *of.reference, i) : Vec2{};
+  for (const Index i : evenly_spread(bed, spacing)) {
+    const Vec2 moved = bed.reference != nullptr ? displacement(bed, *bed.reference, i) : Vec2{};
     const double distance = std::hypot(moved.x, moved.y);
     const double length = std::min(times * distance / span.degrees, cut * unit);
     if (!(length > shortest * unit)) continue;
     const double stretch = length / distance;
-    add_arrow(layer.lines, of.frame.x[i], of.frame.y[i], {stretch * moved.x, stretch * moved.y},
+    add_arrow(layer.lines, bed.frame.x[i], bed.frame.y[i], {stretch * moved.x, stretch * moved.y},
               half_width * unit, colour);
   }
   const std::string label = fmt::format("arrow = {:.6g} × displacement{}, at most {:.2g} D", times, span.unit,

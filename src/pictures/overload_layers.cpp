@@ -80,14 +80,14 @@ std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, boo
 
 }  // namespace
 
-MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
+MapLayer overloaded_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains) {
   const double threshold = threshold_of(settings);
-  const stress::OverloadCount count = stress::count_overloaded(of, threshold);
+  const stress::OverloadCount count = stress::count_overloaded(bed, threshold);
   MapLayer layer;
   layer.title = settings.l_min > 0.0 ? "Overloaded grains, " + reading_text(settings)
                                      : "Overloaded " + reading_text(settings);
   if (count.loaded > 0) layer.title += fmt::format(", p_o = {:.3f}", count.fraction());
-  layer.looks = overload_looks(of, threshold, over_grains);
+  layer.looks = overload_looks(bed, threshold, over_grains);
   layer.legend.swatches = {disc_swatch(render::black, render::black, "γ ≥ " + threshold_text(settings))};
   if (!over_grains)
     layer.legend.swatches.push_back(
@@ -95,13 +95,13 @@ MapLayer overloaded_layer(const MapFrame& of, const MapSettings& settings, bool 
   return layer;
 }
 
-MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool over_grains) {
-  const analysis::Clusters clusters = overloaded_clusters(of, settings);
-  const analysis::Spanning spanning = analysis::find_spanning(clusters, analysis::bed_edges(of));
-  ClusterColours tracker = of.tracker != nullptr ? *of.tracker : ClusterColours();
+MapLayer clusters_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains) {
+  const analysis::Clusters clusters = overloaded_clusters(bed, settings);
+  const analysis::Spanning spanning = analysis::find_spanning(clusters, analysis::bed_edges(bed));
+  ClusterColours tracker = bed.tracker != nullptr ? *bed.tracker : ClusterColours();
   const std::vector<render::Colour> colours = colours_of(
-      of.cluster_colours.empty() ? tracker.next(clusters)
-                                 : std::vector(of.cluster_colours.begin(), of.cluster_colours.end()),
+      bed.cluster_colours.empty() ? tracker.next(clusters)
+                                  : std::vector(bed.cluster_colours.begin(), bed.cluster_colours.end()),
       settings.palette);
   MapLayer layer;
   layer.title = clusters_title(clusters, settings);
@@ -115,7 +115,7 @@ MapLayer clusters_layer(const MapFrame& of, const MapSettings& settings, bool ov
     layer.looks.push_back({fill, spans ? spanning_rim(fill) : rim_of(fill)});
   }
   const GrainLook other = outline_look();
-  layer.legend.swatches = spanning_swatches(spanning, colours, of.statics.periodic);
+  layer.legend.swatches = spanning_swatches(spanning, colours, bed.statics.periodic);
   layer.legend.swatches.push_back(
       disc_swatch(render::gray(uncoloured_shade), rim_of(render::gray(uncoloured_shade)),
                   fmt::format("fewer than {} grains", smallest_coloured_cluster)));

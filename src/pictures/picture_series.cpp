@@ -142,15 +142,15 @@ render::FrameView picture(const PictureSeries& series, std::size_t k, const Fram
                           const Frame* reference, std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
   const SeenFrames& met = series.met;
-  MapFrame of{{frame, series.run.statics}, reference, !series.since};
+  MapFrame bed{{frame, series.run.statics}, reference, !series.since};
   const OverloadRule& rule = settings;
   if (met.rule == rule) {  // colours by another rule belong to other clusters
-    of.tracker = &met.tracker;
+    bed.tracker = &met.tracker;
     if (k < met.cluster_colours.size() && met.instants[k].step == frame.step)
-      of.cluster_colours = met.cluster_colours[k];
+      bed.cluster_colours = met.cluster_colours[k];
   }
-  of.dyed_at = met.begin;
-  render::FrameView view = make_map(of, settings, series.extent);
+  bed.dyed_at = met.begin;
+  render::FrameView view = make_map(bed, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
                                      settings, place_of(series, frame.tilt, frame.time),

@@ -30,14 +30,14 @@ render::Bar stress_ratio_bar(const Scale& scale, double gamma_c, const std::stri
 
 }  // namespace
 
-double coarse_length(const MapFrame& of, const MapSettings& settings) {
-  const double length = settings.length * of.statics.mean_diameter;
-  if (length > 0.0 && length <= of.statics.length) return length;
+double coarse_length(const MapFrame& bed, const MapSettings& settings) {
+  const double length = settings.length * bed.statics.mean_diameter;
+  if (length > 0.0 && length <= bed.statics.length) return length;
   throw Error(
       ExitCode::usage,
       fmt::format(
           "neighbourhoods of {:.6g} D: expected a diameter above 0, up to the length of the bed, {:.6g} D",
-          settings.length, of.statics.length / of.statics.mean_diameter));
+          settings.length, bed.statics.length / bed.statics.mean_diameter));
 }
 
 double gamma_c_of(const MapSettings& settings) { return sine(settings.theta_c); }
@@ -46,11 +46,11 @@ std::string reading_text(const OverloadRule& rule) {
   return rule.l_min > 0.0 ? fmt::format("l = {:.6g} D", rule.l_min) : std::string("single grains");
 }
 
-MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
+MapLayer gamma_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice) {
   const double gamma_c = gamma_c_of(settings);
   const Scale scale = chosen({render::ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
-  const auto free_grains = std::span(of.frame.gamma).first(static_cast<std::size_t>(of.statics.free_count));
+  const auto free_grains = std::span(bed.frame.gamma).first(static_cast<std::size_t>(bed.statics.free_count));
   return scaled_layer(fmt::format("Stress ratio γ of {}{}",
                                   settings.l_min > 0.0 ? "grains with their neighbours, " : std::string(),
                                   reading_text(settings)),
@@ -58,13 +58,13 @@ MapLayer gamma_layer(const MapFrame& of, const MapSettings& settings, const Scal
                       stress_ratio_bar(scale, gamma_c, "γ = q/p", end));
 }
 
-MapLayer coarse_layer(const MapFrame& of, const MapSettings& settings, const ScaleChoice& choice) {
-  const double length = coarse_length(of, settings);
+MapLayer coarse_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice) {
+  const double length = coarse_length(bed, settings);
   const double gamma_c = gamma_c_of(settings);
   const Scale scale = chosen({render::ColourMap::gray, 0.0, black_coarse * gamma_c}, choice);
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("{:.2f}", scale.high);
   return scaled_layer(fmt::format("Stress ratio γ_l of neighbourhoods, l = {:.6g} D", settings.length), scale,
-                      analysis::coarse_stress_ratio(of, length),
+                      analysis::coarse_stress_ratio(bed, length),
                       stress_ratio_bar(scale, gamma_c, "γ_l", end));
 }
 

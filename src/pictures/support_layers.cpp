@@ -18,25 +18,25 @@ render::Swatch grain_swatch(const GrainLook& look, const std::string& label) {
 
 }  // namespace
 
-MapLayer coordination_layer(const MapFrame& of, const ScaleChoice& choice) {
+MapLayer coordination_layer(const MapFrame& bed, const ScaleChoice& choice) {
   constexpr double most = 6.0;  // maximum for equal disks
-  const FrameContacts& contacts = of.frame.contacts;
+  const FrameContacts& contacts = bed.frame.contacts;
   const std::vector<Index> counts =
-      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, of.statics.free_count);
+      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
   const Scale scale = chosen({render::ColourMap::viridis, 0.0, most}, choice);
   return scaled_layer(fmt::format("Contacts of grains, z = {:.2f}", stress::coordination_number(counts)),
                       scale, {counts.begin(), counts.end()}, bar_of(scale, "contacts that carry force"));
 }
 
-MapLayer rigid_layer(const MapFrame& of, bool over_grains) {
-  const Index fixed = of.statics.free_count;
-  if (of.statics.friction == 0.0) {
+MapLayer rigid_layer(const MapFrame& bed, bool over_grains) {
+  const Index fixed = bed.statics.free_count;
+  if (bed.statics.friction == 0.0) {
     MapLayer none;
     none.looks.assign(static_cast<std::size_t>(fixed), outline_look());
     none.title = "Rigid clusters are not counted without friction";
     return none;
   }
-  const std::vector<Index> label = analysis::find_rigid_clusters(fixed + 1, analysis::bonds_of(of)).label;
+  const std::vector<Index> label = analysis::find_rigid_clusters(fixed + 1, analysis::bonds_of(bed)).label;
   std::vector<Index> bodies(label.size(), 0), grains(label.size(), 0);
   for (Index body = 0; body <= fixed; ++body) {
     ++bodies[label[body]];

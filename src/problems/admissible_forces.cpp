@@ -156,7 +156,7 @@ class Measurement {
   }
 
   /// Returns the values of a frame in the order of quantities_of.
-  std::vector<double> of(Frame frame) const {
+  std::vector<double> values(Frame frame) const {
     const analysis::FrameRecord record = analysis::analyse_frame(
         {analysis::with_analysed_gamma(std::move(frame), statics_, parameters_), statics_}, parameters_,
         analysis_);
@@ -271,11 +271,11 @@ FrameForces admissible_forces(const FrozenBed& bed, const BedFrame& stored,
   found.tilt = bed.step.scales.tilt;
   found.contacts = bed.step.problem.contact_count();
   found.quantities = quantities_of(parameters);
-  found.stored = measurement.of(stored.frame);
+  found.stored = measurement.values(stored.frame);
   Random random(search.seed);
   for (const ForceAttempt& attempt : force_attempts(search)) {
     ForceSet set = find_forces(bed, attempt, search, random);
-    set.values = measurement.of(session::make_frame(loaded_world(bed, set.solution), bed.law));
+    set.values = measurement.values(session::make_frame(loaded_world(bed, set.solution), bed.law));
     found.sets.push_back(std::move(set));
   }
   for (std::size_t q = 0; q < found.quantities.size(); ++q) found.spreads.push_back(spread_of(q, found.sets));

@@ -119,17 +119,19 @@ struct Key : KeyHead {
   template <typename T>
   Key(KeyHead head, T Struct::*field)
       : KeyHead(std::move(head)),
-        get([field, range = this->range](const Struct& of) { return value_of_field(of.*field, range); }),
-        set([field, range = this->range](Struct& of, const KeyValue& value) {
-          set_field(of.*field, value, range);
+        get([field, range = this->range](const Struct& owner) {
+          return value_of_field(owner.*field, range);
+        }),
+        set([field, range = this->range](Struct& owner, const KeyValue& value) {
+          set_field(owner.*field, value, range);
         }) {}
 
   /// Creates a key of the whole struct from a key of a part.
   template <typename Part>
   Key(Part Struct::*part, const Key<Part>& key)
       : KeyHead(key),
-        get([part, get = key.get](const Struct& of) { return get(of.*part); }),
-        set([part, set = key.set](Struct& of, const KeyValue& value) { set(of.*part, value); }) {}
+        get([part, get = key.get](const Struct& owner) { return get(owner.*part); }),
+        set([part, set = key.set](Struct& owner, const KeyValue& value) { set(owner.*part, value); }) {}
 };
 
 /// The keys of a table, in its order. The pointers are valid as long as the table exists.

@@ -110,10 +110,10 @@ double tilt_before(const Command& command, std::span<const Command> commands,
   const double h =
       (at(*around->after, Observable::time) - at(*around->before, Observable::time)) / (last - first);
   // Proceeds backwards from the later row: each command that set the rate determines the tilt from there on.
-  for (auto of = commands.rbegin(); of != commands.rend(); ++of) {
-    const auto set = static_cast<double>(of->step);
-    if (of->kind != CommandKind::tilt_rate || set <= first || set >= last) continue;
-    const double tilt = last_tilt - radians(of->x) * h * (last - set);
+  for (auto change = commands.rbegin(); change != commands.rend(); ++change) {
+    const auto set = static_cast<double>(change->step);
+    if (change->kind != CommandKind::tilt_rate || set <= first || set >= last) continue;
+    const double tilt = last_tilt - radians(change->x) * h * (last - set);
     if (set <= step) return between(step, set, tilt, last, last_tilt);
     last = set;
     last_tilt = tilt;

@@ -124,8 +124,9 @@ void check_observables(const std::vector<ObservableRow>& rows, double last_step,
 
 /// Whether the bed was at rest at a step; false if no row was recorded at it.
 bool at_rest(const std::vector<ObservableRow>& rows, std::int64_t step) {
-  const auto row = std::ranges::lower_bound(rows, static_cast<double>(step), {},
-                                            [](const ObservableRow& of) { return at(of, Observable::step); });
+  const auto row =
+      std::ranges::lower_bound(rows, static_cast<double>(step), {},
+                               [](const ObservableRow& entry) { return at(entry, Observable::step); });
   return row != rows.end() && at(*row, Observable::step) == static_cast<double>(step) &&
          at(*row, Observable::at_rest) == 1.0;
 }
@@ -144,8 +145,8 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
       {"contacts/force", &bed.frame.contacts.ft},
       {"contacts/moment", &bed.frame.contacts.moment}};
   bool finite = true;
-  for (const auto& [set, of] : values) {
-    if (all_finite(*of)) continue;
+  for (const auto& [set, numbers] : values) {
+    if (all_finite(*numbers)) continue;
     found.add(name, fmt::format("{} has a value that is not finite", set));
     finite = false;
   }

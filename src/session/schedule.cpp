@@ -105,13 +105,13 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
 
 double number_of(const Value& value) {
   return std::visit(
-      [](auto of) -> double {
-        if constexpr (std::is_same_v<decltype(of), double>)
-          return of;
-        else if constexpr (std::is_same_v<decltype(of), std::optional<double>*>)
-          return of->value_or(not_known);
+      [](auto alternative) -> double {
+        if constexpr (std::is_same_v<decltype(alternative), double>)
+          return alternative;
+        else if constexpr (std::is_same_v<decltype(alternative), std::optional<double>*>)
+          return alternative->value_or(not_known);
         else
-          return static_cast<double>(*of);
+          return static_cast<double>(*alternative);
       },
       value);
 }

@@ -177,20 +177,20 @@ std::string find_columns(const TablePlace& place, const std::vector<TableCell>& 
     if (column && !column->of_dump && is_length && twice.empty()) twice = named->column.name;
     column = named->column;
   }
-  const auto of = [&](Role role) { return found[static_cast<std::size_t>(role)]; };
-  if (of(Role::radius) && of(Role::diameter)) twice = "the size";
+  const auto column = [&](Role role) { return found[static_cast<std::size_t>(role)]; };
+  if (column(Role::radius) && column(Role::diameter)) twice = "the size";
   if (!twice.empty()) return fmt::format("more than one column for {}", twice);
-  columns.is_diameter = of(Role::diameter).has_value();
-  const auto height = of(Role::y) ? of(Role::y) : of(Role::z);
-  const auto size = columns.is_diameter ? of(Role::diameter) : of(Role::radius);
-  if (!of(Role::x) || !height || !size)
-    return fmt::format("no column for {}", !of(Role::x) ? "x" : !height ? "the height" : "the size");
-  columns.x = *of(Role::x);
+  columns.is_diameter = column(Role::diameter).has_value();
+  const auto height = column(Role::y) ? column(Role::y) : column(Role::z);
+  const auto size = columns.is_diameter ? column(Role::diameter) : column(Role::radius);
+  if (!column(Role::x) || !height || !size)
+    return fmt::format("no column for {}", !column(Role::x) ? "x" : !height ? "the height" : "the size");
+  columns.x = *column(Role::x);
   columns.height = *height;
   columns.size = *size;
-  if (of(Role::y)) columns.depth = of(Role::z);
-  columns.id = of(Role::id);
-  columns.frame = of(Role::frame);
+  if (column(Role::y)) columns.depth = column(Role::z);
+  columns.id = column(Role::id);
+  columns.frame = column(Role::frame);
   return "";
 }
 

@@ -52,15 +52,15 @@ struct TeamMember {
   Index first_block, last_block, first_body, last_body;
   Sweeper sweeper;
 
-  TeamMember(const ContactProblem& of, ContactSolution& of_solution, AcceleratedWorkspace& workspace,
-             ThreadTeam* of_team, int of_member)
-      : problem(of),
-        solution(of_solution),
+  TeamMember(const ContactProblem& contact_problem, ContactSolution& contact_solution,
+             AcceleratedWorkspace& workspace, ThreadTeam* solver_team, int number)
+      : problem(contact_problem),
+        solution(contact_solution),
         w(workspace),
         at(workspace.linearisation),
-        team(of_team),
-        member(of_member),
-        size(of_team ? of_team->size() : 1),
+        team(solver_team),
+        member(number),
+        size(solver_team ? solver_team->size() : 1),
         sweeper{at, w.sums, team, member, size, sweep_kernels()} {
     const auto blocks = static_cast<int>(at.sums.size());
     first_block = part_begin(blocks, member, size);

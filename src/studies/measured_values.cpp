@@ -28,18 +28,19 @@ struct FailedRun {
 };
 
 FailedRun failed_run(const runs::RunView& run) {
-  FailedRun of{run, analysis::last_rise(run.analysis.frames), 0};
-  of.at_theta_c = of.frame_at(run.analysis.theta_c);
-  return of;
+  FailedRun failure{run, analysis::last_rise(run.analysis.frames), 0};
+  failure.at_theta_c = failure.frame_at(run.analysis.theta_c);
+  return failure;
 }
 
 /// Returns the mean of `value(frame)` over the frames within half a degree before theta_c.
 template <typename Value>
-double mean_before_failure(const FailedRun& of, const Value& value) {
+double mean_before_failure(const FailedRun& failure, const Value& value) {
   double sum = 0.0;
   int count = 0;
-  for (std::size_t k = 0; k <= of.at_theta_c; ++k) {
-    if (k < of.at_theta_c && of.tilt(k) < of.run.analysis.theta_c - radians(analysis::failure_window))
+  for (std::size_t k = 0; k <= failure.at_theta_c; ++k) {
+    if (k < failure.at_theta_c &&
+        failure.tilt(k) < failure.run.analysis.theta_c - radians(analysis::failure_window))
       continue;
     sum += value(k);
     ++count;
@@ -47,15 +48,15 @@ double mean_before_failure(const FailedRun& of, const Value& value) {
   return sum / count;
 }
 
-double stress_ratio(const FailedRun& of) {
-  return mean_before_failure(of,
-                             [&](std::size_t k) { return of.frame(k).stress_ratio / std::sin(of.tilt(k)); });
+double stress_ratio(const FailedRun& failure) {
+  return mean_before_failure(
+      failure, [&](std::size_t k) { return failure.frame(k).stress_ratio / std::sin(failure.tilt(k)); });
 }
 
 /// Difference of sigma_xx between the lower and the upper half of the bed, over their mean.
-double gradient(const FailedRun& of) {
-  return mean_before_failure(of, [&](std::size_t k) {
-    const std::vector<double>& sections = of.frame(k).section_sigma_xx;
+double gradient(const FailedRun& failure) {
+  return mean_before_failure(failure, [&](std::size_t k) {
+    const std::vector<double>& sections = failure.frame(k).section_sigma_xx;
     const auto half = static_cast<std::ptrdiff_t>(sections.size() / 2);
     const double upper = std::accumulate(sections.begin(), sections.begin() + half, 0.0);
     const double lower = std::accumulate(sections.end() - half, sections.end(), 0.0);
@@ -65,51 +66,54 @@ double gradient(const FailedRun& of) {
 
 /// Onset of dilation, and the contraction before it. The range of the minimum of the strain says
 /// whether either is more than noise.
-double contracted(const FailedRun& of) {
-  const double onset = of.run.analysis.dilation[0];
-  if (std::isnan(onset)) return -of.frame(of.at_theta_c).volume_strain;
-  if (of.run.analysis.dilation_low[0] <= of.tilt(0) + analysis::same_tilt) return not_known;
-  return -of.frame(of.frame_at(onset)).volume_strain;
+double contracted(const FailedRun& failure) {
+  const double onset = failure.run.analysis.dilation[0];
+  if (std::isnan(onset)) return -failure.frame(failure.at_theta_c).volume_strain;
+  if (failure.run.analysis.dilation_low[0] <= failure.tilt(0) + analysis::same_tilt) return not_known;
+  return -failure.frame(failure.frame_at(onset)).volume_strain;
 }
 
-double dilated(const FailedRun& of) {
-  const double onset = of.run.analysis.dilation[0];
+double dilated(const FailedRun& failure) {
+  const double onset = failure.run.analysis.dilation[0];
   if (std::isnan(onset)) return not_known;
-  return of.frame(of.at_theta_c).volume_strain - of.frame(of.frame_at(onset)).volume_strain;
+  return failure.frame(failure.at_theta_c).volume_strain -
+         failure.frame(failure.frame_at(onset)).volume_strain;
 }
 
 /// Returns the onset of dilation or, if its range begins at the first tilt, the end of this range as an upper
 /// bound.
-Measured dilation_tilt(const FailedRun& of) {
-  if (of.run.analysis.dilation_low[0] <= of.tilt(0) + analysis::same_tilt)
-    return {degrees(of.run.analysis.dilation_high[0]), true};
-  return {degrees(of.run.analysis.dilation[0])};
+Measured dilation_tilt(const FailedRun& failure) {
+  if (failure.run.analysis.dilation_low[0] <= failure.tilt(0) + analysis::same_tilt)
+    return {degrees(failure.run.analysis.dilation_high[0]), true};
+  return {degrees(failure.run.analysis.dilation[0])};
 }
 
-double peak(const FailedRun& of, std::size_t which) { return degrees(of.frame(0).direction_peak[which]); }
+double peak(const FailedRun& failure, std::size_t which) {
+  return degrees(failure.frame(0).direction_peak[which]);
+}
 
 /// Maps a direction near 180 deg to one near 0.
 double wrapped(double angle) { return angle > 90.0 ? angle - 180.0 : angle; }
 
 /// Measures a quantity that combines several numbers of the run; empty for all others.
-std::optional<Measured> derived(const FailedRun& of, PaperQuantity quantity) {
+std::optional<Measured> derived(const FailedRun& failure, PaperQuantity quantity) {
   switch (quantity) {
     case normals_near_0:
-      return Measured{wrapped(peak(of, 0))};
+      return Measured{wrapped(peak(failure, 0))};
     case normals_near_60:
-      return Measured{peak(of, 1)};
+      return Measured{peak(failure, 1)};
     case normals_near_120:
-      return Measured{peak(of, 2)};
+      return Measured{peak(failure, 2)};
     case stress_ratio_over_sine:
-      return Measured{stress_ratio(of)};
+      return Measured{stress_ratio(failure)};
     case contraction:
-      return Measured{contracted(of)};
+      return Measured{contracted(failure)};
     case dilation:
-      return Measured{dilated(of)};
+      return Measured{dilated(failure)};
     case theta_d_by_dilation:
-      return dilation_tilt(of);
+      return dilation_tilt(failure);
     case wall_gradient:
-      return Measured{gradient(of)};
+      return Measured{gradient(failure)};
     case wall_coefficient:
       return Measured{not_known};
     default:

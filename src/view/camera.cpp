@@ -47,12 +47,13 @@ ViewCamera clamped(const ViewCamera& camera, const pictures::MapExtent& bed, dou
 
 pictures::MapExtent shown_part(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter,
                                double aspect, double turn_max) {
-  const ViewCamera of = clamped(camera, bed, mean_diameter);
+  const ViewCamera clamped_camera = clamped(camera, bed, mean_diameter);
   const double shape = shape_of(aspect, turn_max);
-  const double length = std::max(bed.x_max - bed.x_min, (bed.y_max - bed.y_min) / shape) / of.zoom;
+  const double length =
+      std::max(bed.x_max - bed.x_min, (bed.y_max - bed.y_min) / shape) / clamped_camera.zoom;
   const double depth = length * shape;
-  const double x = begin_of(of.centre_x, length, bed.x_min, bed.x_max);
-  const double y = begin_of(of.centre_y, depth, bed.y_min, bed.y_max);
+  const double x = begin_of(clamped_camera.centre_x, length, bed.x_min, bed.x_max);
+  const double y = begin_of(clamped_camera.centre_y, depth, bed.y_min, bed.y_max);
   return {x, x + length, y, y + depth};
 }
 

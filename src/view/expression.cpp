@@ -85,9 +85,9 @@ class Parser {
   /// Reports that the token found is not among those that may follow here.
   [[noreturn]] void expect(const std::string& what) const {
     const std::string_view rest = text_.substr(token_.place);
-    const auto slip = std::ranges::find_if(slips, [&](const Slip& of) {
-      return letters.find(of.written[0]) == std::string_view::npos ? rest.starts_with(of.written)
-                                                                   : token_.text == of.written;
+    const auto slip = std::ranges::find_if(slips, [&](const Slip& entry) {
+      return letters.find(entry.written[0]) == std::string_view::npos ? rest.starts_with(entry.written)
+                                                                      : token_.text == entry.written;
     });
     std::string found = token_.kind == Token::Kind::end ? "the end" : "'" + visible_word(token_.text) + "'";
     std::string hint;
@@ -119,8 +119,8 @@ class Parser {
       token_.text = rest.substr(0, static_cast<std::size_t>(size));
     } else {
       token_.kind = Token::Kind::sign;
-      const auto sign =
-          std::ranges::find_if(signs, [&](std::string_view of) { return rest.starts_with(of); });
+      const auto sign = std::ranges::find_if(
+          signs, [&](std::string_view candidate) { return rest.starts_with(candidate); });
       token_.text =
           sign == signs.end() ? rest.substr(0, std::max<std::size_t>(1, character_length(rest))) : *sign;
     }
@@ -268,25 +268,25 @@ class Parser {
   }
 
   Value name() {
-    const Token of = token_;
+    const Token token = token_;
     advance();
-    if (take("(")) return function(of);
-    const auto known = std::ranges::find(names_, of.text, &ExpressionName::name);
+    if (take("(")) return function(token);
+    const auto known = std::ranges::find(names_, token.text, &ExpressionName::name);
     if (known == names_.end())
-      fail(of.place, fmt::format("{} is not a quantity of a grain{}", visible_word(of.text),
-                                 did_you_mean(of.text, names_of(names_))));
-    auto used = std::ranges::find(result_.names, of.text);
-    if (used == result_.names.end()) used = result_.names.insert(used, std::string(of.text));
+      fail(token.place, fmt::format("{} is not a quantity of a grain{}", visible_word(token.text),
+                                    did_you_mean(token.text, names_of(names_))));
+    auto used = std::ranges::find(result_.names, token.text);
+    if (used == result_.names.end()) used = result_.names.insert(used, std::string(token.text));
     result_.steps.push_back({Operation::name, 0.0, static_cast<std::size_t>(used - result_.names.begin())});
     return known->flag ? Value::flag : Value::number;
   }
 
-  Value function(const Token& of) {
-    if (of.text != "abs" && of.text != "sqrt")
-      fail(of.place, fmt::format("{} is not a function; use abs or sqrt", visible_word(of.text)));
+  Value function(const Token& token) {
+    if (token.text != "abs" && token.text != "sqrt")
+      fail(token.place, fmt::format("{} is not a function; use abs or sqrt", visible_word(token.text)));
     const std::size_t place = token_.place;
     to_number(in_parentheses(), place);
-    add(of.text == "abs" ? Operation::absolute : Operation::root);
+    add(token.text == "abs" ? Operation::absolute : Operation::root);
     return Value::number;
   }
 

@@ -73,11 +73,11 @@ GhostCurve band_of(const std::vector<RunCurve>& curves) {
   std::vector<double> values(curves.size());
   for (double step = std::ceil(low / spacing); step * spacing <= high; step += 1.0) {
     for (std::size_t r = 0; r < curves.size(); ++r) values[r] = value_at(curves[r], step * spacing);
-    const Statistics of = talus::statistics_of(values);
-    const bool enough = of.count >= 2 && 2 * of.count >= static_cast<int>(curves.size());
+    const Statistics statistics = talus::statistics_of(values);
+    const bool enough = statistics.count >= 2 && 2 * statistics.count >= static_cast<int>(curves.size());
     band.x.push_back(step * spacing);
-    band.mean.push_back(enough ? of.mean : not_known);
-    band.deviation.push_back(enough ? of.deviation : not_known);
+    band.mean.push_back(enough ? statistics.mean : not_known);
+    band.deviation.push_back(enough ? statistics.deviation : not_known);
   }
   return band;
 }

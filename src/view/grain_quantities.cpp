@@ -21,13 +21,13 @@ const std::vector<ExpressionName>& grain_names() {
   return names;
 }
 
-std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& of) {
+std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& source) {
   std::vector<std::vector<double>> columns;
   for (const std::string& name : condition.names)
-    columns.push_back(analysis::values_of(analysis::grain_number(name), of));
+    columns.push_back(analysis::values_of(analysis::grain_number(name), source));
   std::vector<Index> grains;
   std::vector<double> row(columns.size());
-  for (Index i = 0; i < of.statics.free_count; ++i) {
+  for (Index i = 0; i < source.statics.free_count; ++i) {
     for (std::size_t k = 0; k < columns.size(); ++k) row[k] = columns[k][static_cast<std::size_t>(i)];
     if (holds(condition, row)) grains.push_back(i);
   }

@@ -15,6 +15,6 @@ std::string head_of(const analysis::GrainNumber& number);
 const std::vector<ExpressionName>& grain_names();
 
 /// Returns the free grains that satisfy a condition, in ascending order of id.
-std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& of);
+std::vector<Index> grains_where(const Expression& condition, const analysis::GrainSource& source);
 
 }  // namespace talus::view

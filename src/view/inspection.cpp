@@ -64,30 +64,31 @@ std::string body_name(const BedFrame& bed, Index body, double nx) {
 Inspection inspect(const BedFrame& bed, const analysis::Clusters& clusters,
                    const analysis::CoarseGrainingRule& rule, double neighbourhood, Index grain) {
   const auto i = static_cast<std::size_t>(grain);
-  Inspection of;
-  of.grain = grain;
-  of.free = grain < bed.statics.free_count;
-  of.radius = bed.statics.radius[i];
-  of.mass = bed.statics.mass[i];
-  of.x = bed.frame.x[i];
-  of.y = bed.frame.y[i];
-  of.vx = bed.frame.vx[i];
-  of.vy = bed.frame.vy[i];
-  of.omega = bed.frame.omega[i];
-  of.contacts = contacts_of(bed, grain);
-  of.internal_moment = bed.frame.internal_moment[i];
-  of.state = stress::stress_state(of.internal_moment);
-  of.gamma = bed.frame.gamma[i];
-  of.neighbourhood_gamma = not_known;
-  if (!of.free) return of;
-  of.overloaded = stress::is_overloaded(of.gamma, rule.threshold);
-  of.cluster = clusters.label[i];
-  if (of.cluster >= 0) of.cluster_size = clusters.size[static_cast<std::size_t>(of.cluster)];
+  Inspection inspection;
+  inspection.grain = grain;
+  inspection.free = grain < bed.statics.free_count;
+  inspection.radius = bed.statics.radius[i];
+  inspection.mass = bed.statics.mass[i];
+  inspection.x = bed.frame.x[i];
+  inspection.y = bed.frame.y[i];
+  inspection.vx = bed.frame.vx[i];
+  inspection.vy = bed.frame.vy[i];
+  inspection.omega = bed.frame.omega[i];
+  inspection.contacts = contacts_of(bed, grain);
+  inspection.internal_moment = bed.frame.internal_moment[i];
+  inspection.state = stress::stress_state(inspection.internal_moment);
+  inspection.gamma = bed.frame.gamma[i];
+  inspection.neighbourhood_gamma = not_known;
+  if (!inspection.free) return inspection;
+  inspection.overloaded = stress::is_overloaded(inspection.gamma, rule.threshold);
+  inspection.cluster = clusters.label[i];
+  if (inspection.cluster >= 0)
+    inspection.cluster_size = clusters.size[static_cast<std::size_t>(inspection.cluster)];
   const double widest = std::max(rule.cut, neighbourhood);
-  of.curve = analysis::neighbourhood_curve(bed, grain, widest);
-  if (of.overloaded) of.coarse_graining_length = length_of(of.curve, rule);
-  of.neighbourhood_gamma = gamma_at(of.curve, neighbourhood);
-  return of;
+  inspection.curve = analysis::neighbourhood_curve(bed, grain, widest);
+  if (inspection.overloaded) inspection.coarse_graining_length = length_of(inspection.curve, rule);
+  inspection.neighbourhood_gamma = gamma_at(inspection.curve, neighbourhood);
+  return inspection;
 }
 
 double mobilised(double fn, double ft, double friction) {
@@ -95,27 +96,27 @@ double mobilised(double fn, double ft, double friction) {
 }
 
 ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction) {
-  ContactInspection of;
-  of.key = key;
-  of.friction = friction;
-  of.mobilisation = not_known;
+  ContactInspection inspection;
+  inspection.key = key;
+  inspection.friction = friction;
+  inspection.mobilisation = not_known;
   const FrameContacts& contacts = bed.frame.contacts;
   if (const auto found = contact_of_key(contacts, key)) {
     const auto c = static_cast<std::size_t>(*found);
-    of.carries = true;
-    of.fn = contacts.fn[c];
-    of.ft = contacts.ft[c];
-    of.nx = contacts.nx[c];
-    of.ny = contacts.ny[c];
-    of.px = contacts.px[c];
-    of.py = contacts.py[c];
-    of.status = contacts.status[c];
-    if (is_with_wall(bed.frame, *found)) of.friction = bed.statics.wall_friction;
-    of.mobilisation = mobilised(of.fn, of.ft, of.friction);
+    inspection.carries = true;
+    inspection.fn = contacts.fn[c];
+    inspection.ft = contacts.ft[c];
+    inspection.nx = contacts.nx[c];
+    inspection.ny = contacts.ny[c];
+    inspection.px = contacts.px[c];
+    inspection.py = contacts.py[c];
+    inspection.status = contacts.status[c];
+    if (is_with_wall(bed.frame, *found)) inspection.friction = bed.statics.wall_friction;
+    inspection.mobilisation = mobilised(inspection.fn, inspection.ft, inspection.friction);
   }
-  of.a_name = body_name(bed, key.a, -of.nx);
-  of.b_name = body_name(bed, key.b, of.nx);
-  return of;
+  inspection.a_name = body_name(bed, key.a, -inspection.nx);
+  inspection.b_name = body_name(bed, key.b, inspection.nx);
+  return inspection;
 }
 
 std::optional<Index> find_grain(const BedFrame& bed, double x, double y) {

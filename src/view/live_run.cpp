@@ -218,7 +218,7 @@ void LiveRun::State::apply(const Command& command) {
 
 /// Returns everything recorded from the beginning up to that position.
 io::Segment LiveRun::State::recorded_until(const Taken& end) const {
-  const auto first = [](const auto& of, std::size_t count) { return std::span(of).first(count); };
+  const auto first = [](const auto& list, std::size_t count) { return std::span(list).first(count); };
   io::Segment segment;
   for (const auto& one : first(history.frames, end.frames)) segment.frames.push_back(*one);
   for (const auto& row : first(history.observables, end.observables)) segment.observables.push_back(row);

@@ -171,30 +171,30 @@ void note_threshold(double factor, std::optional<double> assumed, std::vector<Pl
 }
 
 RangeStatistics statistics_of(const PlotSeries& series, double low, double high) {
-  RangeStatistics of;
+  RangeStatistics statistics;
   double x_sum = 0.0, y_sum = 0.0;
   const auto counts = [&](std::size_t k) {
     return series.x[k] >= low && series.x[k] <= high && std::isfinite(series.y[k]);
   };
   for (std::size_t k = 0; k < series.x.size(); ++k) {
     if (!counts(k)) continue;
-    ++of.count;
+    ++statistics.count;
     x_sum += series.x[k];
     y_sum += series.y[k];
   }
-  const auto count = static_cast<double>(of.count);
-  of.mean = of.count > 0 ? y_sum / count : not_known;
+  const auto count = static_cast<double>(statistics.count);
+  statistics.mean = statistics.count > 0 ? y_sum / count : not_known;
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < series.x.size(); ++k) {
     if (!counts(k)) continue;
-    const double dx = series.x[k] - x_sum / count, dy = series.y[k] - of.mean;
+    const double dx = series.x[k] - x_sum / count, dy = series.y[k] - statistics.mean;
     xx += dx * dx;
     xy += dx * dy;
     yy += dy * dy;
   }
-  of.deviation = of.count > 1 ? std::sqrt(yy / (count - 1.0)) : not_known;
-  of.slope = xx > 0.0 ? xy / xx : not_known;
-  return of;
+  statistics.deviation = statistics.count > 1 ? std::sqrt(yy / (count - 1.0)) : not_known;
+  statistics.slope = xx > 0.0 ? xy / xx : not_known;
+  return statistics;
 }
 
 void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots) {

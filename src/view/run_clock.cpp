@@ -11,7 +11,7 @@ namespace {
 
 std::size_t nearest_place(std::span<const double> places, double place) {
   const auto nearest =
-      std::ranges::min_element(places, {}, [place](double of) { return std::abs(of - place); });
+      std::ranges::min_element(places, {}, [place](double other) { return std::abs(other - place); });
   return static_cast<std::size_t>(nearest - places.begin());
 }
 

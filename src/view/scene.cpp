@@ -55,12 +55,12 @@ render::FrameView drawn_or_outlined(const pictures::PictureSeries& series, const
 
 /// Returns the layers of a map; none if it cannot be drawn.
 std::vector<pictures::MapLayer> layers_of(const MapSource& source, const RunStatics& statics) {
-  const pictures::MapFrame of{{*source.frame, statics}, source.reference.get(), !source.since};
+  const pictures::MapFrame bed{{*source.frame, statics}, source.reference.get(), !source.since};
   try {
-    if (source.change) return pictures::change_layers(of, source.settings, source.extent);
+    if (source.change) return pictures::change_layers(bed, source.settings, source.extent);
     std::vector<pictures::MapLayer> layers;
     for (std::size_t k = 0; k < source.settings.layers.size(); ++k)
-      layers.push_back(pictures::make_layer(of, source.settings, source.extent, k));
+      layers.push_back(pictures::make_layer(bed, source.settings, source.extent, k));
     return layers;
   } catch (const Error&) {
     return {};
@@ -91,9 +91,9 @@ render::FrameView draw_map(const pictures::PictureSeries& series, std::size_t k,
 
 render::FrameView draw_change(const pictures::PictureSeries& series, const Frame& frame,
                               const Frame* reference) {
-  const pictures::MapFrame of{{frame, series.run.statics}, reference, false};
-  return drawn_or_outlined(series, frame,
-                           [&] { return pictures::make_change_map(of, series.plan.maps[0], series.extent); });
+  const pictures::MapFrame bed{{frame, series.run.statics}, reference, false};
+  return drawn_or_outlined(
+      series, frame, [&] { return pictures::make_change_map(bed, series.plan.maps[0], series.extent); });
 }
 
 GrainValues grain_values(const MapSource& source, const RunStatics& statics) {

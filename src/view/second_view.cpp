@@ -32,9 +32,9 @@ Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y) 
 }
 
 RunInstants ViewModel::instants() const {
-  RunInstants of = frames_->instants();
-  of.theta_c = theta_c_.value_or(not_known);
-  return of;
+  RunInstants run_instants = frames_->instants();
+  run_instants.theta_c = theta_c_.value_or(not_known);
+  return run_instants;
 }
 
 std::vector<double> ViewModel::tilts_of_tilt() const {
@@ -54,22 +54,22 @@ bool ViewModel::same_map() const {
 }
 
 ViewState ViewModel::second_view_state() const {
-  ViewState of = state;
-  of.map.layers = second_layers(state);
-  of.minus = state.second_view.minus;
-  if (of.minus || of.map.layers != state.map.layers) {  // these belong to another map
-    of.map.range_low.reset();
-    of.map.range_high.reset();
+  ViewState view_state = state;
+  view_state.map.layers = second_layers(state);
+  view_state.minus = state.second_view.minus;
+  if (view_state.minus || view_state.map.layers != state.map.layers) {  // these belong to another map
+    view_state.map.range_low.reset();
+    view_state.map.range_high.reset();
   }
-  if (!other_) return of;
+  if (!other_) return view_state;
   if (linked_.range && same_map() && !state.map.range_low && !state.map.range_high) {
-    of.map.range_low = linked_.range->low;
-    of.map.range_high = linked_.range->high;
+    view_state.map.range_low = linked_.range->low;
+    view_state.map.range_high = linked_.range->high;
   }
   const Vec2 centre = place_in(other_->statics(), statics(), state.camera.centre_x, state.camera.centre_y);
-  of.camera = {centre.x, centre.y, state.camera.zoom};
-  of.selected.reset();
-  return of;
+  view_state.camera = {centre.x, centre.y, state.camera.zoom};
+  view_state.selected.reset();
+  return view_state;
 }
 
 View ViewModel::second() {
@@ -91,9 +91,10 @@ void ViewModel::link_ranges() {
   ViewState plain = state;
   plain.map.range_low.reset();
   plain.map.range_high.reset();
-  const auto range = [&plain](ViewModel& of) {
-    const View view{of, plain, of.map_};
-    return own_range({of.frame_, nullptr, view.settings(), of.bed_, std::nullopt, 0, false}, of.statics());
+  const auto range = [&plain](ViewModel& model) {
+    const View view{model, plain, model.map_};
+    return own_range({model.frame_, nullptr, view.settings(), model.bed_, std::nullopt, 0, false},
+                     model.statics());
   };
   const std::optional<pictures::ScaleRange> one = range(*this), two = range(*other_);
   if (one && two && !(*one == *two)) linked_.range = common_range(*one, *two);

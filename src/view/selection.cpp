@@ -94,8 +94,8 @@ ContactKey key_of(const FrameContacts& contacts, Index c) {
 std::optional<Index> contact_of_key(const FrameContacts& contacts, const ContactKey& key) {
   Index low = 0, high = contacts.count();  // contacts are sorted by key
   const auto before = [&](Index c) {
-    const ContactKey of = key_of(contacts, c);
-    return std::tie(of.a, of.b, of.shift) < std::tie(key.a, key.b, key.shift);
+    const ContactKey candidate = key_of(contacts, c);
+    return std::tie(candidate.a, candidate.b, candidate.shift) < std::tie(key.a, key.b, key.shift);
   };
   while (low < high) {
     const Index middle = low + (high - low) / 2;

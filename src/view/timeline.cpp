@@ -28,12 +28,12 @@ struct EventList {
   std::vector<double> row_tilts, row_times;  ///< rows of the rise: absolute tilts (rad) and times (s)
   std::vector<TimelineEvent> events;
 
-  explicit EventList(const TimelineSource& of) : source(of) {
-    const analysis::SeriesPart rise = analysis::last_rise(of.tilts);
+  explicit EventList(const TimelineSource& timeline_source) : source(timeline_source) {
+    const analysis::SeriesPart rise = analysis::last_rise(timeline_source.tilts);
     rise_begins = rise.first;
-    rise_tilts = analysis::magnitudes(of.tilts, rise);
-    mirrored_slope = analysis::slopes_backwards(of.tilts, rise);
-    const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(of.rows);
+    rise_tilts = analysis::magnitudes(timeline_source.tilts, rise);
+    mirrored_slope = analysis::slopes_backwards(timeline_source.tilts, rise);
+    const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(timeline_source.rows);
     row_tilts = column_of(rows, Observable::tilt);
     row_times = column_of(rows, Observable::time);
   }

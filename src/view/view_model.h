@@ -403,7 +403,7 @@ class ViewModel {
     std::shared_ptr<const Frame> frame;
     pictures::OverloadRule rule;
     double neighbourhood = 0.0;
-    Inspection of;
+    Inspection result;
   } inspection_;
   struct {
     std::shared_ptr<const Frame> stored, mapped;
@@ -416,7 +416,7 @@ class ViewModel {
     double length = 0.0;
     std::optional<analysis::FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
     std::shared_ptr<const Frame> earlier;
-    std::map<std::string_view, std::vector<double>> of;
+    std::map<std::string_view, std::vector<double>> values;
   } grain_values_;
   MapCache map_, second_map_;
   std::shared_ptr<const Frame> first_frame_;      ///< first frame of the run; null until requested

@@ -78,12 +78,13 @@ PlotMarks ViewModel::plot_marks() const {
 }
 
 void ViewModel::go_to_place(double x) {
-  const RunInstants& of = frames_->instants();
-  const auto frame = axis_ == PlotAxis::time ? pictures::nearest_frame(of.times, x)
-                     : axis_ == PlotAxis::angle_left
-                         ? pictures::nearest_frame(analysis::magnitudes(of.tilts, {0, of.tilts.size()}),
-                                                   theta_c_.value_or(not_known) - radians(x))
-                         : pictures::nearest_frame(of.tilts, radians(x));
+  const RunInstants& run_instants = frames_->instants();
+  const auto frame =
+      axis_ == PlotAxis::time ? pictures::nearest_frame(run_instants.times, x)
+      : axis_ == PlotAxis::angle_left
+          ? pictures::nearest_frame(analysis::magnitudes(run_instants.tilts, {0, run_instants.tilts.size()}),
+                                    theta_c_.value_or(not_known) - radians(x))
+          : pictures::nearest_frame(run_instants.tilts, radians(x));
   if (frame) go_to(*frame);
 }
 

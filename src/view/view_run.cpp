@@ -165,8 +165,9 @@ bool ViewModel::is_falling() const {
 pictures::MapExtent ViewModel::live_extent() const {
   constexpr double surplus = 1.05;  // relative to the depth, for a loose bed and its surface
   pictures::MapExtent extent = series_ ? series_->extent() : pictures::bed_extent(statics());
-  const RunStatics& of = statics();
-  extent.y_max = std::max({extent.y_max, surplus * of.depth, of.depth + of.mean_diameter});
+  const RunStatics& bed_statics = statics();
+  extent.y_max =
+      std::max({extent.y_max, surplus * bed_statics.depth, bed_statics.depth + bed_statics.mean_diameter});
   return extent;
 }
 

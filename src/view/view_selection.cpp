@@ -38,7 +38,7 @@ analysis::GrainSource ViewModel::grain_source(bool measured) {
 const std::vector<double>& ViewModel::grain_values(const analysis::GrainNumber& number) {
   const analysis::GrainSource source =
       grain_source(number.quantity->need == analysis::FrameNeed::earlier_frame);
-  const auto [place, fresh] = grain_values_.of.try_emplace(number.name);
+  const auto [place, fresh] = grain_values_.values.try_emplace(number.name);
   if (fresh) place->second = analysis::values_of(number, source);
   return place->second;
 }

@@ -50,7 +50,7 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
   const pictures::MapSettings by = view.settings();
   const pictures::OverloadRule& rule = by;
   if (inspection_.frame != frame_ || !(inspection_.rule == rule) ||
-      inspection_.neighbourhood != asked.neighbourhood || inspection_.of.grain != *asked.selected) {
+      inspection_.neighbourhood != asked.neighbourhood || inspection_.result.grain != *asked.selected) {
     const double widest =
         statics().periodic ? statics().length : 2.0 * std::max(statics().length, statics().depth);
     const double neighbourhood = std::clamp(asked.neighbourhood * statics().mean_diameter, 0.0, widest);
@@ -58,7 +58,7 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
                    inspect(bed(), shown_clusters(by), coarse_graining_rule(rule, statics()), neighbourhood,
                            *asked.selected)};
   }
-  return &inspection_.of;
+  return &inspection_.result;
 }
 
 pictures::MapExtent ViewModel::viewed_bed() const {
@@ -84,10 +84,13 @@ std::optional<double> View::since() const {
 
 std::shared_ptr<const Frame> ViewModel::reference_at(double tilt) {
   const auto k = pictures::nearest_frame(tilts_of_tilt(), tilt);
-  auto of = k ? frame_at(*k) : nullptr;
-  if (!of || of->grain_count() != frame_->grain_count()) return nullptr;  // while a bed is poured
-  if (reference_.stored != of || reference_.l_min != l_min_)
-    reference_ = {of, std::make_shared<const Frame>(pictures::mapped_frame(*of, statics(), l_min_)), l_min_};
+  auto reference = k ? frame_at(*k) : nullptr;
+  if (!reference || reference->grain_count() != frame_->grain_count())
+    return nullptr;  // while a bed is poured
+  if (reference_.stored != reference || reference_.l_min != l_min_)
+    reference_ = {reference,
+                  std::make_shared<const Frame>(pictures::mapped_frame(*reference, statics(), l_min_)),
+                  l_min_};
   return reference_.mapped;
 }
 
@@ -124,13 +127,13 @@ const render::FrameView& View::whole_map(const pictures::MapExtent& shown) const
 
 render::FrameView View::picture(const pictures::MapExtent& shown) const {
   Overlay overlay = run.selection_marks();
-  if (const Inspection* of = run.inspect_selected(*this)) {
-    overlay.selected = of->grain;
-    if (state.highlight_cluster) overlay.cluster = of->cluster;
-    if (state.show_neighbourhoods && of->free) {
+  if (const Inspection* inspection = run.inspect_selected(*this)) {
+    overlay.selected = inspection->grain;
+    if (state.highlight_cluster) overlay.cluster = inspection->cluster;
+    if (state.show_neighbourhoods && inspection->free) {
       for (const double diameter : growing_diameters(state.neighbourhood))
         overlay.diameters.push_back(diameter * run.mean_diameter());
-      overlay.critical_length = of->coarse_graining_length;
+      overlay.critical_length = inspection->coarse_graining_length;
     }
   }
   render::FrameView view = shown_map(whole_map(shown), shown, run.bed());
@@ -150,10 +153,10 @@ const render::FrameView& View::annotated_map() const {
 render::FrameView View::furnished_map() const {
   ViewState on_paper = state;
   on_paper.theme = Theme::light;
-  const View of{run, on_paper, cache, second};
-  const pictures::MapExtent seen = common_part(of.part(run.aspect_), run.bed_);
-  const render::FrameView& whole = of.whole_map(seen);
-  render::FrameView view = of.picture(seen);
+  const View paper_view{run, on_paper, cache, second};
+  const pictures::MapExtent seen = common_part(paper_view.part(run.aspect_), run.bed_);
+  const render::FrameView& whole = paper_view.whole_map(seen);
+  render::FrameView view = paper_view.picture(seen);
   pictures::add_surroundings(view, run.bed());
   view.furniture = true;
   view.transparent = whole.transparent;
@@ -195,18 +198,18 @@ std::string ViewModel::render_command() {
   shown.tilt = frame().tilt;
   shown.since = view.since();
   shown.mean_diameter = mean_diameter();
-  const RunInstants& of = frames_->instants();
+  const RunInstants& run_instants = frames_->instants();
   if (has_program() && frame_count() > 0) shown.frame = std::min(frame_index(), frame_count() - 1);
-  if (replay_ && frame_index() >= of.tilt_count) {
+  if (replay_ && frame_index() >= run_instants.tilt_count) {
     shown.in_flow = true;
-    shown.tilt = of.tilts[of.tilt_count - 1];
-    if (shown.frame) shown.frame = of.tilt_count - 1;
+    shown.tilt = run_instants.tilts[run_instants.tilt_count - 1];
+    if (shown.frame) shown.frame = run_instants.tilt_count - 1;
   }
   if (is_live()) {
-    const auto nearest = pictures::nearest_frame(of.tilts, frame().tilt);
+    const auto nearest = pictures::nearest_frame(run_instants.tilts, frame().tilt);
     if (output_.empty() || !nearest) return {};
     shown.run = output_;
-    shown.tilt = of.tilts[*nearest];
+    shown.tilt = run_instants.tilts[*nearest];
   }
   const pictures::MapExtent seen = common_part(view.part(aspect_), bed_);
   if (!(seen == bed_)) shown.part = seen;

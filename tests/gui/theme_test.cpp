@@ -30,26 +30,26 @@ struct TextPair {
 };
 
 /// Returns all pairs of text and background that occur in a theme.
-std::vector<TextPair> text_pairs(const gui::Palette& of) {
-  return {{"text", of.ink, of.ground},
-          {"text in columns", of.ink, of.panel},
-          {"buttons", of.ink, of.raised},
-          {"buttons under the mouse", of.ink, of.hovered},
-          {"buttons held", of.ink, of.pressed},
-          {"fields", of.ink, of.field},
-          {"chosen rows", of.ink, of.tint},
-          {"hints", of.soft, of.ground},
-          {"hints in columns", of.soft, of.panel},
-          {"an announcement", of.alarm_text, of.alarm},
-          {"a warning", of.warning, of.panel},
-          {"transition", of.transition, of.ground},
-          {"failure", of.failure, of.ground},
-          {"command", of.command, of.ground},
-          {"rearrangement", of.rearrangement, of.ground},
-          {"bookmark", of.bookmark, of.ground},
-          {"second curve", of.curves[1], of.ground},
-          {"third curve", of.curves[2], of.ground},
-          {"fourth curve", of.curves[3], of.ground}};
+std::vector<TextPair> text_pairs(const gui::Palette& palette) {
+  return {{"text", palette.ink, palette.ground},
+          {"text in columns", palette.ink, palette.panel},
+          {"buttons", palette.ink, palette.raised},
+          {"buttons under the mouse", palette.ink, palette.hovered},
+          {"buttons held", palette.ink, palette.pressed},
+          {"fields", palette.ink, palette.field},
+          {"chosen rows", palette.ink, palette.tint},
+          {"hints", palette.soft, palette.ground},
+          {"hints in columns", palette.soft, palette.panel},
+          {"an announcement", palette.alarm_text, palette.alarm},
+          {"a warning", palette.warning, palette.panel},
+          {"transition", palette.transition, palette.ground},
+          {"failure", palette.failure, palette.ground},
+          {"command", palette.command, palette.ground},
+          {"rearrangement", palette.rearrangement, palette.ground},
+          {"bookmark", palette.bookmark, palette.ground},
+          {"second curve", palette.curves[1], palette.ground},
+          {"third curve", palette.curves[2], palette.ground},
+          {"fourth curve", palette.curves[3], palette.ground}};
 }
 
 double linear(std::uint8_t channel) {
@@ -123,10 +123,11 @@ TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
 }
 
 TEST(Print, fills_nothing_with_gray) {
-  const gui::Palette& of = gui::palette_of(view::Theme::print);
-  for (const render::Colour& fill : {of.ground, of.panel, of.raised, of.field, of.track, of.alarm})
+  const gui::Palette& palette = gui::palette_of(view::Theme::print);
+  for (const render::Colour& fill :
+       {palette.ground, palette.panel, palette.raised, palette.field, palette.track, palette.alarm})
     EXPECT_EQ(fill, render::white);
-  for (const render::Colour& text : {of.ink, of.soft, of.line}) EXPECT_EQ(text, render::black);
+  for (const render::Colour& text : {palette.ink, palette.soft, palette.line}) EXPECT_EQ(text, render::black);
 }
 
 /// Returns whether a source contains a colour literal: IM_COL32(1, 2, 3, 4), ImVec4(0.1f ...), Colour{1, 2,

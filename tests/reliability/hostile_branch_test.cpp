@@ -307,12 +307,14 @@ TEST_F(HostileBranch, is_told_by_every_command) {
     EXPECT_FALSE(fs::exists(folder->path("repaired.h5")));
     expect_reported(talus({"run", "--resume", "changed.h5", "-q"}), !read);
   };
-  in("a bed of other grains", false, [](io::BranchOrigin& of) { of.start.world.grains.radius[3] *= 1.1; });
-  in("a frame out of range", false, [](io::BranchOrigin& of) { of.frame = std::int64_t{1} << 40; });
-  in("a tilt that is none", false, [](io::BranchOrigin& of) { of.start.world.tilt = nan; });
-  in("another tilt", true, [](io::BranchOrigin& of) { of.start.world.tilt = 0.3; });
-  in("a friction that is none", true, [](io::BranchOrigin& of) { set(of.start.reals, "friction", nan); });
-  in("no phase", true, [](io::BranchOrigin& of) { of.start.integers.clear(); });
+  in("a bed of other grains", false,
+     [](io::BranchOrigin& origin) { origin.start.world.grains.radius[3] *= 1.1; });
+  in("a frame out of range", false, [](io::BranchOrigin& origin) { origin.frame = std::int64_t{1} << 40; });
+  in("a tilt that is none", false, [](io::BranchOrigin& origin) { origin.start.world.tilt = nan; });
+  in("another tilt", true, [](io::BranchOrigin& origin) { origin.start.world.tilt = 0.3; });
+  in("a friction that is none", true,
+     [](io::BranchOrigin& origin) { set(origin.start.reals, "friction", nan); });
+  in("no phase", true, [](io::BranchOrigin& origin) { origin.start.integers.clear(); });
 }
 
 TEST_F(HostileBranch, names_reach_no_terminal_raw) {

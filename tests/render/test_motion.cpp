@@ -50,15 +50,15 @@ TEST(MotionSample, RangesLeaveOutFewGrains) {
   pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(false));
   const pictures::MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(pictures::MapKind::displacement, false) &&
-              ranges.of(pictures::MapKind::rotation, false));
-  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, false)->low, 0.005, 0.0002);
-  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, false)->high, 0.099, 0.002);
-  EXPECT_NEAR(ranges.of(pictures::MapKind::rotation, false)->high, 95.0, 2.5);
-  EXPECT_EQ(ranges.of(pictures::MapKind::rotation, false)->low,
-            -ranges.of(pictures::MapKind::rotation, false)->high);
-  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, true) ||
-               ranges.of(pictures::MapKind::rotation, true))
+  ASSERT_TRUE(ranges.range(pictures::MapKind::displacement, false) &&
+              ranges.range(pictures::MapKind::rotation, false));
+  EXPECT_NEAR(ranges.range(pictures::MapKind::displacement, false)->low, 0.005, 0.0002);
+  EXPECT_NEAR(ranges.range(pictures::MapKind::displacement, false)->high, 0.099, 0.002);
+  EXPECT_NEAR(ranges.range(pictures::MapKind::rotation, false)->high, 95.0, 2.5);
+  EXPECT_EQ(ranges.range(pictures::MapKind::rotation, false)->low,
+            -ranges.range(pictures::MapKind::rotation, false)->high);
+  EXPECT_FALSE(ranges.range(pictures::MapKind::displacement, true) ||
+               ranges.range(pictures::MapKind::rotation, true))
       << "nothing was measured per degree";
 }
 
@@ -67,9 +67,9 @@ TEST(MotionSample, PerDegreeIsApart) {
   pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(true));
   const pictures::MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(pictures::MapKind::displacement, true).has_value());
-  EXPECT_NEAR(ranges.of(pictures::MapKind::displacement, true)->high, 0.0495, 0.001) << "over two degrees";
-  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, false).has_value());
+  ASSERT_TRUE(ranges.range(pictures::MapKind::displacement, true).has_value());
+  EXPECT_NEAR(ranges.range(pictures::MapKind::displacement, true)->high, 0.0495, 0.001) << "over two degrees";
+  EXPECT_FALSE(ranges.range(pictures::MapKind::displacement, false).has_value());
 }
 
 TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
@@ -77,13 +77,13 @@ TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
   pictures::MotionSample still({pictures::MapKind::displacement, pictures::MapKind::rotation});
   still.add({moved.now.frame, moved.now.statics, nullptr, false, {}});
   still.add({moved.before, moved.now.statics, &moved.before, false, {}});
-  EXPECT_FALSE(still.ranges().of(pictures::MapKind::displacement, false) ||
-               still.ranges().of(pictures::MapKind::rotation, false));
+  EXPECT_FALSE(still.ranges().range(pictures::MapKind::displacement, false) ||
+               still.ranges().range(pictures::MapKind::rotation, false));
   for (Index i = 0; i < 100; ++i) moved.now.frame.x[i] = moved.before.x[i] + 0.4;
   pictures::MotionSample alike({pictures::MapKind::displacement});
   alike.add(moved.frame(false));
-  EXPECT_NEAR(alike.ranges().of(pictures::MapKind::displacement, false)->high, 0.4, 0.015);
-  EXPECT_NEAR(alike.ranges().of(pictures::MapKind::displacement, false)->low, 0.2, 0.01);
+  EXPECT_NEAR(alike.ranges().range(pictures::MapKind::displacement, false)->high, 0.4, 0.015);
+  EXPECT_NEAR(alike.ranges().range(pictures::MapKind::displacement, false)->low, 0.2, 0.01);
 }
 
 TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
@@ -92,17 +92,17 @@ TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
   pictures::MotionSample sample({pictures::MapKind::speed, pictures::MapKind::displacement});
   sample.add({{moved.now.frame, moved.now.statics}, nullptr, true});
   const pictures::MotionRanges ranges = sample.ranges();
-  ASSERT_TRUE(ranges.of(pictures::MapKind::speed, false).has_value());
-  EXPECT_NEAR(std::log10(ranges.of(pictures::MapKind::speed, false)->low), -5.8, 0.05) << "in sqrt(g D)";
-  EXPECT_NEAR(std::log10(ranges.of(pictures::MapKind::speed, false)->high), -2.08, 0.05);
-  EXPECT_FALSE(ranges.of(pictures::MapKind::displacement, false) ||
-               ranges.of(pictures::MapKind::displacement, true));
+  ASSERT_TRUE(ranges.range(pictures::MapKind::speed, false).has_value());
+  EXPECT_NEAR(std::log10(ranges.range(pictures::MapKind::speed, false)->low), -5.8, 0.05) << "in sqrt(g D)";
+  EXPECT_NEAR(std::log10(ranges.range(pictures::MapKind::speed, false)->high), -2.08, 0.05);
+  EXPECT_FALSE(ranges.range(pictures::MapKind::displacement, false) ||
+               ranges.range(pictures::MapKind::displacement, true));
   pictures::MapSettings settings = test::settings_of("speed");
   EXPECT_EQ(test::map_of(moved.now, settings).legends[0].bars[0].title, "in √(gD)");
   settings.motion = ranges;
   const Bar bar = test::map_of(moved.now, settings).legends[0].bars[0];
   EXPECT_EQ(bar.title, "in √(gD), 5 to 99 % of grains");
-  EXPECT_EQ(bar.high, ranges.of(pictures::MapKind::speed, false)->high);
+  EXPECT_EQ(bar.high, ranges.range(pictures::MapKind::speed, false)->high);
 }
 
 TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
@@ -115,7 +115,7 @@ TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
   for (const pictures::MapKind kind : {pictures::MapKind::temperature, pictures::MapKind::shear_rate}) {
     pictures::MotionSample sample({kind}, settings);
     sample.add({{bed.frame, bed.statics}});
-    const std::optional<pictures::ScaleRange> range = sample.ranges().of(kind, false);
+    const std::optional<pictures::ScaleRange> range = sample.ranges().range(kind, false);
     ASSERT_TRUE(range.has_value());
     EXPECT_LT(range->high, pictures::fixed_motion_range(kind, false).low) << "slower than the fixed range";
     settings.layers = {kind};

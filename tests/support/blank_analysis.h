@@ -11,15 +11,16 @@ struct AnalysisSizes {
 };
 
 /// Returns an analysis of these sizes, filled with NaN or 0.
-inline analysis::Analysis blank_analysis(const AnalysisSizes& of,
+inline analysis::Analysis blank_analysis(const AnalysisSizes& counts,
                                          std::span<const analysis::Quantity> table = analysis::quantities()) {
   analysis::Analysis analysis;
-  analysis.thresholds.resize(of.thresholds);
-  analysis.frames.resize(of.frames);
-  analysis.events.resize(of.events);
-  for (analysis::FrameRecord& frame : analysis.frames) frame.thresholds.resize(of.thresholds);
-  const io::Sizes sizes = {{'T', of.frames}, {'F', of.thresholds}, {'N', of.grains}, {'X', of.sections},
-                           {'B', of.bins},   {'Y', of.layers},     {'E', of.events}};
+  analysis.thresholds.resize(counts.thresholds);
+  analysis.frames.resize(counts.frames);
+  analysis.events.resize(counts.events);
+  for (analysis::FrameRecord& frame : analysis.frames) frame.thresholds.resize(counts.thresholds);
+  const io::Sizes sizes = {{'T', counts.frames},   {'F', counts.thresholds}, {'N', counts.grains},
+                           {'X', counts.sections}, {'B', counts.bins},       {'Y', counts.layers},
+                           {'E', counts.events}};
   for (const analysis::Quantity& quantity : table) {
     if (!io::is_present(quantity, analysis)) continue;
     std::size_t count = 1;

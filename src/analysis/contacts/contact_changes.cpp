@@ -32,9 +32,10 @@ std::vector<ContactKey> keys_of(const Frame& frame) {
 }
 
 /// Returns the indices of the contacts in the first list that are not in the second.
-std::vector<Index> places_of_rest(const std::vector<ContactKey>& of, const std::vector<ContactKey>& without) {
+std::vector<Index> places_of_rest(const std::vector<ContactKey>& keys,
+                                  const std::vector<ContactKey>& without) {
   std::vector<ContactKey> rest;
-  std::ranges::set_difference(of, without, std::back_inserter(rest), {}, &ContactKey::bodies,
+  std::ranges::set_difference(keys, without, std::back_inserter(rest), {}, &ContactKey::bodies,
                               &ContactKey::bodies);
   std::vector<Index> places;
   for (const ContactKey& key : rest) places.push_back(key.place);

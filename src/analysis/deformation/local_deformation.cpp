@@ -82,11 +82,11 @@ double vorticity(const Tensor2& gradient) {
 void measure_deformation(const Frame& before, const BedFrame& bed, FrameRecord& record) {
   std::vector<double> shears;
   double nonaffine = 0.0, largest = 0.0;
-  for (const LocalDeformation& of : local_deformations(before, bed)) {
-    if (std::isnan(of.nonaffine)) continue;
-    shears.push_back(shear_strain(of.gradient));
-    nonaffine += of.nonaffine;
-    largest = std::max(largest, of.nonaffine);
+  for (const LocalDeformation& deformation : local_deformations(before, bed)) {
+    if (std::isnan(deformation.nonaffine)) continue;
+    shears.push_back(shear_strain(deformation.gradient));
+    nonaffine += deformation.nonaffine;
+    largest = std::max(largest, deformation.nonaffine);
   }
   if (shears.empty()) return;
   const auto count = static_cast<double>(shears.size());

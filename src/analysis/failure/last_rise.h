@@ -19,7 +19,7 @@ struct SeriesPart {
   std::size_t size() const { return end - first; }
   /// Returns this part of a series.
   template <typename Series>
-  Series of(const Series& series) const {
+  Series slice(const Series& series) const {
     return {series.begin() + static_cast<std::ptrdiff_t>(first),
             series.begin() + static_cast<std::ptrdiff_t>(end)};
   }

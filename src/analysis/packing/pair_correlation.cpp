@@ -162,7 +162,7 @@ class PairSums {
     }
   }
 
-  const Sum& of(std::size_t bin) const { return sums_[bin]; }
+  const Sum& sum(std::size_t bin) const { return sums_[bin]; }
 
  private:
   static constexpr std::size_t lanes = 4, piece = 64;
@@ -212,7 +212,7 @@ PairCorrelation pair_correlation(const std::vector<double>& x, const std::vector
       add_pairs(rows, row, other, reach, sums);
   PairCorrelation result;
   for (std::size_t bin = 0; bin < static_cast<std::size_t>(bins); ++bin) {
-    const auto [products, pairs] = sums.of(bin);
+    const auto [products, pairs] = sums.sum(bin);
     const bool any = pairs > 0.0 && points.variance > 0.0;
     result.r.push_back((static_cast<double>(bin) + 0.5) * largest / bins);
     result.value.push_back(any ? products / (pairs * points.variance) : not_known);

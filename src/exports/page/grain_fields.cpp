@@ -18,8 +18,8 @@ constexpr double middle_code = 32767.0;
 
 /// Returns the quantum of rotations, which are signed and centred on zero.
 Quantum rotation_quantum(const pictures::MapSettings& settings) {
-  const auto per_degree = settings.motion.of(pictures::MapKind::rotation, true);
-  const auto fitting = per_degree ? per_degree : settings.motion.of(pictures::MapKind::rotation, false);
+  const auto per_degree = settings.motion.range(pictures::MapKind::rotation, true);
+  const auto fitting = per_degree ? per_degree : settings.motion.range(pictures::MapKind::rotation, false);
   const double step =
       fitting.value_or(pictures::fixed_motion_range(pictures::MapKind::rotation, true)).high / rotation_steps;
   return {-middle_code * step, step};
@@ -60,14 +60,14 @@ GrainField& GrainFields::field(const std::string& name) {
   return *found;
 }
 
-void GrainFields::set(GrainField& of, std::size_t column, std::size_t grain, double value) {
-  of.codes.at(grain, column) = code_of(of.quantum, value);
+void GrainFields::set(GrainField& target, std::size_t column, std::size_t grain, double value) {
+  target.codes.at(grain, column) = code_of(target.quantum, value);
 }
 
 void GrainFields::add(const PageFrame& frame, pictures::MapKind kind, const pictures::MapLayer& layer) {
   if (layer.values.empty()) return;
-  GrainField& of = field(std::string(pictures::map_name(kind)));
-  for (std::size_t i = 0; i < layer.values.size(); ++i) set(of, frame.column, i, layer.values[i]);
+  GrainField& target = field(std::string(pictures::map_name(kind)));
+  for (std::size_t i = 0; i < layer.values.size(); ++i) set(target, frame.column, i, layer.values[i]);
 }
 
 void GrainFields::add(const PageFrame& frame) {

@@ -37,7 +37,7 @@ class GrainFields {
 
  private:
   GrainField& field(const std::string& name);
-  void set(GrainField& of, std::size_t column, std::size_t grain, double value);
+  void set(GrainField& target, std::size_t column, std::size_t grain, double value);
 
   const PageRun& run_;
   PlaceQuantum x_quantum_, y_quantum_;

@@ -49,8 +49,8 @@ std::string looks_json(const PageFrame& frame, const pictures::MapLayer& layer) 
   std::string none;
   for (std::size_t i = 0; i < layer.looks.size(); ++i) {
     const Index label = frame.clusters.label[i];
-    std::string& of = label < 0 ? none : looks[static_cast<std::size_t>(label)];
-    if (of.empty()) of = look_text(layer.looks[i]);
+    std::string& style = label < 0 ? none : looks[static_cast<std::size_t>(label)];
+    if (style.empty()) style = look_text(layer.looks[i]);
   }
   if (none.empty()) none = look_text(pictures::outline_look());
   const std::string rest = looks.empty() ? none : looks.back();

@@ -131,17 +131,17 @@ TEST(PairedDifference, of_round_off_has_no_error) {
 }
 
 TEST(Verdict, goes_by_the_interval_of_95_percent) {
-  const auto of = [](int count, double mean, double error) {
+  const auto judge = [](int count, double mean, double error) {
     return verdict({count, mean, error * std::sqrt(count), error});
   };
-  EXPECT_EQ(of(6, 2.5, 1.0), Verdict::within_error);
-  EXPECT_EQ(of(6, -2.6, 1.0), Verdict::differs);
-  EXPECT_EQ(of(2, 12.0, 1.0), Verdict::within_error) << "two seeds are too few";
-  EXPECT_EQ(of(4, 0.0, 0.0), Verdict::within_error) << "the same bits";
-  EXPECT_EQ(of(4, -0.04, 0.0), Verdict::unknown)
+  EXPECT_EQ(judge(6, 2.5, 1.0), Verdict::within_error);
+  EXPECT_EQ(judge(6, -2.6, 1.0), Verdict::differs);
+  EXPECT_EQ(judge(2, 12.0, 1.0), Verdict::within_error) << "two seeds are too few";
+  EXPECT_EQ(judge(4, 0.0, 0.0), Verdict::within_error) << "the same bits";
+  EXPECT_EQ(judge(4, -0.04, 0.0), Verdict::unknown)
       << "each seed differs by one step of the quantity, so there is no error";
-  EXPECT_EQ(of(1, 5.0, none), Verdict::unknown);
-  EXPECT_EQ(of(0, none, none), Verdict::unknown);
+  EXPECT_EQ(judge(1, 5.0, none), Verdict::unknown);
+  EXPECT_EQ(judge(0, none, none), Verdict::unknown);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ std::vector<Change> changes_of_state() {
       {"inverse_inertia", &Grains::inverse_inertia},
       {"inertia", &Grains::inertia}};
   for (const auto& [name, field] : grain_fields)
-    changes.push_back({"grains." + name, [=, of = field](World& w) { nudge((w.grains.*of)[1]); }});
+    changes.push_back({"grains." + name, [=, member = field](World& w) { nudge((w.grains.*member)[1]); }});
   changes.push_back({"grains.image", [](World& w) { ++w.grains.image[1]; }});
   changes.push_back({"grains.free_count", [](World& w) { --w.grains.free_count; }});
   changes.push_back({"boundary.periodic", [](World& w) { w.boundary.periodic = false; }});

@@ -65,8 +65,8 @@ class DroppedFrames : public testing::Test {
     }
     return found;
   }
-  std::size_t drop(const std::string& keep, const EnsemblePlan& of, const std::string& folder) {
-    return drop_frames(manifest_with(keep), of, folder_.path(folder), known_);
+  std::size_t drop(const std::string& keep, const EnsemblePlan& ensemble, const std::string& folder) {
+    return drop_frames(manifest_with(keep), ensemble, folder_.path(folder), known_);
   }
 
   test::TemporaryFolder folder_;
@@ -74,18 +74,18 @@ class DroppedFrames : public testing::Test {
 };
 
 TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_stays) {
-  const EnsemblePlan of = plan("e", 2);
-  const std::string path = of.members[0].path;
-  EXPECT_EQ(drop("", of, "e"), 0u);
-  EXPECT_EQ(drop("2", of, "e"), 0u) << "both seeds keep their frames";
-  const MemberResult before = analysed_member(of.members[0], known_);
+  const EnsemblePlan ensemble = plan("e", 2);
+  const std::string path = ensemble.members[0].path;
+  EXPECT_EQ(drop("", ensemble, "e"), 0u);
+  EXPECT_EQ(drop("2", ensemble, "e"), 0u) << "both seeds keep their frames";
+  const MemberResult before = analysed_member(ensemble.members[0], known_);
   EXPECT_TRUE(before.has_frames);
   const std::vector<StepRow> steps = io::RunFile::open(path).steps();
   const std::vector<double> tilts = io::RunFile::open(path).frame_tilts();
   fs::create_directory(io::run_folder(path));
-  EXPECT_EQ(drop("analysis", of, "e"), 2u);
+  EXPECT_EQ(drop("analysis", ensemble, "e"), 2u);
   EXPECT_FALSE(fs::exists(io::run_folder(path))) << "remains of a kill are removed";
-  EXPECT_EQ(drop("analysis", of, "e"), 0u);
+  EXPECT_EQ(drop("analysis", ensemble, "e"), 0u);
   const io::RunFile run = io::RunFile::open(path);
   EXPECT_FALSE(run.has_frames());
   EXPECT_EQ(run.frame_tilts(), tilts);
@@ -94,7 +94,7 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   EXPECT_EQ(hash_text(state_hash(run.checkpoint().world)), before.numbers.state_hash);
   for (const auto& read : {&io::RunFile::frame, &io::RunFile::positions})
     EXPECT_EQ(test::exit_code_of([&] { (run.*read)(0); }), ExitCode::missing_input);
-  const MemberResult& after = read_member(of.members[0], known_);
+  const MemberResult& after = read_member(ensemble.members[0], known_);
   EXPECT_FALSE(after.has_frames);
   ASSERT_EQ(after.numbers.numbers.size(), before.numbers.numbers.size());
   for (std::size_t k = 0; k < before.numbers.numbers.size(); ++k) {
@@ -103,7 +103,7 @@ TEST_F(DroppedFrames, are_those_of_members_that_are_done_and_the_rest_of_a_run_s
   }
   EXPECT_EQ(after.series.theta, before.series.theta);
   EXPECT_EQ(after.lists.lists.size(), before.lists.lists.size());
-  EXPECT_LT(fs::file_size(path), fs::file_size(of.members[1].path) * 2) << "both are small";
+  EXPECT_LT(fs::file_size(path), fs::file_size(ensemble.members[1].path) * 2) << "both are small";
   io::store_analysis(path, *io::read_analysis(run), before.numbers.state_hash);
   EXPECT_FALSE(io::RunFile::open(path).has_frames()) << "analysed again, it is unchanged";
   EXPECT_EQ(test::exit_code_of([&] { runs::analyse_run(run, analysis::AnalysisParameters(), 1, {}); }),
@@ -121,20 +121,20 @@ TEST_F(DroppedFrames, are_none_behind_a_link) {
 }
 
 TEST_F(DroppedFrames, are_not_those_of_another_run) {
-  const EnsemblePlan of = plan("e", 1);
-  fs::rename(of.members[0].path, of.members[1].path);
-  EXPECT_EQ(drop("analysis", of, "e"), 0u);
-  EXPECT_TRUE(io::RunFile::open(of.members[1].path).has_frames());
+  const EnsemblePlan ensemble = plan("e", 1);
+  fs::rename(ensemble.members[0].path, ensemble.members[1].path);
+  EXPECT_EQ(drop("analysis", ensemble, "e"), 0u);
+  EXPECT_TRUE(io::RunFile::open(ensemble.members[1].path).has_frames());
 }
 
 TEST_F(DroppedFrames, leave_no_folders_and_claims_of_members_that_are_done) {
-  const EnsemblePlan of = plan("e", 1);
-  for (const std::size_t m : {0u, 1u}) fs::create_directory(io::run_folder(of.members[m].path));
-  std::ofstream(claim_path(of.members[0].path, 0)) << "process 1 on host far, boot another\n";
-  drop_leftovers(of);
-  EXPECT_FALSE(fs::exists(io::run_folder(of.members[0].path)));
-  EXPECT_FALSE(fs::exists(claim_path(of.members[0].path, 0)));
-  EXPECT_TRUE(fs::exists(io::run_folder(of.members[1].path))) << "of an unfinished member";
+  const EnsemblePlan ensemble = plan("e", 1);
+  for (const std::size_t m : {0u, 1u}) fs::create_directory(io::run_folder(ensemble.members[m].path));
+  std::ofstream(claim_path(ensemble.members[0].path, 0)) << "process 1 on host far, boot another\n";
+  drop_leftovers(ensemble);
+  EXPECT_FALSE(fs::exists(io::run_folder(ensemble.members[0].path)));
+  EXPECT_FALSE(fs::exists(claim_path(ensemble.members[0].path, 0)));
+  EXPECT_TRUE(fs::exists(io::run_folder(ensemble.members[1].path))) << "of an unfinished member";
 }
 
 }  // namespace

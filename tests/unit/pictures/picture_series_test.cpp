@@ -144,7 +144,7 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
     DrawnRun run = open_drawn_run(path, plan_of("displacement", options), {});
     fit_to_frames(run, frames);
     const ScaleRange range =
-        run.series.plan.maps[0].motion.of(MapKind::displacement, false).value_or(ScaleRange{0.0, 0.0});
+        run.series.plan.maps[0].motion.range(MapKind::displacement, false).value_or(ScaleRange{0.0, 0.0});
     return std::pair(std::lround(1000.0 * range.low), std::lround(1000.0 * range.high));
   };
   // Values in thousandths of D. All grains have moved by 0.1 D at 1 deg, and by 0.2 D at 2 deg.

@@ -320,7 +320,7 @@ TEST(TiltBefore, is_that_of_the_bed_when_the_command_was_given_to_the_last_digit
     for (int k = 0; k < steps; ++k) session.advance();
   };
   const Command push{0, CommandKind::push, 3, 0.01, 0.0};
-  const auto rate = [](double of) { return Command{0, CommandKind::tilt_rate, -1, of, 0.0}; };
+  const auto rate = [](double value) { return Command{0, CommandKind::tilt_rate, -1, value, 0.0}; };
   session.advance();
   give(push);
   while (session.phase() == Phase::deposition) session.advance();

@@ -181,8 +181,8 @@ TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
 /// A run without commands stores no such values.
 TEST(Checkpoint, has_what_commands_changed_and_only_that) {
   Session session(small_bed());
-  const auto count = [](const Session& of) {
-    const io::Checkpoint checkpoint = of.checkpoint(0.0);
+  const auto count = [](const Session& subject) {
+    const io::Checkpoint checkpoint = subject.checkpoint(0.0);
     return checkpoint.integers.size() + checkpoint.reals.size();
   };
   const std::size_t plain = count(session);

@@ -120,9 +120,9 @@ TEST(ScriptedRun, that_cannot_go_on_leaves_the_state_before_the_command) {
   scenario.commands = {{1.0, {}, CommandKind::push, 7, 0.0, 0.5},
                        {1.0, {}, CommandKind::release, -1, 0.0, 0.0}};
   Session session(scenario);
-  const auto message = [&](Session& of) -> std::string {
+  const auto message = [&](Session& subject) -> std::string {
     try {
-      while (of.phase() != Phase::done) of.advance();
+      while (subject.phase() != Phase::done) subject.advance();
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ExitCode::bad_data);
       return error.what();

@@ -227,8 +227,9 @@ TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_l
   const std::vector<ObservableRow> rows = run.observables();
   for (std::size_t k = 0; k < analysis.frames.size(); ++k) {
     EXPECT_EQ(analysis.frames[k].tilt, run.frame_tilts()[k]);
-    const auto row = std::ranges::find(rows, run.all_frame_times()[k],
-                                       [](const ObservableRow& of) { return at(of, Observable::time); });
+    const auto row = std::ranges::find(rows, run.all_frame_times()[k], [](const ObservableRow& entry) {
+      return at(entry, Observable::time);
+    });
     ASSERT_NE(row, rows.end());
     EXPECT_EQ(analysis.frames[k].volume_strain, at(*row, Observable::volume_strain)) << k;
   }

@@ -138,16 +138,16 @@ TEST(ReproductionReport, without_a_bed_says_so) {
 }
 
 TEST(SpreadText, has_the_digits_of_its_deviation) {
-  const auto of = [](int runs, Statistics values, bool at_most = false) {
+  const auto text = [](int runs, Statistics values, bool at_most = false) {
     return spread_text({runs, values, at_most});
   };
-  EXPECT_EQ(of(2, {2, 0.81499, 0.0123}), "0.815 ± 0.012");
-  EXPECT_EQ(of(3, {2, 15.1234, 1.5}), "15.1 ± 1.5 (2 of 3)");
-  EXPECT_EQ(of(1, {1, 0.99996, none}), "1.00");
-  EXPECT_EQ(of(1, {1, 0.0, none}, true), "<= 0.00");
-  EXPECT_EQ(of(1, {1, 119.2, none}), "119");
-  EXPECT_EQ(of(2, {2, 7.0, 0.0}), "7.00 ± 0");
-  EXPECT_EQ(of(2, {0, none, none}), "-");
+  EXPECT_EQ(text(2, {2, 0.81499, 0.0123}), "0.815 ± 0.012");
+  EXPECT_EQ(text(3, {2, 15.1234, 1.5}), "15.1 ± 1.5 (2 of 3)");
+  EXPECT_EQ(text(1, {1, 0.99996, none}), "1.00");
+  EXPECT_EQ(text(1, {1, 0.0, none}, true), "<= 0.00");
+  EXPECT_EQ(text(1, {1, 119.2, none}), "119");
+  EXPECT_EQ(text(2, {2, 7.0, 0.0}), "7.00 ± 0");
+  EXPECT_EQ(text(2, {0, none, none}), "-");
 }
 
 TEST(ValuesCsv, has_a_row_for_each_value) {

@@ -18,8 +18,8 @@ pictures::MapExtent part(const ViewCamera& camera, double aspect, double turn_de
   return shown_part(camera, bed, 1.0, aspect, radians(turn_deg));
 }
 
-double length(const pictures::MapExtent& of) { return of.x_max - of.x_min; }
-double depth(const pictures::MapExtent& of) { return of.y_max - of.y_min; }
+double length(const pictures::MapExtent& extent) { return extent.x_max - extent.x_min; }
+double depth(const pictures::MapExtent& extent) { return extent.y_max - extent.y_min; }
 
 TEST(Camera, shows_all_of_the_bed_in_the_middle_of_the_picture) {
   for (const double aspect : {0.5, 2.0, 5.0, 20.0}) {

@@ -59,9 +59,9 @@ TEST_F(GrainQuantities, all_have_a_value_for_each_grain) {
 }
 
 TEST_F(GrainQuantities, without_a_first_frame_nothing_is_said_of_displacements) {
-  const analysis::GrainSource of = {{frame_, statics_}};
-  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_x"), of)[3]));
-  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_y"), of)[3]));
+  const analysis::GrainSource source = {{frame_, statics_}};
+  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_x"), source)[3]));
+  EXPECT_TRUE(std::isnan(analysis::values_of(analysis::grain_number("displacement_y"), source)[3]));
 }
 
 TEST(GrainQuantitiesOfARun, are_judged_as_the_analysis_does) {

@@ -82,13 +82,13 @@ TEST(History, a_grain_that_has_not_arrived_has_no_place) {
 TEST(Contact, is_told_by_force_and_friction) {
   const RunStatics statics = example::bed_statics();
   const auto frame = read_frame(4);
-  const ContactInspection of = inspect_contact({*frame, statics}, {3, 13, 0}, 0.5);
-  EXPECT_TRUE(of.carries);
-  EXPECT_EQ(of.fn, 4.0);
-  EXPECT_EQ(of.ft, -1.0);
-  EXPECT_DOUBLE_EQ(of.mobilisation, 0.5);
-  EXPECT_EQ(of.a_name, "grain 3");
-  EXPECT_EQ(of.b_name, "grain 13");
+  const ContactInspection inspection = inspect_contact({*frame, statics}, {3, 13, 0}, 0.5);
+  EXPECT_TRUE(inspection.carries);
+  EXPECT_EQ(inspection.fn, 4.0);
+  EXPECT_EQ(inspection.ft, -1.0);
+  EXPECT_DOUBLE_EQ(inspection.mobilisation, 0.5);
+  EXPECT_EQ(inspection.a_name, "grain 3");
+  EXPECT_EQ(inspection.b_name, "grain 13");
   const ContactInspection open = inspect_contact({*frame, statics}, {3, 43, 1}, 0.5);
   EXPECT_FALSE(open.carries);
   EXPECT_EQ(open.b_name, "floor grain 43");
@@ -104,10 +104,10 @@ TEST(Contact, with_a_wall_has_the_friction_of_the_wall) {
   const Index wall = frame.grain_count();
   frame.contacts.b[c] = wall;
   frame.contacts.nx[c] = -1.0;
-  const ContactInspection of = inspect_contact({frame, statics}, {3, wall, 0}, 0.5);
-  EXPECT_EQ(of.b_name, "left wall");
-  EXPECT_EQ(of.friction, 1.0);
-  EXPECT_DOUBLE_EQ(of.mobilisation, 0.25);
+  const ContactInspection inspection = inspect_contact({frame, statics}, {3, wall, 0}, 0.5);
+  EXPECT_EQ(inspection.b_name, "left wall");
+  EXPECT_EQ(inspection.friction, 1.0);
+  EXPECT_DOUBLE_EQ(inspection.mobilisation, 0.25);
   EXPECT_TRUE(instant_of(frame, {{}, ContactKey{3, wall, 0}}).with_wall);
 }
 

@@ -59,23 +59,23 @@ analysis::CoarseGrainingRule rule_of(double threshold, double cut) {
 
 TEST(Inspection, has_the_contacts_of_the_grain_seen_from_it) {
   const test::Packing packing = corner();
-  const Inspection of = inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0), 1.0, 1);
-  ASSERT_EQ(of.contacts.size(), 3u);
-  const GrainContact& left = of.contacts[0];
+  const Inspection inspection = inspect(packing, clusters_of(packing, 2.0), rule_of(2.0, 1.0), 1.0, 1);
+  ASSERT_EQ(inspection.contacts.size(), 3u);
+  const GrainContact& left = inspection.contacts[0];
   EXPECT_EQ(left.other, 0);
   EXPECT_EQ(left.other_name, "grain 0");
   EXPECT_EQ(left.nx, -1.0);  // the normal of the contact points from 0 to 1
   EXPECT_EQ(left.fn, 4.0);
   EXPECT_EQ(left.ft, 1.0);
-  const GrainContact& below = of.contacts[1];
+  const GrainContact& below = inspection.contacts[1];
   EXPECT_EQ(below.other_name, "floor grain 2");
   EXPECT_EQ(below.ny, -1.0);
   EXPECT_EQ(below.ft, -3.0);
   EXPECT_EQ(below.status, ContactStatus::sliding);
-  EXPECT_EQ(of.contacts[2].other_name, "right wall");
-  EXPECT_EQ(of.contacts[2].nx, 1.0);
-  EXPECT_EQ(of.mass, 3.0);
-  EXPECT_EQ(of.y, 0.5);
+  EXPECT_EQ(inspection.contacts[2].other_name, "right wall");
+  EXPECT_EQ(inspection.contacts[2].nx, 1.0);
+  EXPECT_EQ(inspection.mass, 3.0);
+  EXPECT_EQ(inspection.y, 0.5);
 }
 
 TEST(Inspection, names_planes_by_where_they_are) {
@@ -101,30 +101,30 @@ TEST(Inspection, of_a_pressed_grain_has_its_stress) {
   }
   test::moments_from_contacts(packing);
   packing = whole(packing);
-  const Inspection of = inspect(packing, clusters_of(packing, 0.5), rule_of(0.5, 5.0), 0.0, 0);
-  EXPECT_NEAR(of.internal_moment.xx, 4.0, 1e-15);
-  EXPECT_NEAR(of.internal_moment.yy, 1.0, 1e-15);
-  EXPECT_NEAR(of.state.ratio, 0.6, 1e-15);
-  EXPECT_NEAR(of.gamma, 0.6, 1e-15);
-  EXPECT_NEAR(of.state.axis, 0.0, 1e-15);
-  EXPECT_TRUE(of.overloaded);
-  EXPECT_EQ(of.cluster, 0);
-  EXPECT_EQ(of.cluster_size, 5);  // all of them carry force along one line
-  EXPECT_NEAR(of.neighbourhood_gamma, 0.6, 1e-15) << "the grain alone";
+  const Inspection inspection = inspect(packing, clusters_of(packing, 0.5), rule_of(0.5, 5.0), 0.0, 0);
+  EXPECT_NEAR(inspection.internal_moment.xx, 4.0, 1e-15);
+  EXPECT_NEAR(inspection.internal_moment.yy, 1.0, 1e-15);
+  EXPECT_NEAR(inspection.state.ratio, 0.6, 1e-15);
+  EXPECT_NEAR(inspection.gamma, 0.6, 1e-15);
+  EXPECT_NEAR(inspection.state.axis, 0.0, 1e-15);
+  EXPECT_TRUE(inspection.overloaded);
+  EXPECT_EQ(inspection.cluster, 0);
+  EXPECT_EQ(inspection.cluster_size, 5);  // all of them carry force along one line
+  EXPECT_NEAR(inspection.neighbourhood_gamma, 0.6, 1e-15) << "the grain alone";
   // Its neighbours add twice 2 J along x and twice 1/2 J along y: 8 to 2, still 3/5; it never falls below
   // 1/2.
-  ASSERT_EQ(of.curve.l.size(), 2u);
-  EXPECT_EQ(of.curve.l[1], 2.0);
-  EXPECT_NEAR(of.curve.gamma[1], 0.6, 1e-15);
-  EXPECT_EQ(of.coarse_graining_length, 5.0) << "the cut-off";
+  ASSERT_EQ(inspection.curve.l.size(), 2u);
+  EXPECT_EQ(inspection.curve.l[1], 2.0);
+  EXPECT_NEAR(inspection.curve.gamma[1], 0.6, 1e-15);
+  EXPECT_EQ(inspection.coarse_graining_length, 5.0) << "the cut-off";
 }
 
 TEST(Inspection, of_a_grain_that_is_not_overloaded_has_no_length) {
   const test::Packing packing = whole(test::random_packing(1, 50, 10.0, 6.0, true));
-  const Inspection of = inspect(packing, clusters_of(packing, 1.5), rule_of(1.5, 3.0), 3.0, 4);
-  EXPECT_FALSE(of.overloaded);
-  EXPECT_FALSE(of.coarse_graining_length.has_value());
-  EXPECT_EQ(of.cluster, -1);
+  const Inspection inspection = inspect(packing, clusters_of(packing, 1.5), rule_of(1.5, 3.0), 3.0, 4);
+  EXPECT_FALSE(inspection.overloaded);
+  EXPECT_FALSE(inspection.coarse_graining_length.has_value());
+  EXPECT_EQ(inspection.cluster, -1);
 }
 
 TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
@@ -141,14 +141,14 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
     ASSERT_GT(all.cut_off, 5);
     ASSERT_GT(all.overloaded - all.cut_off, 5);
     for (Index i = 0; i < packing.statics.free_count; ++i) {
-      const Inspection of = inspect(packing, clusters, rule, wide, i);
-      EXPECT_EQ(of.coarse_graining_length.has_value(), !std::isnan(all.length[i]));
-      if (of.coarse_graining_length) {
-        EXPECT_EQ(*of.coarse_graining_length, all.length[i]) << "grain " << i;
+      const Inspection inspection = inspect(packing, clusters, rule, wide, i);
+      EXPECT_EQ(inspection.coarse_graining_length.has_value(), !std::isnan(all.length[i]));
+      if (inspection.coarse_graining_length) {
+        EXPECT_EQ(*inspection.coarse_graining_length, all.length[i]) << "grain " << i;
       }
-      EXPECT_EQ(of.neighbourhood_gamma, gamma[i]);
-      EXPECT_EQ(of.gamma, packing.frame.gamma[i]);
-      EXPECT_EQ(of.state.ratio, stress::stress_state(packing.frame.internal_moment[i]).ratio)
+      EXPECT_EQ(inspection.neighbourhood_gamma, gamma[i]);
+      EXPECT_EQ(inspection.gamma, packing.frame.gamma[i]);
+      EXPECT_EQ(inspection.state.ratio, stress::stress_state(packing.frame.internal_moment[i]).ratio)
           << "of the grain alone";
     }
   }
@@ -156,13 +156,13 @@ TEST(Inspection, agrees_with_coarse_graining_of_the_whole_bed) {
 
 TEST(Inspection, of_a_floor_grain_has_contacts_only) {
   const test::Packing packing = corner();
-  const Inspection of = inspect(packing, clusters_of(packing, 0.1), rule_of(0.1, 1.0), 1.0, 2);
-  EXPECT_FALSE(of.free);
-  ASSERT_EQ(of.contacts.size(), 1u);
-  EXPECT_EQ(of.contacts[0].other, 1);
-  EXPECT_EQ(of.contacts[0].ny, 1.0);
-  EXPECT_TRUE(of.curve.l.empty());
-  EXPECT_FALSE(of.coarse_graining_length.has_value());
+  const Inspection inspection = inspect(packing, clusters_of(packing, 0.1), rule_of(0.1, 1.0), 1.0, 2);
+  EXPECT_FALSE(inspection.free);
+  ASSERT_EQ(inspection.contacts.size(), 1u);
+  EXPECT_EQ(inspection.contacts[0].other, 1);
+  EXPECT_EQ(inspection.contacts[0].ny, 1.0);
+  EXPECT_TRUE(inspection.curve.l.empty());
+  EXPECT_FALSE(inspection.coarse_graining_length.has_value());
 }
 
 TEST(GrainAt, is_the_grain_whose_disc_holds_the_place) {

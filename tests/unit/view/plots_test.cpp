@@ -143,11 +143,11 @@ TEST(Plots, say_the_threshold_that_they_are_of) {
 
 TEST(Plots, have_statistics_of_a_range) {
   const PlotSeries series{"", {0.0, 1.0, 2.0, 3.0, 4.0}, {9.0, 2.0, not_known, 6.0, 9.0}, false, {}};
-  const RangeStatistics of = statistics_of(series, 1.0, 3.0);
-  EXPECT_EQ(of.count, 2u);
-  EXPECT_DOUBLE_EQ(of.mean, 4.0);
-  EXPECT_DOUBLE_EQ(of.deviation, std::sqrt(8.0));
-  EXPECT_DOUBLE_EQ(of.slope, 2.0);
+  const RangeStatistics statistics = statistics_of(series, 1.0, 3.0);
+  EXPECT_EQ(statistics.count, 2u);
+  EXPECT_DOUBLE_EQ(statistics.mean, 4.0);
+  EXPECT_DOUBLE_EQ(statistics.deviation, std::sqrt(8.0));
+  EXPECT_DOUBLE_EQ(statistics.slope, 2.0);
   EXPECT_TRUE(std::isnan(statistics_of(series, 5.0, 6.0).mean));
   EXPECT_TRUE(std::isnan(statistics_of(series, 0.5, 1.5).deviation));
   EXPECT_TRUE(std::isnan(statistics_of(series, 0.5, 1.5).slope));

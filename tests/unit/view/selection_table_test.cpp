@@ -17,10 +17,10 @@ const std::vector<double> values = {3.0, nan, 1.0, 2.0, 1.0, 100.0};
 const std::vector<Index> grains = {0, 1, 2, 3, 4};
 
 TEST(TableOfGrains, values_that_are_not_there_do_not_count) {
-  const Statistics of = talus::statistics_of(known_values(grains, values));
-  EXPECT_EQ(of.count, 4);
-  EXPECT_DOUBLE_EQ(of.mean, 1.75);
-  EXPECT_DOUBLE_EQ(of.deviation, std::sqrt((1.5625 + 2 * 0.5625 + 0.0625) / 3.0));
+  const Statistics statistics = talus::statistics_of(known_values(grains, values));
+  EXPECT_EQ(statistics.count, 4);
+  EXPECT_DOUBLE_EQ(statistics.mean, 1.75);
+  EXPECT_DOUBLE_EQ(statistics.deviation, std::sqrt((1.5625 + 2 * 0.5625 + 0.0625) / 3.0));
   EXPECT_EQ(known_values(grains, values), (std::vector<double>{3.0, 1.0, 2.0, 1.0}));
   EXPECT_TRUE(known_values(std::vector<Index>{1}, values).empty());
 }

@@ -240,12 +240,12 @@ TEST_F(ViewOfRun, inspects_the_selected_grain) {
   model_->go_to(3);
   model_->state.selected = find_grain(model_->bed(), 0.4, 1.5);
   ASSERT_TRUE(model_->state.selected.has_value());
-  const Inspection* of = model_->inspection();
-  ASSERT_NE(of, nullptr);
-  EXPECT_EQ(of->grain, 10);
-  EXPECT_EQ(of->cluster_size, 4);
-  EXPECT_EQ(of->coarse_graining_length, std::sqrt(8.0));
-  EXPECT_EQ(of, model_->inspection());
+  const Inspection* inspection = model_->inspection();
+  ASSERT_NE(inspection, nullptr);
+  EXPECT_EQ(inspection->grain, 10);
+  EXPECT_EQ(inspection->cluster_size, 4);
+  EXPECT_EQ(inspection->coarse_graining_length, std::sqrt(8.0));
+  EXPECT_EQ(inspection, model_->inspection());
   model_->state.neighbourhood = 2.0;
   EXPECT_NEAR(model_->inspection()->neighbourhood_gamma, 3.0 / 7.0, 1e-12);
   model_->go_to(0);

@@ -35,12 +35,12 @@ Packing random_bed() { return with_images(test::random_packing(5, 150, 12.0, 10.
 TEST(LocalDeformation, of_an_affine_motion_is_its_gradient_and_leaves_nothing) {
   const Packing bed = random_bed();
   const Frame now = moved_by(bed.frame, {1.1, 0.3, -0.2, 0.9}, 3.0, -1.0);
-  for (const LocalDeformation& of : local_deformations(bed.frame, {now, bed.statics})) {
-    EXPECT_NEAR(of.gradient.xx, 0.1, 1e-12);
-    EXPECT_NEAR(of.gradient.xy, 0.3, 1e-12);
-    EXPECT_NEAR(of.gradient.yx, -0.2, 1e-12);
-    EXPECT_NEAR(of.gradient.yy, -0.1, 1e-12);
-    EXPECT_NEAR(of.nonaffine, 0.0, 1e-13);
+  for (const LocalDeformation& deformation : local_deformations(bed.frame, {now, bed.statics})) {
+    EXPECT_NEAR(deformation.gradient.xx, 0.1, 1e-12);
+    EXPECT_NEAR(deformation.gradient.xy, 0.3, 1e-12);
+    EXPECT_NEAR(deformation.gradient.yx, -0.2, 1e-12);
+    EXPECT_NEAR(deformation.gradient.yy, -0.1, 1e-12);
+    EXPECT_NEAR(deformation.nonaffine, 0.0, 1e-13);
   }
 }
 
@@ -48,11 +48,11 @@ TEST(LocalDeformation, of_a_rigid_turn_is_vorticity_without_strain) {
   const Packing bed = random_bed();
   const double angle = radians(40.0), c = std::cos(angle), s = std::sin(angle);
   const Frame now = moved_by(bed.frame, {c, -s, s, c}, 1.0, 2.0);
-  for (const LocalDeformation& of : local_deformations(bed.frame, {now, bed.statics})) {
-    EXPECT_NEAR(shear_strain(of.gradient), 0.0, 1e-12);
-    EXPECT_NEAR(area_strain(of.gradient), 0.0, 1e-12);
-    EXPECT_NEAR(vorticity(of.gradient), 2.0 * angle, 1e-12);
-    EXPECT_NEAR(of.nonaffine, 0.0, 1e-12);
+  for (const LocalDeformation& deformation : local_deformations(bed.frame, {now, bed.statics})) {
+    EXPECT_NEAR(shear_strain(deformation.gradient), 0.0, 1e-12);
+    EXPECT_NEAR(area_strain(deformation.gradient), 0.0, 1e-12);
+    EXPECT_NEAR(vorticity(deformation.gradient), 2.0 * angle, 1e-12);
+    EXPECT_NEAR(deformation.nonaffine, 0.0, 1e-12);
   }
 }
 
@@ -75,10 +75,10 @@ TEST(LocalDeformation, leaves_what_no_gradient_explains) {
     test::add_floor_grain(bed, x, y);
   Frame now = bed.frame;
   now.x[1] += e;
-  const LocalDeformation of = local_deformations(bed.frame, {now, bed.statics})[0];
-  EXPECT_NEAR(of.gradient.xx, 0.5 * e, 1e-14);
-  EXPECT_NEAR(of.gradient.yy, 0.0, 1e-14);
-  EXPECT_NEAR(of.nonaffine, 2.0 * 0.25 * e * e / 4.0, 1e-16) << "mean over four neighbours";
+  const LocalDeformation deformation = local_deformations(bed.frame, {now, bed.statics})[0];
+  EXPECT_NEAR(deformation.gradient.xx, 0.5 * e, 1e-14);
+  EXPECT_NEAR(deformation.gradient.yy, 0.0, 1e-14);
+  EXPECT_NEAR(deformation.nonaffine, 2.0 * 0.25 * e * e / 4.0, 1e-16) << "mean over four neighbours";
 }
 
 TEST(LocalDeformation, takes_neighbours_within_two_diameters_as_they_were_before) {
@@ -101,9 +101,9 @@ TEST(LocalDeformation, is_unrolled_over_the_period) {
     now.image[i] = static_cast<Index>(std::floor(now.x[i] / 12.0));
     now.x[i] -= 12.0 * now.image[i];
   }
-  for (const LocalDeformation& of : local_deformations(bed.frame, {now, bed.statics})) {
-    EXPECT_NEAR(of.gradient.xy, 2.0, 1e-12);
-    EXPECT_NEAR(of.nonaffine, 0.0, 1e-12);
+  for (const LocalDeformation& deformation : local_deformations(bed.frame, {now, bed.statics})) {
+    EXPECT_NEAR(deformation.gradient.xy, 2.0, 1e-12);
+    EXPECT_NEAR(deformation.nonaffine, 0.0, 1e-12);
   }
 }
 
@@ -128,9 +128,9 @@ TEST(LocalDeformation, has_neighbours_across_the_period) {
 TEST(LocalDeformation, is_not_known_without_neighbours_that_span_the_plane) {
   Packing bed = test::empty_packing(100.0, false);
   for (const double x : {10.0, 11.0, 12.0, 50.0}) test::add_grain(bed, x, 0.5);
-  for (const LocalDeformation& of : local_deformations(bed.frame, bed)) {
-    EXPECT_TRUE(std::isnan(of.nonaffine));
-    EXPECT_TRUE(std::isnan(shear_strain(of.gradient)));
+  for (const LocalDeformation& deformation : local_deformations(bed.frame, bed)) {
+    EXPECT_TRUE(std::isnan(deformation.nonaffine));
+    EXPECT_TRUE(std::isnan(shear_strain(deformation.gradient)));
   }
   Packing fewer = test::empty_packing(100.0, false);
   test::add_grain(fewer, 10.0, 0.5);

@@ -62,46 +62,47 @@ struct TwoFrames {
 };
 
 TEST(Displacement, is_to_the_nearest_image) {
-  TwoFrames of(true);
-  of.after.x[0] = 0.1;
-  EXPECT_NEAR(displacement_of(of.before, of.after, of.statics, 0).x, 0.3, 1e-12);
-  EXPECT_NEAR(displacement_of(TwoFrames(false).before, of.after, TwoFrames(false).statics, 0).x, -9.7, 1e-12);
+  TwoFrames pair(true);
+  pair.after.x[0] = 0.1;
+  EXPECT_NEAR(displacement_of(pair.before, pair.after, pair.statics, 0).x, 0.3, 1e-12);
+  EXPECT_NEAR(displacement_of(TwoFrames(false).before, pair.after, TwoFrames(false).statics, 0).x, -9.7,
+              1e-12);
 }
 
 TEST(GravityWork, is_that_on_the_centre_of_mass) {
-  TwoFrames of(true);
-  of.after.x[0] += 0.6;
-  of.after.y[1] -= 0.3;
-  of.after.x[3] += 5.0;  // the floor does not count
-  const Vec2 moved = mean_displacement(of.before, of.after, of.statics);
+  TwoFrames pair(true);
+  pair.after.x[0] += 0.6;
+  pair.after.y[1] -= 0.3;
+  pair.after.x[3] += 5.0;  // the floor does not count
+  const Vec2 moved = mean_displacement(pair.before, pair.after, pair.statics);
   EXPECT_NEAR(moved.x, 0.1, 1e-12);
   EXPECT_NEAR(moved.y, -0.1, 1e-12);
-  EXPECT_NEAR(gravity_work(of.statics, moved, radians(30.0)),
+  EXPECT_NEAR(gravity_work(pair.statics, moved, radians(30.0)),
               1.0 * 10.0 * 0.6 * 0.5 + 2.0 * 10.0 * 0.3 * std::cos(radians(30.0)), 1e-9);
 }
 
 TEST(Movement, counts_the_grains_that_moved_and_says_where) {
-  TwoFrames of(false);
-  of.after.x[0] += 0.3;
-  of.after.y[2] -= 0.1;
-  of.after.x[1] += 0.01;
-  const Movement all = movement_between(of.before, of.after, of.statics, 0.05, 5.0);
+  TwoFrames pair(false);
+  pair.after.x[0] += 0.3;
+  pair.after.y[2] -= 0.1;
+  pair.after.x[1] += 0.01;
+  const Movement all = movement_between(pair.before, pair.after, pair.statics, 0.05, 5.0);
   EXPECT_EQ(all.grains, 2);
   EXPECT_NEAR(all.centre.x, (0.3 * 9.8 + 0.1 * 1.0) / 0.4, 1e-12);
   EXPECT_NEAR(all.centre.y, (0.3 * 4.0 + 0.1 * 3.0) / 0.4, 1e-12);
   EXPECT_NEAR(all.depth, 2.0, 1e-12) << "three quarters lie 1 m deep, the rest 2 m";
-  const Movement none = movement_between(of.before, of.after, of.statics, 1.0, 5.0);
+  const Movement none = movement_between(pair.before, pair.after, pair.statics, 1.0, 5.0);
   EXPECT_EQ(none.grains, 0);
   EXPECT_TRUE(std::isnan(none.depth));
   EXPECT_TRUE(std::isnan(none.centre.x));
 }
 
 TEST(Movement, around_the_period_has_its_centre_there) {
-  TwoFrames of(true);
-  of.after.y[0] += 0.2;
-  of.before.x[1] = of.after.x[1] = 0.2;
-  of.after.y[1] += 0.2;
-  const double centre = movement_between(of.before, of.after, of.statics, 0.1, 5.0).centre.x;
+  TwoFrames pair(true);
+  pair.after.y[0] += 0.2;
+  pair.before.x[1] = pair.after.x[1] = 0.2;
+  pair.after.y[1] += 0.2;
+  const double centre = movement_between(pair.before, pair.after, pair.statics, 0.1, 5.0).centre.x;
   EXPECT_NEAR(centre - 10.0 * std::round(centre / 10.0), 0.0, 1e-9) << "between 9.8 and 10.2";
 }
 
