@@ -43,7 +43,7 @@ std::array<double, 2> pass_seconds(const FrozenStep& step) {
   for (int k = 0; k < repetitions; ++k)
     for (std::size_t t = 0; t < 2; ++t)
       seconds[t][k] = seconds_per_iteration(step, static_cast<int>(t) + 1, iterations, workspaces[t]);
-  for (auto& of_threads : seconds) std::ranges::sort(of_threads);
+  for (auto& thread_seconds : seconds) std::ranges::sort(thread_seconds);
   return {seconds[0][repetitions / 2], seconds[1][repetitions / 2]};
 }
 

@@ -37,7 +37,7 @@ void print_times(const char* what, std::vector<double> pictures, double elapsed)
 }
 
 /// Draws and reads back at most 30 pictures a second for a while as the run continues.
-void look(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
+void draw_frames(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
   const std::int64_t first = model.live()->status().step;
   std::vector<double> pictures;
   const auto start = Clock::now();
@@ -53,13 +53,13 @@ void look(const char* what, view::ViewModel& model, gui::OffscreenGui& gui) {
 }
 
 /// Measures the displays, from the cheapest to the most expensive.
-template <typename Look>
-void look_at_all(view::ViewModel& model, const Look& look) {
-  look("gamma, all plots");
+template <typename Draw>
+void draw_all(view::ViewModel& model, const Draw& draw) {
+  draw("gamma, all plots");
   model.state.selected = model.statics().free_count / 2;
-  look("the same, a grain selected");
+  draw("the same, a grain selected");
   model.state.map.layers = {pictures::MapKind::clusters, pictures::MapKind::forces};
-  look("clusters and forces, a grain selected");
+  draw("clusters and forces, a grain selected");
 }
 
 /// Draws and reads back all frames of a run as fast as possible.
@@ -81,7 +81,7 @@ void measure_replay(view::ViewModel& model) {
               model.frame_count(), model.statics().free_count);
   std::printf("| display | pictures/s | ms each, median | 95 %% | longest |\n|---|--:|--:|--:|--:|\n");
   gui::OffscreenGui gui(model, width, height);
-  look_at_all(model, [&](const char* what) { replay(what, model, gui); });
+  draw_all(model, [&](const char* what) { replay(what, model, gui); });
 }
 
 void measure_live(view::ViewModel& model) {
@@ -101,7 +101,7 @@ void measure_live(view::ViewModel& model) {
   std::printf("| no drawing | | | | | %.0f |\n",
               static_cast<double>(model.live()->status().step - first) / seconds_since(start));
   gui::OffscreenGui gui(model, width, height);
-  look_at_all(model, [&](const char* what) { look(what, model, gui); });
+  draw_all(model, [&](const char* what) { draw_frames(what, model, gui); });
 }
 
 int run(int argc, char** argv) {

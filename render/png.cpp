@@ -101,7 +101,7 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& tex
   std::vector<PngEntry> entries = texts_for_libpng(texts);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() / 2);
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, say_nothing);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, abort_png, ignore_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   const bool encoded = info && encode(png, info, image, entries, bytes);
   png_destroy_write_struct(&png, &info);

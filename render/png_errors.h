@@ -5,7 +5,7 @@
 
 namespace talus::render {
 
-[[noreturn]] inline void give_up(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-inline void say_nothing(png_structp, png_const_charp) {}
+[[noreturn]] inline void abort_png(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+inline void ignore_warning(png_structp, png_const_charp) {}
 
 }  // namespace talus::render

@@ -42,7 +42,7 @@ std::optional<std::string> png_text(const std::string& path, const std::string& 
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) return std::nullopt;
   std::vector<png_byte> row;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, say_nothing);
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, abort_png, ignore_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   std::optional<std::string> text;
   if (info && read_all(png, info, file.get(), row)) text = first_text(png, info, keyword);

@@ -33,7 +33,7 @@ double correlated_up_to(const RunStatics& statics) {
 /// decades.
 std::vector<double> force_edges(int bins) { return logarithmic_edges(force_range[0], force_range[1], bins); }
 
-void leave_out_poorly_held(int min_contacts, Index free_count, Frame& frame) {
+void exclude_rattlers(int min_contacts, Index free_count, Frame& frame) {
   std::vector<int> contacts(frame.x.size(), 0);
   for (Index c = 0; c < frame.contacts.count(); ++c)
     for (const Index body : {frame.contacts.a[c], frame.contacts.b[c]})
@@ -56,7 +56,7 @@ void measure_packing(const BedFrame& bed, int sections, FrameRecord& record) {
 void take_gamma(const BedFrame& bed, int bins, FrameRecord& record) {
   const Histogram histogram = stress_ratio_distribution(bed, bins);
   double sum = 0.0;
-  for (const double gamma : of_free_grains(bed.frame.gamma, bed.statics))
+  for (const double gamma : free_grain_values(bed.frame.gamma, bed.statics))
     if (!std::isnan(gamma)) sum += gamma;
   record.gamma_density = histogram.density();
   record.gamma_error = histogram.error();
@@ -123,7 +123,7 @@ FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& 
   std::ranges::transform(lengths.length, record.lc.begin(),
                          [](double length) { return static_cast<float>(length); });
   std::vector<bool> overloaded;
-  for (const double gamma : of_free_grains(bed.frame.gamma, bed.statics))
+  for (const double gamma : free_grain_values(bed.frame.gamma, bed.statics))
     overloaded.push_back(stress::is_overloaded(gamma, rule.threshold));
   const Clusters clusters = find_clusters(overloaded, ground.links, bed.frame.x, period_of(bed.statics));
   measure_clusters(clusters, ground.edges, record);
@@ -136,7 +136,7 @@ FrameThreshold analyse_threshold(const BedFrame& bed, const CoarseGrainingRule& 
 }  // namespace
 
 Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const AnalysisParameters& parameters) {
-  if (parameters.min_contacts > 1) leave_out_poorly_held(parameters.min_contacts, statics.free_count, frame);
+  if (parameters.min_contacts > 1) exclude_rattlers(parameters.min_contacts, statics.free_count, frame);
   return with_gamma_of_neighbourhoods(std::move(frame), statics, parameters.l_min * statics.mean_diameter);
 }
 
@@ -158,7 +158,7 @@ void measure_lengths(const CoarseGraining& lengths, FrameThreshold& record) {
 }
 
 void measure_clusters(const Clusters& clusters, const BedEdges& edges, FrameThreshold& record) {
-  const Spanning spanning = find_spanning(clusters, edges);
+  const SpanningClusters spanning = find_spanning(clusters, edges);
   record.cluster_count = clusters.count();
   record.largest_cluster = largest_size(clusters);
   record.largest_share = largest_share(clusters);

@@ -9,7 +9,7 @@
 namespace talus::analysis {
 
 /// Returns the entries of the free grains from an array over all grains.
-inline std::vector<double> of_free_grains(const std::vector<double>& values, const RunStatics& statics) {
+inline std::vector<double> free_grain_values(const std::vector<double>& values, const RunStatics& statics) {
   return {values.begin(), values.begin() + statics.free_count};
 }
 

@@ -23,17 +23,17 @@ namespace {
 using Numbers = std::vector<double>;
 
 /// Returns the values of each function for each grain by id, or each contact by number, row by row.
-template <typename... Says>
-Numbers each(Index count, const Says&... says) {
+template <typename... Functions>
+Numbers each(Index count, const Functions&... functions) {
   Numbers numbers;
-  numbers.reserve(static_cast<std::size_t>(count) * sizeof...(says));
-  for (Index k = 0; k < count; ++k) (numbers.push_back(static_cast<double>(says(k))), ...);
+  numbers.reserve(static_cast<std::size_t>(count) * sizeof...(functions));
+  for (Index k = 0; k < count; ++k) (numbers.push_back(static_cast<double>(functions(k))), ...);
   return numbers;
 }
 
-template <typename... Says>
-Numbers each_grain(const GrainSource& source, const Says&... says) {
-  return each(source.frame.grain_count(), says...);
+template <typename... Functions>
+Numbers each_grain(const GrainSource& source, const Functions&... functions) {
+  return each(source.frame.grain_count(), functions...);
 }
 
 template <typename Number>
@@ -132,7 +132,7 @@ Numbers since_earlier(const GrainSource& source, const Value& value) {
 }
 
 template <typename Value>
-Numbers of_neighbourhoods(const GrainSource& source, const Value& value) {
+Numbers deformation_numbers(const GrainSource& source, const Value& value) {
   std::vector<LocalDeformation> all;
   if (source.earlier != nullptr) all = local_deformations(*source.earlier, source);
   return since_earlier(source,
@@ -141,7 +141,7 @@ Numbers of_neighbourhoods(const GrainSource& source, const Value& value) {
 
 template <double (*strain)(const Tensor2&)>
 Numbers strains(const GrainSource& source, std::size_t) {
-  return of_neighbourhoods(source, [](const LocalDeformation& each) { return strain(each.gradient); });
+  return deformation_numbers(source, [](const LocalDeformation& each) { return strain(each.gradient); });
 }
 
 Numbers distances(const GrainSource& source, std::size_t) {
@@ -288,7 +288,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     mapped({"nonaffine_displacement", FieldShape::scalar, FieldNumber::real, "m",
             "root mean square displacement of the neighbours relative to their common strain",
             [](const GrainSource& source, std::size_t) {
-              return of_neighbourhoods(
+              return deformation_numbers(
                   source, [](const LocalDeformation& each) { return std::sqrt(each.nonaffine); });
             },
             FrameNeed::earlier_frame},

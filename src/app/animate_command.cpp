@@ -24,7 +24,7 @@ namespace {
 struct AnimateArguments {
   std::string run;
   pictures::MapOptions maps;
-  pictures::MovieAsked movie;
+  pictures::MovieRequest movie;
   std::string size, aspect;
   bool overwrite = false;
   bool quiet = false;
@@ -88,7 +88,7 @@ pictures::MapPlan plan_movie(const AnimateArguments& arguments) {
 }
 
 /// Suggests a smaller output.frame_every if each frame of the run is shown several times.
-void note_coarse_frames(const pictures::MovieAsked& asked, int times) {
+void note_coarse_frames(const pictures::MovieRequest& asked, int times) {
   if (times < 2 || !asked.timing.speed || asked.timing.every > 0.0) return;
   print(
       "each frame of the run is shown up to %d times; output.frame_every = %.2g would give a run with one "
@@ -97,14 +97,14 @@ void note_coarse_frames(const pictures::MovieAsked& asked, int times) {
 }
 
 void animate(AnimateArguments& arguments) {
-  pictures::MovieAsked& movie = arguments.movie;
+  pictures::MovieRequest& movie = arguments.movie;
   movie.height = movie_size(arguments).second;
   const pictures::MapPlan plan = plan_movie(arguments);
   output_target(movie.output, output_of_run(arguments.run, arguments.overwrite));
   pictures::DrawnRun run =
       pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   prepare_folder_of(movie.output);
-  const pictures::MovieDrawn drawn =
+  const pictures::MovieResult drawn =
       pictures::draw_movie(run, movie, {count_shown("animating", arguments.quiet), asked_to_stop});
   if (arguments.quiet) return;
   print("%s: %zu frames, %.3g s\n", movie.output.c_str(), drawn.frames,

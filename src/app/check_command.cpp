@@ -125,7 +125,7 @@ void print_report(const CheckArguments& arguments, const scenario::Scenario& sce
 }
 
 /// Opens the run after its hashes were verified; reports the damage and throws if they do not match.
-io::RunFile open_or_tell(const CheckArguments& arguments) {
+io::RunFile open_verified(const CheckArguments& arguments) {
   try {
     return io::RunFile::open(arguments.scenario);
   } catch (const Error& error) {
@@ -179,7 +179,7 @@ void print_run(const std::string& path, const io::RunFile& run, const session::R
 void check_run_file(const CheckArguments& arguments) {
   if (!arguments.settings.empty())
     throw Error(ExitCode::usage, arguments.scenario + " is a run; --set applies to a scenario");
-  const io::RunFile run = open_or_tell(arguments);
+  const io::RunFile run = open_verified(arguments);
   const session::RunCheck check = [&] {
     const std::size_t frames = run.all_frame_tilts().size();
     const CountDone progress = count_shown("checking", arguments.json);

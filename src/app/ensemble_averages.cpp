@@ -45,7 +45,7 @@ EnsembleView write_averages(const std::string& folder, ensemble::KnownMembers& k
   while_locked((place / "averages.lock").string(), [&] {
     const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
     std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
-    ensemble::look_for_damage(plan, states, known);
+    ensemble::find_damage(plan, states, known);
     for (std::size_t m = 0; m < states.size(); ++m)
       if (states[m].stage == ensemble::MemberStage::done) ensemble::analysed_member(plan.members[m], known);
     view = view_of_ensemble(folder, known);

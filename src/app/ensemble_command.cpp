@@ -70,11 +70,13 @@ void run_ensemble(const EnsembleArguments& arguments) {
 }
 
 /// Packs the run of a member with its analysis after the additional work of its task; a packed member is
-/// done. Throws Error(stopped) if `goes_on` returns false; computed data stay in the folder.
+/// done. Throws Error(stopped) if `should_continue` returns false; computed data stay in the folder.
 bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifest& manifest,
-                 const std::string& folder, io::RunStore& store, const std::function<bool()>& goes_on) {
+                 const std::string& folder, io::RunStore& store,
+                 const std::function<bool()>& should_continue) {
   const auto progress = [&](std::size_t) {
-    if (!goes_on()) throw Error(ExitCode::stopped, "the member was stopped; its analysis will be repeated");
+    if (!should_continue())
+      throw Error(ExitCode::stopped, "the member was stopped; its analysis will be repeated");
   };
   io::PackedParts parts;
   const io::RunFile run = io::RunFile::open(member.path);
@@ -83,7 +85,7 @@ bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifes
   if (std::holds_alternative<ensemble::ReadingsTask>(manifest.task))
     parts.readings = studies::make_readings(member, run, progress);
   parts.frames = ensemble::keeps_frames(manifest, member.seed) || !ensemble::is_in_folder(member, folder);
-  return store.pack(goes_on, parts);
+  return store.pack(should_continue, parts);
 }
 
 /// Runs or resumes a member, does the additional work that the task of the ensemble requires, and packs it
@@ -100,8 +102,8 @@ void compute_member(const EnsembleArguments& arguments) {
   session::RunControl control;
   control.stop = stop_request();
   control.on_step = run_shown(false);
-  control.pack = [&](io::RunStore& store, const std::function<bool()>& goes_on) {
-    return pack_member(*member, manifest, arguments.folder, store, goes_on);
+  control.pack = [&](io::RunStore& store, const std::function<bool()>& should_continue) {
+    return pack_member(*member, manifest, arguments.folder, store, should_continue);
   };
   if (!arguments.max_wall.empty()) control.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   RunRequest request;
@@ -115,7 +117,7 @@ void compute_member(const EnsembleArguments& arguments) {
   OpenRun open =
       io::run_presence(member->path) == io::RunPresence::folder ? resume_run(request) : start_run(request);
   if (trials != nullptr)
-    control.trials = trials_on_the_way(
+    control.trials = intermediate_trials(
         session::table_of(io::RunFile::open(member->path), *trials, member->path), stop_request());
   open.session.use_threads(1);
   const CommitOnSignals commit;
@@ -157,7 +159,7 @@ void retry(const EnsembleArguments& arguments) {
   ensemble::KnownMembers known;
   const ensemble::EnsemblePlan plan =
       ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
-  std::size_t count = begin_damaged_anew(plan, known);
+  std::size_t count = restart_damaged_members(plan, known);
   const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].stage != ensemble::MemberStage::failed) continue;

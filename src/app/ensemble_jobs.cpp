@@ -14,7 +14,7 @@ namespace talus::app {
 namespace {
 
 /// Queries squeue for the jobs of one cluster.
-void ask(const std::vector<ensemble::SlurmJob>& jobs, EnsembleJobs& found) {
+void query_squeue(const std::vector<ensemble::SlurmJob>& jobs, EnsembleJobs& found) {
   try {
     const ProgramOutput output =
         output_of(ensemble::squeue_words(jobs), ".", ProgramEnvironment::whole,
@@ -56,7 +56,7 @@ Json tasks_json(const ensemble::QueuedTasks& tasks) {
 
 EnsembleJobs jobs_of_ensemble(const std::string& folder) {
   EnsembleJobs found{ensemble::recorded_jobs(folder), {}, ""};
-  for (const auto& [cluster, jobs] : ensemble::by_cluster(found.recorded)) ask(jobs, found);
+  for (const auto& [cluster, jobs] : ensemble::by_cluster(found.recorded)) query_squeue(jobs, found);
   return found;
 }
 

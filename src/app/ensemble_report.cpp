@@ -140,7 +140,7 @@ EnsembleView view_of_ensemble(const std::string& folder, ensemble::KnownMembers&
   EnsembleView view{folder, ensemble::read_ensemble(folder), {}, {}, {}, 0};
   view.plan = ensemble::plan_of(view.manifest, folder);
   view.states = ensemble::scan_members(view.plan);
-  ensemble::look_for_damage(view.plan, view.states, known);
+  ensemble::find_damage(view.plan, view.states, known);
   view.numbers = ensemble::numbers_of(view.plan, view.states, known);
   for (std::size_t m = 0; m < view.states.size(); ++m)
     if (view.states[m].stage == ensemble::MemberStage::done &&

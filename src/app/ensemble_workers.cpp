@@ -31,10 +31,10 @@ namespace {
 
 double estimate_of(const ensemble::EnsemblePlan& plan, const std::vector<ensemble::MemberState>& states,
                    ensemble::MemberStage stage) {
-  const std::vector<double> of_variant = ensemble::estimated_seconds(plan);
+  const std::vector<double> variant_seconds = ensemble::estimated_seconds(plan);
   double seconds = 0.0;
   for (std::size_t m = 0; m < plan.members.size(); ++m)
-    if (states[m].stage == stage) seconds += of_variant[plan.members[m].variant];
+    if (states[m].stage == stage) seconds += variant_seconds[plan.members[m].variant];
   return seconds;
 }
 
@@ -70,7 +70,7 @@ void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
 }
 
 /// State of the intermediate averages: the number of members included, and when they were written.
-struct AveragesOnTheWay {
+struct IntermediateAverages {
   std::size_t members = 0;
   std::chrono::steady_clock::time_point made = std::chrono::steady_clock::now();
   std::chrono::steady_clock::duration interval = std::chrono::minutes(1);
@@ -78,7 +78,7 @@ struct AveragesOnTheWay {
 
 /// Updates the averages at most once a minute, if more members are done; less often if there are many
 /// members, so that it uses at most a twentieth of this process's time.
-void renew(AveragesOnTheWay& averages, const std::string& folder, ensemble::KnownMembers& known) {
+void renew(IntermediateAverages& averages, const std::string& folder, ensemble::KnownMembers& known) {
   const auto now = std::chrono::steady_clock::now();
   if (now - averages.made < averages.interval) return;
   averages.made = now;
@@ -121,7 +121,7 @@ std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
   }
   const double before = estimate_of(plan, states, ensemble::MemberStage::done);
   StatusLine line(false, 2.0, 60.0);  // scanning ten thousand members takes a few hundredths of a second
-  AveragesOnTheWay averages{ensemble::count_of(states, ensemble::MemberStage::done)};
+  IntermediateAverages averages{ensemble::count_of(states, ensemble::MemberStage::done)};
   const auto show_now_and_then = [&] {
     renew(averages, workers.folder, known);
     if (line.is_due()) show(line, plan, before);
@@ -138,9 +138,9 @@ std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
 
 }  // namespace
 
-std::size_t begin_damaged_anew(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known) {
+std::size_t restart_damaged_members(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known) {
   std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
-  ensemble::look_for_damage(plan, states, known);
+  ensemble::find_damage(plan, states, known);
   std::size_t count = 0;
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].damage.empty()) continue;
@@ -156,7 +156,7 @@ void compute_members(const EnsembleWorkers& workers, ensemble::KnownMembers& kno
   for (std::size_t ended = 0;;) {
     const ensemble::EnsemblePlan plan =
         ensemble::plan_of(ensemble::read_ensemble(workers.folder), workers.folder);
-    begin_damaged_anew(plan, known);
+    restart_damaged_members(plan, known);
     std::vector<ensemble::FailedJob> killed;
     if (ensemble::has_work(plan, ensemble::scan_members(plan), watch))
       killed = run_workers(workers, plan, known);

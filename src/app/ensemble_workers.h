@@ -18,7 +18,7 @@ struct EnsembleWorkers {
 
 /// Moves damaged members aside (set_damaged_aside), reports each on stderr, and leaves them waiting to be
 /// computed again. Returns their number.
-std::size_t begin_damaged_anew(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known);
+std::size_t restart_damaged_members(const ensemble::EnsemblePlan& plan, ensemble::KnownMembers& known);
 
 /// Computes missing and damaged members of an ensemble. Waits for members that other workers compute, and
 /// takes them over if their workers end early; replaces killed workers as long as members finish. With a time

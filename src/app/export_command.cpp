@@ -54,7 +54,7 @@ void report_omissions(const io::RunFile& run, const exports::ExportPlan& plan) {
       "its angle of repose is unknown; set a threshold with --set gamma_c=0.3.\n");
 }
 
-bool asks_for_frames(const FrameOptions& frames) {
+bool requests_frames(const FrameOptions& frames) {
   return !frames.numbers.empty() || !frames.at.empty() || frames.every;
 }
 
@@ -69,7 +69,7 @@ exports::ExportPlan plan_export(const ExportArguments& arguments) {
   if (arguments.length && plan.format != exports::ExportFormat::vti)
     throw Error(ExitCode::usage, "--length: applies only to --to vti, the format of coarse-grained fields");
   plan.field_width = arguments.length.value_or(plan.field_width);
-  if (!exports::entry_of(plan.format).has_frames && asks_for_frames(arguments.frames))
+  if (!exports::entry_of(plan.format).has_frames && requests_frames(arguments.frames))
     throw Error(
         ExitCode::usage,
         fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no effect on it",

@@ -98,7 +98,7 @@ std::vector<double> tilts_of(const std::vector<Command>& commands, const io::Run
   return tilts;
 }
 
-RunInfo look_at(const std::string& path) {
+RunInfo read_info(const std::string& path) {
   const io::RunFile run = io::RunFile::open(path);
   const RunStatics& statics = run.header().statics;
   RunInfo info;
@@ -246,7 +246,7 @@ void add_info_command(CLI::App& app) {
                     "Print JSON: names ending in _deg are in degrees, all others in SI units, theta_c in "
                     "results in radians");
   command->callback([arguments] {
-    const RunInfo info = look_at(arguments->path);
+    const RunInfo info = read_info(arguments->path);
     if (arguments->json)
       print_json(info);
     else

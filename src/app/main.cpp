@@ -65,7 +65,7 @@ void require_printed() {
 }
 
 /// Runs the command line; converts parse errors to Error, and passes other exceptions on.
-int run_and_tell(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   CLI::App app{
       std::string("Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\n") +
           talus::app::first_example + "\n",
@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   std::signal(SIGCHLD, SIG_DFL);
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not the end of the process
   try {
-    return run_and_tell(argc, argv);
+    return run_command_line(argc, argv);
   } catch (...) {
     const int code = talus::app::report_exception();
     errno = 0;  // already reported

@@ -21,7 +21,7 @@ namespace {
 struct PanelArguments {
   std::string run;
   pictures::MapOptions maps;
-  pictures::PanelAsked panel;
+  pictures::PanelRequest panel;
   bool quiet = false;
 };
 
@@ -54,7 +54,7 @@ void make_panel(const PanelArguments& arguments) {
   pictures::DrawnRun run =
       pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   prepare_folder_of(output);
-  const pictures::PanelDrawn drawn = pictures::draw_panel(run, arguments.panel);
+  const pictures::PanelResult drawn = pictures::draw_panel(run, arguments.panel);
   if (!arguments.quiet)
     print("%s: %zu angle%s%s\n", output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
           drawn.there_before ? ", already up to date" : "");

@@ -39,18 +39,18 @@ std::string bracket_text(const session::Threshold& threshold) {
 
 }  // namespace
 
-std::function<std::vector<TrialRow>(const session::Session&)> trials_on_the_way(
+std::function<std::vector<TrialRow>(const session::Session&)> intermediate_trials(
     session::PerturbationTable known, const volatile std::sig_atomic_t* stop) {
-  const auto keep_on = [stop] {
+  const auto should_continue = [stop] {
     if (*stop != 0)
       throw Error(ExitCode::stopped, "the trials were stopped; those of this state will be repeated");
   };
-  return [keep_on, table = std::move(known)](const session::Session& session) mutable {
+  return [should_continue, table = std::move(known)](const session::Session& session) mutable {
     const double tilt = tilt_of(session);
     const bool done = !table.states.empty() && table.states.back().tilt >= tilt;
     if (done || !is_due(session, table.plan)) return std::vector<TrialRow>();
     table.states.push_back(
-        {tilt, session::perturb(session.world(), session.scenario(), table.plan.patch, keep_on)});
+        {tilt, session::perturb(session.world(), session.scenario(), table.plan.patch, should_continue)});
     print_error("%.3f deg: %s\n", tilt,
                 bracket_text(session::threshold_of(table.states.back().trials)).c_str());
     return session::rows_of(table.states.back(), session.world().step);

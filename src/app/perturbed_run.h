@@ -13,7 +13,7 @@ namespace talus::app {
 /// Returns a function for RunControl::trials, which makes the trials of each state of the plan that `known`
 /// lacks when the run reaches it, and reports the result on stderr. Trials end with Error(stopped) if `stop`
 /// is set.
-std::function<std::vector<TrialRow>(const session::Session&)> trials_on_the_way(
+std::function<std::vector<TrialRow>(const session::Session&)> intermediate_trials(
     session::PerturbationTable known, const volatile std::sig_atomic_t* stop);
 
 }  // namespace talus::app

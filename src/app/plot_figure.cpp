@@ -56,8 +56,8 @@ void add_curve(const view::Plot& plot, const view::PlotSeries& series, figures::
   figure.variables.emplace_back(fmt::format("law_{}", curves), series.law ? "1" : "0");
 }
 
-void add_behind(const view::Plot& plot, const view::PlotSeries& series, std::size_t first, std::size_t curve,
-                figures::Figure& figure, std::size_t& behinds) {
+void add_ghost(const view::Plot& plot, const view::PlotSeries& series, std::size_t first, std::size_t curve,
+               figures::Figure& figure, std::size_t& behinds) {
   figures::Table& table = table_over(series.behind.x, plot, "behind", figure, first);
   const std::string name = column_name(series), what = "behind: " + meaning_of(series);
   table.columns.push_back({name, unit_of(series), what + ", mean of the runs", series.behind.mean});
@@ -73,8 +73,8 @@ void add_behind(const view::Plot& plot, const view::PlotSeries& series, std::siz
 
 }  // namespace
 
-figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, const view::PlotMarks& marks,
-                            const std::string& run, const std::string& behind) {
+figures::Figure plot_figure(const view::Plot& plot, const view::PlotOptions& options,
+                            const view::PlotMarks& marks, const std::string& run, const std::string& behind) {
   figures::Figure figure;
   figure.name = "plot-" + plain_name(plot.name);
   figure.script = "plot";
@@ -88,7 +88,7 @@ figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, 
   const std::size_t first = figure.tables.size();
   for (std::size_t k = 0; k < plot.series.size(); ++k)
     if (!plot.series[k].behind.x.empty() && !plot.series[k].x.empty())
-      add_behind(plot, plot.series[k], first, k + 1, figure, behinds);
+      add_ghost(plot, plot.series[k], first, k + 1, figure, behinds);
   if (behinds > 0) figure.caption += "; behind: " + behind;
   const auto set = [&figure](const std::string& name, const std::string& value) {
     figure.variables.emplace_back(name, value);
@@ -99,11 +99,11 @@ figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, 
   set("x_title_of_plot", figures::gnuplot_string(plot.x_title));
   set("y_title_of_plot", figures::gnuplot_string(plot.title));
   set("note", figures::gnuplot_string(plot.note));
-  set("logarithmic", look.log_y.value_or(plot.log_y) ? "1" : "0");
+  set("logarithmic", options.log_y.value_or(plot.log_y) ? "1" : "0");
   set("falling", plot.falling_x ? "1" : "0");
-  if (look.zoomed) {
-    set("x_low", scenario::short_text((*look.zoomed)[0]));
-    set("x_high", scenario::short_text((*look.zoomed)[1]));
+  if (options.zoomed) {
+    set("x_low", scenario::short_text((*options.zoomed)[0]));
+    set("x_high", scenario::short_text((*options.zoomed)[1]));
   }
   if (marks.theta_c && plot.along_run) set("theta_c_at", scenario::short_text(*marks.theta_c));
   return figure;

@@ -12,7 +12,7 @@ namespace talus::app {
 /// Returns the plot as displayed, with its zoom, scale and the curves behind, as a figure named "plot-NAME"
 /// and drawn by assets/figures/plot.gp. Curves with the same x values share a table. `run`: path of the run,
 /// empty if it is in no file; `behind`: description of the curves behind.
-figures::Figure plot_figure(const view::Plot& plot, const view::PlotLook& look, const view::PlotMarks& marks,
-                            const std::string& run, const std::string& behind);
+figures::Figure plot_figure(const view::Plot& plot, const view::PlotOptions& options,
+                            const view::PlotMarks& marks, const std::string& run, const std::string& behind);
 
 }  // namespace talus::app

@@ -38,20 +38,21 @@ int report(ExitCode code, const char* message) {
 }
 
 /// Writes to stderr without allocating; safe in a signal handler.
-void say(std::string_view text) {
+void write_to_stderr(std::string_view text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
 int report_out_of_memory() {
-  say(out_of_memory);
+  write_to_stderr(out_of_memory);
   return static_cast<int>(ExitCode::out_of_memory);
 }
 
 int report_malformed(std::string_view path) {
-  say("talus: error: ");
+  write_to_stderr("talus: error: ");
   // visible() would allocate memory.
-  for (const char& c : path) say(c >= ' ' && c <= '~' ? std::string_view(&c, 1) : "?");
-  say(": HDF5 crashes on this file: it is malformed, although its hash is right; restore it from a copy\n");
+  for (const char& c : path) write_to_stderr(c >= ' ' && c <= '~' ? std::string_view(&c, 1) : "?");
+  write_to_stderr(
+      ": HDF5 crashes on this file: it is malformed, although its hash is right; restore it from a copy\n");
   return static_cast<int>(ExitCode::bad_data);
 }
 
@@ -96,7 +97,7 @@ void catch_crashes() {
 }
 
 /// Runs before all other initialisation.
-[[gnu::constructor(101)]] void catch_what_main_does_not_see() {
+[[gnu::constructor(101)]] void install_handlers() {
   std::set_terminate(end_without_main);
   std::atexit(report_exit_out_of_memory);
   if (!crashes_are_reported) catch_crashes();

@@ -65,12 +65,12 @@ std::optional<double> share_of(const session::Session& session, RunPace& pace) {
   return static_cast<double>(session.schedule().tilt_steps) / *pace.program_steps;
 }
 
-RunShown shown_of(const session::Session& session, RunPace& pace) {
+RunDisplay display_of(const session::Session& session, RunPace& pace) {
   const World& world = session.world();
   const dynamics::StepReport& report = session.last_report();
   const bool until_failure =
       session.follows_program() ? session.program().ends_at_repose() : !session.scenario().tilt.end_angle;
-  RunShown shown{
+  RunDisplay shown{
       .phase = session.phase() == session::Phase::done ? session::Phase::tilt : session.phase(),
       .time = world.time,
       .tilt = degrees(world.tilt),
@@ -85,7 +85,7 @@ RunShown shown_of(const session::Session& session, RunPace& pace) {
 }
 
 /// Returns the seconds until the end of the phase, at the pace since this process began it.
-std::optional<double> remaining(const RunShown& shown, double elapsed, RunPace& pace) {
+std::optional<double> remaining(const RunDisplay& shown, double elapsed, RunPace& pace) {
   if (!shown.share) return std::nullopt;
   if (pace.phase != shown.phase) {
     pace.phase = shown.phase;
@@ -125,7 +125,7 @@ Progress count_progress(const std::string& label, std::size_t done, std::size_t 
   return progress;
 }
 
-Progress run_progress(const RunShown& shown, double elapsed, std::optional<double> remaining) {
+Progress run_progress(const RunDisplay& shown, double elapsed, std::optional<double> remaining) {
   const bool deposition = shown.phase == session::Phase::deposition;
   Progress progress{deposition                            ? fmt::format("deposition {:.3f} s", shown.time)
                     : shown.phase == session::Phase::flow ? fmt::format("flow at {:.3f} deg", shown.tilt)
@@ -176,7 +176,7 @@ CountDone count_shown(std::string label, bool quiet) {
 std::function<void(const session::RunProgress&)> run_shown(bool quiet) {
   return [pace = std::make_shared<RunPace>(quiet)](const session::RunProgress& progress) {
     if (!pace->line.is_due()) return;
-    const RunShown shown = shown_of(progress.session, *pace);
+    const RunDisplay shown = display_of(progress.session, *pace);
     const double elapsed = progress.wall_seconds;
     pace->line.show(run_progress(shown, elapsed, remaining(shown, elapsed, *pace)));
   };

@@ -32,7 +32,7 @@ std::string progress_text(const Progress& progress, std::optional<int> width);
 Progress count_progress(const std::string& label, std::size_t done, std::size_t count, double elapsed);
 
 /// Displayed state of a run.
-struct RunShown {
+struct RunDisplay {
   session::Phase phase = session::Phase::deposition;
   double time = 0.0;                     ///< s, model time
   double tilt = 0.0;                     ///< deg
@@ -43,7 +43,7 @@ struct RunShown {
   double velocity = 0.0;        ///< rms, over g h
   int contacts = 0;
 };
-Progress run_progress(const RunShown& shown, double elapsed, std::optional<double> remaining);
+Progress run_progress(const RunDisplay& shown, double elapsed, std::optional<double> remaining);
 
 class StatusLine {
  public:

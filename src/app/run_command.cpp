@@ -167,7 +167,7 @@ void begin_maps(pictures::LiveMaps& maps, const OpenRun& open, const RunArgument
   const scenario::Scenario::Tilt& tilt = open.session.scenario().tilt;
   maps.begin(open.header, arguments.output, tilt.step, !tilt.program.empty());
   if (io::run_presence(arguments.output) == io::RunPresence::folder)
-    maps.meet(io::RunFile::open(arguments.output));
+    maps.add_frames(io::RunFile::open(arguments.output));
 }
 
 /// Reports maps that could not be drawn last, because the run itself is complete.
@@ -184,12 +184,12 @@ void finish_maps(pictures::LiveMaps& maps, const RunArguments& arguments) {
 }
 
 /// Draws the missing maps of a complete run that ended before all were drawn.
-void draw_what_is_missing(const RunArguments& arguments, const io::RunFile& file,
-                          const scenario::Scenario& scenario) {
+void draw_missing_maps(const RunArguments& arguments, const io::RunFile& file,
+                       const scenario::Scenario& scenario) {
   std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
   if (!maps) return;
   maps->begin(file.header(), arguments.output, scenario.tilt.step, !scenario.tilt.program.empty());
-  maps->meet(file);
+  maps->add_frames(file);
 }
 
 /// Finishes a complete run that was killed at its end: removes its folder and draws missing maps.
@@ -199,7 +199,7 @@ void resume_complete(const RunArguments& arguments) {
   require_same_scenario(request_of(arguments), scenario);
   io::discard_folder(arguments.output);
   if (!arguments.quiet) print("%s is already complete.\n", arguments.output.c_str());
-  draw_what_is_missing(arguments, file, scenario);
+  draw_missing_maps(arguments, file, scenario);
 }
 
 OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool resumed) {

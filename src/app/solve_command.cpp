@@ -23,14 +23,14 @@ namespace talus::app {
 namespace {
 
 /// Source of the tolerance of a solve.
-enum class AskedBy { option, run, default_value };
+enum class ToleranceSource { option, run, default_value };
 
 struct SolveArguments {
   std::string problem;
   std::string output;
   solver::SolverSettings settings;
   std::optional<double> tolerance;
-  AskedBy asked_by = AskedBy::default_value;
+  ToleranceSource tolerance_source = ToleranceSource::default_value;
   bool cold = false;
   bool overwrite = false;
   bool json = false;
@@ -40,7 +40,7 @@ struct SolveResult {
   Index contacts = 0;
   Index bodies = 0;  ///< 0 if unknown
   solver::SolverReport report;
-  std::optional<problems::StepTolerance> of_run;
+  std::optional<problems::StepTolerance> run_tolerance;
   double siconos_error = 0.0;
   double carried_weight = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0.0;
@@ -55,24 +55,24 @@ const char* name_of(solver::SolverKind kind) {
   return kind == solver::SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
 }
 
-const char* name_of(AskedBy asked_by) {
-  if (asked_by == AskedBy::default_value) return "default";
-  return asked_by == AskedBy::option ? "option" : "run";
+const char* name_of(ToleranceSource tolerance_source) {
+  if (tolerance_source == ToleranceSource::default_value) return "default";
+  return tolerance_source == ToleranceSource::option ? "option" : "run";
 }
 
-const char* words_of(AskedBy asked_by) {
-  if (asked_by == AskedBy::default_value) return "default";
-  return asked_by == AskedBy::option ? "--tol" : "the run";
+const char* words_of(ToleranceSource tolerance_source) {
+  if (tolerance_source == ToleranceSource::default_value) return "default";
+  return tolerance_source == ToleranceSource::option ? "--tol" : "the run";
 }
 
 /// Chooses the tolerance: that of the option, else that of the run from which the problem comes.
 void choose_tolerance(const problems::StoredProblem& stored, SolveArguments& arguments) {
   if (arguments.tolerance) {
     arguments.settings.tolerance = *arguments.tolerance;
-    arguments.asked_by = AskedBy::option;
+    arguments.tolerance_source = ToleranceSource::option;
   } else if (stored.step && stored.step->tolerance) {
     arguments.settings.tolerance = stored.step->tolerance->asked;
-    arguments.asked_by = AskedBy::run;
+    arguments.tolerance_source = ToleranceSource::run;
   }
 }
 
@@ -94,7 +94,7 @@ void solve_bodies(const problems::StepProblem& step, const SolveArguments& argum
   result.seconds = seconds_of(
       [&] { result.report = solver::solve(step.problem, arguments.settings, workspace, solution); });
   result.bodies = step.problem.body_count();
-  result.of_run = step.tolerance;
+  result.run_tolerance = step.tolerance;
   result.siconos_error = problems::siconos_error(step.problem, solution);
   result.carried_weight = problems::carried_weight(step, solution);
   result.solution = solver::local_form(step.problem, solution);
@@ -120,23 +120,24 @@ SolveResult solve(const problems::StoredProblem& stored, const SolveArguments& a
 
 void print_json(const SolveArguments& arguments, const SolveResult& result) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const problems::StepTolerance of_run = result.of_run.value_or(problems::StepTolerance{none, none, none});
+  const problems::StepTolerance run_tolerance =
+      result.run_tolerance.value_or(problems::StepTolerance{none, none, none});
   const Json json = {{"problem", arguments.problem},
                      {"solver", name_of(arguments.settings.kind)},
                      {"form", result.bodies > 0 ? "bodies" : "local"},
                      {"start", arguments.cold ? "zero" : "guess"},
                      {"contacts", result.contacts},
                      {"tolerance", arguments.settings.tolerance},
-                     {"asked_by", name_of(arguments.asked_by)},
+                     {"asked_by", name_of(arguments.tolerance_source)},
                      {"converged", result.report.converged},
                      {"iterations", result.report.iterations},
                      {"eta", result.report.residual.eta},
                      {"siconos_error", result.siconos_error},
                      {"largest_residual", result.report.residual.largest},
                      {"carried_weight", result.carried_weight},
-                     {"bed_velocity", of_run.velocity},
-                     {"run_tolerance", of_run.asked},
-                     {"run_tolerance_at_rest", of_run.at_rest},
+                     {"bed_velocity", run_tolerance.velocity},
+                     {"run_tolerance", run_tolerance.asked},
+                     {"run_tolerance_at_rest", run_tolerance.at_rest},
                      {"seconds", result.seconds},
                      {"ns_per_contact_iteration", result.nanoseconds_per_contact()}};
   print("%s\n", json_text(json).c_str());
@@ -159,14 +160,14 @@ void print_report(const SolveArguments& arguments, const SolveResult& result) {
   print("%-25s%d\n", "iterations", report.iterations);
   print("%-25s%.3e (%s, %.1e required by %s)\n", "residual eta", report.residual.eta,
         report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
-        words_of(arguments.asked_by));
+        words_of(arguments.tolerance_source));
   print_number("largest of one contact", "%.3e", report.residual.largest);
   print_number("Siconos's error", "%.3e", result.siconos_error);
   print_number("weight carried", "%.6f", result.carried_weight);
   print_number("seconds", "%.6f", result.seconds);
   print_number("ns / contact / iteration", "%.2f", result.nanoseconds_per_contact());
-  if (result.of_run && is_moving(*result.of_run))
-    print("%s\n", remark_on_moving(*result.of_run, report.residual.eta).c_str());
+  if (result.run_tolerance && is_moving(*result.run_tolerance))
+    print("%s\n", remark_on_moving(*result.run_tolerance, report.residual.eta).c_str());
 }
 
 void run(SolveArguments& arguments) {

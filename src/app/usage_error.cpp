@@ -18,10 +18,10 @@ namespace talus::app {
 namespace {
 
 /// Other names for what these commands do.
-struct OtherWord {
+struct Synonym {
   std::string_view written, meant;
 };
-constexpr OtherWord other_words[] = {
+constexpr Synonym other_words[] = {
     {"plot", "'figures' or 'render'"},
     {"draw", "'render' or 'view'"},
     {"picture", "'render'"},
@@ -69,10 +69,10 @@ CLI::App* command_called(CLI::App& app, const std::string& name) {
 
 /// Returns the likely meaning of a word that is not a command: a similar command, a synonym, a subcommand, or
 /// a command that takes such a file; empty if unknown.
-std::string meant_by(CLI::App& app, const std::string& word) {
+std::string likely_command(CLI::App& app, const std::string& word) {
   if (word.ends_with(".toml")) return fmt::format("'run {}'", visible_word(word));
   if (word.ends_with(".h5")) return fmt::format("'view {0}' or 'info {0}'", visible_word(word));
-  for (const OtherWord& other : other_words)
+  for (const Synonym& other : other_words)
     if (other.written == word) return std::string(other.meant);
   for (CLI::App* command : commands_of(app))
     if (command_called(*command, word) != nullptr) return fmt::format("'{} {}'", command->get_name(), word);
@@ -81,7 +81,7 @@ std::string meant_by(CLI::App& app, const std::string& word) {
 }
 
 [[noreturn]] void refuse_command(CLI::App& app, const std::string& word) {
-  const std::string meant = meant_by(app, word);
+  const std::string meant = likely_command(app, word);
   throw Error(ExitCode::usage,
               fmt::format("'{}' is not a command; {}{} --help lists them", visible_word(word),
                           meant.empty() ? "" : "did you mean " + meant + "? ", app.get_name()));

@@ -157,7 +157,7 @@ void take_screenshot(const ViewArguments& arguments) {
 }
 
 /// Returns how to continue a recorded run; empty if it was not recorded.
-std::string way_on(const view::Recording& run) {
+std::string continuation_text(const view::Recording& run) {
   if (run.output.empty()) return {};
   if (io::run_presence(run.output) == io::RunPresence::packed)
     return fmt::format("{} holds the complete run; view it with: talus view {}", run.output, run.output);
@@ -189,7 +189,7 @@ std::string close(view::ViewModel model) {
   const view::Recording recording = model.recording();
   { const view::ViewModel ended = std::move(model); }  // commits the recorded steps
   if (!status.error.empty()) throw Error(status.error_code, status.error);
-  return way_on(recording);
+  return continuation_text(recording);
 }
 
 void save_picture(const std::string& path, gui::GuiWindow& window, view::ViewModel& model) {
@@ -222,7 +222,7 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
     const bool empty =
         std::ranges::all_of(plot.series, [](const view::PlotSeries& series) { return series.x.empty(); });
     if (shown && !empty)
-      figures.push_back(plot_figure(plot, model.state.plot_looks[plot.name], model.plot_marks(),
+      figures.push_back(plot_figure(plot, model.state.plot_options[plot.name], model.plot_marks(),
                                     model.is_live() ? model.recording().output : model.path(),
                                     ghost ? view::text_of(*ghost) : std::string()));
   }
@@ -236,17 +236,17 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
       fmt::format("written: {} plot{} in {}", figures.size(), figures.size() == 1 ? "" : "s", folder);
 }
 
-void put_behind(const std::string& path, view::ViewModel& model) {
+void show_ghost(const std::string& path, view::ViewModel& model) {
   model.hold();
   model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
 }
 
 /// Serves requests of widgets that the model cannot; errors are shown in the window.
-void serve(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
+void serve_requests(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
-    if (!requests.behind_path.empty()) put_behind(requests.behind_path, model);
+    if (!requests.behind_path.empty()) show_ghost(requests.behind_path, model);
     if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
@@ -261,7 +261,7 @@ void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& win
     window.stay_open();
     const gui::GuiRequests requests = window.next_picture(model);
     if (requests.quit) return;
-    serve(requests, window, model);
+    serve_requests(requests, window, model);
     if (!places.empty()) write_places(places, window.places(), written);
   }
 }

@@ -51,7 +51,7 @@ struct Start {
   pid_t parent;
 };
 
-void give(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from, stream); }
+void connect_stream(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from, stream); }
 
 /// Runs between fork and exec, with calls that are safe there. Returns only if it fails.
 void become(const Start& start) {
@@ -63,9 +63,9 @@ void become(const Start& start) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  give(STDIN_FILENO, start.streams.in, nowhere);
-  give(STDOUT_FILENO, start.streams.out, nowhere);
-  give(STDERR_FILENO, start.streams.err, nowhere);
+  connect_stream(STDIN_FILENO, start.streams.in, nowhere);
+  connect_stream(STDOUT_FILENO, start.streams.out, nowhere);
+  connect_stream(STDERR_FILENO, start.streams.err, nowhere);
   if (::chdir(start.folder) == 0) ::execvpe(start.file, start.words.data(), start.variables.data());
 }
 

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 /// open file.
 constexpr int attempts = 100;
 
-[[noreturn]] void give_up(const std::string& path) {
+[[noreturn]] void throw_foreign_lock(const std::string& path) {
   throw Error(
       ExitCode::cannot_create,
       fmt::format("{}: cannot lock: it was replaced by another file at each of {} attempts; choose an "
@@ -72,7 +72,7 @@ bool acquire_lock(const Descriptor& file, const std::string& path) {
 }
 
 /// Whether a path is of the given kind (file or folder) itself, and not a link to one.
-bool is_left(const std::string& path, mode_t kind) {
+bool is_of_kind(const std::string& path, mode_t kind) {
   struct stat status {};
   return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind;
 }
@@ -80,7 +80,7 @@ bool is_left(const std::string& path, mode_t kind) {
 /// Whether a path is of the given kind and belongs to this user.
 bool is_ours(const std::string& path, mode_t kind) {
   struct stat status {};
-  return is_left(path, kind) && ::lstat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid();
+  return is_of_kind(path, kind) && ::lstat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid();
 }
 
 /// Throws the error for an existing item that Talus has not created. The item is left in place.
@@ -128,7 +128,7 @@ std::optional<Descriptor> create(const std::string& path, bool is_folder) {
     const bool is_new = is_folder ? ::mkdir(path.c_str(), 0777) == 0 : made.get() >= 0;
     if (!is_new && errno != EEXIST)
       throw creation_error(is_folder ? "create the folder" : "create", path, errno);
-    if (!is_new && !is_left(path, is_folder ? S_IFDIR : S_IFREG)) {
+    if (!is_new && !is_of_kind(path, is_folder ? S_IFDIR : S_IFREG)) {
       if (errno == ENOENT) continue;  // removed meanwhile
       refuse_foreign(path, is_folder ? "a temporary folder" : "a temporary file");
     }
@@ -143,7 +143,7 @@ std::optional<Descriptor> create(const std::string& path, bool is_folder) {
     fs::remove_all(path, error);
     if (error) throw creation_error("replace", path, error.value());
   }
-  give_up(path);
+  throw_foreign_lock(path);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-double of_machine() {
+double physical_memory() {
   struct sysinfo info = {};
   if (sysinfo(&info) != 0) return unlimited;
   return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) * info.mem_unit;
 }
 
-double of_shell() {
+double shell_limit() {
   rlimit limit = {};
   const bool limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
   return limited ? static_cast<double>(limit.rlim_cur) : unlimited;
@@ -40,7 +40,7 @@ double min_limit(const fs::path& root, fs::path group, const char* file) {
 
 /// Returns the limit of the control groups, from lines "0::/group" (version 2) and "5:memory:/group"
 /// (version 1).
-double of_groups() {
+double cgroup_memory() {
   double least = unlimited;
   std::ifstream groups("/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
@@ -56,6 +56,6 @@ double of_groups() {
 
 }  // namespace
 
-double machine_memory() { return std::min({of_machine(), of_shell(), of_groups()}); }
+double machine_memory() { return std::min({physical_memory(), shell_limit(), cgroup_memory()}); }
 
 }  // namespace talus

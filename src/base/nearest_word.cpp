@@ -20,8 +20,8 @@ std::string lower(std::string_view text) {
 /// first letter must be right.
 bool is_near(const std::string& written, const std::string& name, std::size_t distance) {
   const bool begins = written.size() >= 3 && name.starts_with(written);
-  const bool goes_on = name.size() >= 4 && written.starts_with(name);
-  if (begins || goes_on) return true;
+  const bool is_extended = name.size() >= 4 && written.starts_with(name);
+  if (begins || is_extended) return true;
   if (distance > std::max<std::size_t>(2, name.size() / 3)) return false;
   return distance < 2 || (name.size() > 4 ? distance < written.size() : written.front() == name.front());
 }

@@ -58,7 +58,7 @@ inline int part_begin(int count, int member, int size) {
 /// Calls what(first, last) for parts that together are 0 ... count - 1: on each member of the team for its
 /// own part, or once without a team. `what` must not throw.
 template <class Do>
-void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
+void distribute(ThreadTeam* team, std::size_t count, const Do& what) {
   if (team == nullptr) return what(std::size_t{0}, count);
   const std::size_t size = static_cast<std::size_t>(team->size());
   team->run([&what, count, size](int member) {
@@ -70,7 +70,7 @@ void share_out(ThreadTeam* team, std::size_t count, const Do& what) {
 /// Calls two independent functions, simultaneously on two members of the team, or one after the other without
 /// a team. They must not throw.
 template <class First, class Second>
-void do_both(ThreadTeam* team, const First& first, const Second& second) {
+void run_both(ThreadTeam* team, const First& first, const Second& second) {
   if (team == nullptr || team->size() == 1) {
     first();
     second();

@@ -124,7 +124,7 @@ void detect_contacts(NeighbourList& list, const Grains& grains, const Boundary& 
   const std::size_t parts = team ? static_cast<std::size_t>(team->size()) : 1;
   const auto begin_of = [candidates, parts](std::size_t part) { return candidates * part / parts; };
   list.part_end.resize(parts);
-  share_out(team, parts, [&](std::size_t part, std::size_t) {
+  distribute(team, parts, [&](std::size_t part, std::size_t) {
     list.part_end[part] =
         write_near(list, grains, boundary, margin, begin_of(part), begin_of(part + 1), contacts);
   });

@@ -65,15 +65,15 @@ void sort_into_cells(const Grains& grains, const Boundary& boundary, double cell
   const auto count = static_cast<std::size_t>(cells.columns) * cells.rows;
   cells.start.resize(count + 1);  // not assigned, which would allocate for each additional row of cells
   std::fill(cells.start.begin(), cells.start.end(), 0);
-  for (auto* field : {&cells.of_grain, &cells.grain}) field->resize(grains.x.size());
+  for (auto* field : {&cells.grain_cell, &cells.grain}) field->resize(grains.x.size());
   for (auto* field : {&cells.x, &cells.y, &cells.radius}) field->resize(grains.x.size());
   for (Index i = 0; i < grains.count(); ++i) {
-    cells.of_grain[i] = row_of(cells, grains.y[i]) * cells.columns + column_of(cells, grains.x[i]);
-    ++cells.start[cells.of_grain[i] + 1];
+    cells.grain_cell[i] = row_of(cells, grains.y[i]) * cells.columns + column_of(cells, grains.x[i]);
+    ++cells.start[cells.grain_cell[i] + 1];
   }
   for (std::size_t k = 0; k < count; ++k) cells.start[k + 1] += cells.start[k];
   for (Index i = 0; i < grains.count(); ++i) {
-    const Index place = cells.start[cells.of_grain[i]]++;
+    const Index place = cells.start[cells.grain_cell[i]]++;
     cells.grain[place] = i;
     cells.x[place] = grains.x[i];
     cells.y[place] = grains.y[i];
@@ -88,8 +88,8 @@ std::size_t max_neighbours(const Grains& grains, const Boundary& boundary) {
 }
 
 void search_grains(const GrainCells& cells, const Grains& grains, NeighbourSearch& search) {
-  const Index row = cells.of_grain[search.a] / cells.columns;
-  const Index column = cells.of_grain[search.a] % cells.columns;
+  const Index row = cells.grain_cell[search.a] / cells.columns;
+  const Index column = cells.grain_cell[search.a] % cells.columns;
   const Index last = cells.columns - 1;
   for (Index r = std::max<Index>(row - 1, 0); r <= std::min<Index>(row + 1, cells.rows - 1); ++r) {
     const Index start = r * cells.columns;

@@ -16,9 +16,9 @@ struct GrainCells {
   bool periodic = false;
   double length = 0.0;  ///< length of the bed, m
 
-  std::vector<Index> start;     ///< grains of cell k: entries start[k] ... start[k + 1] - 1 of those below
-  std::vector<Index> grain;     ///< grains in the order of cells, and of their ids within a cell
-  std::vector<Index> of_grain;  ///< cell of each grain
+  std::vector<Index> start;       ///< grains of cell k: entries start[k] ... start[k + 1] - 1 of those below
+  std::vector<Index> grain;       ///< grains in the order of cells, and of their ids within a cell
+  std::vector<Index> grain_cell;  ///< cell of each grain
   std::vector<double> x, y, radius;  ///< properties of the grains in the order of cells
 };
 

@@ -70,7 +70,7 @@ void recall(const Contacts& previous, Contacts& contacts, Index c, Index count) 
 
 void recall_forces(const Contacts& previous, Contacts& contacts, ThreadTeam* team) {
   const bool moments = !contacts.moment.empty() && !previous.moment.empty();
-  share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
     const Index begin = begin_of_pair(contacts, static_cast<Index>(first));
     const Index end = begin_of_pair(contacts, static_cast<Index>(last));
     if (moments)

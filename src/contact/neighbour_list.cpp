@@ -91,7 +91,7 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   list.first_found.resize(count + 1);
   // An exception that leaves a member of the team would end the program.
   std::atomic<bool> lacks_memory = false;
-  share_out(team, parts, [&](std::size_t part, std::size_t) {
+  distribute(team, parts, [&](std::size_t part, std::size_t) {
     try {
       list.part_end[part] = find_neighbours(list, grains, boundary, range, begin_of(part), begin_of(part + 1),
                                             list.found[part]);
@@ -107,7 +107,7 @@ void list_pairs(NeighbourList& list, const Grains& grains, const Boundary& bound
   }
   list.first_found[count] = total;
   list.pairs.resize(total);
-  share_out(team, parts, [&](std::size_t part, std::size_t) {
+  distribute(team, parts, [&](std::size_t part, std::size_t) {
     const std::size_t first = begin_of(part);
     list_neighbours(list, grains, first, begin_of(part + 1), list.found[part], list.first_found[first]);
   });
@@ -152,7 +152,7 @@ void rebuild(NeighbourList& list, const Grains& grains, const Boundary& boundary
 
 /// Inserts arrived free grains after the existing ones: the numbers of bodies after them increase, and their
 /// former positions are NaN.
-void let_in_arrivals(NeighbourList& list, const Grains& grains) {
+void insert_arrivals(NeighbourList& list, const Grains& grains) {
   const Index first = list.free_count, arrived = grains.free_count - first;
   if (arrived == 0) return;
   for (auto* field : {&list.x, &list.y})  // reserves for both first, in case an allocation fails
@@ -265,7 +265,7 @@ void CandidatePairs::reserve(std::size_t count) {
 void update_neighbour_list(NeighbourList& list, const Grains& grains, const Boundary& boundary, double reach,
                            ThreadTeam* team) {
   if (!fits(list, grains, reach)) return rebuild(list, grains, boundary, reach, team);
-  let_in_arrivals(list, grains);
+  insert_arrivals(list, grains);
   if (are_within(list, grains, farthest * list.skin)) return;
   if (!find_moved(list, grains, boundary)) return rebuild(list, grains, boundary, reach, team);
   search_moved(list, grains, boundary);

@@ -102,10 +102,11 @@ Correlation correlation_of(std::span<const double> left, std::span<const double>
     }
   Correlation found{not_known, static_cast<int>(a.size())};
   if (found.count < 3) return found;
-  const Statistics of_a = statistics_of(a), of_b = statistics_of(b);
+  const Statistics statistics_a = statistics_of(a), statistics_b = statistics_of(b);
   double products = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) products += (a[k] - of_a.mean) * (b[k] - of_b.mean);
-  const double scale = of_a.deviation * of_b.deviation * (found.count - 1.0);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    products += (a[k] - statistics_a.mean) * (b[k] - statistics_b.mean);
+  const double scale = statistics_a.deviation * statistics_b.deviation * (found.count - 1.0);
   if (scale > 0.0) found.coefficient = products / scale;
   return found;
 }

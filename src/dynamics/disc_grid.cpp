@@ -26,7 +26,7 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) cons
   for (const Plane& plane : boundary_.planes)
     if (!plane.wall) touch.height = plane.offset + radius;
   const double reach = radius + largest_radius();
-  const auto meet = [&](Index i) {
+  const auto check_disc = [&](Index i) {
     const PlacedDisc& disc = discs_[static_cast<std::size_t>(i)];
     const double across = std::fabs(separation(disc.x, x)), distance = radius + disc.radius;
     if (disc.y >= from || across >= distance) return;
@@ -35,7 +35,7 @@ DiscGrid::Touch DiscGrid::first_touch(double x, double radius, double from) cons
   };
   const double highest = std::min(from, bottom_of(rows_ + 1));
   for (Index row = std::min(row_of(highest), rows_ - 1); row >= 0; --row) {
-    visit_rows(row, row, x - reach, x + reach, meet);
+    visit_rows(row, row, x - reach, x + reach, check_disc);
     if (touch.height >= bottom_of(row) + reach) break;  // no disc of a lower row can stop a grain this high
   }
   return touch;

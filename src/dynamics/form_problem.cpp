@@ -193,13 +193,13 @@ void form_problem(const World& world, const Contacts& contacts, const ContactLaw
   size_columns(world, contacts.count(), problem);
   double noise = 0.0;
   // The sum of the noise is one chain of additions, in an order that must not depend on the team.
-  do_both(
+  run_both(
       team, [&] { noise = impulse_of_noise(contacts, h, tolerance); },
       [&] {
         take_grains(world, h, problem);
         take_columns(world, problem);
       });
-  share_out(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, contacts.a.size(), [&](std::size_t first, std::size_t last) {
     const Part part{first, last};
     take_local_frames(contacts, part, problem);
     set_gap_velocities(contacts, law, h, noise, part, problem);

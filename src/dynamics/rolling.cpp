@@ -41,7 +41,7 @@ class Path {
 
   Vec2 end() {
     for (int move = 0; move < max_moves; ++move)
-      if (const std::optional<Vec2> place = roll_ ? go_on_rolling() : fall()) return *place;
+      if (const std::optional<Vec2> place = roll_ ? continue_rolling() : fall()) return *place;
     throw Error(ExitCode::internal, "the position of rest of a grain was not found");
   }
 
@@ -70,7 +70,7 @@ class Path {
     return std::nullopt;
   }
 
-  std::optional<Vec2> go_on_rolling() {
+  std::optional<Vec2> continue_rolling() {
     const Roll roll = *roll_;
     const std::optional<Stop> stop = first_stop(roll);
     if (!stop) {

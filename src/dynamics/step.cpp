@@ -99,7 +99,7 @@ void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
   for (auto* field : {&before.x, &before.y, &before.angle}) field->resize(count);
   before.image.resize(count);
   std::atomic<bool> within = true;
-  share_out(team, count, [&](std::size_t first, std::size_t last) {
+  distribute(team, count, [&](std::size_t first, std::size_t last) {
     copy_positions(world.grains, first, last, before);
     if (!advance_positions(world.grains, world.boundary, 0.5 * h, first, last)) within = false;
   });
@@ -112,7 +112,7 @@ void end_motion(const solver::ContactSolution& solution, World& world, double h,
                 std::vector<Index>& image) {
   Grains& grains = world.grains;
   std::atomic<bool> within = true;
-  share_out(team, free_grains(world), [&](std::size_t first, std::size_t last) {
+  distribute(team, free_grains(world), [&](std::size_t first, std::size_t last) {
     std::copy(solution.vx.data() + first, solution.vx.data() + last, grains.vx.data() + first);  // (T6)
     std::copy(solution.vy.data() + first, solution.vy.data() + last, grains.vy.data() + first);
     std::copy(solution.omega.data() + first, solution.omega.data() + last, grains.omega.data() + first);
@@ -138,14 +138,14 @@ double largest(std::size_t first, std::size_t last, const Value& value) {
 
 template <typename Value>
 double largest(ThreadTeam* team, std::size_t count, const Value& value) {
-  std::atomic<double> of_all = 0.0;
-  share_out(team, count, [&](std::size_t first, std::size_t last) {
+  std::atomic<double> maximum = 0.0;
+  distribute(team, count, [&](std::size_t first, std::size_t last) {
     const double own = largest(first, last, value);
-    double known = of_all;
-    while (own > known && !of_all.compare_exchange_weak(known, own)) {
+    double known = maximum;
+    while (own > known && !maximum.compare_exchange_weak(known, own)) {
     }
   });
-  return of_all;
+  return maximum;
 }
 
 double largest_velocity(const Grains& grains, ThreadTeam* team) {
@@ -165,7 +165,7 @@ void guess_impulses(const Contacts& contacts, double h, const solver::ContactPro
   const auto count = static_cast<std::size_t>(contacts.count());
   solution.pn.resize(count);
   solution.pt.resize(count);
-  share_out(team, count, [&](std::size_t first, std::size_t last) {
+  distribute(team, count, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       solution.pn[c] = contacts.fn[c] * h;
       solution.pt[c] = contacts.ft[c] * h;
@@ -179,7 +179,7 @@ void guess_impulses(const Contacts& contacts, double h, const solver::ContactPro
 /// Stores the impulses as mean forces over the step, so that the memory remains valid if h changes (T18).
 void store_impulses(const solver::ContactProblem& problem, const solver::ContactSolution& solution, double h,
                     ThreadTeam* team, Contacts& contacts) {
-  share_out(team, solution.pn.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, solution.pn.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       contacts.fn[c] = solution.pn[c] / h;
       contacts.ft[c] = solution.pt[c] / h;
@@ -199,7 +199,7 @@ bool finite(const std::vector<double>& values, std::size_t first, std::size_t la
 
 bool finite(const solver::ContactSolution& solution, ThreadTeam* team) {
   std::atomic<bool> all = true;
-  share_out(team, solution.vx.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, solution.vx.size(), [&](std::size_t first, std::size_t last) {
     for (const auto* field : {&solution.vx, &solution.vy, &solution.omega})
       if (!finite(*field, first, last)) all = false;
   });
@@ -272,7 +272,7 @@ StepReport step(World& world, const StepSettings& settings, StepWorkspace& works
   ++world.step;
   world.time += h;
   report.contacts = world.contacts.count();
-  do_both(
+  run_both(
       team, [&] { report.largest_overlap = largest_overlap(world.contacts); },
       [&] { report.motion = motion_of(world.grains); });
   clock.end_of(Stage::move);

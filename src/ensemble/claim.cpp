@@ -105,13 +105,13 @@ ClaimState claim_state(const std::string& run, int number, ClaimWatch& watch) {
       return *held ? ClaimState::alive : ClaimState::dead;
   const std::uint64_t beats = holder ? holder->beats : 0;
   const std::string who = holder ? holder->worker + holder->boot : "";
-  auto [found, is_new] = watch.seen.try_emplace(run);
-  ClaimWatch::Seen& seen = found->second;
-  const bool is_same = !is_new && seen.number == number && (seen.who == who || !holder);
-  if (!is_same || beats > seen.beats) seen = {number, beats, Clock::now(), is_same, who};
-  if (std::chrono::duration<double>(Clock::now() - seen.since).count() >= watch.times.stale)
+  auto [found, is_new] = watch.observations.try_emplace(run);
+  ClaimWatch::Observation& observation = found->second;
+  const bool is_same = !is_new && observation.number == number && (observation.who == who || !holder);
+  if (!is_same || beats > observation.beats) observation = {number, beats, Clock::now(), is_same, who};
+  if (std::chrono::duration<double>(Clock::now() - observation.since).count() >= watch.times.stale)
     return ClaimState::dead;
-  return seen.grew ? ClaimState::alive : ClaimState::unknown;
+  return observation.grew ? ClaimState::alive : ClaimState::unknown;
 }
 
 Claim::Claim(std::string path, int number, std::string next, Descriptor file, double seconds)
@@ -130,7 +130,8 @@ std::optional<Claim> Claim::take(const std::string& run, std::optional<int> foun
   if (file.get() < 0 && errno == EEXIST) return std::nullopt;
   if (file.get() < 0) throw creation_error("create", path, errno);
   ::flock(file.get(), LOCK_EX | LOCK_NB);  // for this machine; other machines rely on heartbeats
-  Claim claim(path, number, claim_path(run, number_after(run, number)), std::move(file), times.beat());
+  Claim claim(path, number, claim_path(run, number_after(run, number)), std::move(file),
+              times.heartbeat_interval());
   const std::string text = line_of_claim();
   if (::write(claim.file_.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     throw system_error(ExitCode::io_error, "write", path, errno);
@@ -144,7 +145,7 @@ Claim::~Claim() {
   if (file_.get() >= 0 && is_named(path_, file_)) ::unlink(path_.c_str());
 }
 
-bool Claim::beat() {
+bool Claim::record_heartbeat() {
   std::error_code unknown;
   if (!is_named(path_, file_) || std::filesystem::exists(next_, unknown)) return false;
   if (Clock::now() - last_ < interval_) return true;

@@ -21,7 +21,7 @@ struct ClaimTimes {
   double stale = 120.0;  ///< s without a heartbeat after which a claim of another machine is dead
 
   /// Returns the interval between two heartbeats, s.
-  double beat() const { return stale / 12.0; }
+  double heartbeat_interval() const { return stale / 12.0; }
 };
 
 /// The contents of a claim.
@@ -50,7 +50,7 @@ std::vector<std::string> claims_of(const std::string& run);
 
 /// The claims that this worker has observed, and the times at which they last grew.
 struct ClaimWatch {
-  struct Seen {
+  struct Observation {
     int number = 0;
     std::uint64_t beats = 0;
     std::chrono::steady_clock::time_point since;
@@ -58,7 +58,7 @@ struct ClaimWatch {
     std::string who;    ///< current holder; a new holder counts from its own first heartbeat
   };
   ClaimTimes times;
-  std::map<std::string, Seen> seen;  ///< indexed by run
+  std::map<std::string, Observation> observations;  ///< indexed by run
 };
 
 enum class ClaimState { alive, dead, unknown };
@@ -79,7 +79,7 @@ class Claim {
 
   /// Writes a heartbeat if one is due; one that cannot be written is skipped. Returns false if the claim is
   /// lost, because it was considered dead or removed.
-  bool beat();
+  bool record_heartbeat();
 
   int number() const { return number_; }
 

@@ -191,7 +191,7 @@ bool has_failed_itself(const Member& member) {
 }
 
 /// Whether a variant has only failures: no member has a run, is done or is under way.
-bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
+bool has_only_failures(const EnsembleManifest& found, const Variant& variant, const std::string& folder) {
   const EnsemblePlan plan = plan_ensemble(found.seeds, {variant}, folder);
   const std::vector<MemberState> states = scan_members(plan);
   bool has_failed = false;
@@ -218,17 +218,17 @@ bool is_hopeless(const EnsembleManifest& found, const Variant& variant, const st
 
 /// Removes unwanted variants with only failures from a manifest, and returns them. They result from a
 /// mistaken value, and would keep the ensemble from ever being complete.
-std::vector<Variant> take_hopeless(EnsembleManifest& found, const EnsembleManifest& wanted,
-                                   const std::string& folder) {
-  std::vector<Variant> hopeless, others;
+std::vector<Variant> remove_failed_variants(EnsembleManifest& found, const EnsembleManifest& wanted,
+                                            const std::string& folder) {
+  std::vector<Variant> failed_variants, others;
   for (const Variant& variant : found.variants) {
     const bool is_wanted = std::ranges::any_of(wanted.variants, [&](const Variant& other) {
       return other.name == variant.name && other.scenario == variant.scenario;
     });
-    (!is_wanted && is_hopeless(found, variant, folder) ? hopeless : others).push_back(variant);
+    (!is_wanted && has_only_failures(found, variant, folder) ? failed_variants : others).push_back(variant);
   }
   found.variants = std::move(others);
-  return hopeless;
+  return failed_variants;
 }
 
 /// Frees the names of variants that are no longer in the manifest. The logs of their members, and the results
@@ -392,11 +392,11 @@ EnsembleManifest extend_locked(const std::string& folder, const EnsembleManifest
   std::string before;
   if (is_ensemble(folder)) {
     EnsembleManifest found = read_ensemble(folder);
-    const std::vector<Variant> hopeless = take_hopeless(found, wanted, folder);
-    const bool goes_on = !found.variants.empty();
-    if (goes_on) require_same(found, wanted, folder);
-    if (!hopeless.empty()) withdraw(found, hopeless, folder);
-    if (goes_on) {
+    const std::vector<Variant> failed_variants = remove_failed_variants(found, wanted, folder);
+    const bool is_continued = !found.variants.empty();
+    if (is_continued) require_same(found, wanted, folder);
+    if (!failed_variants.empty()) withdraw(found, failed_variants, folder);
+    if (is_continued) {
       before = io::read_text(manifest_path(folder));
       all.version = found.version;
       all.seeds.insert(all.seeds.end(), found.seeds.begin(), found.seeds.end());

@@ -19,7 +19,7 @@ namespace talus::ensemble {
 namespace {
 
 /// Returns the number of runs that are kept; nothing means all.
-std::optional<std::size_t> number_kept(const std::string& keep) {
+std::optional<std::size_t> kept_count(const std::string& keep) {
   if (keep.empty() || keep == "all") return std::nullopt;
   if (keep == "analysis") return 0;
   std::size_t number = 0;
@@ -40,10 +40,10 @@ void discard_packed(const std::string& run) try {
 
 }  // namespace
 
-void check_keep(const std::string& keep) { number_kept(keep); }
+void check_keep(const std::string& keep) { kept_count(keep); }
 
 bool keeps_frames(const EnsembleManifest& manifest, std::uint64_t seed) {
-  const std::optional<std::size_t> kept = number_kept(manifest.keep);
+  const std::optional<std::size_t> kept = kept_count(manifest.keep);
   if (!kept) return true;
   const auto before = std::ranges::lower_bound(manifest.seeds, seed) - manifest.seeds.begin();
   return static_cast<std::size_t>(before) < *kept;
@@ -55,7 +55,7 @@ bool is_in_folder(const Member& member, const std::string& folder) {
 
 std::size_t drop_frames(const EnsembleManifest& manifest, const EnsemblePlan& plan, const std::string& folder,
                         KnownMembers& known) {
-  if (!number_kept(manifest.keep)) return 0;
+  if (!kept_count(manifest.keep)) return 0;
   std::size_t dropped = 0;
   for (const std::size_t m : done_members(plan)) {
     const Member& member = plan.members[m];

@@ -72,7 +72,7 @@ MemberResult read_result(const Member& member, bool whole) {
   return found;
 }
 
-const MemberResult& keep(const Member& member, KnownMembers& known, KnownMembers::Known read) {
+const MemberResult& keep(const Member& member, KnownMembers& known, KnownMembers::Entry read) {
   return known.by_path.insert_or_assign(member.path, std::move(read)).first->second.result;
 }
 
@@ -116,7 +116,7 @@ const MemberResult& read_member(const Member& member, KnownMembers& known) {
   return read_parts(member, known, false);
 }
 
-void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known) {
+void find_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known) {
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].stage != MemberStage::done) continue;
     const Member& member = plan.members[m];

@@ -28,12 +28,12 @@ struct KnownMembers {
     std::int64_t size = 0, seconds = 0, nanoseconds = 0;
     bool operator==(const FileMark&) const = default;
   };
-  struct Known {
+  struct Entry {
     FileMark mark;
     bool whole = false;  ///< includes series and lists
     MemberResult result;
   };
-  std::map<std::string, Known> by_path;
+  std::map<std::string, Entry> by_path;
 };
 
 /// Returns the results of a completed member, at least its scalar ones. The reference is valid until its file
@@ -42,7 +42,7 @@ const MemberResult& read_member(const Member& member, KnownMembers& known);
 
 /// Marks members with damaged files as waiting, and records the damage. Members that read_member refuses for
 /// another reason remain done.
-void look_for_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known);
+void find_damage(const EnsemblePlan& plan, std::vector<MemberState>& states, KnownMembers& known);
 
 /// Returns all results of a completed member. If its run has no valid analysis, such as one that `talus run`
 /// has put there, it is analysed first, and the analysis is stored if possible. Throws also the errors of

@@ -22,7 +22,7 @@ struct MemberState {
   std::optional<int> claim;    ///< highest existing claim, in any stage
   bool has_folder = false;     ///< the folder in which its run is computed exists
   bool has_old_table = false;  ///< earlier versions of Talus have left a table
-  std::string damage = {};     ///< damage of its run file that look_for_damage found
+  std::string damage = {};     ///< damage of its run file that find_damage found
 };
 
 /// Returns the states of all members, in the order of the plan. Scans each folder once.

@@ -55,13 +55,13 @@ pid_t start(const Job& job) {
 }
 
 /// Returns the last line of a job. On a full disk its log has none, and the exit code indicates the reason.
-std::string said_in(const std::string& log, int code) {
-  std::string said;
+std::string last_message_in(const std::string& log, int code) {
+  std::string message;
   try {
-    said = last_line_of(log);
+    message = last_line_of(log);
   } catch (const Error&) {  // the log no longer exists
   }
-  if (!said.empty() || code != static_cast<int>(ExitCode::io_error)) return said;
+  if (!message.empty() || code != static_cast<int>(ExitCode::io_error)) return message;
   std::error_code unknown;
   const std::filesystem::space_info space = std::filesystem::space(parent_folder(log), unknown);
   return !unknown && space.available < 65536 ? "no space left on the disk of this folder"
@@ -80,7 +80,7 @@ void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& faile
     // Without a status (another process has collected it), the outcome is unknown.
     const int ended_with = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     const int code = ended < 0 ? static_cast<int>(ExitCode::internal) : ended_with;
-    if (code != 0) failed.push_back({child->second->log, code, said_in(child->second->log, code)});
+    if (code != 0) failed.push_back({child->second->log, code, last_message_in(child->second->log, code)});
     child = running.erase(child);
   }
 }
@@ -88,7 +88,7 @@ void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& faile
 }  // namespace
 
 std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string& work,
-                                const std::function<bool()>& go_on) {
+                                const std::function<bool()>& should_continue) {
   for (const Job& job : jobs) {
     prepare_folder_of(job.log);
     output_target(job.log);  // opening a FIFO would block
@@ -102,7 +102,7 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
     for (const auto& [process, job] : running) kill(process, SIGTERM);
   };
   while (!running.empty()) {
-    if (!stopped && !given_up && !go_on()) {
+    if (!stopped && !given_up && !should_continue()) {
       given_up = true;
       end_all();
     }
@@ -121,8 +121,8 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
 void refuse(const std::vector<FailedJob>& failed, const std::string& consequence) {
   std::string text = fmt::format("{}{} ended with an error, {}; see", failed.size(),
                                  failed.size() == 1 ? " run" : " runs", consequence);
-  for (const auto& [log, exit_code, said] : failed)
-    text += fmt::format("\n  {} (exit code {}){}{}", log, exit_code, said.empty() ? "" : ": ", said);
+  for (const auto& [log, exit_code, message] : failed)
+    text += fmt::format("\n  {} (exit code {}){}{}", log, exit_code, message.empty() ? "" : ": ", message);
   const int code = failed.front().exit_code;
   throw Error(code > 128 ? ExitCode::internal : static_cast<ExitCode>(code), text);
 }

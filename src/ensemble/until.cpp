@@ -61,8 +61,8 @@ bool is_reached(const Precision& precision, const EnsemblePlan& plan,
     if (numbers[m].numbers.empty()) continue;
     values[plan.members[m].variant].push_back(number_called(numbers[m], precision.quantity));
   }
-  return std::ranges::all_of(values, [&](const std::vector<double>& of_variant) {
-    const Statistics found = statistics_of(of_variant);
+  return std::ranges::all_of(values, [&](const std::vector<double>& variant_values) {
+    const Statistics found = statistics_of(variant_values);
     return found.count >= min_members && found.error <= precision.error;
   });
 }

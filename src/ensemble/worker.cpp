@@ -35,21 +35,21 @@ struct Worker {
 
 /// Returns the members by descending estimated time; equal times keep the order of the plan.
 std::vector<std::size_t> longest_first(const EnsemblePlan& plan) {
-  const std::vector<double> of_variant = estimated_seconds(plan);
+  const std::vector<double> variant_seconds = estimated_seconds(plan);
   std::vector<std::size_t> order(plan.members.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater<>(),
-                           [&](std::size_t m) { return of_variant[plan.members[m].variant]; });
+                           [&](std::size_t m) { return variant_seconds[plan.members[m].variant]; });
   return order;
 }
 
-struct Taken {
+struct ClaimedMember {
   Member member;
   Claim claim;
 };
 
 /// Whether a newly acquired claim is valid, for a member that still has to be computed.
-bool still_ours(const EnsemblePlan& plan, std::size_t member, const Claim& claim) {
+bool is_valid_claim(const EnsemblePlan& plan, std::size_t member, const Claim& claim) {
   const MemberState now = scan_members(plan)[member];
   return now.stage == MemberStage::claimed && now.claim == claim.number();
 }
@@ -69,15 +69,15 @@ bool is_written(const Member& member, Worker& worker) {
 }
 
 /// The result of scanning all members.
-struct Look {
-  std::optional<Taken> taken;
+struct Scan {
+  std::optional<ClaimedMember> claimed;
   std::size_t alive = 0;
   std::size_t unknown = 0;  ///< claims that must be watched for longer
   std::size_t written = 0;  ///< members whose runs other processes write, to be awaited
 };
 
-Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states, Worker& worker) {
-  Look look;
+Scan claim_next(const EnsemblePlan& plan, const std::vector<MemberState>& states, Worker& worker) {
+  Scan scan;
   for (const std::size_t m : longest_first(plan)) {
     const Member& member = plan.members[m];
     const MemberState& state = states[m];
@@ -85,20 +85,20 @@ Look take_next(const EnsemblePlan& plan, const std::vector<MemberState>& states,
     if (state.stage == MemberStage::done || state.stage == MemberStage::failed) continue;
     if (state.claim) {
       const ClaimState claim = claim_state(member.path, *state.claim, worker.watch);
-      if (claim == ClaimState::alive) ++look.alive;
-      if (claim == ClaimState::unknown) ++look.unknown;
+      if (claim == ClaimState::alive) ++scan.alive;
+      if (claim == ClaimState::unknown) ++scan.unknown;
       if (claim != ClaimState::dead) continue;
     }
     if (is_written(member, worker)) {
-      ++look.written;
+      ++scan.written;
       continue;
     }
     std::optional<Claim> claim = Claim::take(member.path, state.claim, worker.options.times);
-    if (!claim || !still_ours(plan, m, *claim)) continue;
-    look.taken.emplace(Taken{member, std::move(*claim)});
-    return look;
+    if (!claim || !is_valid_claim(plan, m, *claim)) continue;
+    scan.claimed.emplace(ClaimedMember{member, std::move(*claim)});
+    return scan;
   }
-  return look;
+  return scan;
 }
 
 /// Returns the remaining time of the worker, formatted for talus; nothing without a limit.
@@ -112,8 +112,8 @@ std::optional<std::string> time_left(const Worker& worker) {
 }
 
 /// Computes and analyses the member in another process, and keeps the claim alive meanwhile.
-void compute(Worker& worker, Taken& taken) {
-  const Member& member = taken.member;
+void compute(Worker& worker, ClaimedMember& claimed) {
+  const Member& member = claimed.member;
   std::vector<std::string> arguments = {"ensemble", "member", path_word(worker.options.folder),
                                         path_word(member.name)};
   if (const std::optional<std::string> left = time_left(worker)) {
@@ -122,13 +122,13 @@ void compute(Worker& worker, Taken& taken) {
   }
   if (worker.options.on_end) worker.options.on_end(member.name, -1);
   bool lost = false;
-  const auto keep_claim = [&] { return !(lost = lost || !taken.claim.beat()); };
+  const auto keep_claim = [&] { return !(lost = lost || !claimed.claim.record_heartbeat()); };
   const std::vector<FailedJob> failed =
       run_jobs({{std::move(arguments), second_file(member.path, ".log")}}, "the worker", keep_claim);
   const int code = failed.empty() ? 0 : failed.front().exit_code;
   // Another worker continues the member, so that the error of a process that was considered dead does not
   // count as a failure.
-  if (lost || (code != 0 && !taken.claim.beat())) return;
+  if (lost || (code != 0 && !claimed.claim.record_heartbeat())) return;
   if (worker.options.on_end) worker.options.on_end(member.name, code);
   if (code == static_cast<int>(ExitCode::stopped))
     throw Error(ExitCode::stopped,
@@ -143,7 +143,7 @@ void compute(Worker& worker, Taken& taken) {
   // A signal to all processes of a job also ends this worker, perhaps a moment after its member. In that case
   // the member has not failed.
   if (code > 128) std::this_thread::sleep_for(std::chrono::seconds(1));
-  record_failure(member.path, {code, failed.front().said});
+  record_failure(member.path, {code, failed.front().message});
   ++worker.end.failed;
 }
 
@@ -165,15 +165,15 @@ WorkerEnd work_on_ensemble(const WorkerOptions& options) {
     const EnsembleManifest manifest = read_ensemble(options.folder);
     const EnsemblePlan plan = plan_of(manifest, options.folder);
     std::vector<MemberState> states = scan_members(plan);
-    if (!manifest.until.empty()) look_for_damage(plan, states, worker.known);
+    if (!manifest.until.empty()) find_damage(plan, states, worker.known);
     worker.end.enough = !manifest.until.empty() && is_reached(parse_precision(manifest.until), plan,
                                                               numbers_of(plan, states, worker.known));
     if (worker.end.enough) return worker.end;
-    Look look = take_next(plan, states, worker);
-    worker.end.elsewhere = look.alive + look.unknown + look.written;
-    if (look.taken)
-      compute(worker, *look.taken);
-    else if (look.unknown + look.written == 0)
+    Scan scan = claim_next(plan, states, worker);
+    worker.end.elsewhere = scan.alive + scan.unknown + scan.written;
+    if (scan.claimed)
+      compute(worker, *scan.claimed);
+    else if (scan.unknown + scan.written == 0)
       return worker.end;
     else {
       time_left(worker);  // throws when the time is over

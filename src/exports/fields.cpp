@@ -9,20 +9,20 @@ namespace talus::exports {
 namespace {
 
 /// Names of a quantity in other programs; empty: the same name as in other formats.
-struct OtherNames {
+struct ForeignNames {
   std::string_view name, xyz, lammps;
 };
 
-constexpr OtherNames other_names[] = {{"type", "kind", ""},
-                                      {"image", "", "ix iy"},
-                                      {"velocity", "velo", "vx vy"},
-                                      {"angular_velocity", "", "omegaz"},
-                                      {"displacement", "disp", "displacementx displacementy"},
-                                      {"coordination", "n_neighb", ""}};
+constexpr ForeignNames other_names[] = {{"type", "kind", ""},
+                                        {"image", "", "ix iy"},
+                                        {"velocity", "velo", "vx vy"},
+                                        {"angular_velocity", "", "omegaz"},
+                                        {"displacement", "disp", "displacementx displacementy"},
+                                        {"coordination", "n_neighb", ""}};
 
-OtherNames names_elsewhere(const analysis::FrameQuantity& field) {
-  const auto* found = std::ranges::find(other_names, field.name, &OtherNames::name);
-  return found == std::end(other_names) ? OtherNames{} : *found;
+ForeignNames foreign_names(const analysis::FrameQuantity& field) {
+  const auto* found = std::ranges::find(other_names, field.name, &ForeignNames::name);
+  return found == std::end(other_names) ? ForeignNames{} : *found;
 }
 
 /// Returns the suffix of a factor: "_2" for 2, "_1_5" for 1.5. OVITO reads a dot in a name as the start of a
@@ -64,12 +64,12 @@ std::vector<std::string> component_names(const FieldColumn& column) {
 }
 
 std::string xyz_name(const FieldColumn& column) {
-  const std::string_view name = names_elsewhere(column.field).xyz;
+  const std::string_view name = foreign_names(column.field).xyz;
   return name.empty() ? column.name() : std::string(name);
 }
 
 std::string lammps_names(const FieldColumn& column) {
-  const std::string_view names = names_elsewhere(column.field).lammps;
+  const std::string_view names = foreign_names(column.field).lammps;
   return names.empty() ? joined(component_names(column), " ") : std::string(names);
 }
 

@@ -50,8 +50,8 @@ Table coefficient_table(const std::vector<RunAngle>& angles, std::size_t groups)
 /// Sets the range of an axis to all values of an angle, with room at both ends.
 void set_range(Figure& figure, const RunAngle& angle, std::size_t k) {
   std::vector<double> numbers;
-  for (const std::vector<double>& of_group : angle.values)
-    std::ranges::copy_if(of_group, std::back_inserter(numbers),
+  for (const std::vector<double>& group_values : angle.values)
+    std::ranges::copy_if(group_values, std::back_inserter(numbers),
                          [](double value) { return !std::isnan(value); });
   const auto [low, high] = std::ranges::minmax(numbers);
   const double room = high > low ? 0.08 * (high - low) : 0.5;

@@ -26,8 +26,8 @@ std::string summary_text(const std::vector<double>& values) {
 /// Returns the share of the runs of each group in each bin.
 Table histogram_table(const RunAngle& angle) {
   std::vector<double> together;
-  for (const std::vector<double>& of_group : angle.values)
-    together.insert(together.end(), of_group.begin(), of_group.end());
+  for (const std::vector<double>& group_values : angle.values)
+    together.insert(together.end(), group_values.begin(), group_values.end());
   const HistogramBins bins = bins_for(together);
   Table table{
       "bins-" + angle.name,

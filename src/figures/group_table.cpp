@@ -138,7 +138,7 @@ void add_group_curves(Figure& figure, const RunGroup& group, const RunChoice& ru
   if (runs.size() > 1) {
     set_variable(figure, "spread", 1.0);
     figure.tables.push_back(
-        {fmt::format("{}-runs", table_name(group)), runs_one_by_one(runs, columns, abscissa), true});
+        {fmt::format("{}-runs", table_name(group)), individual_runs(runs, columns, abscissa), true});
     set_variable(figure, fmt::format("drawn_{}", figure.groups),
                  static_cast<double>(std::min(runs.size(), max_runs_drawn)));
     set_variable(figure, fmt::format("runs_{}", figure.groups),

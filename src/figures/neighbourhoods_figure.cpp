@@ -22,7 +22,7 @@ namespace {
 constexpr double paper_tilt = 10.0;  // deg
 
 /// The grain and frame that are drawn.
-struct Shown {
+struct GrainChoice {
   std::size_t k = 0;
   Frame frame;
   Index grain = 0;
@@ -30,7 +30,7 @@ struct Shown {
 
 /// Returns the typical grain of the frame nearest to this tilt (rad) that has one, up to the last frame
 /// before theta_c. In a small bed some frames have none.
-std::optional<Shown> shown_grain(const runs::RunView& run, double tilt) {
+std::optional<GrainChoice> shown_grain(const runs::RunView& run, double tilt) {
   const RunStatics& statics = run.file->header().statics;
   std::vector<std::size_t> nearest(repose_frame(run) + 1);
   std::iota(nearest.begin(), nearest.end(), std::size_t{0});
@@ -39,7 +39,7 @@ std::optional<Shown> shown_grain(const runs::RunView& run, double tilt) {
   for (const std::size_t k : nearest) {
     Frame frame = runs::analysed_frame(*run.file, runs::from_facts(run.analysis.parameters), k);
     const auto grain = typical_grain({frame, statics}, run.analysis.frames.at(k).thresholds);
-    if (grain) return Shown{k, std::move(frame), *grain};
+    if (grain) return GrainChoice{k, std::move(frame), *grain};
   }
   return std::nullopt;
 }
@@ -93,7 +93,7 @@ std::string caption_of(const FailedGroup& failed, const Frame& frame, Index grai
 
 std::optional<Index> typical_grain(const BedFrame& bed,
                                    std::span<const analysis::FrameThreshold> thresholds) {
-  const std::vector<double> y = analysis::of_free_grains(bed.frame.y, bed.statics);
+  const std::vector<double> y = analysis::free_grain_values(bed.frame.y, bed.statics);
   if (y.empty()) return std::nullopt;
   const double top = *std::ranges::max_element(y);
   std::optional<Index> typical;

@@ -158,7 +158,7 @@ std::vector<Column> means_over_runs(std::span<const runs::RunView* const> runs,
   return columns;
 }
 
-std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
+std::vector<Column> individual_runs(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames, Abscissa abscissa) {
   std::vector<Column> columns = {{"seed", "1", "seed of the run", {}}, {"theta", "deg", "tilt", {}}};
   name_angle(columns[1], abscissa);

@@ -76,7 +76,7 @@ std::vector<Column> means_over_runs(std::span<const runs::RunView* const> runs,
 inline constexpr std::size_t max_runs_drawn = 100;
 
 /// Returns the seed, the angle and each column, run by run, for the first max_runs_drawn runs.
-std::vector<Column> runs_one_by_one(std::span<const runs::RunView* const> runs,
+std::vector<Column> individual_runs(std::span<const runs::RunView* const> runs,
                                     std::span<const FrameColumn> columns_of_frames,
                                     Abscissa abscissa = Abscissa::tilt);
 

@@ -7,7 +7,7 @@
 namespace talus::gui {
 
 /// Writes the line at the bottom.
-void say(Gui& gui, std::string text);
+void show_message(Gui& gui, std::string text);
 /// Reports that a replay does not support an action, and how to start a run that does.
 void refuse_in_replay(Gui& gui, const char* what);
 

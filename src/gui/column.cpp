@@ -39,7 +39,7 @@ bool draw_heading(Gui& gui, const Group& group) {
 }
 
 /// Scrolls as little as possible to show everything from top to bottom, or else the top.
-void bring_into_sight(float top, float bottom) {
+void scroll_to_show(float top, float bottom) {
   const float from = ImGui::GetScrollY(), room = ImGui::GetWindowHeight();
   if (top < from)
     ImGui::SetScrollY(top);
@@ -62,7 +62,7 @@ void draw_group(Gui& gui, const Group& group, bool several) {
   group.draw(gui);
   ImGui::Dummy({0.0f, 0.3f * gui.em});
   if (!asked) return;
-  bring_into_sight(top, ImGui::GetCursorPosY());
+  scroll_to_show(top, ImGui::GetCursorPosY());
   gui.model.state.message = fmt::format("Unfolded: {}.", group.name);
 }
 

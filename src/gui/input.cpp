@@ -47,7 +47,7 @@ void set_key(ImGuiIO& io, int key, bool down) {
   if (is_modifier(key, key_left_super)) io.KeySuper = down;
 }
 
-void hand_over_event(ImGuiIO& io, const InputEvent& event) {
+void forward_event(ImGuiIO& io, const InputEvent& event) {
   switch (event.kind) {
     case InputEvent::Kind::position:
       io.MousePos = {event.x, event.y};
@@ -81,7 +81,7 @@ void InputQueue::forward_events(ImGuiIO& io) {
     const InputEvent& event = events_.front();
     if (pressed && event.kind != InputEvent::Kind::character) break;
     pressed = pressed || event.kind == InputEvent::Kind::button || event.kind == InputEvent::Kind::key;
-    hand_over_event(io, event);
+    forward_event(io, event);
     events_.pop_front();
   }
 }

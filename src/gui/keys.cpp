@@ -22,11 +22,11 @@ struct Key {
 /// Shows or hides an element, and reports which.
 void toggle(Gui& gui, bool& shown, const std::string& on, const std::string& off) {
   shown = !shown;
-  say(gui, shown ? on : off);
+  show_message(gui, shown ? on : off);
 }
 
 /// Returns the text for an element drawn only at a selected grain, which says so if none is selected.
-std::string of_selected(const Gui& gui, const std::string& what) {
+std::string selected_only_text(const Gui& gui, const std::string& what) {
   return what + (gui.model.state.selected ? "." : ", once a grain is selected.");
 }
 
@@ -35,12 +35,13 @@ void change_number(Gui& gui, double& value, double step, double low, double high
                    const char* unit) {
   value = std::clamp(value + step, low, high);
   const char* limit = value == low ? ", the minimum" : value == high ? ", the maximum" : "";
-  say(gui, fmt::format("{}: {:.3g} {}{}.", what, value, unit, limit));
+  show_message(gui, fmt::format("{}: {:.3g} {}{}.", what, value, unit, limit));
 }
 
-void say_map(Gui& gui) {
+void show_map_message(Gui& gui) {
   const pictures::MapLayers& layers = gui.model.state.map.layers;
-  say(gui, fmt::format("Map: {}{}.", pictures::layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
+  show_message(
+      gui, fmt::format("Map: {}{}.", pictures::layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
 }
 
 void choose_map(Gui& gui, ImWchar digit) {
@@ -49,7 +50,7 @@ void choose_map(Gui& gui, ImWchar digit) {
     layers[0] = pictures::map_kinds()[k];
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
   }
-  say_map(gui);
+  show_map_message(gui);
 }
 
 void next_overlay(Gui& gui, ImWchar) {
@@ -62,7 +63,7 @@ void next_overlay(Gui& gui, ImWchar) {
   if (next < count && kinds[next] == layers[0]) ++next;
   layers.resize(1);
   if (next < count) layers.push_back(kinds[next]);
-  say_map(gui);
+  show_map_message(gui);
 }
 
 /// Cycles through the bar's own colours and all colour maps; for clusters without a bar, through the
@@ -72,7 +73,7 @@ void next_colours(Gui& gui, ImWchar) {
   if (pictures::shows(map.layers, pictures::MapKind::clusters) && !pictures::has_bar(map.layers)) {
     const std::size_t count = pictures::cluster_palettes.size();
     map.palette = pictures::cluster_palettes.at((static_cast<std::size_t>(map.palette) + 1) % count);
-    return say(gui, fmt::format("Colours of clusters: {}.", pictures::palette_name(map.palette)));
+    return show_message(gui, fmt::format("Colours of clusters: {}.", pictures::palette_name(map.palette)));
   }
   std::optional<render::ColourMap>& colours = map.colours;
   const auto all = render::colour_maps();
@@ -80,14 +81,15 @@ void next_colours(Gui& gui, ImWchar) {
       colours ? static_cast<std::size_t>(std::ranges::find(all, render::one_way(*colours)) - all.begin()) + 1
               : 0;
   colours = next < all.size() ? std::optional(all[next]) : std::nullopt;
-  say(gui, fmt::format("Colours of the bar: {}.",
-                       colours ? render::colour_map_name(*colours) : std::string_view("those of the map")));
+  show_message(gui, fmt::format("Colours of the bar: {}.", colours ? render::colour_map_name(*colours)
+                                                                   : std::string_view("those of the map")));
 }
 
 void change_reference(Gui& gui, ImWchar) {
   std::optional<double>& since = gui.model.state.since;
   since = since ? std::nullopt : std::optional(gui.model.frame().tilt);
-  say(gui, since ? fmt::format("Maps of motion and strain show the change since {:.2f}°.", degrees(*since))
+  show_message(
+      gui, since ? fmt::format("Maps of motion and strain show the change since {:.2f}°.", degrees(*since))
                  : std::string("Maps of motion and strain show the change per degree of tilt."));
 }
 
@@ -134,7 +136,7 @@ void select_by_key(Gui& gui, ImWchar key) {
   else if (selected)
     gui.model.select(std::optional<Index>());
   else
-    say(gui, "Nothing is selected.");
+    show_message(gui, "Nothing is selected.");
 }
 
 /// Multiplies the speed of a replay by a factor; in a live run, selects the next pace.
@@ -144,11 +146,11 @@ void change_speed(Gui& gui, double factor) {
   if (model.is_live()) {
     const int last = static_cast<int>(std::size(view::live_paces)) - 1;
     model.state.pace = std::clamp(model.state.pace + (factor < 1.0 ? -1 : 1), 0, last);
-    return say(gui, fmt::format("Pace of the run: {}.", view::live_paces[model.state.pace].name));
+    return show_message(gui, fmt::format("Pace of the run: {}.", view::live_paces[model.state.pace].name));
   }
   model.set_speed(std::min(factor * model.speed(), fastest_replay));
-  say(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
-                       model.speed() >= fastest_replay ? ", the maximum" : ""));
+  show_message(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
+                                model.speed() >= fastest_replay ? ", the maximum" : ""));
 }
 
 void toggle_trails(Gui& gui) {
@@ -156,12 +158,12 @@ void toggle_trails(Gui& gui) {
   selecting.trails = !selecting.trails;
   const std::size_t count = gui.model.selected_grains().size();
   if (!selecting.trails)
-    say(gui, "No trails are drawn.");
+    show_message(gui, "No trails are drawn.");
   else if (count == 0)
-    say(gui, "Trails will be drawn once grains are selected.");
+    show_message(gui, "Trails will be drawn once grains are selected.");
   else
-    say(gui, fmt::format("Trails of {} selected grain{}, from the first frame to the one shown.", count,
-                         count == 1 ? "" : "s"));
+    show_message(gui, fmt::format("Trails of {} selected grain{}, from the first frame to the one shown.",
+                                  count, count == 1 ? "" : "s"));
 }
 
 /// Shows or hides the second view; chooses another map for it if it would equal the first view.
@@ -216,7 +218,7 @@ constexpr Key all_keys[] = {
      {'0'},
      [](Gui& gui, ImWchar) {
        gui.model.state.map.layers.resize(1);
-       say_map(gui);
+       show_map_message(gui);
      }},
     {"o", "next overlay", {'o'}, next_overlay},
     {"m", "next colours", {'m'}, next_colours},
@@ -264,10 +266,11 @@ constexpr Key all_keys[] = {
        view::ViewState& state = gui.model.state;
        if (key == 'i')
          toggle(gui, state.highlight_cluster,
-                of_selected(gui, "The cluster of an overloaded grain is outlined"),
+                selected_only_text(gui, "The cluster of an overloaded grain is outlined"),
                 "No cluster is outlined.");
        else
-         toggle(gui, state.show_neighbourhoods, of_selected(gui, "The neighbourhoods of the grain are drawn"),
+         toggle(gui, state.show_neighbourhoods,
+                selected_only_text(gui, "The neighbourhoods of the grain are drawn"),
                 "No neighbourhoods are drawn.");
      }},
     {"B",
@@ -334,8 +337,9 @@ void act(Gui& gui, ImWchar code) {
   for (const Key& key : all_keys)
     if (code != 0 && std::ranges::find(key.codes, code) != std::end(key.codes)) return key.act(gui, code);
   if (code > ' ')
-    say(gui, code < 127 ? fmt::format("{} does nothing here; ? lists the keys.", static_cast<char>(code))
-                        : "That key does nothing here; ? lists the keys.");
+    show_message(gui, code < 127
+                          ? fmt::format("{} does nothing here; ? lists the keys.", static_cast<char>(code))
+                          : "That key does nothing here; ? lists the keys.");
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
       if (&view.run == &gui.model)  // the inspector describes the first run
         select_clicked(gui, place.x, place.y);
       else
-        say(gui, "Grains are selected in the first run only: click there.");
+        show_message(gui, "Grains are selected in the first run only: click there.");
     }
   }
   if (outlining) return;

@@ -124,7 +124,7 @@ bool refuse_after_end(Gui& gui, const ShownMap& map) {
   const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
                      !ImGui::GetIO().KeyShift && selecting.outline.empty();
   if (waits) return true;  // the mouse still moves after the rejection
-  if (model.looks_back() || !model.live()->status().done || !first_grain(model, map)) return false;
+  if (model.shows_recorded_frame() || !model.live()->status().done || !first_grain(model, map)) return false;
   selecting.outline.clear();
   model.state.message =
       "The run has ended: no grain can be pulled. U undoes a command; ctrl with shift draws a "
@@ -133,14 +133,14 @@ bool refuse_after_end(Gui& gui, const ShownMap& map) {
 }
 
 /// Inspects a grain; the selection stays if the grain belongs to it.
-void look_at(view::ViewModel& model, Index grain) {
+void inspect_grain(view::ViewModel& model, Index grain) {
   if (std::ranges::binary_search(model.selected_grains(), grain))
     model.state.selected = grain;
   else
     model.select(std::optional(grain));
 }
 
-void let_go(Gui& gui) {
+void release_grain(Gui& gui) {
   view::ViewModel& model = gui.model;
   model.state.drag.reset();
   if (!model.live() || !model.live()->status().dragged) return;
@@ -212,16 +212,16 @@ bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
   }
   if (!drag) {
     if (refuse_after_end(gui, map)) return true;
-    const std::optional<Index> grain = model.looks_back() ? std::nullopt : first_grain(model, map);
+    const std::optional<Index> grain = model.shows_recorded_frame() ? std::nullopt : first_grain(model, map);
     if (!grain) return false;
     model.state.selecting.outline.clear();
     model.state.selecting.follow = false;  // otherwise picture and mouse would chase each other
-    look_at(model, *grain);
+    inspect_grain(model, *grain);
     hold_at(gui, *grain, x, y);
     return true;
   }
   if (!ImGui::IsMouseDown(0)) {
-    let_go(gui);
+    release_grain(gui);
     return true;
   }
   // One place per step: further places between two steps would have no effect.

@@ -51,9 +51,9 @@ void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& mark
   if (named_button(gui, "all plots", "All plots", "shows all plots; so does a double click on the plot"))
     state.enlarged_plot.clear();
   ImGui::SameLine();
-  view::PlotLook& look = state.plot_looks[plot.name];
-  bool logarithmic = look.log_y.value_or(plot.log_y);
-  if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) look.log_y = logarithmic;
+  view::PlotOptions& options = state.plot_options[plot.name];
+  bool logarithmic = options.log_y.value_or(plot.log_y);
+  if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) options.log_y = logarithmic;
   draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks, gone);
 }
 
@@ -102,8 +102,8 @@ void draw_more(Gui& gui) {
 }
 
 /// Draws a field for a path in a popup, and a button that accepts it; returns whether it was accepted.
-bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, const char* button,
-              const char* label) {
+bool draw_path_field(Gui& gui, const char* field, std::string& path, const char* tip, const char* button,
+                     const char* label) {
   ImGui::SetNextItemWidth(22.0f * gui.em);
   named_text(gui, field, "", path, tip);
   bool taken = ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
@@ -114,14 +114,14 @@ bool ask_path(Gui& gui, const char* field, std::string& path, const char* tip, c
 }
 
 /// Chooses another run, or an ensemble, to draw behind the curves.
-void draw_behind_choice(Gui& gui) {
+void draw_ghost_choice(Gui& gui) {
   view::ViewState& state = gui.model.state;
   if (named_button(gui, "behind", "behind ...",
                    "draw another run, or the band of an ensemble, behind the curves"))
     ImGui::OpenPopup("behind");
   if (ImGui::BeginPopup("behind")) {
-    if (ask_path(gui, "behind path", state.behind_path, "analysed run, folder of an ensemble, or ensemble.h5",
-                 "put behind", "Put behind"))
+    if (draw_path_field(gui, "behind path", state.behind_path,
+                        "analysed run, folder of an ensemble, or ensemble.h5", "put behind", "Put behind"))
       gui.requests.behind_path = state.behind_path;
     ImGui::EndPopup();
   }
@@ -140,8 +140,8 @@ void draw_export(Gui& gui) {
   if (named_button(gui, "export plots", "export ...", "write the plots as PDF, SVG and PNG with their data"))
     ImGui::OpenPopup("export plots");
   if (!ImGui::BeginPopup("export plots")) return;
-  if (ask_path(gui, "plots folder", state.plots_folder, "folder to write the plots to", "write plots",
-               state.enlarged_plot.empty() ? "Write all plots" : "Write this plot"))
+  if (draw_path_field(gui, "plots folder", state.plots_folder, "folder to write the plots to", "write plots",
+                      state.enlarged_plot.empty() ? "Write all plots" : "Write this plot"))
     gui.requests.plots_folder = state.plots_folder;
   ImGui::EndPopup();
 }
@@ -159,7 +159,7 @@ void draw_choices(Gui& gui) {
   second_view("export ...");
   draw_export(gui);
   second_view("behind ...");
-  draw_behind_choice(gui);
+  draw_ghost_choice(gui);
 }
 
 }  // namespace

@@ -49,10 +49,10 @@ struct Axes {
   }
 };
 
-void find_ranges(const view::Plot& plot, const view::PlotLook& look, Axes& axes) {
+void find_ranges(const view::Plot& plot, const view::PlotOptions& options, Axes& axes) {
   const auto take = [&](double x, double y) {
     if (!std::isfinite(y) || (axes.log_y && !(y > 0.0))) return;
-    if (look.zoomed && (x < (*look.zoomed)[0] || x > (*look.zoomed)[1])) return;
+    if (options.zoomed && (x < (*options.zoomed)[0] || x > (*options.zoomed)[1])) return;
     axes.x.take(x);
     axes.y.take(axes.shown_y(y));
   };
@@ -139,8 +139,8 @@ ImU32 with_alpha(ImU32 colour, int alpha) {
 
 /// Draws the reference behind a curve: the mean as a pale line, and a band of one standard deviation to each
 /// side.
-void draw_behind(ImDrawList& list, const Axes& axes, const view::GhostCurve& behind, ImU32 colour,
-                 float width) {
+void draw_ghost(ImDrawList& list, const Axes& axes, const view::GhostCurve& behind, ImU32 colour,
+                float width) {
   const ImDrawListFlags flags = list.Flags;
   list.Flags &=
       ~ImDrawListFlags_AntiAliasedFill;  // antialiasing would show the seams between the parts of a band
@@ -185,16 +185,16 @@ void show_values(const view::Plot& plot, const Axes& axes) {
 }
 
 /// Draws the chosen range, and a line of statistics for each measured curve.
-void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plot, const view::PlotLook& look,
-                 const Axes& axes, float em) {
+void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plot,
+                 const view::PlotOptions& options, const Axes& axes, float em) {
   float y = axes.low.y + 0.1f * em;
   const float left = axes.low.x + 0.4f * em;
   if (!plot.note.empty()) {
     add_rich_text(list, {left, y}, packed(colours.soft), plot.note);
     y += 1.1f * em;
   }
-  if (!look.chosen) return;
-  const auto [low, high] = *look.chosen;
+  if (!options.chosen) return;
+  const auto [low, high] = *options.chosen;
   const auto [left_end, right_end] = std::minmax(axes.px(low), axes.px(high));
   list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, packed(colours.range));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
@@ -210,29 +210,29 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
 }
 
 /// Zooms along x about the mouse, within the range of the data.
-void zoom_plot(view::PlotLook& look, const Axes& axes, const Axes& all, float steps) {
+void zoom_plot(view::PlotOptions& options, const Axes& axes, const Axes& all, float steps) {
   const double x = x_at(axes, ImGui::GetIO().MousePos.x), factor = std::pow(0.8, static_cast<double>(steps));
   const double low = std::max(all.x.low, x + factor * (axes.x.low - x));
   const double high = std::min(all.x.high, x + factor * (axes.x.high - x));
-  look.zoomed.reset();
-  if (low > all.x.low || high < all.x.high) look.zoomed = {low, high};
+  options.zoomed.reset();
+  if (low > all.x.low || high < all.x.high) options.zoomed = {low, high};
 }
 
 /// Handles the mouse on the plot drawn last; returns the x that was clicked.
 std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, const Axes& axes,
                                const Axes& all) {
   const ImGuiIO& io = ImGui::GetIO();
-  view::PlotLook& look = state.plot_looks[plot.name];
+  view::PlotOptions& options = state.plot_options[plot.name];
   const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) zoom_plot(look, axes, all, io.MouseWheel);
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) zoom_plot(options, axes, all, io.MouseWheel);
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0))
     state.enlarged_plot = state.enlarged_plot == plot.name ? std::string() : plot.name;
   if (ImGui::IsItemActive() && dragged) {
     const double from = x_at(axes, io.MouseClickedPos[0].x), to = x_at(axes, io.MousePos.x);
-    look.chosen = {std::min(from, to), std::max(from, to)};
+    options.chosen = {std::min(from, to), std::max(from, to)};
   }
   if (!ImGui::IsItemDeactivated() || dragged || !ImGui::IsItemHovered()) return std::nullopt;
-  look.chosen.reset();
+  options.chosen.reset();
   return x_at(axes, io.MousePos.x);
 }
 
@@ -293,12 +293,12 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   note_place(gui, std::string("plot ").append(plot.name));
   if (!ImGui::IsItemVisible()) return std::nullopt;
   if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // prevents the plots from scrolling as well
-  const view::PlotLook look = gui.model.state.plot_looks[plot.name];
+  const view::PlotOptions options = gui.model.state.plot_options[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
   const Palette& colours = gui.colours;
   Axes axes;
-  axes.log_y = look.log_y.value_or(plot.log_y);
+  axes.log_y = options.log_y.value_or(plot.log_y);
   axes.falling_x = plot.falling_x;
   axes.low = {corner.x + 3.4f * em, corner.y + 1.5f * em};
   axes.high = {corner.x + size.x - 0.8f * em, corner.y + size.y - 2.5f * em};
@@ -311,7 +311,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
                 packed(colours.ink), plot.x_title);
   Axes all = axes;
   find_ranges(plot, {}, all);
-  find_ranges(plot, look, axes);
+  find_ranges(plot, options, axes);
   if (all.x.empty()) {
     list.AddText({axes.low.x + 0.5f * em, axes.low.y + 0.5f * em}, packed(colours.soft), "no data yet");
     return std::nullopt;
@@ -319,20 +319,20 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   all.x.widen();
   if (axes.x.empty()) axes.y = all.y;  // zoomed between two values
   axes.x = all.x;
-  if (look.zoomed) {
-    axes.x.low = (*look.zoomed)[0];
-    axes.x.high = (*look.zoomed)[1];
+  if (options.zoomed) {
+    axes.x.low = (*options.zoomed)[0];
+    axes.x.high = (*options.zoomed)[1];
   }
   axes.y.widen();
   draw_ticks(list, axes, em, packed(gui.colours.ink));
   list.PushClipRect(axes.low, axes.high, true);
   draw_marks(colours, list, axes, marks, em);
   for (std::size_t k = 0; k < plot.series.size(); ++k)
-    draw_behind(list, axes, plot.series[k].behind, curve_colour(colours, k), 0.06f * em);
+    draw_ghost(list, axes, plot.series[k].behind, curve_colour(colours, k), 0.06f * em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
     draw_curve(list, axes, plot.series[k], curve_colour(colours, k),
                (plot.series[k].law ? 0.06f : 0.1f) * em);
-  draw_chosen(colours, list, plot, look, axes, em);
+  draw_chosen(colours, list, plot, options, axes, em);
   list.PopClipRect();
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) show_values(plot, axes);
   return use_plot(gui.model.state, plot, axes, all);

@@ -53,7 +53,7 @@ void advance(Gui& gui, int count) {
     model.play(false);
     return advance_frames(gui, count);
   }
-  if (count > 0 && !model.looks_back()) {
+  if (count > 0 && !model.shows_recorded_frame()) {
     if (live->status().done)
       model.state.message = ended_text(model, live->status());
     else

@@ -59,24 +59,24 @@ GuiScreen::GuiScreen(std::unique_ptr<render::Context> context, float scale)
   own.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   own.MousePos = {-1.0f, -1.0f};
   name_keys(own);
-  put_on({view::Theme::light, scale, 1.0f});
+  apply_appearance({view::Theme::light, scale, 1.0f});
 }
 
 GuiScreen::~GuiScreen() { gl_.DeleteTextures(1, &font_texture_); }
 
 /// Bakes the glyphs at the pixel size of the display, so that they are sharp.
-void GuiScreen::put_on(const Look& look) {
+void GuiScreen::apply_appearance(const Appearance& appearance) {
   ImGuiIO& own = io();
-  const float fine = look.scale * look.fineness;
-  if (fine != look_.scale * look_.fineness) {
+  const float fine = appearance.scale * appearance.fineness;
+  if (fine != appearance_.scale * appearance_.fineness) {
     own.Fonts->Clear();
     add_embedded_font(*own.Fonts, fine);
     gl_.DeleteTextures(1, &font_texture_);
     font_texture_ = upload_font(gl_, *own.Fonts);
   }
-  own.FontGlobalScale = 1.0f / look.fineness;
-  ImGui::GetStyle() = style_of(look.theme, look.scale);
-  look_ = look;
+  own.FontGlobalScale = 1.0f / appearance.fineness;
+  ImGui::GetStyle() = style_of(appearance.theme, appearance.scale);
+  appearance_ = appearance;
 }
 
 ImGuiIO& GuiScreen::io() {
@@ -92,8 +92,8 @@ GuiRequests GuiScreen::draw(view::ViewModel& model, const Surface& surface, int 
   own.DisplayFramebufferScale = {pixels, static_cast<float>(surface.height) / static_cast<float>(height)};
   own.DeltaTime = std::max(static_cast<float>(seconds), 1e-4f);  // ImGui requires a positive value
   const float asked = model.state.scale > 0.0 ? static_cast<float>(model.state.scale) : display_scale_;
-  const Look look{model.state.theme, fitting_scale(asked, width, height), pixels};
-  if (!(look == look_)) put_on(look);
+  const Appearance appearance{model.state.theme, fitting_scale(asked, width, height), pixels};
+  if (!(appearance == appearance_)) apply_appearance(appearance);
   input_.forward_events(own);
   ImGui::NewFrame();
   const DrawMap draw_map = [&](const render::FrameView& view, int map_width, std::size_t texture) {

@@ -47,13 +47,13 @@ class GuiScreen {
   };
 
   /// Parameters of the current fonts and style.
-  struct Look {
+  struct Appearance {
     view::Theme theme = view::Theme::light;
     float scale = 0.0f;     ///< scale of text and widgets
     float fineness = 1.0f;  ///< px of the surface per px of the window
-    bool operator==(const Look&) const = default;
+    bool operator==(const Appearance&) const = default;
   };
-  void put_on(const Look& look);
+  void apply_appearance(const Appearance& appearance);
 
   const render::Context* context_;  ///< context of map_
   render::Gl gl_;
@@ -63,7 +63,7 @@ class GuiScreen {
   std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
   GLuint font_texture_ = 0;
   float display_scale_ = 1.0f;
-  Look look_;
+  Appearance appearance_;
   InputQueue input_;
   std::vector<WidgetPlace> places_;
 };

@@ -217,7 +217,7 @@ void draw_left_run(ImDrawList& list, const Track& track, const view::BranchLine&
 }
 
 /// Returns the frame of the parent run under the mouse, if the mouse is on its line.
-std::optional<std::size_t> left_frame_near(const Track& track, const view::BranchLine& run) {
+std::optional<std::size_t> parent_frame_near(const Track& track, const view::BranchLine& run) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double frame =
       (static_cast<double>(mouse.x) - track.low.x) / (track.high.x - track.low.x) * track.last;
@@ -228,7 +228,7 @@ std::optional<std::size_t> left_frame_near(const Track& track, const view::Branc
 
 /// Handles a click on that line, which returns to the parent run.
 bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
-  const std::optional<std::size_t> frame = left_frame_near(track, run);
+  const std::optional<std::size_t> frame = parent_frame_near(track, run);
   if (!frame || !ImGui::IsItemHovered()) return false;
   ImGui::SetTooltip("%s, %.2f°: a click returns to it", run.run.c_str(), degrees(run.tilts[*frame]));
   if (ImGui::IsItemActivated()) {
@@ -250,8 +250,8 @@ float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
   if (!gui.model.is_live()) return width;
   width += 5.4f * em;
   ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
-  ImGui::BeginDisabled(!gui.model.looks_back());
-  if (named_button(gui, "follow", gui.model.looks_back() ? "follow" : "live",
+  ImGui::BeginDisabled(!gui.model.shows_recorded_frame());
+  if (named_button(gui, "follow", gui.model.shows_recorded_frame() ? "follow" : "live",
                    "show the current state of the run: end"))
     gui.model.follow();
   ImGui::EndDisabled();

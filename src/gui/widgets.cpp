@@ -35,7 +35,7 @@ void for_pieces(std::string_view text, const Piece& piece) {
 }
 
 /// Moves the cursor to the column of values, which aligns the rows.
-void go_to_values() {
+void move_to_value_column() {
   constexpr float share_of_labels = 0.42f;
   const float before = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x;
   const float values = share_of_labels * ImGui::GetWindowContentRegionMax().x;
@@ -50,7 +50,7 @@ void begin_row(const char* label, const char* tip) {
                 ImGui::GetColorU32(ImGuiCol_Text), label);
   ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label), ImGui::GetFrameHeight()});
   show_tip(tip);
-  go_to_values();
+  move_to_value_column();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
@@ -203,7 +203,7 @@ void same_line_if_fits(float width) {
 
 void fact(std::string_view label, const std::string& value) {
   rich_text(label);
-  go_to_values();
+  move_to_value_column();
   rich_text(value);
 }
 

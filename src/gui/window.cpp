@@ -163,7 +163,7 @@ void catch_keys(GLFWwindow* window) {
   });
 }
 
-void catch_the_rest(GLFWwindow* window) {
+void catch_window_events(GLFWwindow* window) {
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
     state_of(w).screen.io().AddFocusEvent(focused != 0);  // losing the focus releases all keys
     state_of(w).pictures_due = settling_pictures;
@@ -250,7 +250,7 @@ GuiWindow::GuiWindow(int width, int height) : state_(std::make_unique<WindowStat
   glfwSetWindowSizeLimits(window, smallest_side, smallest_side, GLFW_DONT_CARE, GLFW_DONT_CARE);
   catch_mouse(window);
   catch_keys(window);
-  catch_the_rest(window);
+  catch_window_events(window);
   lend_clipboard(*state_);
 }
 

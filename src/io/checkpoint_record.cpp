@@ -92,7 +92,7 @@ void check_contacts(const hdf5::Reader& reader, const std::string& here, const W
 }
 
 void read_state(hdf5::Reader& reader, const std::string& here, Checkpoint& checkpoint) {
-  for_each_field(here, checkpoint, FromFile{reader});
+  for_each_field(here, checkpoint, FileReader{reader});
   check_grains(reader, here, checkpoint.world.grains);
   check_contacts(reader, here, checkpoint.world);
   const std::string stored = reader.read_text(here + "state_hash"),
@@ -103,13 +103,13 @@ void read_state(hdf5::Reader& reader, const std::string& here, Checkpoint& check
 
 void write_state(hdf5::Writer& writer, const std::string& here, const Checkpoint& checkpoint) {
   writer.write_text(here + "state_hash", hash_text(state_hash(checkpoint.world)));
-  for_each_field(here, checkpoint, ToFile{writer});
+  for_each_field(here, checkpoint, FileWriter{writer});
 }
 
 }  // namespace
 
 void write_results(hdf5::Writer& writer, const Checkpoint& checkpoint) {
-  for_each_result(checkpoint, ToFile{writer});
+  for_each_result(checkpoint, FileWriter{writer});
 }
 
 void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
@@ -118,13 +118,13 @@ void write_checkpoint(hdf5::Writer& writer, const Checkpoint& checkpoint) {
 }
 
 void write_branch(hdf5::Writer& writer, const BranchOrigin& branch) {
-  for_each_origin(branch, ToFile{writer});
+  for_each_origin(branch, FileWriter{writer});
   write_state(writer, branch_group, branch.start);
 }
 
 BranchOrigin read_branch(hdf5::Reader& reader) {
   BranchOrigin branch;
-  for_each_origin(branch, FromFile{reader});
+  for_each_origin(branch, FileReader{reader});
   if (hash_text(parse_hash(branch.run_hash)) != branch.run_hash)
     reader.refuse(branch_group + "run_hash", "is no hash: expected 16 hexadecimal digits");
   read_state(reader, branch_group, branch.start);
@@ -137,7 +137,7 @@ BranchOrigin read_branch(hdf5::Reader& reader) {
 
 Checkpoint read_results(hdf5::Reader& reader) {
   Checkpoint checkpoint;
-  for_each_result(checkpoint, FromFile{reader});
+  for_each_result(checkpoint, FileReader{reader});
   return checkpoint;
 }
 

@@ -41,7 +41,7 @@ rlim_t address_space() {
 
 /// Closes everything that the child inherits except its pipe, and returns the new number of the pipe. A lock
 /// lasts as long as any process has its file open, and a pipe as long as a process can write to it.
-int keep_only(int pipe) {
+int close_all_but(int pipe) {
   constexpr int kept = STDERR_FILENO + 1;
   if (pipe != kept) ::dup2(pipe, kept);
   ::close_range(kept + 1, ~0U, 0);
@@ -49,7 +49,7 @@ int keep_only(int pipe) {
 }
 
 /// Restricts a child of `parent`, and silences its output.
-void restrain(pid_t parent, std::size_t input) {
+void restrict_child(pid_t parent, std::size_t input) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(1);  // the parent has already ended
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGALRM}) std::signal(signal, SIG_DFL);
@@ -109,8 +109,8 @@ Child start(const std::string& path, std::size_t input, const std::function<void
   child.process = ::fork();
   if (child.process < 0) throw system_error(ExitCode::io_error, "start a process for", path, errno);
   if (child.process == 0) {
-    const int pipe = keep_only(to.get());
-    restrain(parent, input);
+    const int pipe = close_all_but(to.get());
+    restrict_child(parent, input);
     speak(pipe);
     _exit(0);
   }

@@ -55,7 +55,7 @@ bool is_of_contacts(const std::string& path) { return path.starts_with(contacts)
 
 /// Passes the rows of each data set, as they are stored, to `take(field, bytes)`.
 template <typename Take>
-struct ToRows {
+struct RowWriter {
   Take take;
   static constexpr bool reads = false;
 
@@ -69,9 +69,9 @@ struct ToRows {
   }
 };
 template <typename Take>
-ToRows(Take) -> ToRows<Take>;
+RowWriter(Take) -> RowWriter<Take>;
 
-struct FromRows {
+struct RowReader {
   hdf5::Reader& reader;
   Rows frame, contact;  ///< rows of each data set that belong to the frame
   static constexpr bool reads = true;
@@ -109,8 +109,9 @@ void create_data_sets(hdf5::Writer& writer) {
 
 std::uint64_t frame_hash(const Frame& frame) {
   Hasher hasher;
-  for_each_field(
-      frame, ToRows{[&](const DataSetField&, std::span<const std::byte> bytes) { hasher.add_array(bytes); }});
+  for_each_field(frame, RowWriter{[&](const DataSetField&, std::span<const std::byte> bytes) {
+                   hasher.add_array(bytes);
+                 }});
   return hasher.value();
 }
 
@@ -129,7 +130,7 @@ void write_frames(hdf5::Writer& writer, const std::function<Frame(std::size_t)>&
     have_moments = have_moments || !frame.contacts.moment.empty();
     const auto first_contact = static_cast<std::uint64_t>(contact_count);
     Hasher hasher;
-    for_each_field(frame, ToRows{[&](const DataSetField& field, std::span<const std::byte> bytes) {
+    for_each_field(frame, RowWriter{[&](const DataSetField& field, std::span<const std::byte> bytes) {
                      hasher.add_array(bytes);
                      writer.write_rows(field, is_of_contacts(field.path) ? first_contact : k, bytes);
                    }});
@@ -164,14 +165,14 @@ Frame as_stored(Frame frame) {
 
 Frame read_positions(hdf5::Reader& reader, std::size_t row) {
   Frame frame;
-  Fields fields{FromRows{reader, {row, 1}, {}}};
+  Fields fields{RowReader{reader, {row, 1}, {}}};
   for_each_field_of_positions(frame, fields);
   return frame;
 }
 
 Frame read_frame(hdf5::Reader& reader, std::size_t row) {
   Frame frame;
-  for_each_field(frame, FromRows{reader, {row, 1}, contact_rows(reader, row)});
+  for_each_field(frame, RowReader{reader, {row, 1}, contact_rows(reader, row)});
   return frame;
 }
 

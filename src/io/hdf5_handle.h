@@ -109,17 +109,17 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
 }
 
 /// The target of a path.
-enum class Found { nothing, an_object, a_link_elsewhere };
+enum class PathTarget { nothing, an_object, a_link_elsewhere };
 
 /// Follows a path from "/"; links to other files or places are not followed.
-inline Found find(hid_t file, const std::string& path) {
+inline PathTarget find(hid_t file, const std::string& path) {
   for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
     const std::string part = path.substr(0, slash);
     H5L_info_t link{};
-    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return Found::nothing;
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return PathTarget::nothing;
     if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
-      return Found::a_link_elsewhere;
-    if (slash == std::string::npos) return Found::an_object;
+      return PathTarget::a_link_elsewhere;
+    if (slash == std::string::npos) return PathTarget::an_object;
   }
 }
 

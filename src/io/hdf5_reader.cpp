@@ -68,9 +68,10 @@ void Reader::check_shape(const DataSetField& field, const std::vector<hsize_t>& 
 
 /// Throws unless this file contains an object at that path.
 void Reader::require(const std::string& path) const {
-  const Found found = find(file_.get(), path);
-  if (found == Found::nothing) refuse(path, "is missing");
-  if (found == Found::a_link_elsewhere) refuse(path, "is a link to another place, which is not followed");
+  const PathTarget found = find(file_.get(), path);
+  if (found == PathTarget::nothing) refuse(path, "is missing");
+  if (found == PathTarget::a_link_elsewhere)
+    refuse(path, "is a link to another place, which is not followed");
 }
 
 DataSet Reader::open(const std::string& path) const {
@@ -190,7 +191,7 @@ bool Reader::is_as_written(const std::string& path) {
 
 bool Reader::has(const std::string& path) const {
   const FileInUse in_use(name_);
-  return find(file_.get(), path) != Found::nothing;
+  return find(file_.get(), path) != PathTarget::nothing;
 }
 
 std::uint64_t Reader::row_count(const std::string& path) {
@@ -223,7 +224,7 @@ std::string Reader::attribute(const std::string& path, const char* name) const {
 
 std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind) const {
   const FileInUse in_use(name_);
-  if (find(file_.get(), group) != Found::an_object) refuse(group, "(a group) is missing");
+  if (find(file_.get(), group) != PathTarget::an_object) refuse(group, "(a group) is missing");
   const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info{};
   if (id.get() < 0 || H5Gget_info(id.get(), &info) < 0) refuse(group, "is not a group");

@@ -251,7 +251,7 @@ Handle Writer::object_at(const std::string& path) {
 }
 
 void Writer::remove(const std::string& path) {
-  if (find(file_.get(), path) != Found::nothing)
+  if (find(file_.get(), path) != PathTarget::nothing)
     checked(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "remove " + path);
 }
 

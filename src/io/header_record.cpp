@@ -38,7 +38,7 @@ void write_statics(hdf5::Writer& writer, const RunStatics& statics) {
   writer.write(edges, std::vector{statics.length, statics.depth});
   writer.write("/particles/grains/id", ids);
   writer.write("/particles/grains/species", species);
-  for_each_field(statics, statics.mean_diameter, ToFile{writer});
+  for_each_field(statics, statics.mean_diameter, FileWriter{writer});
 }
 
 Index free_grains(hdf5::Reader& reader) {
@@ -58,7 +58,7 @@ RunStatics read_statics(hdf5::Reader& reader) {
   const std::vector<double> lengths = reader.read<double>(edges, Range{0.1 * d, 1e6 * d});
   statics.length = lengths.at(0);
   statics.depth = lengths.at(1);
-  for_each_field(statics, d, FromFile{reader});
+  for_each_field(statics, d, FileReader{reader});
   return statics;
 }
 
@@ -80,19 +80,19 @@ bool is_inverse(double inverse, double value, bool free) {
 /// Checks that the state from which a branch begins belongs to the bed of the run.
 void check_branch(const hdf5::Reader& reader, const World& start, const RunStatics& statics) {
   const Grains& grains = start.grains;
-  const auto must = [&reader](bool holds, const char* name) {
+  const auto require = [&reader](bool holds, const char* name) {
     if (!holds) reader.refuse(std::string("/branch/").append(name), "is not that of the bed of the run");
   };
-  must(grains.radius == statics.radius, "radius");
-  must(grains.mass == statics.mass, "mass");
-  must(grains.free_count == statics.free_count, "free_count");
-  must(start.gravity == statics.gravity, "gravity");
-  must(start.boundary.periodic == statics.periodic, "periodic");
-  must(start.boundary.length == statics.length, "length");
+  require(grains.radius == statics.radius, "radius");
+  require(grains.mass == statics.mass, "mass");
+  require(grains.free_count == statics.free_count, "free_count");
+  require(start.gravity == statics.gravity, "gravity");
+  require(start.boundary.periodic == statics.periodic, "periodic");
+  require(start.boundary.length == statics.length, "length");
   for (std::size_t i = 0; i < grains.mass.size(); ++i) {
     const bool free = static_cast<Index>(i) < statics.free_count;
-    must(is_inverse(grains.inverse_mass[i], grains.mass[i], free), "inverse_mass");
-    must(is_inverse(grains.inverse_inertia[i], grains.inertia[i], free), "inverse_inertia");
+    require(is_inverse(grains.inverse_mass[i], grains.mass[i], free), "inverse_mass");
+    require(is_inverse(grains.inverse_inertia[i], grains.inertia[i], free), "inverse_inertia");
   }
   const double farthest = farthest_place(statics);
   reader.check("/branch/x", grains.x, {-farthest, farthest});

@@ -10,7 +10,7 @@ namespace talus::io {
 namespace {
 
 /// Thrown to leave write_frames.
-struct Interrupted {};
+struct Interruption {};
 
 }  // namespace
 
@@ -55,7 +55,7 @@ bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint) {
   return find_value(header.provenance, lost_fact) && checkpoint.world.grains.count() == 0;
 }
 
-std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on) try {
+std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& should_continue) try {
   const World& world = run.checkpoint.world;
   Sizes sizes = {{'T', run.frames},
                  {'N', run.header.statics.radius.size()},
@@ -71,7 +71,7 @@ std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<b
   write_header(writer, run.header);
   write_h5md(writer, run.header.statics.periodic);
   const auto frame_at = [&](std::size_t k) {
-    if (goes_on && !goes_on()) throw Interrupted{};
+    if (should_continue && !should_continue()) throw Interruption{};
     return run.frame_at(k);
   };
   if (run.has_frames)
@@ -91,7 +91,7 @@ std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<b
   std::vector<std::byte> file = writer.image();
   seal(file);
   return file;
-} catch (const Interrupted&) {
+} catch (const Interruption&) {
   return {};
 }
 

@@ -32,7 +32,7 @@ RunContent content_of(const RunFile& run, bool with_frames = true);
 bool lacks_state(const RunHeader& header, const Checkpoint& checkpoint);
 
 /// Returns the bytes of the packed file, sealed. Equal runs give equal bytes, however they were committed. If
-/// `goes_on` is given, it is called before each frame; if it returns false, this returns nothing.
-std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& goes_on = {});
+/// `should_continue` is given, it is called before each frame; if it returns false, this returns nothing.
+std::vector<std::byte> packed_bytes(const RunContent& run, const std::function<bool()>& should_continue = {});
 
 }  // namespace talus::io

@@ -17,7 +17,7 @@ using hdf5::Range;
 inline constexpr Range not_negative = {.low = 0.0};
 
 /// Writes entire data sets.
-struct ToFile {
+struct FileWriter {
   hdf5::Writer& writer;
   static constexpr bool reads = false;
 
@@ -29,7 +29,7 @@ struct ToFile {
 };
 
 /// Reads entire data sets.
-struct FromFile {
+struct FileReader {
   hdf5::Reader& reader;
   static constexpr bool reads = true;
 

@@ -195,7 +195,7 @@ struct RunFile::State {
 namespace {
 
 /// Reads the manifest of a folder; empty if it no longer exists.
-std::string manifest_if_there(const std::string& folder) {
+std::string find_manifest(const std::string& folder) {
   const fs::path manifest = fs::path(folder) / Manifest::file_name;
   try {
     return read_text(manifest.string());
@@ -228,7 +228,7 @@ RunFile RunFile::open_packed(const std::string& path) {
   return read_packed(hdf5::Reader::from_file(path), path);
 }
 
-RunFile RunFile::of_bytes(std::vector<std::byte> bytes, const std::string& name) {
+RunFile RunFile::from_bytes(std::vector<std::byte> bytes, const std::string& name) {
   return read_packed(hdf5::Reader::from_memory(std::move(bytes), name, {}), name);
 }
 
@@ -269,12 +269,12 @@ RunFile RunFile::open(const std::string& path) {
   for (int attempts_left = 20;; --attempts_left) {
     const std::optional<std::string> folder = folder_to_read(path);
     if (!folder) return open_packed(path);
-    const std::string before = manifest_if_there(*folder);
+    const std::string before = find_manifest(*folder);
     try {
       return open_folder(*folder);
     } catch (const Error&) {
       // A writer at work replaces the checkpoint, and finally packs the folder. In these cases, retry.
-      const bool changed = before.empty() || manifest_if_there(*folder) != before;
+      const bool changed = before.empty() || find_manifest(*folder) != before;
       if (!changed || attempts_left == 0) throw;
     }
   }

@@ -23,7 +23,7 @@ class RunFile {
   static RunFile open(const std::string& path);
 
   /// Opens a packed file in memory that this process has made. Throws Error(bad_data), naming `name`.
-  static RunFile of_bytes(std::vector<std::byte> bytes, const std::string& name);
+  static RunFile from_bytes(std::vector<std::byte> bytes, const std::string& name);
 
   RunFile(RunFile&&) noexcept;
   RunFile& operator=(RunFile&&) noexcept;

@@ -124,14 +124,14 @@ class Salvager {
   }
 
  private:
-  void lose(const std::string& path, const std::string& with) {
+  void report_loss(const std::string& path, const std::string& with) {
     salvage_.lost.push_back(fmt::format("{}{}: is not as it was written{}", prefix_, path, with));
   }
 
   /// Returns the data sets that a part should have; if its list is lost, those that every run has.
   Lines contents_of(hdf5::Reader& reader) {
     if (is_as_written(reader, "/contents")) return listed_data_sets(reader);
-    lose("/contents", ", so the last state, results and commands are left out");
+    report_loss("/contents", ", so the last state, results and commands are left out");
     Lines paths;
     for (const DataSetField& field : run_schema())
       for (const char* group : {"/parameters/", "/particles/", "/frames/", "/observables/", "/steps/"})
@@ -154,11 +154,11 @@ class Salvager {
       whole.insert(group);
       if (is_as_written(reader, path)) continue;
       if (group == "/provenance") {  // facts are kept individually
-        lose(path, "");
+        report_loss(path, "");
         continue;
       }
-      lose(path,
-           fmt::format(", so all of {}{} is left out", group, group == "/results" ? " and /checkpoint" : ""));
+      report_loss(path, fmt::format(", so all of {}{} is left out", group,
+                                    group == "/results" ? " and /checkpoint" : ""));
       broken.insert(group);
     }
     for (const std::string& group : broken) whole.erase(group);
@@ -196,13 +196,13 @@ class Salvager {
     std::size_t lost = 0;  // length of the current sequence of lost frames
     for (std::size_t row = 0; row < hashes.size(); ++row) {
       const bool kept = add_frame(reader, row, hashes[row]);
-      if (kept) lose_frames(reader, row - lost, lost);
+      if (kept) report_lost_frames(reader, row - lost, lost);
       lost = kept ? 0 : lost + 1;
     }
-    lose_frames(reader, hashes.size() - lost, lost);
+    report_lost_frames(reader, hashes.size() - lost, lost);
   }
 
-  void lose_frames(hdf5::Reader& reader, std::size_t first, std::size_t count) {
+  void report_lost_frames(hdf5::Reader& reader, std::size_t first, std::size_t count) {
     if (count == 0) return;
     std::string line = count == 1 ? fmt::format("{}frame {}", prefix_, first)
                                   : fmt::format("{}frames {} to {}", prefix_, first, first + count - 1);
@@ -324,7 +324,8 @@ RepairReport repair_run(const RepairRequest& request) {
     throw Error(ExitCode::bad_data,
                 fmt::format("{}: nothing can be saved: {}; restore the run from a copy, or compute it again",
                             request.run, salvage.lost.at(0)));
-  RunFile::of_bytes(salvage.file, request.output);  // checks that the output can be read before it is written
+  RunFile::from_bytes(salvage.file,
+                      request.output);  // checks that the output can be read before it is written
   prepare_folder_of(request.output);
   write_durably(request.output, salvage.file);
   discard_folder(request.output);  // next to the file it would be another run of the same name

@@ -231,12 +231,12 @@ bool is_by_frame(const DataSetField& field) {
 DataSetField field_of(const std::string& path) {
   const std::string family = path.substr(0, path.rfind('/')) + "/*";
   const DataSetField* found = nullptr;
-  const auto look_at = [&](const DataSetField& field) {
+  const auto visit = [&](const DataSetField& field) {
     if (field.path == path || (field.path == family && found == nullptr)) found = &field;
   };
-  for (const DataSetField& field : run_schema()) look_at(field);
+  for (const DataSetField& field : run_schema()) visit(field);
   static const std::vector<DataSetField> of_analyses = analysis_schema();
-  for (const DataSetField& field : of_analyses) look_at(field);
+  for (const DataSetField& field : of_analyses) visit(field);
   if (found == nullptr) throw Error(ExitCode::internal, "the schema of run files has no data set " + path);
   DataSetField field = *found;
   field.path = path;

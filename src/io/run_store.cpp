@@ -116,7 +116,7 @@ void remove_own(const std::string& folder, const WriterLock& lock,
 
 /// Takes over the run from a writer that has lost its lock without knowing it: its temporary file is removed,
 /// so that its rename cannot become a commit (see publish). Must be called before anything is read.
-void shut_out_others(const std::string& folder, const WriterLock& lock) {
+void exclude_other_writers(const std::string& folder, const WriterLock& lock) {
   remove_own(folder, lock, is_temporary);
 }
 
@@ -256,7 +256,7 @@ struct RunStore::State {
 
 /// Writes bytes and renames them to `target` while this writer holds the run. The writer can lose the run at
 /// any moment, and be stopped before any line. But another process that takes over the run first removes the
-/// temporary file (shut_out_others), so that the rename either precedes that and counts, or fails.
+/// temporary file (exclude_other_writers), so that the rename either precedes that and counts, or fails.
 void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
                               const std::string& target,
                               const std::function<void(const std::string& written)>& check) const {
@@ -292,7 +292,7 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   }
   refuse_existing(path, overwrite);  // checked again while other writers are excluded
   std::error_code unknown;
-  shut_out_others(folder, state->lock);
+  exclude_other_writers(folder, state->lock);
   if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, state->lock, {});
   state->replaced = own_files(folder, is_serial_name);
   if (fs::exists(in(folder, Manifest::header_name), unknown))
@@ -313,7 +313,7 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   auto state = std::make_unique<State>(path);
   if (run_presence(path) != RunPresence::folder)
     throw Error(ExitCode::cannot_create, path + " was being written by another process until this moment");
-  shut_out_others(folder, state->lock);
+  exclude_other_writers(folder, state->lock);
   try {
     state->manifest = read_manifest(folder);
     state->manifest.packed_seal = 0;  // it is packed again
@@ -355,11 +355,11 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try 
   throw;
 }
 
-bool RunStore::pack(const std::function<bool()>& goes_on, const PackedParts& parts) try {
+bool RunStore::pack(const std::function<bool()>& should_continue, const PackedParts& parts) try {
   const std::string folder = state_->folder;
   state_->lock.require();
   const RunFile run = RunFile::open(folder);
-  std::vector<std::byte> bytes = packed_bytes(content_of(run, parts.frames), goes_on);
+  std::vector<std::byte> bytes = packed_bytes(content_of(run, parts.frames), should_continue);
   if (bytes.empty()) return false;
   if (parts.analysis != nullptr) bytes = with_analysis(bytes, *parts.analysis, parts.readings);
   if (state_->manifest.replaces) {
@@ -373,7 +373,7 @@ bool RunStore::pack(const std::function<bool()>& goes_on, const PackedParts& par
   // on disk equal those in memory, which HDF5 reads.
   state_->publish(made_packed, bytes, state_->path, [&](const std::string& packed) {
     verify_seal(packed);
-    RunFile::of_bytes(std::move(bytes), state_->path);
+    RunFile::from_bytes(std::move(bytes), state_->path);
   });
   remove_folder(folder, state_->lock);
   state_.reset();
@@ -407,7 +407,7 @@ std::string damage_of_packed(const std::string& path) {
 
 /// Renames what makes way for a run to a free name: `path`, `ending`, and a number from the second one on.
 /// Returns the name; empty if another process has already done so.
-static std::string set_aside(const std::string& what, const std::string& path, const std::string& ending) {
+static std::string move_aside(const std::string& what, const std::string& path, const std::string& ending) {
   std::string aside = path + ending;
   for (int number = 2; is_there(aside); ++number) aside = fmt::format("{}{}-{}", path, ending, number);
   if (std::rename(what.c_str(), aside.c_str()) == 0) return aside;
@@ -428,7 +428,7 @@ std::string set_damaged_aside(const std::string& path) {
   const RunPresence presence = run_presence(path);
   if (presence == RunPresence::packed) {
     const std::string damage = damage_of_packed(path);
-    const std::string aside = damage.empty() ? "" : set_aside(path, path, ".damaged");
+    const std::string aside = damage.empty() ? "" : move_aside(path, path, ".damaged");
     if (aside.empty() || !damage_of_packed(aside).empty()) return damage_text(damage, aside);
     // Another process was faster and has already recomputed the run.
     ::renameat2(AT_FDCWD, aside.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE);
@@ -437,22 +437,22 @@ std::string set_damaged_aside(const std::string& path) {
   if (presence != RunPresence::folder) return "";
   const std::string folder = run_folder(path);
   WriterLock lock(folder);
-  shut_out_others(folder, lock);
+  exclude_other_writers(folder, lock);
   try {
     for (const StoredFile& file : files_of(read_manifest(folder))) read_stored(folder, file);
     return "";
   } catch (const Error& error) {
     lock.require();
     if (error.code() != ExitCode::bad_data) throw;
-    return damage_text(error.what(), set_aside(folder, path, ".damaged"));
+    return damage_text(error.what(), move_aside(folder, path, ".damaged"));
   }
 }
 
 void set_withdrawn_aside(const std::string& path) {
   if (run_presence(path) != RunPresence::folder) return;
   WriterLock lock(run_folder(path));
-  shut_out_others(run_folder(path), lock);
-  set_aside(run_folder(path), path, ".withdrawn");
+  exclude_other_writers(run_folder(path), lock);
+  move_aside(run_folder(path), path, ".withdrawn");
 }
 
 std::string run_folder(const std::string& path) { return path + ".run"; }

@@ -102,9 +102,10 @@ class RunStore {
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
   /// Packs everything committed into the file at `path`, which is renamed to its name once it has proved
-  /// readable, and removes the folder. Ends the store. Calls `goes_on` before each frame, and returns false
-  /// if it returns false. In that case, and if it throws, the folder is kept, and pack can be called again.
-  bool pack(const std::function<bool()>& goes_on = {}, const PackedParts& parts = {});
+  /// readable, and removes the folder. Ends the store. Calls `should_continue` before each frame, and returns
+  /// false if it returns false. In that case, and if it throws, the folder is kept, and pack can be called
+  /// again.
+  bool pack(const std::function<bool()>& should_continue = {}, const PackedParts& parts = {});
 
   /// Returns the seconds spent in commit so far.
   double seconds_writing() const;

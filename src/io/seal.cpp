@@ -29,14 +29,14 @@ std::vector<std::byte> seal_of(std::string_view kind, std::uint64_t size, std::u
 }
 
 /// A file opened at its beginning, and its first bytes.
-struct Begin {
+struct FileBeginning {
   Descriptor file;
   std::vector<std::byte> bytes;
 };
 
-Begin begin_of(const std::string& path, std::size_t size) {
-  Begin begin{Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)),
-              std::vector<std::byte>(size)};
+FileBeginning begin_of(const std::string& path, std::size_t size) {
+  FileBeginning begin{Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)),
+                      std::vector<std::byte>(size)};
   if (begin.file.get() < 0) throw system_error(ExitCode::missing_input, "open", path, errno);
   begin.bytes.resize(read_at_most(begin.file, begin.bytes, path));
   return begin;
@@ -76,7 +76,7 @@ std::uint64_t seal_hash(std::span<const std::byte> file) {
 std::uint64_t seal_hash_of(const std::string& path) { return seal_hash(begin_of(path, seal_size).bytes); }
 
 void verify_seal(const std::string& path, std::string_view kind) {
-  const Begin begin = begin_of(path, seal_size);
+  const FileBeginning begin = begin_of(path, seal_size);
   const bool is_run = kind == run_seal;
   if (!starts_with(begin.bytes, kind)) is_run ? refuse_no_run(path) : refuse_no_averages(path);
   Hasher hasher;

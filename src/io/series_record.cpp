@@ -30,43 +30,43 @@ void for_each_command_column(Commands& commands, Direction direction) {
 }  // namespace
 
 void write_observables(hdf5::Writer& writer, const std::vector<ObservableRow>& rows) {
-  for_each_column("/observables/", observable_fields, rows, ToFile{writer});
+  for_each_column("/observables/", observable_fields, rows, FileWriter{writer});
 }
 
 void write_steps(hdf5::Writer& writer, const std::vector<StepRow>& rows) {
-  for_each_column("/steps/", step_fields, rows, ToFile{writer});
+  for_each_column("/steps/", step_fields, rows, FileWriter{writer});
 }
 
 void write_trials(hdf5::Writer& writer, const std::vector<TrialRow>& rows) {
-  if (!rows.empty()) for_each_column("/trials/", trial_fields, rows, ToFile{writer});
+  if (!rows.empty()) for_each_column("/trials/", trial_fields, rows, FileWriter{writer});
 }
 
 std::vector<TrialRow> read_trials(hdf5::Reader& reader) {
   std::vector<TrialRow> rows;
-  if (reader.has("/trials")) for_each_column("/trials/", trial_fields, rows, FromFile{reader});
+  if (reader.has("/trials")) for_each_column("/trials/", trial_fields, rows, FileReader{reader});
   return rows;
 }
 
 std::vector<ObservableRow> read_observables(hdf5::Reader& reader) {
   std::vector<ObservableRow> rows;
-  for_each_column("/observables/", observable_fields, rows, FromFile{reader});
+  for_each_column("/observables/", observable_fields, rows, FileReader{reader});
   return rows;
 }
 
 std::vector<StepRow> read_steps(hdf5::Reader& reader) {
   std::vector<StepRow> rows;
-  for_each_column("/steps/", step_fields, rows, FromFile{reader});
+  for_each_column("/steps/", step_fields, rows, FileReader{reader});
   return rows;
 }
 
 void write_commands(hdf5::Writer& writer, const std::vector<Command>& commands) {
-  if (!commands.empty()) for_each_command_column(commands, ToFile{writer});
+  if (!commands.empty()) for_each_command_column(commands, FileWriter{writer});
 }
 
 std::vector<Command> read_commands(hdf5::Reader& reader) {
   std::vector<Command> commands;
   if (!reader.has("/commands")) return commands;
-  for_each_command_column(commands, FromFile{reader});
+  for_each_command_column(commands, FileReader{reader});
   if (!std::ranges::is_sorted(commands, {}, &Command::step))
     reader.refuse("/commands/step", "does not ascend");
   return commands;

@@ -18,7 +18,7 @@ namespace {
 constexpr render::Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
-bool gives_numbers(MapKind kind) {
+bool has_numeric_change(MapKind kind) {
   const bool changes = kind != MapKind::size && kind != MapKind::dyed;
   return changes && is_scaled(kind);
 }
@@ -28,7 +28,7 @@ std::string between(const MapFrame& bed, const Frame& before) {
   return fmt::format("{:.2f}° minus {:.2f}°", degrees(bed.frame.tilt), degrees(before.tilt));
 }
 
-std::string begun_small(std::string text) {
+std::string lowercase_first(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
   return text;
 }
@@ -52,7 +52,7 @@ MapLayer difference_layer(const MapFrame& bed, const Frame& before, MapSettings 
   const Scale about_zero{render::ColourMap::diverging, -half, half};
   const std::string& unit = after.legend.bars.at(0).title;
   return scaled_layer_with_outlines(
-      fmt::format("Change of {}, {}", begun_small(after.title), between(bed, before)), about_zero,
+      fmt::format("Change of {}, {}", lowercase_first(after.title), between(bed, before)), about_zero,
       std::move(changes), bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit));
 }
 
@@ -118,7 +118,7 @@ MapLayer contacts_layer(const MapFrame& bed, const Frame& before) {
 
 MapKind changing_kind(const MapLayers& layers) {
   for (const MapKind kind : layers)
-    if (gives_numbers(kind)) return kind;
+    if (has_numeric_change(kind)) return kind;
   return any_layer(layers, shows_gamma) ? MapKind::gamma : MapKind::displacement;
 }
 

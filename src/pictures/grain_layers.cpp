@@ -70,7 +70,7 @@ MapLayer dyed_layer(const MapFrame& bed, const ScaleChoice& choice) {
     const render::Colour light =
         render::colour_at(scale.colours, layer_share(share_of(scale, at.y / diameter)));
     const render::Colour fill = in_second_column(at.x, statics.length, diameter) ? shaded(light) : light;
-    layer.looks.push_back({fill, rim_of(fill)});
+    layer.styles.push_back({fill, rim_of(fill)});
     heights.push_back(at.y / diameter);
   }
   render::Bar bar{"height above the floor at that time, in D", {}, {}, scale.low, scale.high};

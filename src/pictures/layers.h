@@ -13,7 +13,7 @@ namespace talus::pictures {
 /// Grains or lines, and their legend.
 struct MapLayer {
   std::string title;                ///< begins with a capital letter
-  std::vector<GrainLook> looks;     ///< one for each free grain; empty: the layer has lines only
+  std::vector<GrainStyle> styles;   ///< one for each free grain; empty: the layer has lines only
   std::vector<render::Line> lines;  ///< without copies across a periodic edge
   render::Legend legend;
   std::vector<double> values{};  ///< one for each free grain, if looks follow from a value on this scale

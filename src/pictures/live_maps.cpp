@@ -74,7 +74,7 @@ void LiveMaps::begin(const io::RunHeader& header, const std::string& path, doubl
   decimals_ = std::max(2, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
 }
 
-void LiveMaps::meet(const io::RunFile& file) {
+void LiveMaps::add_frames(const io::RunFile& file) {
   for (std::size_t k = 0; k < file.all_frame_tilts().size(); ++k)
     tasks_.post([this, frame = file.frame(k)] { draw_or_fail(frame); });
   finish();
@@ -109,10 +109,10 @@ void LiveMaps::fail(ExitCode code, const std::string& message) {
 
 void LiveMaps::draw(Frame frame) {
   const MapPlan& plan = series_.plan;
-  if (series_.met.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
+  if (series_.seen_frames.instants.empty()) series_.extent = live_extent({frame, series_.run.statics});
   frame = as_mapped(series_, std::move(frame));
-  talus::pictures::meet(series_, frame);
-  const std::size_t k = series_.met.instants.size() - 1;
+  talus::pictures::add_frame(series_, frame);
+  const std::size_t k = series_.seen_frames.instants.size() - 1;
   for (std::size_t map = 0; map < plan.maps.size(); ++map) {
     const PictureFile file = picture_file(series_, "run", folder_, k, map, decimals_);
     if (is_drawn(file.path, file.marks, overwrite_)) continue;

@@ -35,7 +35,7 @@ class LiveMaps {
 
   /// Adds the frames that an earlier process has stored: colours continue from them, and missing pictures are
   /// drawn. Throws Error(cannot_create) if a picture of another run or with other settings has the same name.
-  void meet(const io::RunFile& file);
+  void add_frames(const io::RunFile& file);
 
   /// Draws a new frame in the background; blocks while several are waiting. The first failure ends the
   /// drawing, not the run.

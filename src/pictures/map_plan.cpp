@@ -72,7 +72,7 @@ MapSettings common_settings(const MapOptions& options) {
 }
 
 /// Returns the names of maps with a property: "displacement, rotation, ...".
-std::string maps_that(bool (*has)(MapKind)) {
+std::string maps_with(bool (*has)(MapKind)) {
   MapLayers those;
   std::ranges::copy_if(map_kinds(), std::back_inserter(those), has);
   return joined(those, ", ", map_name);
@@ -87,9 +87,9 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   if (!options.range.empty() && !has_bar(plan.maps[0].layers))
     refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
   if (options.length && !any_layer(plan, is_coarse))
-    refuse("--length applies only to the maps " + maps_that(is_coarse));
+    refuse("--length applies only to the maps " + maps_with(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
-    refuse("--since applies only to the maps " + maps_that(needs_reference));
+    refuse("--since applies only to the maps " + maps_with(needs_reference));
   if (options.l_min && !shows_gamma(plan))
     refuse("--l-min: no requested map or trace depends on the gamma of grains");
   if (options.threshold && !needs_theta_c(plan))

@@ -42,21 +42,22 @@ void check_theta_c(const MapSettings& settings) {
 
 /// Adds grains with the looks of the lower layer that has any, otherwise as outlines; the looks of a second
 /// layer are drawn as smaller discs inside.
-void add_grains(render::FrameView& view, const BedFrame& bed, std::span<const std::vector<GrainLook>> looks) {
+void add_grains(render::FrameView& view, const BedFrame& bed,
+                std::span<const std::vector<GrainStyle>> styles) {
   constexpr float inner_radius = 0.5f;  // fraction of the grain's radius
   const std::size_t count = bed.frame.x.size();
-  view.discs.reserve(count * std::max<std::size_t>(1, looks.size()) + count / 16);
-  const auto add = [&](Index i, const GrainLook& look, float scale) {
+  view.discs.reserve(count * std::max<std::size_t>(1, styles.size()) + count / 16);
+  const auto add = [&](Index i, const GrainStyle& style, float scale) {
     render::Disc disc = disc_of(bed, i);
     disc.radius *= scale;
-    disc.fill = look.fill;
-    disc.rim = look.rim;
+    disc.fill = style.fill;
+    disc.rim = style.rim;
     add_disc(view, disc, bed.statics);
   };
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     const auto grain = static_cast<std::size_t>(i);
-    add(i, looks.empty() ? outline_look() : looks[0][grain], 1.0f);
-    if (looks.size() > 1 && looks[1][grain].marked) add(i, looks[1][grain], inner_radius);
+    add(i, styles.empty() ? outline_style() : styles[0][grain], 1.0f);
+    if (styles.size() > 1 && styles[1][grain].marked) add(i, styles[1][grain], inner_radius);
   }
   for (Index i = bed.statics.free_count; i < bed.frame.grain_count(); ++i)
     add_disc(view, disc_of(bed, i), bed.statics);
@@ -174,13 +175,14 @@ std::string caption_of(const Frame& frame, const MapSettings& settings) {
 
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
                       const render::Bar& bar) {
-  return {title, looks_of(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values), scale};
+  return {title, grain_styles(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values), scale};
 }
 
 MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
                                     const render::Bar& bar) {
-  return {title, looks_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values),
-          scale};
+  return {
+      title, grain_styles_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values),
+      scale};
 }
 
 MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
@@ -225,11 +227,11 @@ render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, c
 
 render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
                               std::vector<MapLayer> layers) {
-  std::vector<std::vector<GrainLook>> looks;
+  std::vector<std::vector<GrainStyle>> styles;
   for (MapLayer& layer : layers)
-    if (!layer.looks.empty()) looks.push_back(std::move(layer.looks));
+    if (!layer.styles.empty()) styles.push_back(std::move(layer.styles));
   render::FrameView view = empty_view(extent);
-  add_grains(view, frame, looks);
+  add_grains(view, frame, styles);
   for (const MapLayer& layer : layers)
     for (const render::Line& line : layer.lines) add_line(view, line, frame.statics);
   add_surroundings(view, frame);

@@ -49,7 +49,7 @@ std::string clusters_title(const analysis::Clusters& clusters, const MapSettings
 }
 
 /// Returns the legend of the marks of spanning clusters.
-std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning,
+std::vector<render::Swatch> spanning_swatches(const analysis::SpanningClusters& spanning,
                                               std::span<const render::Colour> colours, bool periodic) {
   const std::string across = periodic ? "spans the period" : "spans wall to wall";
   const auto swatch = [&](Index cluster, const std::string& label) {
@@ -68,14 +68,14 @@ std::vector<render::Swatch> spanning_swatches(const analysis::Spanning& spanning
 
 /// Returns the look of each free grain: black if gamma >= threshold, otherwise white; with `over_grains`, a
 /// mark in a grain that another layer fills.
-std::vector<GrainLook> overload_looks(const BedFrame& bed, double threshold, bool over_grains) {
-  std::vector<GrainLook> looks;
+std::vector<GrainStyle> overload_styles(const BedFrame& bed, double threshold, bool over_grains) {
+  std::vector<GrainStyle> styles;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     const bool overloaded = stress::is_overloaded(bed.frame.gamma[i], threshold);
     const render::Colour fill = overloaded ? render::black : render::white;
-    looks.push_back({fill, over_grains ? render::white : rim_of(fill), overloaded});
+    styles.push_back({fill, over_grains ? render::white : rim_of(fill), overloaded});
   }
-  return looks;
+  return styles;
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ MapLayer overloaded_layer(const MapFrame& bed, const MapSettings& settings, bool
   layer.title = settings.l_min > 0.0 ? "Overloaded grains, " + reading_text(settings)
                                      : "Overloaded " + reading_text(settings);
   if (count.loaded > 0) layer.title += fmt::format(", p_o = {:.3f}", count.fraction());
-  layer.looks = overload_looks(bed, threshold, over_grains);
+  layer.styles = overload_styles(bed, threshold, over_grains);
   layer.legend.swatches = {disc_swatch(render::black, render::black, "γ ≥ " + threshold_text(settings))};
   if (!over_grains)
     layer.legend.swatches.push_back(
@@ -97,7 +97,7 @@ MapLayer overloaded_layer(const MapFrame& bed, const MapSettings& settings, bool
 
 MapLayer clusters_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains) {
   const analysis::Clusters clusters = overloaded_clusters(bed, settings);
-  const analysis::Spanning spanning = analysis::find_spanning(clusters, analysis::bed_edges(bed));
+  const analysis::SpanningClusters spanning = analysis::find_spanning(clusters, analysis::bed_edges(bed));
   ClusterColours tracker = bed.tracker != nullptr ? *bed.tracker : ClusterColours();
   const std::vector<render::Colour> colours = colours_of(
       bed.cluster_colours.empty() ? tracker.next(clusters)
@@ -107,14 +107,14 @@ MapLayer clusters_layer(const MapFrame& bed, const MapSettings& settings, bool o
   layer.title = clusters_title(clusters, settings);
   for (const Index label : clusters.label) {
     if (label < 0) {
-      layer.looks.push_back(outline_look());
+      layer.styles.push_back(outline_style());
       continue;
     }
     const bool spans = label == spanning.floor_to_surface || label == spanning.across;
     const render::Colour fill = colours[static_cast<std::size_t>(label)];
-    layer.looks.push_back({fill, spans ? spanning_rim(fill) : rim_of(fill)});
+    layer.styles.push_back({fill, spans ? spanning_rim(fill) : rim_of(fill)});
   }
-  const GrainLook other = outline_look();
+  const GrainStyle other = outline_style();
   layer.legend.swatches = spanning_swatches(spanning, colours, bed.statics.periodic);
   layer.legend.swatches.push_back(
       disc_swatch(render::gray(uncoloured_shade), rim_of(render::gray(uncoloured_shade)),

@@ -29,7 +29,7 @@ std::string text_of(const std::vector<std::string>& parts) {
 }
 
 /// Removes and returns the parts with which all texts begin.
-std::string take_beginning(const std::vector<std::string*>& texts) {
+std::string extract_common_beginning(const std::vector<std::string*>& texts) {
   std::vector<std::string> common = parts_of(*texts.front());
   for (const std::string* text : texts) {
     const std::vector<std::string> parts = parts_of(*text);
@@ -138,7 +138,7 @@ Rows grouped(const Rows& maps, std::size_t side_by_side) {
   return rows;
 }
 
-PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const PanelAsked& asked) {
+PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const PanelRequest& asked) {
   const PictureSeries& series = run.series;
   PictureKey key;
   key.add("panel", std::to_string(series.plan.maps.size()));
@@ -147,7 +147,7 @@ PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const P
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map)
       key.add("bed", picture_key(series, k, map));
   const std::string angles =
-      joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.met.instants[k].tilt); });
+      joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.seen_frames.instants[k].tilt); });
   const std::string maps =
       joined(series.plan.maps, " ", [](const MapSettings& map) { return layers_name(map.layers); });
   return {key.text(),
@@ -167,7 +167,7 @@ Rows panel_rows(Rows maps, const std::string& title, std::size_t side_by_side) {
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     std::vector<std::string*> titles;
     for (std::vector<render::FrameView>& row : maps) titles.push_back(&row[kind].title);
-    headings.push_back(heading(maps[0][kind], one_angle ? "" : take_beginning(titles), ""));
+    headings.push_back(heading(maps[0][kind], one_angle ? "" : extract_common_beginning(titles), ""));
   }
   share_furniture(maps);
   for (std::size_t k = 0; maps.size() * kinds > 1 && k < maps.size() * kinds; ++k) {
@@ -208,7 +208,7 @@ render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width,
   return best;
 }
 
-PanelDrawn draw_panel(DrawnRun& run, const PanelAsked& asked) {
+PanelResult draw_panel(DrawnRun& run, const PanelRequest& asked) {
   const FrameChoice choice = frames_at(run.file.frame_tilts(), asked.at, run.theta_c());
   fit_to_frames(run, choice);
   const PictureMarks marks = panel_marks(run, choice, asked);

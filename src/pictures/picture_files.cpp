@@ -26,10 +26,11 @@ constexpr std::size_t pictures_waiting = 2;
 /// angle several times, has "gamma_00042_012.00.png", with the number of the frame. Names sort by time.
 std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals,
                          const std::string& ending) {
-  const FrameInstant &instant = series.met.instants[k], &highest = series.met.instants[series.met.highest];
+  const FrameInstant &instant = series.seen_frames.instants[k],
+                     &highest = series.seen_frames.instants[series.seen_frames.highest];
   const std::string name = layers_name(series.plan.maps[map].layers);
   if (series.has_program) return fmt::format("{}_{:05}_{}.{}", name, k, angle_name(instant.tilt, 2), ending);
-  if (k <= series.met.highest)
+  if (k <= series.seen_frames.highest)
     return fmt::format("{}_{}.{}", name, angle_name(instant.tilt, decimals), ending);
   return fmt::format("{}_flow_{:08.4f}s.{}", name, instant.time - highest.time, ending);
 }

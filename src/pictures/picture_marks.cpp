@@ -19,7 +19,7 @@ constexpr const char* request_word = "talus:request";
 
 /// Returns the path of the run file relative to the folder of the picture, because both may move together. A
 /// run under way has its final name.
-std::string seen_from(const std::filesystem::path& picture, std::filesystem::path run) {
+std::string relative_run_path(const std::filesystem::path& picture, std::filesystem::path run) {
   namespace fs = std::filesystem;
   if (!run.has_filename()) run = run.parent_path();  // RUN.h5.run/
   if (run.extension() == ".run") run.replace_extension();
@@ -89,10 +89,11 @@ std::string picture_key(const PictureSeries& series, std::size_t k, std::size_t 
   PictureKey key;
   add_run(key, series.run);
   add_settings(key, series.plan.maps[map], series.plan.width, series.extent);
-  key.add("step", std::to_string(series.met.instants[k].step));
-  key.add("tilt", series.met.instants[k].tilt);
+  key.add("step", std::to_string(series.seen_frames.instants[k].step));
+  key.add("tilt", series.seen_frames.instants[k].tilt);
   if (any_layer(series.plan, needs_reference))
-    key.add("since", series.since ? std::to_string(series.met.instants[*series.since].step) : "frame before");
+    key.add("since",
+            series.since ? std::to_string(series.seen_frames.instants[*series.since].step) : "frame before");
   for (std::size_t t = 0; t < series.curves.size(); ++t) {
     key.add("trace", std::string(trace_name(series.plan.traces[t])));
     key.add("tilts", series.curves[t].places);
@@ -106,7 +107,7 @@ std::string picture_request(const std::string& command, const PictureSeries& ser
   const MapPlan& plan = series.asked;
   PictureKey request;
   request.add("command", command);
-  request.add("run", seen_from(picture, series.path));
+  request.add("run", relative_run_path(picture, series.path));
   for (const MapSettings& map : maps) add_settings(request, map, plan.width, {});
   for (const TraceKind trace : plan.traces) request.add("trace", std::string(trace_name(trace)));
   if (plan.crop) request.add("crop", std::vector{plan.crop->x0, plan.crop->y0, plan.crop->x1, plan.crop->y1});
@@ -116,7 +117,7 @@ std::string picture_request(const std::string& command, const PictureSeries& ser
 
 std::string picture_source(const PictureSeries& series, std::size_t k, std::size_t map) {
   return picture_source(series.path,
-                        fmt::format("frame at {} deg, {}", tilt_text(series.met.instants[k].tilt),
+                        fmt::format("frame at {} deg, {}", tilt_text(series.seen_frames.instants[k].tilt),
                                     layers_name(series.plan.maps[map].layers)));
 }
 

@@ -44,17 +44,17 @@ std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std
 
 /// Returns the position of a frame or row on the axis of a trace, once the first frame was added.
 double place_of(const PictureSeries& series, double tilt, double time) {
-  return series.has_program ? time - series.met.instants.front().time : tilt;
+  return series.has_program ? time - series.seen_frames.instants.front().time : tilt;
 }
 
-void meet_all(PictureSeries& series, const io::RunFile& file, const CountDone& progress) {
+void add_frames(PictureSeries& series, const io::RunFile& file, const CountDone& progress) {
   const MapPlan& plan = series.plan;
   const bool whole = shows(plan, MapKind::clusters) || std::ranges::any_of(plan.traces, trace_from_frames);
   const std::size_t count = file.all_frame_tilts().size();
   for (std::size_t k = 0; k < count; ++k) {
     const Frame frame = whole ? as_mapped(series, file.frame(k)) : file.positions(k);
     const BedFrame bed{frame, series.run.statics};
-    meet(series, frame);
+    add_frame(series, frame);
     extend(series.extent, bed);
     for (std::size_t t = 0; t < plan.traces.size() && k < file.frame_count(); ++t)
       if (trace_from_frames(plan.traces[t])) {
@@ -63,7 +63,7 @@ void meet_all(PictureSeries& series, const io::RunFile& file, const CountDone& p
       }
     if (progress) progress(k + 1, count);
   }
-  series.met.highest = file.frame_count() - 1;
+  series.seen_frames.highest = file.frame_count() - 1;
 }
 
 void take_observables(PictureSeries& series, const io::RunFile& file) {
@@ -94,12 +94,13 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
 
 /// Adds an instant. Only a run with a programme knows its last frame of the tilt.
 void add_instant(PictureSeries& series, const Frame& frame) {
-  SeenFrames& met = series.met;
-  if (met.instants.empty() || series.has_program || frame.tilt > met.instants[met.highest].tilt)
-    met.highest = met.instants.size();
-  if (met.instants.empty())
-    for (std::size_t i = 0; i < frame.x.size(); ++i) met.begin.push_back({frame.x[i], frame.y[i]});
-  met.instants.push_back({frame.step, frame.time, frame.tilt});
+  SeenFrames& seen_frames = series.seen_frames;
+  if (seen_frames.instants.empty() || series.has_program ||
+      frame.tilt > seen_frames.instants[seen_frames.highest].tilt)
+    seen_frames.highest = seen_frames.instants.size();
+  if (seen_frames.instants.empty())
+    for (std::size_t i = 0; i < frame.x.size(); ++i) seen_frames.begin.push_back({frame.x[i], frame.y[i]});
+  seen_frames.instants.push_back({frame.step, frame.time, frame.tilt});
 }
 
 void read_frame(DrawnRun& run, std::size_t k) {
@@ -121,17 +122,17 @@ Frame as_mapped(const PictureSeries& series, Frame frame) {
   return mapped_frame(std::move(frame), series.run.statics, series.plan.maps[0].l_min);
 }
 
-void meet(PictureSeries& series, const Frame& mapped) {
+void add_frame(PictureSeries& series, const Frame& mapped) {
   if (shows(series.plan, MapKind::clusters))
-    meet(series, mapped, overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0]));
+    add_frame(series, mapped, overloaded_clusters({mapped, series.run.statics}, series.plan.maps[0]));
   else
     add_instant(series, mapped);
 }
 
-void meet(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters) {
+void add_frame(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters) {
   add_instant(series, mapped);
-  series.met.rule = series.plan.maps[0];
-  series.met.cluster_colours.push_back(series.met.tracker.next(clusters));
+  series.seen_frames.rule = series.plan.maps[0];
+  series.seen_frames.cluster_colours.push_back(series.seen_frames.tracker.next(clusters));
 }
 
 std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t k) {
@@ -141,15 +142,15 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
 render::FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame,
                           const Frame* reference, std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
-  const SeenFrames& met = series.met;
+  const SeenFrames& seen_frames = series.seen_frames;
   MapFrame bed{{frame, series.run.statics}, reference, !series.since};
   const OverloadRule& rule = settings;
-  if (met.rule == rule) {  // colours by another rule belong to other clusters
-    bed.tracker = &met.tracker;
-    if (k < met.cluster_colours.size() && met.instants[k].step == frame.step)
-      bed.cluster_colours = met.cluster_colours[k];
+  if (seen_frames.rule == rule) {  // colours by another rule belong to other clusters
+    bed.tracker = &seen_frames.tracker;
+    if (k < seen_frames.cluster_colours.size() && seen_frames.instants[k].step == frame.step)
+      bed.cluster_colours = seen_frames.cluster_colours[k];
   }
-  bed.dyed_at = met.begin;
+  bed.dyed_at = seen_frames.begin;
   render::FrameView view = make_map(bed, settings, series.extent);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
@@ -171,7 +172,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   series.since = reference_since(run.file.frame_tilts(), plan.since);
   series.curves.resize(plan.traces.size());
   series.extent = bed_extent(series.run.statics);
-  meet_all(series, run.file, progress);
+  add_frames(series, run.file, progress);
   take_observables(series, run.file);
   if (plan.crop) series.extent = cropped(series.extent, *plan.crop, series.run.statics.mean_diameter);
   for (MapSettings& map : series.plan.maps)
@@ -182,7 +183,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
 void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames) {
   PictureSeries& series = run.series;
   double steepest = 0.0;
-  for (const std::size_t k : frames) steepest = std::max(steepest, series.met.instants[k].tilt);
+  for (const std::size_t k : frames) steepest = std::max(steepest, series.seen_frames.instants[k].tilt);
   for (MapSettings& map : series.plan.maps)
     if (map.turned) map.tilt_max = steepest;
   if (!any_layer(series.plan, fits_frames)) return;

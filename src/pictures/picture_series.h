@@ -46,7 +46,7 @@ struct PictureSeries {
   MapPlan plan;      ///< plan with theta_c set: NaN only if neither the run nor the user has given one
   MapExtent extent;  ///< part of the bed shown, the same in all pictures
   std::optional<std::size_t> since;  ///< frame from which displacements are measured; none: the preceding one
-  SeenFrames met;
+  SeenFrames seen_frames;
   std::vector<TraceCurve> curves;  ///< one for each trace of the plan
 };
 
@@ -54,9 +54,9 @@ struct PictureSeries {
 Frame as_mapped(const PictureSeries& series, Frame frame);
 
 /// Adds the next frame of the run, as its maps see it. Does not change the extent and the curves.
-void meet(PictureSeries& series, const Frame& mapped);
+void add_frame(PictureSeries& series, const Frame& mapped);
 /// Adds a frame whose overloaded_clusters are known, if a map shows them.
-void meet(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters);
+void add_frame(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters);
 
 /// Returns the frame from which motion up to frame k is measured; none if no map shows motion, or nothing has
 /// moved yet.

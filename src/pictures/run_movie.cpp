@@ -29,17 +29,19 @@ double fastest_rate(const std::vector<FrameInstant>& instants) {
 std::vector<double> clock_tilts(const PictureSeries& series) {
   if (series.has_program) {
     std::vector<double> clock;
-    const double rate = fastest_rate(series.met.instants);
-    for (const FrameInstant& instant : series.met.instants)
-      clock.push_back(rate * (instant.time - series.met.instants.front().time));
+    const double rate = fastest_rate(series.seen_frames.instants);
+    for (const FrameInstant& instant : series.seen_frames.instants)
+      clock.push_back(rate * (instant.time - series.seen_frames.instants.front().time));
     return clock;
   }
-  const FrameInstant &first = series.met.instants.front(), &last = series.met.instants[series.met.highest];
+  const FrameInstant &first = series.seen_frames.instants.front(),
+                     &last = series.seen_frames.instants[series.seen_frames.highest];
   const double rate = last.time > first.time ? (last.tilt - first.tilt) / (last.time - first.time) : 0.0;
   std::vector<double> clock;
-  for (std::size_t k = 0; k < series.met.instants.size(); ++k)
-    clock.push_back(k <= series.met.highest ? series.met.instants[k].tilt
-                                            : last.tilt + rate * (series.met.instants[k].time - last.time));
+  for (std::size_t k = 0; k < series.seen_frames.instants.size(); ++k)
+    clock.push_back(k <= series.seen_frames.highest
+                        ? series.seen_frames.instants[k].tilt
+                        : last.tilt + rate * (series.seen_frames.instants[k].time - last.time));
   return clock;
 }
 
@@ -91,7 +93,7 @@ MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, 
   return format;
 }
 
-void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, const MovieAsked& asked,
+void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, const MovieRequest& asked,
                 const Watch& watch) {
   render::Renderer renderer(render::make_context(run.series.plan.context));
   const MovieFormat format = common_format(run, frames, asked.height, renderer.font());
@@ -135,10 +137,10 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
   return frames;
 }
 
-MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch) {
+MovieResult draw_movie(DrawnRun& run, const MovieRequest& asked, const Watch& watch) {
   const std::vector<MovieFrame> frames = movie_frames(clock_tilts(run.series), asked.timing);
   FrameChoice shown;  // each counts once for the common range, however long it is shown
-  MovieDrawn drawn;
+  MovieResult drawn;
   for (const MovieFrame& frame : frames) {
     shown.push_back(frame.frame);
     drawn.frames += static_cast<std::size_t>(frame.times);

@@ -29,19 +29,19 @@ struct MovieFrame {
 /// With a speed, frame j of the movie shows the last one with clock <= clock[0] + j speed / fps.
 std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const MovieTiming& timing);
 
-struct MovieAsked {
+struct MovieRequest {
   MovieTiming timing;
   int height = 0;      ///< px; 0: height of the maps next to each other
   std::string output;  ///< FILE.mp4, FILE.webm or FILE.gif
 };
 
-struct MovieDrawn {
+struct MovieResult {
   std::size_t frames = 0;
   int max_times = 1;  ///< maximum for frames of the run between the first and the last
 };
 
 /// Draws the maps of the plan into a movie (render/movie.h). Throws the errors of Movie and arrange, and
 /// Error(stopped) if it was stopped, without leaving files behind.
-MovieDrawn draw_movie(DrawnRun& run, const MovieAsked& asked, const Watch& watch);
+MovieResult draw_movie(DrawnRun& run, const MovieRequest& asked, const Watch& watch);
 
 }  // namespace talus::pictures

@@ -59,7 +59,7 @@ render::Colour rim_of(const render::Colour& fill) {
   return {shade(fill.red), shade(fill.green), shade(fill.blue), fill.alpha};
 }
 
-GrainLook outline_look() { return {render::white, render::gray(0.25), false}; }
+GrainStyle outline_style() { return {render::white, render::gray(0.25), false}; }
 
 Scale chosen(Scale scale, const ScaleChoice& choice) {
   scale.colours = choice.colours.value_or(scale.colours);
@@ -78,23 +78,23 @@ double share_of(const Scale& scale, double value) {
   return (value - scale.low) / (scale.high - scale.low);
 }
 
-GrainLook look_of(const Scale& scale, double value) {
+GrainStyle grain_style(const Scale& scale, double value) {
   const render::Colour fill = render::colour_at(scale.colours, share_of(scale, value));
   return {fill, rim_of(fill), !std::isnan(value)};
 }
 
-std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> values) {
-  std::vector<GrainLook> looks;
-  looks.reserve(values.size());
-  for (const double value : values) looks.push_back(look_of(scale, value));
-  return looks;
+std::vector<GrainStyle> grain_styles(const Scale& scale, std::span<const double> values) {
+  std::vector<GrainStyle> styles;
+  styles.reserve(values.size());
+  for (const double value : values) styles.push_back(grain_style(scale, value));
+  return styles;
 }
 
-std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values) {
-  std::vector<GrainLook> looks = looks_of(scale, values);
+std::vector<GrainStyle> grain_styles_or_outlines(const Scale& scale, std::span<const double> values) {
+  std::vector<GrainStyle> styles = grain_styles(scale, values);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (std::isnan(values[i])) looks[i] = outline_look();
-  return looks;
+    if (std::isnan(values[i])) styles[i] = outline_style();
+  return styles;
 }
 
 render::Bar bar_of(const Scale& scale, const std::string& title) {

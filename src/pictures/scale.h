@@ -12,7 +12,7 @@
 namespace talus::pictures {
 
 /// The look of a grain in a layer.
-struct GrainLook {
+struct GrainStyle {
   render::Colour fill = render::white;
   render::Colour rim = render::black;
   bool marked = true;  ///< false: the layer has no value for the grain and draws no mark over another layer
@@ -24,7 +24,7 @@ struct GrainLook {
 render::Colour rim_of(const render::Colour& fill);
 
 /// Returns the look of a grain that only shows its position.
-GrainLook outline_look();
+GrainStyle outline_style();
 
 /// A range of values and its colours.
 struct Scale {
@@ -48,11 +48,11 @@ double share_of(const Scale& scale, double value);
 
 /// Returns the look of a value, clamped to the ends of its scale. NaN, for a grain without a value, looks
 /// like the lower end and is not marked.
-GrainLook look_of(const Scale& scale, double value);
-std::vector<GrainLook> looks_of(const Scale& scale, std::span<const double> values);
+GrainStyle grain_style(const Scale& scale, double value);
+std::vector<GrainStyle> grain_styles(const Scale& scale, std::span<const double> values);
 
 /// Returns looks on a scale that does not contain white; grains without a value are white.
-std::vector<GrainLook> looks_or_outlines(const Scale& scale, std::span<const double> values);
+std::vector<GrainStyle> grain_styles_or_outlines(const Scale& scale, std::span<const double> values);
 
 /// Returns the bar, with round numbers or decades as ticks.
 render::Bar bar_of(const Scale& scale, const std::string& title);

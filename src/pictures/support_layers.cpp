@@ -12,8 +12,8 @@ namespace {
 
 constexpr render::Colour largest_colour{0, 114, 178}, other_colour{230, 159, 0};
 
-render::Swatch grain_swatch(const GrainLook& look, const std::string& label) {
-  return {render::Swatch::Kind::disc, look.fill, look.rim, 0.0, label};
+render::Swatch grain_swatch(const GrainStyle& style, const std::string& label) {
+  return {render::Swatch::Kind::disc, style.fill, style.rim, 0.0, label};
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ MapLayer rigid_layer(const MapFrame& bed, bool over_grains) {
   const Index fixed = bed.statics.free_count;
   if (bed.statics.friction == 0.0) {
     MapLayer none;
-    none.looks.assign(static_cast<std::size_t>(fixed), outline_look());
+    none.styles.assign(static_cast<std::size_t>(fixed), outline_style());
     none.title = "Rigid clusters are not counted without friction";
     return none;
   }
@@ -43,20 +43,21 @@ MapLayer rigid_layer(const MapFrame& bed, bool over_grains) {
     grains[label[body]] += body < fixed ? 1 : 0;
   }
   const Index largest = static_cast<Index>(std::ranges::max_element(grains) - grains.begin());
-  const auto look_in = [](const render::Colour& fill) { return GrainLook{fill, rim_of(fill)}; };
+  const auto style_in = [](const render::Colour& fill) { return GrainStyle{fill, rim_of(fill)}; };
   MapLayer layer;
   for (Index i = 0; i < fixed; ++i)
-    layer.looks.push_back(
-        bodies[label[i]] < 2 ? outline_look() : look_in(label[i] == largest ? largest_colour : other_colour));
+    layer.styles.push_back(bodies[label[i]] < 2
+                               ? outline_style()
+                               : style_in(label[i] == largest ? largest_colour : other_colour));
   const bool any = bodies[largest] > 1;
   const double share = any ? 100.0 * grains[largest] / std::max<Index>(1, fixed) : 0.0;
   layer.title = any ? fmt::format("Rigid clusters, the largest has {:.0f} % of the grains", share)
                     : std::string("No rigid cluster");
   layer.legend.swatches = {
-      grain_swatch(look_in(largest_colour),
+      grain_swatch(style_in(largest_colour),
                    any && label[fixed] == largest ? "largest, with the floor" : "largest"),
-      grain_swatch(look_in(other_colour), "others")};
-  if (!over_grains) layer.legend.swatches.push_back(grain_swatch(outline_look(), "in none"));
+      grain_swatch(style_in(other_colour), "others")};
+  if (!over_grains) layer.legend.swatches.push_back(grain_swatch(outline_style(), "in none"));
   return layer;
 }
 

@@ -72,7 +72,7 @@ MapLayer value_layer(MapKind kind, const MapFrame& bed, const MapSettings& setti
                                 fitted_text(kind, settings.motion, span.per_degree, choice)));
   MapLayer layer = (rule.outlines ? scaled_layer_with_outlines : scaled_layer)(
       fmt::format("{}{}{}", rule.title, span.title, averaged), scale, map_values(kind, bed, settings), bar);
-  const GrainLook open = outline_look();
+  const GrainStyle open = outline_style();
   if (!rule.without.empty())
     layer.legend.swatches = {
         {render::Swatch::Kind::disc, open.fill, open.rim, 0.0, std::string(rule.without)}};

@@ -101,8 +101,9 @@ solver::SolverReport solve_shuffled(const solver::ContactProblem& problem,
   return report;
 }
 
-solver::SolverReport search_on(const solver::ContactProblem& problem, ForceMethod method,
-                               const ForceSearch& search, Random& random, solver::ContactSolution& solution) {
+solver::SolverReport continue_search(const solver::ContactProblem& problem, ForceMethod method,
+                                     const ForceSearch& search, Random& random,
+                                     solver::ContactSolution& solution) {
   if (method == ForceMethod::balance)
     return solver::balance(problem, search.tolerance, search.max_iterations, solution);
   solver::SolverSettings settings;
@@ -237,7 +238,7 @@ ForceSet find_forces(const FrozenBed& bed, const ForceAttempt& attempt, const Fo
   ForceSet found;
   found.attempt = attempt;
   found.solution = first_guess(attempt.start, bed, random);
-  found.report = search_on(bed.step.problem, attempt.method, search, random, found.solution);
+  found.report = continue_search(bed.step.problem, attempt.method, search, random, found.solution);
   const double fall = bed.step.scales.gravity * bed.step.scales.h;
   found.momentum_left = rms_velocity(loaded_world(bed, found.solution).grains) / fall;
   found.unbalanced = count_faster(found.solution, bed.world.grains.free_count, 0.1 * fall);

@@ -49,7 +49,7 @@ void extrapolate(double beta, std::vector<solver::Impulse>& p, std::vector<solve
   }
 }
 
-solver::Residual look_at(const solver::LocalProblem& problem, solver::LocalSolution& solution) {
+solver::Residual evaluate(const solver::LocalProblem& problem, solver::LocalSolution& solution) {
   solver::velocities_from_impulses(problem, solution);
   return solver::natural_map_residual(problem, solution);
 }
@@ -63,7 +63,7 @@ solver::SolverReport solve(const solver::LocalProblem& problem, const solver::So
   std::vector<solver::Impulse> y = p;
   solver::Momentum momentum;
   solver::SolverReport report;
-  report.residual = look_at(problem, solution);
+  report.residual = evaluate(problem, solution);
   // The residual costs as much as a sweep, so it is not computed after each of them.
   while (report.residual.eta > settings.tolerance && report.iterations < settings.max_iterations) {
     const int next_look = std::min(settings.max_iterations, report.iterations + 5 + report.iterations / 16);
@@ -73,7 +73,7 @@ solver::SolverReport solve(const solver::LocalProblem& problem, const solver::So
         momentum.update(sums.relative_change(), sums.ascent);
       extrapolate(momentum.beta, p, y);
     }
-    report.residual = look_at(problem, solution);
+    report.residual = evaluate(problem, solution);
   }
   report.converged = report.residual.eta <= settings.tolerance;
   return report;

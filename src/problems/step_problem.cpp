@@ -37,14 +37,15 @@ double weight(const World& world) {
 }
 
 /// Settings in effect at a step, after the commands of the run.
-struct InForce {
+struct EffectiveSettings {
   double friction = 0.0;
   std::optional<double> tilt_rate;  ///< rad/s, if it was changed
   std::optional<session::Drag> drag;
 };
-InForce in_force(const io::RunFile& run, const scenario::Scenario& scenario, std::int64_t step) {
-  const session::Schedule given = session::set_by_commands(run, step + 1);
-  InForce now{given.friction.value_or(scenario.contact.friction), {}, given.drag};
+EffectiveSettings effective_settings(const io::RunFile& run, const scenario::Scenario& scenario,
+                                     std::int64_t step) {
+  const session::Schedule given = session::commanded_schedule(run, step + 1);
+  EffectiveSettings now{given.friction.value_or(scenario.contact.friction), {}, given.drag};
   if (given.course) now.tilt_rate = given.course->rate;
   return now;
 }
@@ -60,7 +61,7 @@ std::int64_t first_step(const io::RunFile& run) {
 /// otherwise, unless a command has changed the rate, it is an integer multiple of the step of the tilt, as in
 /// a run. The first frame is the one before the first step of the tilt.
 double next_tilt(const io::RunFile& run, const World& world, const scenario::Scenario& scenario,
-                 const InForce& now) {
+                 const EffectiveSettings& now) {
   const double tilt = world.tilt;
   if (now.tilt_rate) return tilt + *now.tilt_rate * scenario::time_step(scenario);
   if (run.has_program()) return scenario::TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
@@ -115,7 +116,7 @@ FrameStart start_at_frame(const io::RunFile& run, std::size_t k) {
   const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   FrameStart start;
   start.world = session::world_at_frame(run, k);
-  const InForce now = in_force(run, scenario, start.world.step);
+  const EffectiveSettings now = effective_settings(run, scenario, start.world.step);
   start.settings = session::step_settings(scenario);
   start.tolerance = tolerance_of(start.world, scenario);
   start.settings.law.friction = now.friction;

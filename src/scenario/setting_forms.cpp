@@ -44,7 +44,7 @@ std::string quoted_setting(const std::string& option, std::string_view name, std
 }
 
 /// Suggests a correction for settings such as "contact.friction:0.3" and "contact.friction 0.3".
-std::string with_another_sign(const KeyHeads& keys, const std::string& option, std::string_view setting) {
+std::string corrected_separator(const KeyHeads& keys, const std::string& option, std::string_view setting) {
   const std::size_t end = setting.find_first_of(": \t");
   if (end == std::string_view::npos) return {};
   const std::string_view name = setting.substr(0, end), value = trimmed(setting.substr(end + 1));
@@ -53,8 +53,8 @@ std::string with_another_sign(const KeyHeads& keys, const std::string& option, s
 }
 
 /// Suggests a correction for two settings in one, such as "contact.friction=0.3,tilt.step=0.002".
-std::string two_in_one(const KeyHeads& keys, const std::string& option, const KeyHead& key,
-                       std::string_view value) {
+std::string joined_settings(const KeyHeads& keys, const std::string& option, const KeyHead& key,
+                            std::string_view value) {
   const std::size_t end = value.find_first_of(",; ");
   if (end == std::string_view::npos) return {};
   const std::string_view next = trimmed(value.substr(end + 1));
@@ -103,11 +103,11 @@ std::optional<KeyValue> typed_number(const KeyHead& key, std::string_view value)
 
 std::string meant_setting(const KeyHeads& keys, const std::string& option, std::string_view setting) {
   const auto equals = setting.find('=');
-  if (equals == std::string_view::npos) return with_another_sign(keys, option, setting);
+  if (equals == std::string_view::npos) return corrected_separator(keys, option, setting);
   const KeyHead* key = find_key(keys, trimmed(setting.substr(0, equals)));
   const std::string_view value = trimmed(setting.substr(equals + 1));
   if (key == nullptr || value.empty()) return {};
-  if (std::string two = two_in_one(keys, option, *key, value); !two.empty()) return two;
+  if (std::string two = joined_settings(keys, option, *key, value); !two.empty()) return two;
   std::string other(value);
   std::ranges::replace(other, ',', '.');
   if (value.front() == '=') other.erase(0, 1);

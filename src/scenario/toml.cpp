@@ -46,7 +46,7 @@ struct Complaint {
 };
 
 /// A key that has been given a value.
-struct Given {
+struct KeyEntry {
   SourcePlace place;
   std::optional<KeyValue> value;  ///< empty if the value is not accepted
 };
@@ -56,7 +56,7 @@ struct ParsedKeys {
   KeyHeads keys;
   std::string example;  ///< example of a setting
   std::string name;     ///< name of the file
-  std::map<const KeyHead*, Given> given;
+  std::map<const KeyHead*, KeyEntry> given;
   std::vector<Complaint> complaints;
   /// Keys of each [[command]]; `keys` contains them as well.
   std::vector<std::vector<CommandKey>> commands{};
@@ -382,7 +382,7 @@ Scenario scenario_of(const ParsedKeys& reading) {
 void check_rules(ParsedKeys& reading, const Scenario& scenario) {
   for (const BrokenRule& rule : broken_rules(scenario)) {
     const ScenarioKey* blamed = find_key(rule.keys.front());
-    const Given* at = nullptr;
+    const KeyEntry* at = nullptr;
     bool all_good = true;
     for (const std::string& name : rule.keys) {
       const auto found = reading.given.find(find_key(name));
@@ -400,7 +400,7 @@ void check_rules(ParsedKeys& reading, const Scenario& scenario) {
 }
 
 /// Throws if the text cannot be TOML, before the parser sees it.
-void refuse_what_is_no_text(const std::string& text, const std::string& name) {
+void refuse_binary(const std::string& text, const std::string& name) {
   const auto zero = text.find('\0');
   if (zero != std::string::npos || text.starts_with("talus run file"))
     refuse(place_in_file(name, {1, 1}),
@@ -429,7 +429,7 @@ std::map<const KeyHead*, KeyValue> read_settings(const KeyHeads& keys,
 
 Scenario parse_scenario(const std::string& text, const std::string& name,
                         const std::vector<std::string>& overrides, const std::vector<std::string>& varied) {
-  refuse_what_is_no_text(text, name);
+  refuse_binary(text, name);
   const toml::table table = parse_text(text, name);
   ParsedKeys reading{heads(scenario_keys()), "contact.friction=0.3", name, {}, {}};
   begin_commands(reading, table);

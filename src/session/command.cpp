@@ -20,7 +20,7 @@ namespace {
 
 void check_drag(const Command& command, const scenario::Scenario& scenario, const World& world) {
   const double farthest = farthest_drag * scenario.grains.mean_diameter;
-  const Vec2 way = way_of_drag({command.grain, command.x, command.y}, world);
+  const Vec2 way = drag_offset({command.grain, command.x, command.y}, world);
   const double distance = std::sqrt(way.x * way.x + way.y * way.y);
   if (!(distance <= farthest))
     refuse(command, fmt::format("held {:.4g} m from the grain, expected at most {:g} D = {:.4g} m", distance,
@@ -81,10 +81,10 @@ std::vector<Command> given_commands(std::span<const Command> commands) {
   std::vector<Command> given;
   std::optional<Index> dragged;
   for (const Command& command : commands) {
-    const bool goes_on = command.kind == CommandKind::drag && dragged == command.grain;
+    const bool continues_drag = command.kind == CommandKind::drag && dragged == command.grain;
     if (command.kind == CommandKind::drag) dragged = command.grain;
     if (command.kind == CommandKind::release) dragged.reset();
-    if (!goes_on && command.kind != CommandKind::release) given.push_back(command);
+    if (!continues_drag && command.kind != CommandKind::release) given.push_back(command);
   }
   return given;
 }

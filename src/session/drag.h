@@ -9,7 +9,7 @@ namespace talus::session {
 
 /// Returns the vector from the centre of the grain to the point where the spring is held, m; the shortest one
 /// in a periodic bed.
-Vec2 way_of_drag(const Drag& drag, const World& world);
+Vec2 drag_offset(const Drag& drag, const World& world);
 
 /// Returns the acceleration (m/s^2) that the spring adds to gravity at the centre of its grain, w^2 d - 2 w
 /// v, with the vector d and the velocity v of the grain, which is critical damping. w^2 = 10 g / D, but w h

@@ -63,7 +63,7 @@ class RunCourse {
     const auto next = first_after(step);
     schedule.phase = next == steps_.end() ? end_.phase : static_cast<Phase>(at(*next, StepField::phase));
     schedule.tilt_steps = tilt_steps(step);
-    schedule.flow_steps = end_.flow_steps - taken_after(step, Phase::flow);
+    schedule.flow_steps = end_.flow_steps - steps_after(step, Phase::flow);
     schedule.baseline = end_.baseline;
     if (end_.last_tilt_step) schedule.last_tilt_step = std::min(step, *end_.last_tilt_step);
     const double rest_velocity =
@@ -118,14 +118,14 @@ class RunCourse {
                                     [](const StepRow& row) { return at(row, StepField::step); });
   }
 
-  std::int64_t taken_after(std::int64_t step, Phase phase) const {
+  std::int64_t steps_after(std::int64_t step, Phase phase) const {
     return std::count_if(first_after(step), steps_.end(), [phase](const StepRow& row) {
       return at(row, StepField::phase) == static_cast<double>(phase);
     });
   }
 
   std::int64_t tilt_steps(std::int64_t step) const {
-    return end_.tilt_steps - taken_after(step, Phase::tilt);
+    return end_.tilt_steps - steps_after(step, Phase::tilt);
   }
 
   template <typename Holds>
@@ -221,7 +221,9 @@ World world_at_frame(const io::RunFile& run, std::size_t k) {
   return world;
 }
 
-Schedule set_by_commands(const io::RunFile& run, std::int64_t step) { return RunCourse(run).commanded(step); }
+Schedule commanded_schedule(const io::RunFile& run, std::int64_t step) {
+  return RunCourse(run).commanded(step);
+}
 
 io::Checkpoint start_of(const io::BranchOrigin& branch) {
   io::Checkpoint none, start = branch.start;

@@ -17,7 +17,7 @@ bool may_lack_commands(const io::RunFile& run);
 
 /// Returns a schedule with only the settings of commands given before a step, including those before the run
 /// started: friction, rate of the tilt, drag.
-Schedule set_by_commands(const io::RunFile& run, std::int64_t step);
+Schedule commanded_schedule(const io::RunFile& run, std::int64_t step);
 
 /// Returns everything that a run needs to continue from frame k. State that the series record is that of the
 /// run: the phase and its steps, the time at rest, settings of commands, the baseline of strains. Counters

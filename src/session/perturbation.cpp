@@ -74,7 +74,7 @@ double push(Grains& grains, std::span<const Index> pushed, double velocity) {
   return kinetic_energy(grains) - before;
 }
 
-Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& keep_on) {
+Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& should_continue) {
   const double diameter = scenario.grains.mean_diameter;
   const double time_unit = std::sqrt(diameter / world.gravity);
   const double h = scenario::time_step(scenario);
@@ -87,7 +87,7 @@ Trial follow(World& world, const scenario::Scenario& scenario, const std::functi
   int quiet = 0;
   double time = 0.0;
   while (trial.end == TrialEnd::undecided && time < trial_time * time_unit) {
-    if (keep_on) keep_on();
+    if (should_continue) should_continue();
     const dynamics::StepReport report = dynamics::step(world, step_settings(scenario, world), workspace);
     time += h;
     const double surface = stress::bed_volume(world.grains, world.boundary) / world.boundary.length;
@@ -107,12 +107,12 @@ Trial follow(World& world, const scenario::Scenario& scenario, const std::functi
 }
 
 Trial push_trial(World world, const scenario::Scenario& scenario, const SurfacePatch& patch, double strength,
-                 const std::function<void()>& keep_on) {
+                 const std::function<void()>& should_continue) {
   const double diameter = scenario.grains.mean_diameter;
   const double disk_mass = scenario.grains.density * 0.25 * pi * diameter * diameter;
   const std::vector<Index> pushed = grains_in_patch(world, patch, 0.5 * world.boundary.length, diameter);
   const double energy = push(world.grains, pushed, strength * std::sqrt(world.gravity * diameter));
-  Trial trial = follow(world, scenario, keep_on);
+  Trial trial = follow(world, scenario, should_continue);
   trial.strength = strength;
   trial.energy = energy / (disk_mass * world.gravity * diameter);
   return trial;

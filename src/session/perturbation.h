@@ -47,12 +47,13 @@ struct Trial {
   double displacement = 0.0;  ///< D, mean downslope displacement of the surface layer
 };
 
-/// Steps a world at its tilt, as a run of the scenario does, until it is at rest or has failed. `keep_on` is
-/// called before each step, and throws to abandon the trial; it may be empty.
-Trial follow(World& world, const scenario::Scenario& scenario, const std::function<void()>& keep_on = {});
+/// Steps a world at its tilt, as a run of the scenario does, until it is at rest or has failed.
+/// `should_continue` is called before each step, and throws to abandon the trial; it may be empty.
+Trial follow(World& world, const scenario::Scenario& scenario,
+             const std::function<void()>& should_continue = {});
 
 /// Applies a push of `strength` to the patch in the middle of a copy of the bed, and returns the response.
 Trial push_trial(World world, const scenario::Scenario& scenario, const SurfacePatch& patch, double strength,
-                 const std::function<void()>& keep_on = {});
+                 const std::function<void()>& should_continue = {});
 
 }  // namespace talus::session

@@ -46,11 +46,11 @@ std::vector<Trial> search_threshold(const std::function<Trial(double strength)>&
 }
 
 std::vector<Trial> perturb(World world, const scenario::Scenario& scenario, const SurfacePatch& patch,
-                           const std::function<void()>& keep_on) {
-  std::vector<Trial> trials = {follow(world, scenario, keep_on)};
+                           const std::function<void()>& should_continue) {
+  std::vector<Trial> trials = {follow(world, scenario, should_continue)};
   if (trials.front().end != TrialEnd::rest) return trials;
   const std::vector<Trial> pushes = search_threshold(
-      [&](double strength) { return push_trial(world, scenario, patch, strength, keep_on); });
+      [&](double strength) { return push_trial(world, scenario, patch, strength, should_continue); });
   trials.insert(trials.end(), pushes.begin(), pushes.end());
   return trials;
 }

@@ -42,8 +42,8 @@ Threshold threshold_of(std::span<const Trial> trials);
 std::vector<Trial> search_threshold(const std::function<Trial(double strength)>& trial_at);
 
 /// Follows a copy of the bed at its tilt without a push, as the first trial; if it comes to rest, searches
-/// for the threshold of pushes on the bed at rest. `keep_on` as in follow.
+/// for the threshold of pushes on the bed at rest. `should_continue` as in follow.
 std::vector<Trial> perturb(World world, const scenario::Scenario& scenario, const SurfacePatch& patch,
-                           const std::function<void()>& keep_on = {});
+                           const std::function<void()>& should_continue = {});
 
 }  // namespace talus::session

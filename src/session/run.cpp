@@ -77,9 +77,10 @@ RunEnd run_to_end(Session& session, io::RunStore& store, const RunControl& contr
     if (stop && session.phase() != Phase::done) return RunEnd::stopped;
     longest_step = std::max(longest_step, seconds_since(step_start));
   }
-  const auto goes_on = [&] { return !must_stop(); };
-  return (control.pack ? control.pack(store, goes_on) : store.pack(goes_on)) ? RunEnd::complete
-                                                                             : RunEnd::stopped;
+  const auto should_continue = [&] { return !must_stop(); };
+  return (control.pack ? control.pack(store, should_continue) : store.pack(should_continue))
+             ? RunEnd::complete
+             : RunEnd::stopped;
 }
 
 RunEnd replay(Session& session, io::RunStore* store, std::span<const Command> commands, std::int64_t steps,

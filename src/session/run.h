@@ -34,9 +34,9 @@ struct RunControl {
   /// Called after a step to make trials on copies of the bed; the returned rows are committed at once. Must
   /// not change anything the run depends on. May be empty.
   std::function<std::vector<TrialRow>(const Session&)> trials;
-  /// Called to pack a finished run; same contract as RunStore::pack with `goes_on`. Empty: RunStore::pack
-  /// itself.
-  std::function<bool(io::RunStore& store, const std::function<bool()>& goes_on)> pack;
+  /// Called to pack a finished run; same contract as RunStore::pack with `should_continue`. Empty:
+  /// RunStore::pack itself.
+  std::function<bool(io::RunStore& store, const std::function<bool()>& should_continue)> pack;
 };
 
 enum class RunEnd { complete, stopped };

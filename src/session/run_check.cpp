@@ -279,7 +279,7 @@ double imbalance_allowed(const scenario::Scenario& scenario) {
 /// Adds the force of the spring that drags a grain.
 void add_drag(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k, std::int64_t step,
               Loads& loads) {
-  const std::optional<Drag> drag = set_by_commands(run, step).drag;
+  const std::optional<Drag> drag = commanded_schedule(run, step).drag;
   if (!drag) return;
   const Vec2 pulled = drag_acceleration(*drag, scenario.grains.mean_diameter, scenario::time_step(scenario),
                                         world_at_frame(run, k));

@@ -20,7 +20,7 @@ constexpr double max_steps = 0x1p53;  // step counts up to this are exact in a d
 /// Group of a checkpoint that holds a value. Those of `timing` are not state, and may be missing.
 enum class CheckpointGroup { integers, reals, results, timing };
 
-enum class Kept {
+enum class StoragePolicy {
   always,
   where_not_zero,  ///< a missing value is zero
   as_result,       ///< derived from others: written, never read
@@ -33,7 +33,7 @@ struct ScheduleField {
   CheckpointGroup place;
   std::string name;
   Value value;
-  Kept kept = Kept::always;
+  StoragePolicy kept = StoragePolicy::always;
 };
 
 double count(std::int64_t steps) { return static_cast<double>(steps); }
@@ -42,7 +42,7 @@ double count(std::int64_t steps) { return static_cast<double>(steps); }
 /// it was given.
 std::vector<ScheduleField> fields(Schedule& s, bool follows) {
   using enum CheckpointGroup;
-  using enum Kept;
+  using enum StoragePolicy;
   std::vector<ScheduleField> all = {
       {integers, "phase", &s.phase},
       {integers, "tilt_steps", &s.tilt_steps},
@@ -198,7 +198,7 @@ std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, co
 void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint) {
   for (const ScheduleField& field : fields(schedule, follows)) {
     const double number = number_of(field.value);
-    if (field.kept == Kept::where_not_zero && number == 0.0) continue;
+    if (field.kept == StoragePolicy::where_not_zero && number == 0.0) continue;
     if (field.place == CheckpointGroup::integers)
       checkpoint.integers.emplace_back(field.name, static_cast<std::int64_t>(number));
     else
@@ -216,10 +216,10 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
   if (find_value(checkpoint.integers, "script_steps")) schedule.script.emplace();
   if (find_value(checkpoint.integers, io::last_tilt_step_name)) schedule.last_tilt_step.emplace();
   for (const ScheduleField& field : fields(schedule, follows)) {
-    if (field.kept == Kept::as_result) continue;
+    if (field.kept == StoragePolicy::as_result) continue;
     if (const std::optional<double> number = find(field, checkpoint))
       take(*number, field, checkpoint, origin);
-    else if (field.kept == Kept::always && field.place != CheckpointGroup::timing)
+    else if (field.kept == StoragePolicy::always && field.place != CheckpointGroup::timing)
       refuse(field, origin, "is missing; without it the run cannot continue");
   }
   return schedule;
@@ -228,7 +228,7 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
 std::uint64_t schedule_hash(Schedule schedule) {
   Hasher hash;
   for (const ScheduleField& field : fields(schedule, true)) {
-    if (field.place == CheckpointGroup::timing || field.kept == Kept::as_result) continue;
+    if (field.place == CheckpointGroup::timing || field.kept == StoragePolicy::as_result) continue;
     hash.add_array(field.name);
     hash.add(number_of(field.value));
   }

@@ -179,7 +179,7 @@ void Session::record_start() {
   segment_.frames.push_back(make_frame(world_, law()));
 }
 
-void Session::refuse_to_pass_a_guard() const {
+void Session::check_guards() const {
   for (std::size_t k = 0; k < guard_count; ++k)
     if (const double value = schedule_.broken[k]; value != 0.0 && schedule_.phase != Phase::done)
       throw Error(ExitCode::bad_data,
@@ -215,9 +215,9 @@ void Session::follow_commands() {
 }
 
 const dynamics::StepReport& Session::advance() {
-  refuse_to_pass_a_guard();
+  check_guards();
   follow_commands();
-  const BeforeStep before = before_step();
+  const StepSnapshot before = snapshot();
   try {
     if (schedule_.phase == Phase::deposition)
       advance_deposition();
@@ -226,14 +226,14 @@ const dynamics::StepReport& Session::advance() {
     else if (schedule_.phase == Phase::flow)
       advance_flow();
   } catch (...) {
-    if (world_.step == before.step) go_back_to(before);  // the step could not be taken
+    if (world_.step == before.step) restore(before);  // the step could not be taken
     throw;
   }
   return report_;
 }
 
-Session::BeforeStep Session::before_step() const {
-  BeforeStep before{world_.step, world_.tilt, schedule_.tilt_steps, schedule_.flow_steps, {}};
+Session::StepSnapshot Session::snapshot() const {
+  StepSnapshot before{world_.step, world_.tilt, schedule_.tilt_steps, schedule_.flow_steps, {}};
   if (schedule_.drag) {
     const Index grain = schedule_.drag->grain;
     before.dragged = {world_.grains.vx[grain], world_.grains.vy[grain]};
@@ -241,7 +241,7 @@ Session::BeforeStep Session::before_step() const {
   return before;
 }
 
-void Session::go_back_to(const BeforeStep& before) {
+void Session::restore(const StepSnapshot& before) {
   world_.tilt = before.tilt;
   schedule_.tilt_steps = before.tilt_steps;
   schedule_.flow_steps = before.flow_steps;

@@ -97,7 +97,7 @@ class Session {
 
  private:
   /// Values changed before a step, for the case that the step fails.
-  struct BeforeStep {
+  struct StepSnapshot {
     std::int64_t step;
     double tilt;
     std::int64_t tilt_steps, flow_steps;
@@ -105,13 +105,13 @@ class Session {
   };
 
   dynamics::StepSettings settings() const;
-  BeforeStep before_step() const;
-  void go_back_to(const BeforeStep& before);
+  StepSnapshot snapshot() const;
+  void restore(const StepSnapshot& before);
   bool is_quiet() const;  ///< last step slower than deposition.rest_velocity
   bool is_at_rest() const { return schedule_.quiet_steps >= dynamics::rest_steps; }
   bool have_all_arrived() const;
   void take_step();
-  void refuse_to_pass_a_guard() const;
+  void check_guards() const;
   void follow_commands();
   void watch();
   void advance_deposition();

@@ -53,14 +53,14 @@ struct TeamMember {
   Sweeper sweeper;
 
   TeamMember(const ContactProblem& contact_problem, ContactSolution& contact_solution,
-             AcceleratedWorkspace& workspace, ThreadTeam* solver_team, int number)
+             AcceleratedWorkspace& workspace, ThreadTeam* thread_team, int number)
       : problem(contact_problem),
         solution(contact_solution),
         w(workspace),
         at(workspace.linearisation),
-        team(solver_team),
+        team(thread_team),
         member(number),
-        size(solver_team ? solver_team->size() : 1),
+        size(thread_team ? thread_team->size() : 1),
         sweeper{at, w.sums, team, member, size, sweep_kernels()} {
     const auto blocks = static_cast<int>(at.sums.size());
     first_block = part_begin(blocks, member, size);
@@ -78,19 +78,19 @@ struct TeamMember {
 
   /// Sets P0 to the guess; returns its residual.
   ExactResidual begin() {
-    const ExactResidual of_guess = look_at(solution);
+    const ExactResidual guess_residual = set_impulses(solution);
     if (member == 0) at.are_loaded = true;
-    return of_guess;
+    return guess_residual;
   }
 
   /// Sets P0 to these impulses; returns their residual.
-  ExactResidual look_at(const ContactSolution& impulses) {
+  ExactResidual set_impulses(const ContactSolution& impulses) {
     load_contacts(problem, impulses, first_block, last_block, at);
     wait_for_all();
-    return look();
+    return compute_residual();
   }
 
-  ExactResidual look() {
+  ExactResidual compute_residual() {
     sum_exact_velocities(problem, sweeper.kernels, first_body, last_body, at);
     wait_for_all();
     linearise_contacts(problem, sweeper.kernels, first_block, last_block, at);
@@ -107,7 +107,7 @@ struct TeamMember {
   /// Lets the first member do work that allocates, while the others wait. Its exceptions are stored, because
   /// the others would otherwise wait for ever. Returns false if it failed.
   template <typename Do>
-  bool by_first(const Do& what) {
+  bool on_first_member(const Do& what) {
     if (member == 0) try {
         what();
       } catch (...) {
@@ -122,10 +122,10 @@ struct TeamMember {
   bool order_contacts() {
     find_parts(problem, at.moves, at.swept, member, size, at.order);
     wait_for_all();
-    if (!by_first([this] { open_order(problem, at.moves, at.swept, at.order); })) return false;
+    if (!on_first_member([this] { open_order(problem, at.moves, at.swept, at.order); })) return false;
     order_parts(problem, at.moves, at.swept, member, size, at.order);
     wait_for_all();
-    return by_first([this] {
+    return on_first_member([this] {
       end_order_of_contacts(problem, at);
       w.sums.assign(sums_of_part * static_cast<std::size_t>(at.order.part_count()), {});
     });
@@ -138,7 +138,7 @@ struct TeamMember {
 
   bool load_sweeps() {
     wait_for_all();
-    if (!by_first([this] { begin_order_of_contacts(problem, size, at); })) return false;
+    if (!on_first_member([this] { begin_order_of_contacts(problem, size, at); })) return false;
     if (at.have_new_order && !order_contacts()) return false;
     clear_rows(first_own_row(), last_own_row(), at);
     load_groups(problem, first_block, last_block, at);
@@ -151,7 +151,7 @@ struct TeamMember {
     absorb_increments(problem, first_block, last_block, at);
     absorb_velocities(first_own_row(), last_own_row(), at);
     wait_for_all();
-    return look();
+    return compute_residual();
   }
 
   void average(int count) { average_impulses(problem, first_block, last_block, at, count, w.mean); }
@@ -160,13 +160,13 @@ struct TeamMember {
   /// Returns whether P0 was replaced.
   bool take_mean(ExactResidual& now) {
     unload_impulses(problem, first_block, last_block, at, solution);
-    const ExactResidual of_mean = look_at(w.mean);
-    const bool is_better = of_mean.residual.eta < now.residual.eta;
-    now = is_better ? of_mean : look_at(solution);
+    const ExactResidual mean_residual = set_impulses(w.mean);
+    const bool is_better = mean_residual.residual.eta < now.residual.eta;
+    now = is_better ? mean_residual : set_impulses(solution);
     return is_better;
   }
 
-  void go_on() {
+  void relinearise() {
     linearise_groups(problem, first_block, last_block, at);
     wait_for_all();
   }
@@ -224,7 +224,7 @@ AcceleratedOutcome solve_part(TeamMember& member, double tolerance, int max_iter
       if (!member.sweep_more()) return outcome;
       momentum = {};
     } else {
-      member.go_on();
+      member.relinearise();
     }
   }
 }

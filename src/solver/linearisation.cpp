@@ -169,7 +169,7 @@ void size_groups(Linearisation& w) {
     w.unlike.clear();
   else
     size(w.unlike);
-  if (!w.rolling.are_there()) return;
+  if (!w.rolling.any()) return;
   size(w.rolling.groups);
   size(w.rolling.increment);
   size(w.rolling.last_move);
@@ -180,7 +180,7 @@ void clear_group(Index bodies, Index part, Index g, Linearisation& w) {
   w.contacts[g] = {};
   w.increment[g] = w.last_move[g] = {};
   if (!w.are_alike) w.unlike[g] = {};
-  if (w.rolling.are_there()) {
+  if (w.rolling.any()) {
     w.rolling.groups[g] = {};
     w.rolling.increment[g] = w.rolling.last_move[g] = {};
   }
@@ -219,15 +219,15 @@ void load_contacts(const ContactProblem& problem, const ContactSolution& guess, 
 
 void linearise_contacts(const ContactProblem& problem, const SweepKernels& kernels, Index first_block,
                         Index last_block, Linearisation& w) {
-  LookArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
-                    problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
-                    w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),
-                    w.un.data(),       w.ut.data()};
+  ResidualArrays arrays{problem.a.data(),  problem.b.data(),  problem.nx.data(), problem.ny.data(),
+                        problem.cn.data(), problem.ct.data(), problem.mu.data(), w.pn.data(),
+                        w.pt.data(),       w.wn.data(),       w.wt.data(),       w.exact_velocity.data(),
+                        w.un.data(),       w.ut.data()};
   if (problem.resists_rolling()) take_rolling(problem, w.rolling, arrays);
-  const LookKernel kernel = problem.resists_rolling() ? kernels.rolling_look : kernels.look;
+  const ResidualKernel kernel = problem.resists_rolling() ? kernels.rolling_residual : kernels.residual;
   for (Index block = first_block; block < last_block; ++block) {
     const std::size_t first = block_begin(problem, block), last = block_begin(problem, block + 1);
-    LookSums sums;
+    ContactResidualSums sums;
     kernel(arrays, first, last, sums);
     Index pressed = 0;
     for (std::size_t c = first; c < last; ++c)
@@ -402,7 +402,7 @@ ContactArrays contact_arrays(Linearisation& w) {
                        mu.empty() ? 0.0F : static_cast<float>(mu.front())};
   if (!w.are_alike) arrays.unlike = w.unlike.data();
   arrays.reads_ahead = w.contacts.size() * (sizeof(ContactGroup) + 2 * sizeof(ImpulseGroup)) > cached_bytes;
-  if (w.rolling.are_there()) {
+  if (w.rolling.any()) {
     arrays.rolling = w.rolling.groups.data();
     arrays.rolling_increment = w.rolling.increment.data();
     arrays.rolling_move = w.rolling.last_move.data();

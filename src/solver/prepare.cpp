@@ -35,7 +35,7 @@ bool follow_bodies(const ContactProblem& now, ContactProblem& known) {
 /// Counts the contacts of each body i as a, in first_a[i + 1], and as b, in first_own_side[i], and sets
 /// whether it can move. Each member of the team processes some of the bodies, and reads all contacts.
 void count_contacts(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
-  share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
       w.moves[i] = problem.inverse_mass[i] > 0.0 || problem.inverse_inertia[i] > 0.0 ? 1 : 0;
     for (const Index a : problem.a)
@@ -59,7 +59,7 @@ void place_contacts(Linearisation& w) {
 /// contacts.
 void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& w) {
   const auto none = 2 * static_cast<std::uint32_t>(problem.a.size());
-  share_out(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
+  distribute(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
     std::copy(w.first_side.data() + first, w.first_side.data() + last, w.next_side.data() + first);
     for (std::size_t c = 0; c < problem.b.size(); ++c) {
       const auto b = static_cast<std::size_t>(problem.b[c]);
@@ -134,7 +134,7 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, T
                   Linearisation& w) {
   bool same_friction = false, all_disks = false;
   double vx = 0.0, vy = 0.0, cn = 0.0, ct = 0.0, pn = 0.0, pt = 0.0;
-  do_both(
+  run_both(
       team,
       [&] {
         if (w.are_new) {

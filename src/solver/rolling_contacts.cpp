@@ -65,7 +65,7 @@ double take_rolling_increment(std::size_t c, Index slot, double impulse_unit, Ro
   return pr;
 }
 
-void take_rolling(const ContactProblem& problem, RollingContacts& w, LookArrays& arrays) {
+void take_rolling(const ContactProblem& problem, RollingContacts& w, ResidualArrays& arrays) {
   arrays.length = w.length.data();
   arrays.mu_r = problem.rolling_friction.data();
   arrays.pr = w.pr.data();

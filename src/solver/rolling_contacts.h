@@ -17,7 +17,7 @@ struct RollingContacts {
   std::vector<RollingImpulses> increment, last_move;
   double unit_length = 1.0;  ///< m; the turn of a row is omega times this length
 
-  bool are_there() const { return !pr.empty(); }
+  bool any() const { return !pr.empty(); }
 };
 
 /// The unit of length, and the units of a Linearisation (impulse and velocity as inverses).
@@ -44,6 +44,6 @@ void linearise_rolling(const ContactProblem& problem, std::size_t c, Index slot,
 double take_rolling_increment(std::size_t c, Index slot, double impulse_unit, RollingContacts& w);
 
 /// Adds the fields of these contacts to those from which the residual is computed.
-void take_rolling(const ContactProblem& problem, RollingContacts& w, LookArrays& arrays);
+void take_rolling(const ContactProblem& problem, RollingContacts& w, ResidualArrays& arrays);
 
 }  // namespace talus::solver

@@ -25,7 +25,7 @@ Index first_sum(const Sweeper& sweeper, Index sweep) {
 void sweep_part(const Sweeper& sweeper, Index part, std::span<const float> beta, std::size_t sweep) {
   const SweepOrder& order = sweeper.at.order;
   const ContactKernel kernel =
-      sweeper.at.rolling.are_there() ? sweeper.kernels.rolling_contacts : sweeper.kernels.contacts;
+      sweeper.at.rolling.any() ? sweeper.kernels.rolling_contacts : sweeper.kernels.contacts;
   kernel(contact_arrays(sweeper.at), order.part_begin[part], order.part_begin[part + 1], beta[sweep],
          sweeper.sums[first_sum(sweeper, static_cast<Index>(sweep)) + part]);
 }

@@ -99,7 +99,7 @@ struct alignas(32) ExactRow {
 };
 
 /// Fields of contacts in the order of the problem.
-struct LookArrays {
+struct ResidualArrays {
   const Index *a, *b;
   const double *nx, *ny, *cn, *ct, *mu;
   const double *pn, *pt;  ///< P0
@@ -113,7 +113,7 @@ struct LookArrays {
 };
 
 /// Sums over contacts, as in ResidualSums (residual.h).
-struct LookSums {
+struct ContactResidualSums {
   double change = 0.0, impulse = 0.0, impulse_after = 0.0, largest = 0.0;
 };
 
@@ -131,7 +131,8 @@ using BodyKernel = void (*)(const BodyArrays& arrays, Index first, Index last, f
 
 /// Computes the relative velocities of contacts first ... last - 1 at P0, and the changes that the exact
 /// solution of each of them would make (T13, T14).
-using LookKernel = void (*)(const LookArrays& arrays, std::size_t first, std::size_t last, LookSums& sums);
+using ResidualKernel = void (*)(const ResidualArrays& arrays, std::size_t first, std::size_t last,
+                                ContactResidualSums& sums);
 
 /// Number of contacts of a body summed at a time. Bodies have a few contacts each, so that the number of
 /// such groups is nearly always the same, and branches are predicted well.
@@ -151,11 +152,11 @@ using BodySumKernel = void (*)(const BodySumArrays& arrays, Index first, Index l
 struct SweepKernels {
   ContactKernel contacts;
   BodyKernel bodies;
-  LookKernel look;
+  ResidualKernel residual;
   BodySumKernel body_sums;
   // Kernels for contacts that resist rolling.
   ContactKernel rolling_contacts;
-  LookKernel rolling_look;
+  ResidualKernel rolling_residual;
   BodySumKernel rolling_body_sums;
 };
 

@@ -37,7 +37,7 @@ class LowestHeights {
         per_width_(1.0 / width_) {}
 
   /// Whether a disk may be part of the free surface.
-  bool may_show(const Disk& disk) const {
+  bool may_be_on_surface(const Disk& disk) const {
     const double half = disk.half_width(), top = disk.y + disk.radius;
     for (std::size_t k = cell(disk.x - half), last = cell(disk.x + half); k <= last; ++k)
       if (top > heights_[k] && disk.height_at(std::clamp(disk.x, left(k), left(k + 1))) > heights_[k])
@@ -75,7 +75,8 @@ std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
   std::vector<Disk> disks;
   const auto add = [&](const Disk& disk) {
     const double half = disk.half_width();
-    if (!(half > 0.0) || disk.x + half <= 0.0 || disk.x - half >= length || !lowest.may_show(disk)) return;
+    if (!(half > 0.0) || disk.x + half <= 0.0 || disk.x - half >= length || !lowest.may_be_on_surface(disk))
+      return;
     lowest.add(disk);
     disks.push_back(disk);
   };
@@ -90,7 +91,7 @@ std::vector<Disk> upper_disks(const Grains& grains, const Boundary& boundary) {
     const double last = std::floor((length - disk.x + disk.radius) / length);
     for (double image = first; image <= last; ++image) add({disk.x + image * length, disk.y, disk.radius});
   }
-  std::erase_if(disks, [&](const Disk& disk) { return !lowest.may_show(disk); });
+  std::erase_if(disks, [&](const Disk& disk) { return !lowest.may_be_on_surface(disk); });
   return disks;
 }
 

@@ -13,7 +13,7 @@ constexpr double rounding = 1e-9;  // allowance for a difference equal to the to
 
 }  // namespace
 
-Spread spread_of(std::span<const Measured> values) {
+Spread spread_of(std::span<const MeasuredValue> values) {
   Spread spread{static_cast<int>(values.size()), {}, false};
   std::vector<double> numbers;
   for (const auto& [value, at_most] : values) {

@@ -17,7 +17,7 @@ struct Spread {
   bool at_most = false;  ///< true if a run gives only an upper bound
 };
 /// Computes the statistics; NaN values are left out of the statistics but counted as runs.
-Spread spread_of(std::span<const Measured> values);
+Spread spread_of(std::span<const MeasuredValue> values);
 
 /// Result of a comparison.
 enum class Agreement {

@@ -82,7 +82,7 @@ double dilated(const FailedRun& failure) {
 
 /// Returns the onset of dilation or, if its range begins at the first tilt, the end of this range as an upper
 /// bound.
-Measured dilation_tilt(const FailedRun& failure) {
+MeasuredValue dilation_tilt(const FailedRun& failure) {
   if (failure.run.analysis.dilation_low[0] <= failure.tilt(0) + analysis::same_tilt)
     return {degrees(failure.run.analysis.dilation_high[0]), true};
   return {degrees(failure.run.analysis.dilation[0])};
@@ -96,26 +96,26 @@ double peak(const FailedRun& failure, std::size_t which) {
 double wrapped(double angle) { return angle > 90.0 ? angle - 180.0 : angle; }
 
 /// Measures a quantity that combines several numbers of the run; empty for all others.
-std::optional<Measured> derived(const FailedRun& failure, PaperQuantity quantity) {
+std::optional<MeasuredValue> derived(const FailedRun& failure, PaperQuantity quantity) {
   switch (quantity) {
     case normals_near_0:
-      return Measured{wrapped(peak(failure, 0))};
+      return MeasuredValue{wrapped(peak(failure, 0))};
     case normals_near_60:
-      return Measured{peak(failure, 1)};
+      return MeasuredValue{peak(failure, 1)};
     case normals_near_120:
-      return Measured{peak(failure, 2)};
+      return MeasuredValue{peak(failure, 2)};
     case stress_ratio_over_sine:
-      return Measured{stress_ratio(failure)};
+      return MeasuredValue{stress_ratio(failure)};
     case contraction:
-      return Measured{contracted(failure)};
+      return MeasuredValue{contracted(failure)};
     case dilation:
-      return Measured{dilated(failure)};
+      return MeasuredValue{dilated(failure)};
     case theta_d_by_dilation:
       return dilation_tilt(failure);
     case wall_gradient:
-      return Measured{gradient(failure)};
+      return MeasuredValue{gradient(failure)};
     case wall_coefficient:
-      return Measured{not_known};
+      return MeasuredValue{not_known};
     default:
       return std::nullopt;
   }
@@ -123,8 +123,8 @@ std::optional<Measured> derived(const FailedRun& failure, PaperQuantity quantity
 
 }  // namespace
 
-Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor,
-                 Population population) {
+MeasuredValue measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor,
+                      Population population) {
   using analysis::FrameThreshold;
   if (std::isnan(run.analysis.theta_c)) return {not_known};
   if (const auto found = derived(failed_run(run), quantity)) return *found;

@@ -18,19 +18,20 @@ enum class Population {
 };
 
 /// A number in the unit of the paper's value; NaN if the run has none.
-struct Measured {
+struct MeasuredValue {
   double value = 0.0;
   bool at_most = false;  ///< `value` is only an upper bound, because the event precedes the first frame
 };
 
 /// Returns the quantity in a run that has failed, at the threshold with index `factor` of its analysis. NaN
 /// if the slope has not failed, and for the wall coefficient, which is fitted to many runs.
-Measured measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor, Population population);
+MeasuredValue measure(const runs::RunView& run, PaperQuantity quantity, std::size_t factor,
+                      Population population);
 
 /// Values of all quantities, in their order.
-using MeasuredValues = std::array<Measured, quantity_count>;
+using MeasuredValues = std::array<MeasuredValue, quantity_count>;
 MeasuredValues measure_all(const runs::RunView& run, std::size_t factor, Population population);
-inline const Measured& at(const MeasuredValues& values, PaperQuantity quantity) {
+inline const MeasuredValue& at(const MeasuredValues& values, PaperQuantity quantity) {
   return values[static_cast<std::size_t>(quantity)];
 }
 

@@ -98,8 +98,9 @@ bool is_nearer(const ReadingResult& first, const ReadingResult& second) {
 }
 
 /// Lists the values of the chain that all results miss, with the nearest result.
-std::optional<ChainConclusion::Missed> missed(std::span<const ReadingResult> results, std::size_t value) {
-  ChainConclusion::Missed found{value, {}};
+std::optional<ChainConclusion::MissedValue> missed(std::span<const ReadingResult> results,
+                                                   std::size_t value) {
+  ChainConclusion::MissedValue found{value, {}};
   double least = 0.0;
   bool comparable = false;
   for (std::size_t r = 0; r < results.size(); ++r) {
@@ -165,7 +166,7 @@ ReadingResult judge_reading(std::size_t preparation, std::size_t reading,
                             std::span<const MeasuredValues> runs, double depth) {
   ReadingResult result{preparation, reading, {}, {}, 0, 0, 0.0};
   for (const PaperValue& paper : chain_values()) {
-    std::vector<Measured> values;
+    std::vector<MeasuredValue> values;
     for (const MeasuredValues& run : runs) values.push_back(at(run, paper.quantity));
     result.values.push_back(spread_of(values));
     result.judgements.push_back(judge(paper, result.values.back(), depth));

@@ -60,11 +60,11 @@ struct ChainConclusion {
   bool complete = false;                          ///< a best result agrees in every comparable value
   /// A value of the chain that no result brings within tolerance, and the result that comes nearest, if the
   /// value occurs in any.
-  struct Missed {
+  struct MissedValue {
     std::size_t value = 0;
     std::optional<std::size_t> nearest;
   };
-  std::vector<Missed> missed;
+  std::vector<MissedValue> missed;
   /// Mean score of each reading over preparations, and of each preparation over readings; NaN without
   /// results.
   std::vector<double> score_of_reading;

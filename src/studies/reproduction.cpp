@@ -56,7 +56,7 @@ std::string column(std::string_view text) {
 void add_rows(std::string& text, const ensemble::Member& run, const std::string& analysis, std::size_t factor,
               const MeasuredValues& values) {
   for (const PaperValue& paper : paper_values) {
-    const Measured& measured = at(values, paper.quantity);
+    const MeasuredValue& measured = at(values, paper.quantity);
     if (std::isnan(measured.value)) continue;
     text +=
         fmt::format("{},{},{},{},{},{},{},{:d}\n", run.name, run.seed, column(analysis), factor + 1,
@@ -87,7 +87,7 @@ std::vector<const ReproducedOutcome*> outcomes_of(const ReproductionResult& resu
 
 Spread spread_of(const ReproductionResult& result, std::size_t bed, PaperQuantity quantity,
                  const Reading& reading) {
-  std::vector<Measured> values;
+  std::vector<MeasuredValue> values;
   for (const ReproducedOutcome* outcome : outcomes_of(result, bed))
     values.push_back(at(outcome->values[reading.analysis][reading.factor], quantity));
   return spread_of(values);

@@ -70,7 +70,7 @@ class Parser {
 
   Expression parse() {
     if (token_.kind == Token::Kind::end) expect("a condition, such as gamma > 0.7");
-    const Value value = either();
+    const Value value = parse_or();
     if (token_.kind != Token::Kind::end) expect("an operator or the end");
     to_condition(value, 0);
     return std::move(result_);
@@ -159,43 +159,43 @@ class Parser {
     return std::min(text_.find_first_not_of(blanks, place), text_.size());
   }
 
-  Value either() {
+  Value parse_or() {
     const std::size_t first = token_.place;
-    Value value = both();
+    Value value = parse_and();
     while (is("||")) {
       to_condition(value, first);
       advance();
       const std::size_t second = token_.place;
-      to_condition(both(), second);
+      to_condition(parse_and(), second);
       add(Operation::either);
       value = Value::condition;
     }
     return value;
   }
 
-  Value both() {
+  Value parse_and() {
     const std::size_t first = token_.place;
-    Value value = no();
+    Value value = parse_not();
     while (is("&&")) {
       to_condition(value, first);
       advance();
       const std::size_t second = token_.place;
-      to_condition(no(), second);
+      to_condition(parse_not(), second);
       add(Operation::both);
       value = Value::condition;
     }
     return value;
   }
 
-  Value no() {
+  Value parse_not() {
     if (!take("!")) return comparison();
     const std::size_t place = token_.place;
-    to_condition(no(), place);
+    to_condition(parse_not(), place);
     add(Operation::no);
     return Value::condition;
   }
 
-  std::optional<Operation> comparing() const {
+  std::optional<Operation> comparison_sign() const {
     for (const auto& [sign, operation] : comparisons)
       if (is(sign)) return operation;
     return std::nullopt;
@@ -204,14 +204,14 @@ class Parser {
   Value comparison() {
     const std::size_t first = token_.place;
     const Value value = sum();
-    const auto operation = comparing();
+    const auto operation = comparison_sign();
     if (!operation) return value;
     to_number(value, first);
     advance();
     const std::size_t second = token_.place;
     to_number(sum(), second);
     add(*operation);
-    if (comparing())
+    if (comparison_sign())
       fail(token_.place,
            fmt::format("expected && or || between two comparisons, found '{}'; write a < b && b "
                        "< c where you mean a < b < c",
@@ -262,7 +262,7 @@ class Parser {
   }
 
   Value in_parentheses() {
-    const Value value = either();
+    const Value value = parse_or();
     if (!take(")")) expect("an operator or )");
     return value;
   }

@@ -13,9 +13,9 @@ FrameAhead::FrameAhead(RunStatics statics, ReadFrame read)
     : statics_(std::move(statics)), read_(std::move(read)) {}
 
 void FrameAhead::begin(std::size_t k, double l_min, const std::shared_ptr<const Frame>& known) {
-  const Asked next{k, l_min};
+  const Request next{k, l_min};
   if (made_.valid() &&
-      (next == asked_ || made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
+      (next == request_ || made_.wait_for(std::chrono::seconds(0)) != std::future_status::ready))
     return;
   const auto make = [this, k, l_min, known]() -> std::optional<ShownFrame> {
     try {
@@ -29,13 +29,13 @@ void FrameAhead::begin(std::size_t k, double l_min, const std::shared_ptr<const 
   };
   try {
     made_ = std::async(std::launch::async, make);
-    asked_ = next;
+    request_ = next;
   } catch (const std::system_error&) {  // no thread is available: the frame is computed when it is shown
   }
 }
 
 std::optional<ShownFrame> FrameAhead::take(std::size_t k, double l_min) {
-  if (!made_.valid() || !(asked_ == Asked{k, l_min})) return std::nullopt;
+  if (!made_.valid() || !(request_ == Request{k, l_min})) return std::nullopt;
   return made_.get();
 }
 

@@ -34,15 +34,15 @@ class FrameAhead {
   std::optional<ShownFrame> take(std::size_t k, double l_min);
 
  private:
-  struct Asked {
+  struct Request {
     std::size_t frame = 0;
     double l_min = 0.0;
-    bool operator==(const Asked&) const = default;
+    bool operator==(const Request&) const = default;
   };
 
   const RunStatics statics_;
   const ReadFrame read_;
-  Asked asked_;
+  Request request_;
   std::future<std::optional<ShownFrame>>
       made_;  ///< last member: it is waited for before the others are destroyed
 };

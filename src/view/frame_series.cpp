@@ -18,14 +18,14 @@ pictures::PictureSeries pictures_of_clusters(const RunStatics& statics) {
 }
 
 /// Adds the frame to the pictures and returns its record, if requested.
-std::optional<analysis::FrameRecord> meet_and_measure(pictures::PictureSeries& pictures, const Frame& stored,
-                                                      bool with_values) {
+std::optional<analysis::FrameRecord> add_and_measure(pictures::PictureSeries& pictures, const Frame& stored,
+                                                     bool with_values) {
   const pictures::OverloadRule& rule = pictures.plan.maps[0];
   const Frame frame = pictures::as_mapped(pictures, stored);
   const BedFrame bed{frame, pictures.run.statics};
   const analysis::Clusters clusters = pictures::overloaded_clusters(bed, rule);
   pictures::extend(pictures.extent, bed);
-  pictures::meet(pictures, frame, clusters);
+  pictures::add_frame(pictures, frame, clusters);
   return with_values ? std::optional(overload_record(bed, clusters, rule)) : std::nullopt;
 }
 
@@ -45,7 +45,7 @@ void FrameSeries::begin(const pictures::OverloadRule& rule, std::vector<analysis
   shared_.rule = rule;
   shared_.known = values_.size();
   shared_.ready.clear();
-  shared_.met.reset();
+  shared_.seen_frames.reset();
   shared_.error.clear();
   shared_.changed.notify_all();
 }
@@ -62,8 +62,8 @@ bool FrameSeries::collect_ready(pictures::PictureSeries& pictures) {
   const std::scoped_lock lock(shared_.mutex);
   const bool failed = shared_.error != error_;
   error_ = shared_.error;
-  if (!shared_.met) return failed;
-  pictures.met = *std::exchange(shared_.met, std::nullopt);
+  if (!shared_.seen_frames) return failed;
+  pictures.seen_frames = *std::exchange(shared_.seen_frames, std::nullopt);
   extent_ = shared_.extent;
   std::ranges::move(shared_.ready, std::back_inserter(values_));
   shared_.ready.clear();
@@ -78,22 +78,22 @@ void FrameSeries::work(const std::stop_token& stop) {
   for (;;) {
     const bool anything = shared_.changed.wait(lock, stop, [&] {
       return shared_.turn != turn ||
-             (turn > 0 && pictures.met.instants.size() < shared_.frames && shared_.error.empty());
+             (turn > 0 && pictures.seen_frames.instants.size() < shared_.frames && shared_.error.empty());
     });
     if (!anything || stop.stop_requested()) return;
     if (shared_.turn != turn) {
       turn = shared_.turn;
       rule = shared_.rule;
-      pictures.met = {};
+      pictures.seen_frames = {};
       continue;  // the run may have no frame yet
     }
-    const std::size_t next = pictures.met.instants.size();
+    const std::size_t next = pictures.seen_frames.instants.size();
     const bool with_values = next >= shared_.known && next < shared_.of_tilt;
     lock.unlock();
     std::optional<analysis::FrameRecord> values;
     std::string error;
     try {
-      values = meet_and_measure(pictures, *read_(next), with_values);
+      values = add_and_measure(pictures, *read_(next), with_values);
     } catch (const std::exception& failure) {
       error = failure.what();
     }
@@ -102,7 +102,7 @@ void FrameSeries::work(const std::stop_token& stop) {
     shared_.error = error;
     if (!error.empty()) continue;
     if (values) shared_.ready.push_back(std::move(*values));
-    shared_.met = pictures.met;
+    shared_.seen_frames = pictures.seen_frames;
     shared_.extent = pictures.extent;
   }
 }

@@ -47,14 +47,14 @@ class FrameSeries {
 
  private:
   /// Data used by both threads, protected by `mutex`.
-  struct Shared {
+  struct SharedState {
     std::mutex mutex;
     std::condition_variable_any changed;
     int turn = 0;  ///< number of calls of begin(); 0: none yet
     pictures::OverloadRule rule;
     std::size_t known = 0, frames = 0, of_tilt = 0;
     std::vector<analysis::FrameRecord> ready;
-    std::optional<pictures::SeenFrames> met;  ///< empty once it has been collected
+    std::optional<pictures::SeenFrames> seen_frames;  ///< empty once it has been collected
     pictures::MapExtent extent;
     std::string error;
   };
@@ -68,7 +68,7 @@ class FrameSeries {
   std::vector<analysis::FrameRecord> values_;
   pictures::MapExtent extent_;
   std::string error_;
-  Shared shared_;
+  SharedState shared_;
   std::jthread thread_;  ///< last member: it is joined before the others are destroyed
 };
 

@@ -35,7 +35,7 @@ HistoryInstant instant_of(const Frame& frame, const Selection& question) {
 HistorySeries::HistorySeries(ReadFrame read)
     : read_(std::move(read)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void HistorySeries::ask(const Selection& question, std::size_t frames) {
+void HistorySeries::set_question(const Selection& question, std::size_t frames) {
   const std::scoped_lock lock(shared_.mutex);
   if (!(question == question_) || shared_.turn == 0) {
     question_ = question;

@@ -48,7 +48,7 @@ class HistorySeries {
 
   /// Requests the history of `question` over `frames` frames: from the first frame if the question is new,
   /// else only the frames not yet read.
-  void ask(const Selection& question, std::size_t frames);
+  void set_question(const Selection& question, std::size_t frames);
   /// Collects what has been read; returns whether there was anything.
   bool collect_ready();
 
@@ -57,7 +57,7 @@ class HistorySeries {
   const std::vector<HistoryInstant>& instants() const { return instants_; }
 
  private:
-  struct Shared {
+  struct SharedState {
     std::mutex mutex;
     std::condition_variable_any changed;
     int turn = 0;  ///< number of questions
@@ -71,7 +71,7 @@ class HistorySeries {
   ReadFrame read_;
   Selection question_;
   std::vector<HistoryInstant> instants_;
-  Shared shared_;
+  SharedState shared_;
   std::jthread thread_;  ///< last member: it is joined before the others are destroyed
 };
 

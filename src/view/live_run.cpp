@@ -42,7 +42,7 @@ bool is_reached(const Goal& goal, const session::Session& session) {
 }
 
 /// Position in the session's segment up to which the history has copied it, or a position in the history.
-struct Taken {
+struct HistoryCursor {
   std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
 };
 
@@ -51,7 +51,7 @@ constexpr std::size_t max_marks = 64;  // some megabytes each in a bed of 8000 g
 /// State of the run before a command.
 struct Mark {
   io::Checkpoint state;
-  Taken history;
+  HistoryCursor history;
 };
 
 /// Returns whether a command begins an action, rather than continuing or ending a drag.
@@ -79,7 +79,7 @@ struct LiveRun::State {
   std::optional<io::RunStore> store;
   std::optional<session::Recorder> recorder;
   bool is_recorded = false;  ///< remains true after packing
-  Taken taken;
+  HistoryCursor cursor;
   std::vector<StepRow> steps;  ///< all steps since the beginning
   std::vector<Mark> marks;     ///< one before each of the last commands given
   Clock::time_point show_at;   ///< time of the next frame
@@ -109,14 +109,14 @@ struct LiveRun::State {
   }
 
   void play_to(const Goal& next);
-  void ask(std::function<void()> next);
+  void submit_request(std::function<void()> next);
 
   void work(const std::stop_token& stop);
-  bool goes_on();
-  void answer();
+  bool should_step();
+  void execute_request();
   void apply(const Command& command);
   void back(const std::string& output);
-  io::Segment recorded_until(const Taken& end) const;
+  io::Segment recorded_until(const HistoryCursor& end) const;
   void record(const std::string& output, bool overwrite);
   void take_step();
   void wait_for_pace(const std::stop_token& stop);
@@ -145,7 +145,7 @@ void LiveRun::State::play_to(const Goal& next) {
 
 /// Waits until the solver has executed the request between two steps, which takes at most one step. Rethrows
 /// its exceptions.
-void LiveRun::State::ask(std::function<void()> next) {
+void LiveRun::State::submit_request(std::function<void()> next) {
   std::unique_lock lock(mutex);
   request = std::move(next);
   asked.notify_one();
@@ -157,8 +157,8 @@ void LiveRun::State::ask(std::function<void()> next) {
 
 void LiveRun::State::work(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    answer();
-    if (goes_on()) {
+    execute_request();
+    if (should_step()) {
       take_step();
       wait_for_pace(stop);
       continue;
@@ -173,7 +173,7 @@ void LiveRun::State::work(const std::stop_token& stop) {
   end();
 }
 
-bool LiveRun::State::goes_on() {
+bool LiveRun::State::should_step() {
   const std::lock_guard lock(mutex);
   if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
     goal.reset();
@@ -182,7 +182,7 @@ bool LiveRun::State::goes_on() {
 }
 
 /// Executes the pending request.
-void LiveRun::State::answer() {
+void LiveRun::State::execute_request() {
   std::unique_lock lock(mutex);
   if (!request) return;
   const std::function<void()> next = request;
@@ -202,8 +202,8 @@ void LiveRun::State::answer() {
 
 void LiveRun::State::apply(const Command& command) {
   if (begins(command, session.schedule().drag)) {
-    const Taken now = {history.observables.size(), history.frames.size(), history.commands.size(),
-                       steps.size()};  // only this thread changes it
+    const HistoryCursor now = {history.observables.size(), history.frames.size(), history.commands.size(),
+                               steps.size()};  // only this thread changes it
     Mark mark{session.checkpoint(0.0), now};
     session.apply(command);
     if (marks.size() == max_marks) marks.erase(marks.begin());
@@ -217,7 +217,7 @@ void LiveRun::State::apply(const Command& command) {
 }
 
 /// Returns everything recorded from the beginning up to that position.
-io::Segment LiveRun::State::recorded_until(const Taken& end) const {
+io::Segment LiveRun::State::recorded_until(const HistoryCursor& end) const {
   const auto first = [](const auto& list, std::size_t count) { return std::span(list).first(count); };
   io::Segment segment;
   for (const auto& one : first(history.frames, end.frames)) segment.frames.push_back(*one);
@@ -233,8 +233,8 @@ void LiveRun::State::back(const std::string& output) {
   session::Session before(session.scenario(), mark.state, "the state before the command");
   before.use_threads(origin.threads);
   io::Segment segment = recorded_until(mark.history);
-  const Taken whole = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
-                       segment.steps.size()};
+  const HistoryCursor whole = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
+                               segment.steps.size()};
   if (is_recorded) {
     io::RunStore next = io::RunStore::create(output, session::run_header(before, origin), false);
     end();
@@ -243,7 +243,7 @@ void LiveRun::State::back(const std::string& output) {
   }
   before.restore_segment(std::move(segment));
   session = std::move(before);
-  taken = whole;
+  cursor = whole;
   steps.resize(whole.steps);
   {
     const std::lock_guard lock(mutex);
@@ -309,25 +309,25 @@ void LiveRun::State::keep(const std::function<void()>& store_something) {
   } catch (const std::exception& error) {
     fail(error);
   }
-  if (session.segment().steps.empty() && session.segment().commands.empty()) taken = {};
+  if (session.segment().steps.empty() && session.segment().commands.empty()) cursor = {};
 }
 
 /// Copies new entries of the segment to the history.
 void LiveRun::State::collect_ready() {
   const io::Segment& segment = session.segment();
   std::vector<std::shared_ptr<const Frame>> frames;
-  for (std::size_t k = taken.frames; k < segment.frames.size(); ++k)
+  for (std::size_t k = cursor.frames; k < segment.frames.size(); ++k)
     frames.push_back(std::make_shared<const Frame>(segment.frames[k]));
   const std::lock_guard lock(mutex);
   const auto append = [](auto& to, const auto& from, std::size_t first) {
     to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
   };
   append(history.frames, frames, 0);
-  append(history.observables, segment.observables, taken.observables);
-  append(history.commands, segment.commands, taken.commands);
-  append(steps, segment.steps, taken.steps);
-  add_steps(std::span(segment.steps).subspan(taken.steps), history);
-  taken = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
+  append(history.observables, segment.observables, cursor.observables);
+  append(history.commands, segment.commands, cursor.commands);
+  append(steps, segment.steps, cursor.steps);
+  add_steps(std::span(segment.steps).subspan(cursor.steps), history);
+  cursor = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
 }
 
 /// Updates the status from the session; requires the mutex.
@@ -376,7 +376,7 @@ void LiveRun::State::show_pause() {
 void LiveRun::State::pack() {
   if (!store || session.phase() != session::Phase::done) return;
   keep([this] {
-    if (taken.steps > 0 || taken.commands > 0) recorder->commit();
+    if (cursor.steps > 0 || cursor.commands > 0) recorder->commit();
     store->pack();
     recorder.reset();
     store.reset();
@@ -433,7 +433,7 @@ void LiveRun::run_to(double tilt) { state_->play_to({.tilt = tilt}); }
 void LiveRun::finish_deposition() { state_->play_to({.end_of_deposition = true}); }
 
 void LiveRun::halt() {
-  state_->ask([state = state_.get()] {
+  state_->submit_request([state = state_.get()] {
     {
       const std::lock_guard lock(state->mutex);
       state->goal.reset();
@@ -443,15 +443,15 @@ void LiveRun::halt() {
 }
 
 void LiveRun::apply(Command command) {
-  state_->ask([state = state_.get(), command] { state->apply(command); });
+  state_->submit_request([state = state_.get(), command] { state->apply(command); });
 }
 
 void LiveRun::back(const std::string& output) {
-  state_->ask([state = state_.get(), &output] { state->back(output); });
+  state_->submit_request([state = state_.get(), &output] { state->back(output); });
 }
 
 void LiveRun::record(const std::string& output, bool overwrite) {
-  state_->ask([state = state_.get(), &output, overwrite] {
+  state_->submit_request([state = state_.get(), &output, overwrite] {
     if (state->is_recorded) throw Error(ExitCode::usage, "this run is already being recorded");
     state->record(output, overwrite);
     state->keep([state] { state->recorder->commit(); });
@@ -460,7 +460,7 @@ void LiveRun::record(const std::string& output, bool overwrite) {
 }
 
 void LiveRun::save() {
-  state_->ask([state = state_.get()] {
+  state_->submit_request([state = state_.get()] {
     if (state->recorder) state->keep([state] { state->recorder->commit(); });
   });
 }

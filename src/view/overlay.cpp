@@ -112,7 +112,7 @@ void add_ring(render::FrameView& view, Vec2 centre, double radius, double half_w
 }
 
 /// Adds the inspected grain and its neighbourhoods.
-void add_looked_at(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
+void add_inspected(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   if (!overlay.selected) return;
   const RunStatics& statics = bed.statics;
   const double d = statics.mean_diameter;
@@ -156,7 +156,7 @@ std::vector<double> growing_diameters(double largest) {
 void add_overlay(render::FrameView& view, const BedFrame& bed, const Overlay& overlay,
                  const analysis::Clusters& clusters) {
   add_outline(view, bed, clusters, overlay.cluster);
-  add_looked_at(view, bed, overlay);
+  add_inspected(view, bed, overlay);
   add_selection(view, bed, overlay);
 }
 

@@ -80,8 +80,8 @@ MapSource source_of(const pictures::PictureSeries& series, std::size_t k, std::s
   const std::size_t needed = coloured                                                    ? k + 1
                              : pictures::shows(settings.layers, pictures::MapKind::dyed) ? 1
                                                                                          : 0;
-  const std::size_t met = std::min(series.met.instants.size(), needed);
-  return {std::move(frame), std::move(reference), settings, series.extent, series.since, met};
+  const std::size_t colour_frames = std::min(series.seen_frames.instants.size(), needed);
+  return {std::move(frame), std::move(reference), settings, series.extent, series.since, colour_frames};
 }
 
 render::FrameView draw_map(const pictures::PictureSeries& series, std::size_t k, const Frame& frame,

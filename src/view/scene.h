@@ -17,8 +17,8 @@ struct MapSource {
   pictures::MapSettings settings;
   pictures::MapExtent extent;
   std::optional<std::size_t> since;
-  std::size_t met = 0;  ///< number of frames that determine its colours
-  bool change = false;  ///< show the frame minus the reference (change_map.h) instead of the frame
+  std::size_t colour_frames = 0;  ///< number of frames that determine its colours
+  bool change = false;            ///< show the frame minus the reference (change_map.h) instead of the frame
   bool operator==(const MapSource&) const = default;
 };
 

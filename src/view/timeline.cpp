@@ -62,8 +62,8 @@ struct EventList {
   }
 
   /// Adds an event at a tilt (rad) and a time (s), in any rise.
-  void add_then(const std::string& name, const std::string& what, double tilt, double time,
-                TimelineEvent::Kind kind) {
+  void add_timed(const std::string& name, const std::string& what, double tilt, double time,
+                 TimelineEvent::Kind kind) {
     const double place = std::ranges::is_sorted(source.tilts) ? place_among(source.tilts, tilt)
                                                               : place_among(source.times, time);
     add_at(name, "", what, tilt, place, time, kind);
@@ -74,10 +74,10 @@ struct EventList {
     const double tilt = session::tilt_before(command, source.commands, source.command_rows);
     const double time = session::time_before(command, source.command_rows);
     const bool in_deposition = std::isnan(tilt);  // its place is the beginning of the line
-    add_then(fmt::format("command {}", k), session::command_text(command),
-             in_deposition ? source.tilts.front() : tilt,
-             in_deposition && !source.times.empty() ? source.times.front() : time,
-             TimelineEvent::Kind::command);
+    add_timed(fmt::format("command {}", k), session::command_text(command),
+              in_deposition ? source.tilts.front() : tilt,
+              in_deposition && !source.times.empty() ? source.times.front() : time,
+              TimelineEvent::Kind::command);
   }
 };
 
@@ -137,11 +137,11 @@ void add_rearrangements(EventList& list) {
   for (const analysis::EventRecord& event : chosen) largest = std::fmax(largest, event.energy);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const analysis::EventRecord& event = chosen[k];
-    list.add_then(fmt::format("rearrangement {}", k),
-                  fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
-                              event.energy / list.source.energy_unit, event.grains,
-                              event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
-                  event.begin, event.time, TimelineEvent::Kind::rearrangement);
+    list.add_timed(fmt::format("rearrangement {}", k),
+                   fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
+                               event.energy / list.source.energy_unit, event.grains,
+                               event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
+                   event.begin, event.time, TimelineEvent::Kind::rearrangement);
     const double below = std::log10(largest / event.energy) / labelled_decades;
     list.events.back().size = std::isfinite(below) ? std::clamp(1.0 - below, min_size, 1.0) : min_size;
   }

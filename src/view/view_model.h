@@ -147,7 +147,9 @@ class ViewModel {
   /// Goes to a frame. A live run continues to compute while the frame is shown, until it is followed again.
   /// Does nothing if there is no frame yet.
   void go_to(std::size_t frame);
-  bool looks_back() const { return held_.has_value(); }  ///< whether a live run shows a recorded frame
+  bool shows_recorded_frame() const {
+    return held_.has_value();
+  }  ///< whether a live run shows a recorded frame
   void follow();
   /// Returns the frame nearest to an angle in degrees, or "repose"; throws as frames_at does, and
   /// Error(usage) for a live run.
@@ -175,8 +177,8 @@ class ViewModel {
 
   /// Moves the camera, limited to the bed and to a few grains. Returns false if the part of the bed shown
   /// does not change.
-  bool look(const ViewCamera& camera);
-  /// Zooms by a factor about a point (m), which keeps its position in the picture. Returns as look().
+  bool set_camera(const ViewCamera& camera);
+  /// Zooms by a factor about a point (m), which keeps its position in the picture. Returns as set_camera().
   bool zoom(double factor, double x, double y);
 
   /// Opens another run next to the current one; both must be replays. Throws as open() does, and Error(usage)

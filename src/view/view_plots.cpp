@@ -43,7 +43,7 @@ void ViewModel::add_plot(const analysis::Quantity& quantity) {
 
 void ViewModel::remove_plot(const std::string& name) {
   std::erase_if(plots_, [&name](const Plot& plot) { return plot.added && plot.name == name; });
-  state.plot_looks.erase(name);
+  state.plot_options.erase(name);
   if (state.enlarged_plot == name) state.enlarged_plot.clear();
 }
 
@@ -55,8 +55,8 @@ void ViewModel::set_plot_axis(PlotAxis axis) {
   plot_values();
   for (const Plot& plot : plots_) {
     if (!plot.along_run) continue;
-    state.plot_looks[plot.name].zoomed.reset();
-    state.plot_looks[plot.name].chosen.reset();
+    state.plot_options[plot.name].zoomed.reset();
+    state.plot_options[plot.name].chosen.reset();
   }
 }
 

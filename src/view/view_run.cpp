@@ -103,7 +103,7 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
       std::make_unique<LiveRun>(scenario_, scenario_text_, next_output, overwrite, command_line_, origin_);
   output_ = next_output;
   end_series();
-  pictures_.met = {};
+  pictures_.seen_frames = {};
   pictures_.has_program = !scenario_.tilt.program.empty();
   live_ = std::move(next);
   pictures_.run.statics = all_statics_ = live_->statics();

@@ -76,7 +76,7 @@ bool ViewModel::follow_history() {
   }
   if (!history_)
     history_ = std::make_unique<HistorySeries>([from = frames_](std::size_t k) { return from->read(k); });
-  history_->ask(question, frame_count());
+  history_->set_question(question, frame_count());
   return history_->collect_ready();
 }
 

@@ -173,7 +173,7 @@ const GrainValues& View::values() const {
   return *cache.values;
 }
 
-bool ViewModel::look(const ViewCamera& camera) {
+bool ViewModel::set_camera(const ViewCamera& camera) {
   const pictures::MapExtent before = first().part(aspect_);
   state.camera = clamped(camera, bed_, mean_diameter());
   const pictures::MapExtent now = first().part(aspect_);
@@ -187,7 +187,7 @@ bool ViewModel::zoom(double factor, double x, double y) {
   const ViewCamera before = state.camera;
   const double zoom = clamped({x, y, before.zoom * factor}, bed_, mean_diameter()).zoom;
   const double ratio = before.zoom / zoom;
-  return look({x + (before.centre_x - x) * ratio, y + (before.centre_y - y) * ratio, zoom});
+  return set_camera({x + (before.centre_x - x) * ratio, y + (before.centre_y - y) * ratio, zoom});
 }
 
 std::string ViewModel::render_command() {

@@ -32,7 +32,7 @@ struct SecondViewState {
 };
 
 /// Display options of a plot.
-struct PlotLook {
+struct PlotOptions {
   std::optional<std::array<double, 2>> zoomed;  ///< limits of x; empty: all
   std::optional<std::array<double, 2>> chosen;  ///< range of x whose statistics are shown
   std::optional<bool> log_y;                    ///< overrides the default of the plot
@@ -74,15 +74,15 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
-  bool bookmark_asked = false;                 ///< whether a key has requested the note of a bookmark
-  bool discard_asked = false;                  ///< whether the user was asked to discard an unsaved run
-  std::string panel_asked;                     ///< panel to open with the next picture
-  HeldBar held_bar;                            ///< drag of the legend's bar
-  std::map<std::string, PlotLook> plot_looks;  ///< key: name of the plot
-  std::string quantity_filter;                 ///< filter on the names of quantities offered for plots
-  std::string enlarged_plot;                   ///< name of the plot; empty: all are shown
-  std::string behind_path;                     ///< path of a run or an ensemble to put behind the curves
-  std::string plots_folder = "talus-plots";    ///< folder for exported plots
+  bool bookmark_asked = false;                      ///< whether a key has requested the note of a bookmark
+  bool discard_asked = false;                       ///< whether the user was asked to discard an unsaved run
+  std::string panel_asked;                          ///< panel to open with the next picture
+  HeldBar held_bar;                                 ///< drag of the legend's bar
+  std::map<std::string, PlotOptions> plot_options;  ///< key: name of the plot
+  std::string quantity_filter;                      ///< filter on the names of quantities offered for plots
+  std::string enlarged_plot;                        ///< name of the plot; empty: all are shown
+  std::string behind_path;                          ///< path of a run or an ensemble to put behind the curves
+  std::string plots_folder = "talus-plots";         ///< folder for exported plots
   float picture_share =
       0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots
   Theme theme = Theme::light;

@@ -57,7 +57,7 @@ class MistakenPath : public testing::Test {
   }
 
   /// Creates a run that exists only as the folder stopped.h5.run.
-  void stop_a_run() {
+  void create_stopped_run() {
     run_talus(
         {"run", "bed.toml", "-q", "-o", "stopped.h5", "--max-wall", "00:00:01", "--set", "tilt.end_angle=60"},
         folder_.path());
@@ -69,7 +69,7 @@ class MistakenPath : public testing::Test {
 };
 
 TEST_F(MistakenPath, a_stopped_run_in_place_of_a_scenario_is_told_with_the_command_that_goes_on) {
-  stop_a_run();
+  create_stopped_run();
   for (const char* path : {"stopped.h5", "stopped.h5.run", "stopped.h5.run/"})
     for (const Words& words : takers_of_scenarios)
       expect_refused(words, path,

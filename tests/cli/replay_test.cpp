@@ -123,7 +123,7 @@ TEST_F(Replay, stops_when_asked) {
   checkpoint.world.step = 1'000'000'000;
   store.commit(session.segment(), checkpoint);
   const pid_t process = start_talus({"replay", "bed.h5"}, folder_.path());
-  EXPECT_TRUE(wait_until_it_catches(process, SIGINT));
+  EXPECT_TRUE(wait_until_caught(process, SIGINT));
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
 }

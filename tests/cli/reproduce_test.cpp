@@ -49,10 +49,10 @@ TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   EXPECT_GT(steps, 1);
   const std::string lock = folder.path(std::string(first_run) + ".run/lock"), holder = text_of(lock);
   const pid_t second = start_quick(folder);
-  const auto goes_on = [&] { return !text_of(lock).empty() && text_of(lock) != holder; };
-  for (int wait = 0; wait < 1000 && !goes_on(); ++wait)
+  const auto has_new_holder = [&] { return !text_of(lock).empty() && text_of(lock) != holder; };
+  for (int wait = 0; wait < 1000 && !has_new_holder(); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(goes_on());
+  EXPECT_TRUE(has_new_holder());
   kill(second, SIGTERM);
   EXPECT_EQ(wait_for(second), 75);
   EXPECT_GE(steps_of_first_run(folder), steps) << "it restarted";

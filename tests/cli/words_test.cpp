@@ -169,7 +169,7 @@ TEST_F(TypedWords, help_has_groups_and_a_first_example) {
 }
 
 /// Checks that no internal terms of the argument parser appear in the text.
-void expect_no_word_of_the_parser(const std::string& text) {
+void expect_no_parser_terms(const std::string& text) {
   std::string letters = text;
   for (char& c : letters)
     if (std::isalpha(static_cast<unsigned char>(c)) == 0) c = ' ';
@@ -212,7 +212,7 @@ TEST_F(TypedWords, each_command_has_an_example_of_its_options_in_lines_that_fit)
                                                                                        << help;
       }
     }
-    expect_no_word_of_the_parser(help);
+    expect_no_parser_terms(help);
     std::istringstream lines(help.substr(0, help.find("Example:")));
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with("   ")) {
@@ -227,7 +227,7 @@ TEST_F(TypedWords, pages_and_completions_say_what_values_mean) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path("share")))
     if (entry.is_regular_file()) {
       ++files;
-      expect_no_word_of_the_parser(text_of(entry.path()));
+      expect_no_parser_terms(text_of(entry.path()));
     }
   EXPECT_GE(files, 30u);
   EXPECT_NE(text_of(folder_.path("share/man/man1/talus-render.1")).find("\\-\\-theta\\-c\\fR DEG\n"),

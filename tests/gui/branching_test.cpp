@@ -106,7 +106,7 @@ TEST_F(Branching, ctrl_and_the_mouse_drag_a_grain_and_the_saved_branch_is_replay
   EXPECT_NE(model_.state.message.find("m g"), std::string::npos) << model_.state.message;
   model_.live()->step(3);
   hash();
-  gui_.let_go();
+  gui_.release_mouse();
   EXPECT_FALSE(status().dragged);
   EXPECT_NEAR(model_.first().part(1.0).x_min, shown.x_min, 1e-4) << "the picture is unchanged";
   EXPECT_NEAR(model_.first().part(1.0).y_max, shown.y_max, 1e-4);
@@ -132,20 +132,20 @@ TEST_F(Branching, ctrl_selects_contacts_and_draws_lassos_too) {
   gui_.click("branch here");
   const auto [x, y] = share_of(30);
   gui_.take("map", x, y);
-  gui_.let_go();
+  gui_.release_mouse();
   EXPECT_TRUE(model_.state.selecting.selection.contact);
   gui_.hold(gui::key_left_shift, true);
   gui_.take("map", x, y);
   gui_.move(gui_.place("map").x0 + 5.0f, gui_.place("map").y0 + 5.0f);
   EXPECT_EQ(model_.state.selecting.outline.size(), 2u) << "with shift a lasso may begin on a grain too";
   EXPECT_FALSE(model_.state.selecting.outline_is_box);
-  gui_.let_go();
+  gui_.release_mouse();
   gui_.hold(gui::key_left_shift, false);
   gui_.take("map", 0.005f, 0.005f);
   const gui::WidgetPlace map = gui_.place("map");
   for (const auto& [to_x, to_y] : {std::pair(0.995f, 0.005f), {0.995f, 0.995f}, {0.005f, 0.995f}})
     gui_.move(map.x0 + to_x * (map.x1 - map.x0), map.y0 + to_y * (map.y1 - map.y0));
-  gui_.let_go();
+  gui_.release_mouse();
   EXPECT_GT(model_.selected_grains().size(), 10u);
   EXPECT_TRUE(model_.live()->commands().empty());
 }

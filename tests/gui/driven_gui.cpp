@@ -76,7 +76,7 @@ void DrivenGui::take(std::string_view name, float share_x, float share_y) {
   settle();
 }
 
-void DrivenGui::let_go() {
+void DrivenGui::release_mouse() {
   press(0, false);
   press_key(gui::key_left_control, false);
   settle();

@@ -22,9 +22,9 @@ class DrivenGui : public gui::OffscreenGui {
   void click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void double_click(std::string_view name, float share_x = 0.5f, float share_y = 0.5f);
   void drag(std::string_view name, float from_x, float from_y, float to_x, float to_y, int button = 0);
-  /// Presses the left button there with ctrl held, until let_go.
+  /// Presses the left button there with ctrl held, until release_mouse.
   void take(std::string_view name, float share_x, float share_y);
-  void let_go();
+  void release_mouse();
   void scroll(std::string_view name, float steps, float share_x = 0.5f, float share_y = 0.5f);
   /// Presses a printable ASCII character or a value of KeyCode.
   void key(int code, bool control = false);

@@ -43,7 +43,7 @@ TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
 
 /// Checks the description of each free grain on each map: no NaN, and gamma only on maps that show it.
 /// Returns how often a grain that carries nothing was described.
-int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
+int expect_described_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
   int idle = 0;
   model.state.map.l_min = 0.0;
   for (const pictures::MapKind kind : pictures::map_kinds()) {
@@ -66,12 +66,12 @@ int expect_told_by_maps(test::DrivenGui& gui, view::ViewModel& model) {
 
 TEST_F(Replay, no_grain_is_told_what_the_map_does_not_show) {
   model_.go_to(3);
-  expect_told_by_maps(gui_, model_);
+  expect_described_by_maps(gui_, model_);
 }
 
 TEST_F(Live, grains_that_carry_nothing_have_no_number_that_is_none) {
   ASSERT_GT(model_.statics().free_count, 0) << "the first grain, before the first step";
-  EXPECT_GT(expect_told_by_maps(gui_, model_), 0);
+  EXPECT_GT(expect_described_by_maps(gui_, model_), 0);
 }
 
 TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {

@@ -11,24 +11,24 @@ namespace talus {
 namespace {
 
 /// State of the window, of its model, and of the requests: enough to detect any effect of an action.
-struct Seen {
+struct GuiOutput {
   render::Image picture;
   gui::GuiRequests requests;
-  bool operator==(const Seen& other) const {
+  bool operator==(const GuiOutput& other) const {
     return picture.pixels == other.picture.pixels && requests.quit == other.requests.quit &&
            requests.save_png_path == other.requests.save_png_path &&
            requests.open_path == other.requests.open_path;
   }
 };
 
-Seen seen(test::DrivenGui& gui) { return {gui.frame(), gui.requests()}; }
+GuiOutput output_of(test::DrivenGui& gui) { return {gui.frame(), gui.requests()}; }
 
 /// Draws until nothing changes.
 void come_to_rest(test::DrivenGui& gui) {
-  Seen last = seen(gui);
+  GuiOutput last = output_of(gui);
   for (int same = 0, tries = 0; same < 3 && tries < 1000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    Seen next = seen(gui);
+    GuiOutput next = output_of(gui);
     same = next == last ? same + 1 : 0;
     last = std::move(next);
   }
@@ -79,13 +79,13 @@ void expect_no_silent_key(const OpenAgain& make, const std::vector<int>& keys = 
       begin = window->model.state;
     }
     view::ViewModel& model = window->model;
-    const Seen before = seen(window->gui);
+    const GuiOutput before = output_of(window->gui);
     const std::string run = model.is_live() ? window->status().state_hash : "replay";
     const std::size_t commands = model.is_live() ? window->status().commands_given : 0;
     const std::size_t frame = model.frame_index();
     window->gui.key(key);
     const bool shown_view = !model.state.message.empty();
-    EXPECT_TRUE(shown_view || window->runs() || !(seen(window->gui) == before))
+    EXPECT_TRUE(shown_view || window->runs() || !(output_of(window->gui) == before))
         << name_of_key(key) << " has no effect and no message";
     const bool same_run = !window->runs() && model.frame_index() == frame && !window->gui.requests().quit &&
                           run == (model.is_live() ? window->status().state_hash : "replay") &&
@@ -212,7 +212,7 @@ TEST_F(SilentLive, no_grain_is_pulled_after_the_end_and_what_is_selected_stays) 
   for (const float away : {10.0f, 40.0f, 80.0f})
     gui.move(map.x0 + static_cast<float>(x * width) + away, map.y0 + static_cast<float>(y * height) - away);
   EXPECT_TRUE(model.state.selecting.outline.empty());
-  gui.let_go();
+  gui.release_mouse();
   EXPECT_EQ(model.selected_grains(), (std::vector<Index>{3, 7, 12}));
   EXPECT_EQ(model.state.camera.centre_x, camera.centre_x);
   EXPECT_NE(model.state.message.find("The run has ended: no grain can be pulled"), std::string::npos)

@@ -64,21 +64,21 @@ TEST_F(Replay, a_plot_answers) {
   EXPECT_GE(model_.frame_index(), 3u);
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
   EXPECT_GE(model_.frame_index(), 3u) << "a drag does not go to a frame";
-  const auto chosen = model_.state.plot_looks["stress"].chosen;
+  const auto chosen = model_.state.plot_options["stress"].chosen;
   ASSERT_TRUE(chosen.has_value());
   EXPECT_GT((*chosen)[0], 0.0);
   EXPECT_LT((*chosen)[0], (*chosen)[1]);
   EXPECT_LT((*chosen)[1], 1.0);
   gui_.scroll("plot stress", 3.0f);
-  const auto zoomed = model_.state.plot_looks["stress"].zoomed;
+  const auto zoomed = model_.state.plot_options["stress"].zoomed;
   ASSERT_TRUE(zoomed.has_value());
   EXPECT_LT((*zoomed)[1] - (*zoomed)[0], 0.7);
   gui_.scroll("plot stress", -9.0f);
-  EXPECT_FALSE(model_.state.plot_looks["stress"].zoomed.has_value());
+  EXPECT_FALSE(model_.state.plot_options["stress"].zoomed.has_value());
   gui_.double_click("plot stress", 0.5f);
   EXPECT_FALSE(gui_.has("plot energy"));
   gui_.click("logarithmic");
-  EXPECT_EQ(model_.state.plot_looks["stress"].log_y, std::optional(true));
+  EXPECT_EQ(model_.state.plot_options["stress"].log_y, std::optional(true));
   gui_.double_click("plot stress", 0.5f);
   EXPECT_TRUE(gui_.has("plot energy"));
 }
@@ -115,17 +115,17 @@ TEST_F(Replay, plots_answer_over_time_as_well) {
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
   gui_.click("over time");
   EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time);
-  EXPECT_FALSE(model_.state.plot_looks["stress"].chosen.has_value()) << "it was chosen in degrees";
+  EXPECT_FALSE(model_.state.plot_options["stress"].chosen.has_value()) << "it was chosen in degrees";
   const double begin = *model_.plot_marks().shown;
   gui_.click("plot stress", 0.86f);
   EXPECT_GE(model_.frame_index(), 3u);
   EXPECT_GT(*model_.plot_marks().shown, begin);
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
-  const auto chosen = model_.state.plot_looks["stress"].chosen;
+  const auto chosen = model_.state.plot_options["stress"].chosen;
   ASSERT_TRUE(chosen.has_value());
   EXPECT_GT((*chosen)[0], begin);
   gui_.scroll("plot stress", 3.0f);
-  EXPECT_TRUE(model_.state.plot_looks["stress"].zoomed.has_value());
+  EXPECT_TRUE(model_.state.plot_options["stress"].zoomed.has_value());
   gui_.click("over angle left");
   EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time) << "theta_c is unknown";
   gui_.click("over tilt");
@@ -199,20 +199,20 @@ TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {
 }
 
 TEST_F(Live, is_looked_back_at_while_it_goes_on) {
-  EXPECT_FALSE(model_.looks_back());
+  EXPECT_FALSE(model_.shows_recorded_frame());
   gui_.click("play");
   ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 3; }));
   gui_.click("time line", 0.02f);
-  EXPECT_TRUE(model_.looks_back());
+  EXPECT_TRUE(model_.shows_recorded_frame());
   EXPECT_EQ(model_.frame_index(), 0u);
   gui_.key(gui::key_right);
   EXPECT_EQ(model_.frame_index(), 1u);
-  EXPECT_TRUE(model_.looks_back());
+  EXPECT_TRUE(model_.shows_recorded_frame());
   gui_.click("follow");
-  EXPECT_FALSE(model_.looks_back());
+  EXPECT_FALSE(model_.shows_recorded_frame());
   gui_.click("time line", 0.02f);
   gui_.key(gui::key_end);
-  EXPECT_FALSE(model_.looks_back());
+  EXPECT_FALSE(model_.shows_recorded_frame());
 }
 
 }  // namespace

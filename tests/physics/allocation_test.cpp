@@ -81,8 +81,8 @@ long allocations_of_steps(World& world, const dynamics::StepSettings& settings,
 
 /// Steps, up to a limit, until each thread has built its part of a neighbour list and so has the memory for
 /// it. On a busy machine one thread may do all of the first steps.
-void let_every_thread_work(World& world, const dynamics::StepSettings& settings,
-                           dynamics::StepWorkspace& workspace) {
+void warm_up_threads(World& world, const dynamics::StepSettings& settings,
+                     dynamics::StepWorkspace& workspace) {
   const auto threads = static_cast<std::size_t>(settings.solver.threads);
   for (int k = 0; k < 500 && workspace.neighbours.found.size() < threads; ++k) {
     workspace.neighbours.reach = -1.0;
@@ -110,8 +110,7 @@ TEST_P(Allocation, a_steady_step_allocates_nothing) {
     World world = settled;
     dynamics::StepWorkspace workspace;
     EXPECT_GT(allocations_of_steps(world, wider, workspace, 6), 0) << "nothing was counted";
-    if (settings.solver.kind == solver::SolverKind::accelerated)
-      let_every_thread_work(world, wider, workspace);
+    if (settings.solver.kind == solver::SolverKind::accelerated) warm_up_threads(world, wider, workspace);
     allocations_of_steps(world, settings, workspace, 6);  // with more cells than the wider steps
     ASSERT_GT(world.contacts.count(), 2500);
     const std::int64_t rebuilds = workspace.neighbours.rebuilds;

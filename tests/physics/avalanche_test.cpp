@@ -33,7 +33,7 @@ void advance_to_end(session::Session& session) {
   while (session.phase() != session::Phase::done) session.advance();
 }
 
-session::Session to_failure(const scenario::Scenario& scenario) {
+session::Session run_to_failure(const scenario::Scenario& scenario) {
   session::Session session(scenario);
   while (session.phase() == session::Phase::deposition || session.phase() == session::Phase::tilt)
     session.advance();
@@ -48,7 +48,7 @@ bool at_rest(const session::Session& session) {
 
 TEST(Avalanche, failure_ends_the_run_unless_told) {
   const session::Session session =
-      to_failure(bed(scenario::AfterFailure::stop, scenario::BedBoundary::periodic));
+      run_to_failure(bed(scenario::AfterFailure::stop, scenario::BedBoundary::periodic));
   EXPECT_EQ(session.phase(), session::Phase::done);
   EXPECT_TRUE(session.angle_of_repose());
   EXPECT_FALSE(session.angle_at_rest());
@@ -57,7 +57,7 @@ TEST(Avalanche, failure_ends_the_run_unless_told) {
 TEST(Avalanche, stops_when_the_tilt_is_lowered) {
   scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
   scenario.tilt.end_angle = 60.0;  // failure comes first
-  session::Session session = to_failure(scenario);
+  session::Session session = run_to_failure(scenario);
   ASSERT_EQ(session.phase(), session::Phase::flow);
   const double highest = session.world().tilt;
   EXPECT_FALSE(at_rest(session));
@@ -75,9 +75,9 @@ TEST(Avalanche, stops_when_the_tilt_is_lowered) {
 // The same failure with a slower decrease of the tilt, which gives the flow more time to follow.
 TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
   scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
-  session::Session fast = to_failure(scenario);
+  session::Session fast = run_to_failure(scenario);
   scenario.tilt.lowering_rate = 5.0;
-  session::Session slow = to_failure(scenario);
+  session::Session slow = run_to_failure(scenario);
   EXPECT_EQ(state_hash(fast.world()), state_hash(slow.world()));
   advance_to_end(fast);
   advance_to_end(slow);
@@ -89,7 +89,8 @@ TEST(Avalanche, that_has_not_stopped_at_0_deg_has_no_angle_at_rest) {
   scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
   scenario.tilt.lowering_rate = 100.0;
   scenario.deposition.rest_velocity = 1e-9;
-  session::Session session = to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
+  session::Session session =
+      run_to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
   session::Session impatient(scenario, session.checkpoint(0.0));
   advance_to_end(impatient);
   EXPECT_EQ(impatient.world().tilt, 0.0);
@@ -99,7 +100,8 @@ TEST(Avalanche, that_has_not_stopped_at_0_deg_has_no_angle_at_rest) {
 TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
   scenario::Scenario scenario = bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic);
   scenario.deposition.max_time = 0.5;
-  session::Session before = to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic));
+  session::Session before =
+      run_to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic));
   session::Session session(scenario, before.checkpoint(0.0));
   const double failed_at = session.world().time;
   const double tilt = session.world().tilt;
@@ -110,7 +112,7 @@ TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
 }
 
 TEST(Avalanche, relaxes_its_surface_between_walls) {
-  session::Session session = to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::walls));
+  session::Session session = run_to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::walls));
   ASSERT_EQ(session.phase(), session::Phase::flow);
   const double tilt = session.world().tilt;
   advance_to_end(session);
@@ -122,7 +124,8 @@ TEST(Avalanche, relaxes_its_surface_between_walls) {
 }
 
 TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
-  session::Session session = to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
+  session::Session session =
+      run_to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
   session.clear_segment();
   const double highest = session.world().tilt;
   const std::int64_t failed_at = session.world().step;
@@ -140,7 +143,7 @@ TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
 
 TEST(Avalanche, is_resumed_to_the_same_bits) {
   const scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
-  session::Session whole = to_failure(scenario);
+  session::Session whole = run_to_failure(scenario);
   std::optional<session::Session> parts;
   parts.emplace(scenario, whole.checkpoint(0.0));
   for (int k = 1; whole.phase() != session::Phase::done; ++k) {

@@ -36,7 +36,7 @@ struct LongRun {
 
 /// Rocks a heap of 14 grains at rest between walls by 3 degrees in both directions for `steps` steps. By
 /// then, overlaps left by the unchecked residuals of the fall have disappeared.
-LongRun rock_a_heap(double tolerance, double allowed_overlap, int steps) {
+LongRun rock_heap(double tolerance, double allowed_overlap, int steps) {
   dynamics::StepSettings settings = test::bed_step(tolerance);
   settings.law.allowed_overlap = allowed_overlap;
   World world = test::settled_bed(test::bed_plan(false, 14, 6, 2), settings);
@@ -62,7 +62,7 @@ void record(const char* name, double overlap) {
 }
 
 TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
-  const LongRun run = rock_a_heap(1e-6, 0.0, 100000);
+  const LongRun run = rock_heap(1e-6, 0.0, 100000);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);
@@ -71,7 +71,7 @@ TEST(Overlap, stays_below_what_the_residual_allows_over_100_000_steps) {
 
 TEST(Overlap, stays_near_what_is_allowed_over_100_000_steps) {
   const double allowed = 1e-6 * dynamics::BedPlan{}.mean_diameter;
-  const LongRun run = rock_a_heap(1e-6, allowed, 100000);
+  const LongRun run = rock_heap(1e-6, allowed, 100000);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_GT(run.largest_overlap, 0.0);
@@ -81,7 +81,7 @@ TEST(Overlap, stays_near_what_is_allowed_over_100_000_steps) {
 // Ten digits below the diameter, with a margin for the few steps whose residual exceeds the requested
 // tolerance.
 TEST(Overlap, stays_at_round_off_where_the_solver_goes_there) {
-  const LongRun run = rock_a_heap(1e-12, 0.0, 24000);
+  const LongRun run = rock_heap(1e-12, 0.0, 24000);
   record("largest_overlap_over_D", run.largest_overlap);
   record("bound_over_D", run.bound);
   EXPECT_LT(run.largest_overlap, run.bound);

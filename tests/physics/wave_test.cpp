@@ -22,11 +22,11 @@ void expect_same_bits(const std::vector<Value>& one, const std::vector<Value>& o
 }
 
 /// Solve in progress, with the sums over the swept contacts.
-struct Swept {
+struct SolveInProgress {
   solver::Linearisation at;
   std::vector<solver::SweepSums> sums;
 
-  explicit Swept(const solver::Linearisation& from)
+  explicit SolveInProgress(const solver::Linearisation& from)
       : at(from), sums(static_cast<std::size_t>(solver::sums_of_part * from.order.part_count())) {}
 };
 
@@ -39,8 +39,8 @@ class Wave : public testing::Test {
     solver::solve_accelerated(problem, 1e-300, 5, 1, workspace_, solution);
     ASSERT_TRUE(workspace_.linearisation.order.is_ring());
   }
-  Swept swept(int size, bool in_wave, std::size_t sweeps) const {
-    Swept swept(workspace_.linearisation);
+  SolveInProgress swept(int size, bool in_wave, std::size_t sweeps) const {
+    SolveInProgress swept(workspace_.linearisation);
     ThreadTeam team(size);
     team.run([&](int member) {
       const solver::Sweeper sweeper{swept.at, swept.sums, &team, member, size, solver::sweep_kernels()};
@@ -48,7 +48,7 @@ class Wave : public testing::Test {
     });
     return swept;
   }
-  void expect_the_same(const Swept& one, const Swept& other) const {
+  void expect_same(const SolveInProgress& one, const SolveInProgress& other) const {
     expect_same_bits(one.at.increment, other.at.increment, "impulses");
     expect_same_bits(one.at.last_move, other.at.last_move, "moves");
     expect_same_bits(one.at.velocity, other.at.velocity, "velocities");
@@ -68,7 +68,7 @@ TEST_F(Wave, has_the_bits_of_sweeps_one_after_another) {
     for (const auto& [size, sweeps] : {std::pair(1, 4), std::pair(2, 2), std::pair(1, 3), std::pair(5, 1)}) {
       const auto count = static_cast<std::size_t>(sweeps);
       ASSERT_TRUE(solver::fits_wave(workspace_.linearisation.order, sweeps, size));
-      expect_the_same(swept(size, true, count), swept(1, false, count));
+      expect_same(swept(size, true, count), swept(1, false, count));
     }
   }
 }
@@ -90,7 +90,7 @@ TEST_F(Wave, is_for_beds_that_do_not_stay_in_the_caches) {
 // Momentum carries over from one sweep to the next, unless a restart is triggered.
 TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
   begin(400, false);
-  Swept together(workspace_.linearisation), apart(workspace_.linearisation);
+  SolveInProgress together(workspace_.linearisation), apart(workspace_.linearisation);
   solver::Momentum one, other;
   one.theta = other.theta = 0.1;
   const solver::SweepKernels kernels = solver::sweep_kernels();
@@ -111,7 +111,7 @@ TEST_F(Wave, has_the_momentum_of_sweeps_one_after_another) {
 TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
   begin(400, false);
   const auto swept_on = [this](int size) {
-    Swept swept(workspace_.linearisation);
+    SolveInProgress swept(workspace_.linearisation);
     ThreadTeam team(size);
     team.run([&](int member) {
       solver::Sweeper sweeper{swept.at, swept.sums, &team, member, size, solver::sweep_kernels()};
@@ -120,13 +120,13 @@ TEST_F(Wave, has_the_bits_of_one_member_when_a_team_sweeps_on_and_on) {
     });
     return swept;
   };
-  const Swept alone = swept_on(1);
-  for (const int size : {2, 3}) expect_the_same(swept_on(size), alone);
+  const SolveInProgress alone = swept_on(1);
+  for (const int size : {2, 3}) expect_same(swept_on(size), alone);
 }
 
 TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
   begin(400, false);
-  Swept swept(workspace_.linearisation);
+  SolveInProgress swept(workspace_.linearisation);
   solver::Sweeper sweeper{swept.at, swept.sums, nullptr, 0, 1, solver::sweep_kernels()};
   solver::Momentum momentum;
   const auto half = static_cast<std::ptrdiff_t>(swept.sums.size() / 2);
@@ -145,8 +145,8 @@ TEST_F(Wave, keeps_the_sums_of_the_sweeps_before) {
 }
 
 /// Performs sweeps as in T16: all bodies are extrapolated, then all contacts are swept, part by part.
-Swept plainly_swept(const solver::Linearisation& from, std::size_t sweeps) {
-  Swept swept(from);
+SolveInProgress plainly_swept(const solver::Linearisation& from, std::size_t sweeps) {
+  SolveInProgress swept(from);
   const solver::SweepOrder& order = swept.at.order;
   const solver::SweepKernels kernels = solver::sweep_kernels();
   for (std::size_t s = 0; s < sweeps; ++s) {
@@ -189,9 +189,9 @@ TEST(Phases, have_the_bits_of_sweeps_that_extrapolate_all_bodies_first) {
     const solver::Linearisation& from = workspace.accelerated.linearisation;
     domains.push_back(from.order.domain_count());
     left.push_back(from.order.part_begin.back() - *(from.order.part_begin.end() - 2));
-    const Swept plain = plainly_swept(from, beta.size());
+    const SolveInProgress plain = plainly_swept(from, beta.size());
     for (const int size : {1, 2, 3}) {
-      Swept swept(from);
+      SolveInProgress swept(from);
       ThreadTeam team(size);
       team.run([&](int member) {
         solver::sweep_by_phases({swept.at, swept.sums, &team, member, size, solver::sweep_kernels()}, beta);

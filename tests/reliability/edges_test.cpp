@@ -35,7 +35,7 @@ double seconds_since(Clock::time_point start) {
 
 /// Returns whether `holds()` becomes true within ten seconds.
 template <typename Condition>
-bool comes_true(const Condition& holds) {
+bool wait_for_condition(const Condition& holds) {
   for (int wait = 0; wait < 2000; ++wait, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
     if (holds()) return true;
   return false;
@@ -61,10 +61,10 @@ class Edges : public testing::Test {
   /// Returns the exit status of a command that receives a signal while it works; checks that it ends soon.
   static int end_by(const Words& words, int signal) {
     const pid_t process = start_talus(words, folder->path());
-    if (!wait_until_it_catches(process, SIGTERM)) return wait_for(process);  // it had already ended
+    if (!wait_until_caught(process, SIGTERM)) return wait_for(process);  // it had already ended
     const auto begin = Clock::now();
     kill(process, signal);
-    const bool ended = comes_true([process] { return has_ended(process); });
+    const bool ended = wait_for_condition([process] { return has_ended(process); });
     EXPECT_LT(seconds_since(begin), soon + 1.0) << words[0] << " after signal " << signal;
     if (!ended) kill(process, SIGKILL);
     return wait_for(process);
@@ -97,7 +97,7 @@ TEST_F(Edges, each_signal_ends_each_command) {
 
 TEST_F(Edges, a_hangup_stops_a_run_with_a_checkpoint) {
   const pid_t process = start_talus({"run", "bed.toml", "-o", "hung.h5", "--threads", "1"}, folder->path());
-  ASSERT_TRUE(comes_true([] { return fs::exists(folder->path("hung.h5.run/manifest")); }));
+  ASSERT_TRUE(wait_for_condition([] { return fs::exists(folder->path("hung.h5.run/manifest")); }));
   kill(process, SIGHUP);
   EXPECT_EQ(wait_for(process), 75) << errors_in(folder->path());
   EXPECT_NE(errors_in(folder->path()).find("Stopped at "), std::string::npos) << errors_in(folder->path());
@@ -116,7 +116,7 @@ TEST_F(Edges, a_pipe_or_a_device_is_no_run_and_no_problem) {
     for (const char* command : {"info", "analyze", "solve"}) {
       const auto begin = Clock::now();
       const pid_t process = start_talus({command, file}, folder->path());
-      const bool ended = comes_true([process] { return has_ended(process); });
+      const bool ended = wait_for_condition([process] { return has_ended(process); });
       if (!ended) kill(process, SIGKILL);
       EXPECT_EQ(wait_for(process), 66) << command << " " << file << errors_in(folder->path());
       EXPECT_LT(seconds_since(begin), soon + 1.0) << command;
@@ -137,12 +137,12 @@ TEST_F(Edges, programs_that_were_started_end_with_the_command) {
     const pid_t process =
         start_talus({"figures", "run.h5", "-o", "slow", "--only", "fig04", "--overwrite"}, folder->path());
     setenv("PATH", before.c_str(), 1);
-    ASSERT_TRUE(comes_true([] { return !text_of(folder->path("started")).empty(); }))
+    ASSERT_TRUE(wait_for_condition([] { return !text_of(folder->path("started")).empty(); }))
         << errors_in(folder->path());
     const pid_t gnuplot = std::stoi(text_of(folder->path("started")));
     kill(process, signal);
     EXPECT_EQ(wait_for(process), signal == SIGTERM ? 75 : -1);
-    EXPECT_TRUE(comes_true([gnuplot] { return kill(gnuplot, 0) != 0; }))
+    EXPECT_TRUE(wait_for_condition([gnuplot] { return kill(gnuplot, 0) != 0; }))
         << "gnuplot continues after signal " << signal;
     if (signal == SIGTERM) {
       EXPECT_TRUE(fs::is_empty(folder->path("slow"))) << "files were left behind";

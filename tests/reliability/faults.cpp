@@ -22,13 +22,13 @@ pid_t counting = 0;  ///< process whose calls are counted, without its children
 
 }  // namespace
 
-bool counts_here() { return counting == getpid(); }
+bool counts_in_process() { return counting == getpid(); }
 
 namespace {
 
 /// Counts a call; returns whether the fault applies to it.
 bool is_next() {
-  if (!counts_here()) return false;
+  if (!counts_in_process()) return false;
   ++counted;
   return armed.kind != Kind::none && (counted == armed.call || (counted > armed.call && armed.lasting));
 }
@@ -61,7 +61,7 @@ namespace {
 
 /// Writes only part of the data, as a kill can split a write.
 void split_write(int file, const void* data, size_t size) {
-  if (counts_here() && armed.kind == Kind::kill && counted + 1 == armed.call)
+  if (counts_in_process() && armed.kind == Kind::kill && counted + 1 == armed.call)
     syscall(SYS_write, file, data, size / 2);
 }
 

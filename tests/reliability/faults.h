@@ -28,7 +28,7 @@ inline constexpr int killed = 99;
 /// Starts counting, in this process only: otherwise the place of a fault would depend on its children.
 void arm(const Fault& fault);
 /// Returns whether this process has called arm().
-bool counts_here();
+bool counts_in_process();
 /// Returns the number of calls since arm().
 int calls();
 

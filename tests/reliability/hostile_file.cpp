@@ -98,7 +98,7 @@ Handle space_of(const std::vector<hsize_t>& shape) {
           H5Sclose};
 }
 
-void make_again(hid_t file, const Spoil& spoil, const Handle& type, const std::vector<hsize_t>& shape) {
+void recreate(hid_t file, const Spoil& spoil, const Handle& type, const std::vector<hsize_t>& shape) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   if (spoil.harm == Harm::values_in_another_file)
     H5Pset_external(creation.get(), "/proc/self/maps", 0, H5F_UNLIMITED);
@@ -159,7 +159,7 @@ void spoil_one(hid_t file, const Spoil& spoil) {
   } else if (spoil.harm == Harm::external_link) {
     H5Lcreate_external(spoil.elsewhere.c_str(), path, file, path, H5P_DEFAULT, H5P_DEFAULT);
   } else if (spoil.harm != Harm::missing) {
-    make_again(file, spoil, type_for(spoil, own.get()), shape_for(spoil, shape));
+    recreate(file, spoil, type_for(spoil, own.get()), shape_for(spoil, shape));
   }
 }
 

@@ -55,7 +55,7 @@ class LegalScenarios : public testing::Test {
         return wait_for(process);
       }
       if (!std::filesystem::exists(folder.path("run.h5.run/manifest"))) continue;
-      const Outcome live = look();
+      const Outcome live = check_run();
       EXPECT_TRUE(live.exit_code == 0 || live.exit_code == 66) << live.out << live.err;
       checked_live += live.exit_code == 0 ? 1 : 0;
     }
@@ -63,7 +63,7 @@ class LegalScenarios : public testing::Test {
   }
 
   /// Runs `check` in another folder, because the run's folder holds its messages.
-  Outcome look() { return run_talus({"check", folder.path("run.h5")}, aside.path()); }
+  Outcome check_run() { return run_talus({"check", folder.path("run.h5")}, aside.path()); }
 
   TemporaryFolder folder, aside;
   int checked_live = 0, checked = 0, late = 0;
@@ -93,7 +93,7 @@ TEST_F(LegalScenarios, end_in_a_sound_run_or_in_a_documented_refusal) {
     }
     if (std::filesystem::exists(folder.path("run.h5")) ||
         std::filesystem::exists(folder.path("run.h5.run/manifest"))) {
-      const Outcome outcome = look();
+      const Outcome outcome = check_run();
       ++checked;
       EXPECT_EQ(outcome.exit_code, 0)
           << "scenario " << k << ": " << outcome.out << outcome.err << scenario::resolved_toml(scenario);

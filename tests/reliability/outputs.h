@@ -55,7 +55,7 @@ inline bool decodes(const fs::path& movie) {
 
 /// Returns whether a file ends as its format requires. Files written through memory can only be torn at the
 /// end.
-inline bool has_its_end(const fs::path& file) {
+inline bool has_end_of_format(const fs::path& file) {
   const std::string ending = file.extension().string(), bytes = content(file);
   if (ending == ".png") return bytes.ends_with("IEND\xAE\x42\x60\x82");
   if (ending == ".gif") return bytes.ends_with(";");
@@ -146,14 +146,14 @@ class Outputs : public testing::Test {
       if (entry->is_directory()) continue;
       EXPECT_GT(fs::file_size(file), 0u) << file;
       if (name[0] == 'r' && name.ends_with(".h5")) digest(file);
-      EXPECT_TRUE(has_its_end(file)) << file;
+      EXPECT_TRUE(has_end_of_format(file)) << file;
     }
   }
 
   /// Runs a writer below `place`, and expects it either to succeed with all of `expected`, or to report that
   /// it could not write. Returns whether it succeeded.
-  bool is_done_or_said(const Writer& writer, const std::string& place,
-                       const std::set<std::string>& expected) {
+  bool is_done_or_reported(const Writer& writer, const std::string& place,
+                           const std::set<std::string>& expected) {
     const Outcome outcome = talus(with_output(writer.words, place + "/" + writer.output));
     EXPECT_TRUE(outcome.exit_code == done || outcome.exit_code == io_error)
         << outcome.exit_code << ": " << outcome.err;
@@ -167,7 +167,7 @@ class Outputs : public testing::Test {
   }
 
   /// Returns the files that a writer makes if nothing interferes, and their size in KiB.
-  std::pair<std::set<std::string>, int> made_freely(const Writer& writer) {
+  std::pair<std::set<std::string>, int> undisturbed_files(const Writer& writer) {
     fs::create_directory(path("free"));
     const Outcome outcome = talus(with_output(writer.words, "free/" + writer.output));
     EXPECT_EQ(outcome.exit_code, done) << outcome.err;

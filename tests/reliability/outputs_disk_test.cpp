@@ -23,7 +23,7 @@ class OutputsOfAllSizes : public Outputs {
     int tried = 0, too_small = 0;
     for (const Writer& writer : writers()) {
       SCOPED_TRACE(writer.name);
-      const auto [expected, size] = made_freely(writer);
+      const auto [expected, size] = undisturbed_files(writer);
       for (const int kib : sizes_about(size)) {
         SCOPED_TRACE(std::to_string(kib) + " KiB");
         ++tried;
@@ -41,7 +41,7 @@ TEST_F(OutputsOfAllSizes, are_whole_or_absent_on_small_disks) {
   const int full = count_too_small([this](const Writer& writer, const auto& expected, int kib) {
     const SmallDisk disk(folder_.path() / "disk", kib);
     EXPECT_TRUE(disk.is_mounted());
-    return is_done_or_said(writer, "disk", expected);
+    return is_done_or_reported(writer, "disk", expected);
   });
   EXPECT_GT(full, 12);
 }
@@ -67,7 +67,7 @@ TEST_F(OutputsOfAllSizes, are_whole_or_absent_where_files_may_not_grow) {
     fs::create_directory(path("limited"));
     const bool is_done = [&] {
       const SizeLimit limit(static_cast<rlim_t>(1024) * static_cast<rlim_t>(kib));
-      return is_done_or_said(writer, "limited", expected);
+      return is_done_or_reported(writer, "limited", expected);
     }();
     fs::remove_all(path("limited"));
     return is_done;

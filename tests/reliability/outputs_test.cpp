@@ -198,24 +198,24 @@ TEST_F(Outputs, have_no_empty_name) {
 }
 
 /// Runs commands as an unprivileged user during its lifetime. Requires root.
-struct AsNobody {
-  AsNobody() { EXPECT_EQ(setresuid(nobody, nobody, 0), 0); }
-  ~AsNobody() { EXPECT_EQ(setresuid(0, 0, 0), 0); }
-  AsNobody(const AsNobody&) = delete;
-  AsNobody& operator=(const AsNobody&) = delete;
+struct UnprivilegedUser {
+  UnprivilegedUser() { EXPECT_EQ(setresuid(nobody, nobody, 0), 0); }
+  ~UnprivilegedUser() { EXPECT_EQ(setresuid(0, 0, 0), 0); }
+  UnprivilegedUser(const UnprivilegedUser&) = delete;
+  UnprivilegedUser& operator=(const UnprivilegedUser&) = delete;
   static constexpr uid_t nobody = 65534;
 };
 
 TEST_F(Outputs, runs_that_may_only_be_read_are_analysed_and_drawn) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
   const TemporaryFolder own;  // folder of the reader
-  ASSERT_EQ(chown(own.path().c_str(), AsNobody::nobody, AsNobody::nobody), 0);
+  ASSERT_EQ(chown(own.path().c_str(), UnprivilegedUser::nobody, UnprivilegedUser::nobody), 0);
   ASSERT_EQ(chmod(folder_.path().c_str(), 0755), 0);
   take_run(folder_, "new.h5", tiny_bed, {"--seed", "2"});
   const std::string run = path("new.h5"), before = content(run);
   const auto read_by_nobody = [&](const std::string& reason) {
     SCOPED_TRACE(reason);
-    const AsNobody reader;
+    const UnprivilegedUser reader;
     const Outcome drawn =
         run_talus({"figures", run, "--only", "fig04", "-o", "figs", "--overwrite"}, own.path());
     if (drawn.exit_code == 127) GTEST_SKIP() << "not every user can read the program";
@@ -314,7 +314,7 @@ TEST_F(Outputs, have_any_name_that_a_file_can_have) {
     const Outcome outcome = talus({"animate", "f.h5", "-q", "--map", "pressure", "--width", "200", "--every",
                                    "2", std::string("--output=") + name});
     EXPECT_EQ(outcome.exit_code, done) << outcome.err;
-    EXPECT_TRUE(has_its_end(path(name)));
+    EXPECT_TRUE(has_end_of_format(path(name)));
   }
   for (const char* name : {"-dash", "12:30", "a%d b"}) {
     SCOPED_TRACE(name);

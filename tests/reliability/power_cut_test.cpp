@@ -28,7 +28,9 @@ namespace fs = std::filesystem;
 constexpr unsigned long shut_down = 0x8004587d;  // EXT4_IOC_SHUTDOWN of the kernel
 constexpr unsigned without_log = 2;              // data not on the disk are lost
 
-bool does(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()) == 0; }
+bool succeeds(const std::string& command) {
+  return std::system((command + " > /dev/null 2>&1").c_str()) == 0;
+}
 
 /// Fresh file system whose power can be cut.
 class Disk {
@@ -36,8 +38,8 @@ class Disk {
   explicit Disk(const TemporaryFolder& folder)
       : image_(folder.path("disk.img")), place_(folder.path("disk")) {
     fs::create_directory(place_);
-    ready_ =
-        geteuid() == 0 && does("truncate -s 64M " + image_) && does("mkfs.ext4 -q " + image_) && attach();
+    ready_ = geteuid() == 0 && succeeds("truncate -s 64M " + image_) && succeeds("mkfs.ext4 -q " + image_) &&
+             attach();
   }
   ~Disk() { detach(); }
   Disk(const Disk&) = delete;
@@ -45,8 +47,8 @@ class Disk {
 
   bool is_ready() const { return ready_; }
   const std::string& place() const { return place_; }
-  bool attach() const { return does("mount -o loop " + image_ + " " + place_); }
-  void detach() const { does("umount " + place_); }
+  bool attach() const { return succeeds("mount -o loop " + image_ + " " + place_); }
+  void detach() const { succeeds("umount " + place_); }
   bool cut_power() const {
     const int root = open(place_.c_str(), O_RDONLY | O_CLOEXEC);
     const int result = ioctl(root, shut_down, &without_log);

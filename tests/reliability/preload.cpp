@@ -39,10 +39,10 @@ std::atomic<long> allocations{0};
 std::atomic<long> failing_allocation{0};  // 0: none
 bool all_later_too = false;
 bool clock_jumps = false;
-std::atomic<long> looks{0};
+std::atomic<long> readings{0};
 
 bool fails() {
-  if (!talus::faults::counts_here()) return false;
+  if (!talus::faults::counts_in_process()) return false;
   const long number = ++allocations;
   const long failing = failing_allocation;
   const bool struck = failing > 0 && (number == failing || (all_later_too && number > failing));
@@ -120,9 +120,9 @@ int posix_memalign(void** block, size_t alignment, size_t size) noexcept {
 int clock_gettime(clockid_t clock, timespec* time) noexcept {
   const long result = syscall(SYS_clock_gettime, clock, time);
   if (result != 0 || !clock_jumps) return static_cast<int>(result);
-  const long look = ++looks;
-  if (clock == CLOCK_REALTIME) time->tv_sec += (look % 7 - 3) * 86400;
-  if (clock == CLOCK_MONOTONIC) time->tv_sec += look / 100 * 3600;
+  const long reading = ++readings;
+  if (clock == CLOCK_REALTIME) time->tv_sec += (reading % 7 - 3) * 86400;
+  if (clock == CLOCK_MONOTONIC) time->tv_sec += reading / 100 * 3600;
   return 0;
 }
 }

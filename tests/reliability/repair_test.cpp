@@ -64,7 +64,7 @@ class RepairOfChance : public testing::Test {
   }
 
   /// Repairs a run and compares the result with the intact one.
-  static void try_to_repair(const std::string& path, std::size_t frames, Count& count) {
+  static void check_repair(const std::string& path, std::size_t frames, Count& count) {
     const std::string out = folder->path("out.h5");
     count.frames += frames;
     io::RepairReport report;
@@ -103,7 +103,7 @@ TEST_F(RepairOfChance, of_a_packed_file) {
       damage(bytes, kind, random);
       write_bytes(bad, bytes);
       SCOPED_TRACE("try " + std::to_string(k));
-      try_to_repair(bad, frame_of.size(), count);
+      check_repair(bad, frame_of.size(), count);
     }
     count.print(std::string("packed file of ").append(std::to_string(good.size() / 1024)).append(" KiB, ") +
                 kind_names[static_cast<std::size_t>(kind)]);
@@ -124,7 +124,7 @@ TEST_F(RepairOfChance, of_each_file_of_a_folder) {
       damage(bytes, kinds[static_cast<std::size_t>(k) % kinds.size()], random);
       write_bytes(entry.path(), bytes);
       SCOPED_TRACE(entry.path().filename().string() + ", try " + std::to_string(k));
-      try_to_repair(run, frames, count);
+      check_repair(run, frames, count);
     }
     write_bytes(entry.path(), whole);
     count.print(entry.path().filename());

@@ -62,11 +62,11 @@ class RunFaults : public testing::Test {
       EXPECT_EQ(digest(run), reference_) << "reported as complete";
     else
       committed_before_ = found;
-    bring_to_end(folder);
+    finish_run(folder);
     return outcome;
   }
 
-  void bring_to_end(const TemporaryFolder& folder) {
+  void finish_run(const TemporaryFolder& folder) {
     const Outcome outcome = run_talus(resumed(), folder.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(digest(folder.path("run.h5")), reference_);
@@ -147,7 +147,7 @@ TEST_F(RunFaults, a_file_that_may_not_grow_is_an_error_and_not_a_signal) {
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(outcome.exit_code, 74);
   EXPECT_NE(outcome.err.find(std::strerror(EFBIG)), std::string::npos) << outcome.err;
-  bring_to_end(folder);
+  finish_run(folder);
 }
 
 TEST_F(RunFaults, results_that_cannot_be_printed_are_an_error) {

@@ -28,7 +28,7 @@ double seconds_since(Clock::time_point start) {
 
 /// Waits until `holds()`; returns false after half a minute.
 template <typename Condition>
-bool comes_true(const Condition& holds) {
+bool wait_for_condition(const Condition& holds) {
   for (int wait = 0; wait < 6000; ++wait, pause(5))
     if (holds()) return true;
   return false;
@@ -80,7 +80,7 @@ TEST_F(RunStops, ended_one_to_five_times_it_has_the_same_bits) {
     for (int end = 0; end < most; ++end) {
       const pid_t process = start_or_resume();
       if (end == 0)  // leaves something to resume at least once on a slow machine
-        EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
+        EXPECT_TRUE(wait_for_condition([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       else
         pause(dice_.below(milliseconds_ / 2));
       kill(process, signals[dice_.below(3)]);
@@ -128,7 +128,7 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
     const pid_t process = start_or_resume();
     // It handles signals before it takes its lock, which names its process.
     const std::string holder = "process " + std::to_string(process) + " ";
-    EXPECT_TRUE(comes_true([&] {
+    EXPECT_TRUE(wait_for_condition([&] {
       return text_of(run_ + ".run/lock").starts_with(holder) ||
              io::run_presence(run_) == io::RunPresence::packed;
     }));
@@ -160,7 +160,7 @@ class LongRun : public testing::Test {
   pid_t start(const char* bed) {
     write_file(folder_, "bed.toml", bed);
     const pid_t process = start_talus({"run", "bed.toml", "-o", "run.h5"}, folder_.path());
-    EXPECT_TRUE(comes_true([this] { return fs::exists(manifest_); }));
+    EXPECT_TRUE(wait_for_condition([this] { return fs::exists(manifest_); }));
     return process;
   }
   void end(pid_t process) {
@@ -196,7 +196,7 @@ TEST_F(LongRun, takes_a_checkpoint_when_asked_and_goes_on) {
   const std::string before = text_of(manifest_);
   ASSERT_EQ(io::RunFile::open(run_).checkpoint().world.step, 0);
   kill(process, SIGUSR1);
-  EXPECT_TRUE(comes_true([&] { return text_of(manifest_) != before; }));
+  EXPECT_TRUE(wait_for_condition([&] { return text_of(manifest_) != before; }));
   EXPECT_TRUE(is_running(process));
   const io::RunFile run = io::RunFile::open(run_);
   EXPECT_GT(run.checkpoint().world.step, 0);
@@ -221,7 +221,7 @@ TEST_F(LongRun, says_that_its_folder_is_gone) {
   std::future<Outcome> running = std::async(std::launch::async, [this] {
     return run_talus({"run", "bed.toml", "-o", "run.h5", "--quiet"}, folder_.path());
   });
-  ASSERT_TRUE(comes_true([this] { return fs::exists(manifest_); }));
+  ASSERT_TRUE(wait_for_condition([this] { return fs::exists(manifest_); }));
   fs::rename(run_ + ".run", run_ + ".moved.run");
   const Outcome outcome = running.get();
   EXPECT_TRUE(outcome.exit_code == 73 || outcome.exit_code == 74) << outcome.exit_code;
@@ -239,7 +239,7 @@ TEST_F(RunStops, of_two_writers_one_runs) {
     std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1"};
     if (k % 2 == 1) {  // after a run that was killed and left its lock
       const pid_t killed = start_talus(command, folder_.path());
-      EXPECT_TRUE(comes_true([this] { return io::run_presence(run_) != io::RunPresence::none; }));
+      EXPECT_TRUE(wait_for_condition([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       kill(killed, SIGKILL);
       wait_for(killed);
       command.emplace_back("--resume");

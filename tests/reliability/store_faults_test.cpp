@@ -22,19 +22,19 @@ constexpr int commits = 3;
 constexpr int defect = 98;  // exit code of a child that detected an error
 
 /// Report of a child process to its parent, in shared memory.
-struct Reported {
+struct ChildReport {
   int committed = 0;
   int calls = 0;
   int begun = 0;   ///< number of calls up to the end of the first commit
   int ending = 0;  ///< number of calls up to packing
 };
 
-struct SharedReported {
-  SharedReported()
-      : reported(static_cast<Reported*>(
-            mmap(nullptr, sizeof(Reported), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
-  ~SharedReported() { munmap(reported, sizeof(Reported)); }
-  Reported* reported;
+struct SharedReport {
+  SharedReport()
+      : reported(static_cast<ChildReport*>(
+            mmap(nullptr, sizeof(ChildReport), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {}
+  ~SharedReport() { munmap(reported, sizeof(ChildReport)); }
+  ChildReport* reported;
 };
 
 /// Performs an action, and repeats it if it throws.
@@ -49,7 +49,7 @@ void persist(const Action& action) {
 
 /// Computes the entire run in place of what exists under its name; `again` repeats each call that throws,
 /// once.
-void compute(const std::string& path, bool again, Reported& reported) {
+void compute(const std::string& path, bool again, ChildReport& reported) {
   const auto attempt = [again](const auto& action) { again ? persist(action) : action(); };
   std::optional<io::RunStore> store;
   attempt([&] { store = io::RunStore::create(path, example::header(), true); });
@@ -63,7 +63,7 @@ void compute(const std::string& path, bool again, Reported& reported) {
 }
 
 /// Computes the run in a child process under a fault, and returns the exit code of the child.
-int compute_under(const faults::Fault& fault, bool again, const std::string& path, Reported& reported) {
+int compute_under(const faults::Fault& fault, bool again, const std::string& path, ChildReport& reported) {
   reported = {};
   const pid_t child = fork();
   if (child == 0) {
@@ -100,7 +100,7 @@ int commits_in(const std::string& path) {
 }
 
 /// Completes the remains after a fault, as `talus run --resume` does.
-void bring_to_end(const std::string& path, int found) {
+void finish_run(const std::string& path, int found) {
   if (io::run_presence(path) == io::RunPresence::packed) return;
   io::RunHeader header;
   io::Checkpoint checkpoint;
@@ -133,13 +133,13 @@ class StoreFaults : public testing::Test {
       const int found = commits_in(path);
       EXPECT_GE(found, acknowledged) << "lost";
       EXPECT_LE(found, acknowledged + 1);
-      bring_to_end(path, found);
+      finish_run(path, found);
       EXPECT_TRUE(example::file_text(path) == reference_) << "the end differs";
     }
   }
 
   example::TemporaryFolder folder_;
-  SharedReported shared_;
+  SharedReport shared_;
   std::string reference_;
 
  private:
@@ -157,7 +157,7 @@ void begin_old_run(const std::string& path, bool is_whole) {
 
 /// Checks the remains after a kill during the replacement of a run: either run is found, and the new one as
 /// soon as its file has the name. Returns whether it is the new one.
-bool is_new_run_found(const std::string& path, const std::string& old, const std::string& reference) {
+bool finds_new_run(const std::string& path, const std::string& old, const std::string& reference) {
   EXPECT_NE(io::run_presence(path), io::RunPresence::none) << "neither is found";
   if (io::run_presence(path) == io::RunPresence::none) return false;
   const std::string file = std::filesystem::exists(path) ? example::file_text(path) : "";
@@ -177,12 +177,12 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
   ReplacedRun() {
     begin_old_run(old_path_, is_whole_);
     if (is_whole_) old_ = example::file_text(old_path_);
-    put_old_run_back();
+    restore_old_run();
     EXPECT_EQ(compute_under({}, false, path_, *shared_.reported), 0);
     all_ = *shared_.reported;
   }
 
-  void put_old_run_back() const {
+  void restore_old_run() const {
     namespace fs = std::filesystem;
     fs::remove_all(io::run_folder(path_));
     fs::remove(path_);
@@ -190,15 +190,15 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
   }
 
   /// A kill after the rename has left the folder: the file is still found, also by an analysis.
-  void expect_found_when_analysed() const {
+  void expect_found_by_analysis() const {
     io::store_analysis(path_, example::analysis(2, 1), example::analysed_state());
     EXPECT_EQ(io::run_presence(path_), io::RunPresence::packed) << "hidden after the analysis";
   }
 
-  void bring_the_new_one_to_its_end(bool is_begun) const {
-    Reported reported;
+  void finish_new_run(bool is_begun) const {
+    ChildReport reported;
     if (is_begun)
-      bring_to_end(path_, commits_in(path_));
+      finish_run(path_, commits_in(path_));
     else
       compute(path_, false, reported);
     EXPECT_TRUE(example::file_text(path_) == reference_) << "the end differs";
@@ -206,7 +206,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
 
   bool is_whole_ = GetParam();
   std::string path_ = folder_.path("replaced.h5"), old_path_ = folder_.path("old.h5"), old_;
-  Reported all_;
+  ChildReport all_;
 };
 
 TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
@@ -214,16 +214,16 @@ TEST_P(ReplacedRun, or_the_new_one_is_found_after_a_kill_at_any_call) {
   for (int call = 1; call <= all_.calls; ++call) {
     if (call > all_.begun && call <= all_.ending) continue;
     SCOPED_TRACE("call " + std::to_string(call));
-    put_old_run_back();
+    restore_old_run();
     ASSERT_EQ(compute_under({.kind = faults::Kind::kill, .call = call}, false, path_, *shared_.reported),
               faults::killed);
-    const bool is_new = is_new_run_found(path_, old_, reference_);
+    const bool is_new = finds_new_run(path_, old_, reference_);
     EXPECT_TRUE(is_new || shared_.reported->committed == 0) << "lost";
     const bool is_ended = is_new && io::run_presence(path_) == io::RunPresence::packed;
     if (is_ended && std::filesystem::exists(io::run_folder(path_)) && ++left_folders > 0)
-      expect_found_when_analysed();
+      expect_found_by_analysis();
     else
-      bring_the_new_one_to_its_end(is_new);
+      finish_new_run(is_new);
     EXPECT_FALSE(std::filesystem::exists(io::run_folder(path_))) << "leftovers";
   }
   EXPECT_GT(left_folders, 2);

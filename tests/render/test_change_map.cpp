@@ -13,10 +13,10 @@ namespace {
 using test::extent_of, test::Packing, test::row_of_grains, test::settings_of;
 
 /// Three adjacent grains in a periodic bed of 3 D: the frame at 7 deg, and its reference at 5 deg.
-struct Changed {
+struct ChangedBed {
   Packing now, before;
 
-  Changed(const std::vector<double>& gamma_now, const std::vector<double>& gamma_before)
+  ChangedBed(const std::vector<double>& gamma_now, const std::vector<double>& gamma_before)
       : now(row_of_grains(gamma_now, true)), before(row_of_grains(gamma_before, true)) {
     now.frame.tilt = radians(7.0);
     before.frame.tilt = radians(5.0);
@@ -28,7 +28,7 @@ struct Changed {
 };
 
 TEST(ChangeMap, IsTheDifferenceOnAScaleAboutZero) {
-  const Changed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
+  const ChangedBed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
   const auto layers = pictures::change_layers(changed.frame(), settings_of("gamma"), extent_of(changed.now));
   ASSERT_EQ(layers.size(), 2u);
   ASSERT_EQ(layers[0].values.size(), 3u);
@@ -47,14 +47,14 @@ TEST(ChangeMap, IsTheDifferenceOnAScaleAboutZero) {
 }
 
 TEST(ChangeMap, GrainsThatHaveNoValueInOneFrameAreOutlines) {
-  const Changed changed({0.5, std::nan(""), 0.3}, {std::nan(""), 0.4, 0.3});
+  const ChangedBed changed({0.5, std::nan(""), 0.3}, {std::nan(""), 0.4, 0.3});
   const FrameView view = changed.map("gamma");
   EXPECT_EQ(view.discs[0].fill, white);
   EXPECT_EQ(view.discs[1].fill, white);
 }
 
 TEST(ChangeMap, ARangeThatIsChosenForTheMapIsNotThatOfItsChange) {
-  const Changed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
+  const ChangedBed changed({0.5, 0.2, 0.3}, {0.3, 0.4, 0.3});
   pictures::MapSettings settings = settings_of("gamma");
   settings.range_low = 0.0;
   settings.range_high = 0.1;
@@ -64,7 +64,7 @@ TEST(ChangeMap, ARangeThatIsChosenForTheMapIsNotThatOfItsChange) {
 }
 
 TEST(ChangeMap, OfALogarithmicMapIsInPowersOfTen) {
-  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  ChangedBed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   changed.before.frame.vx = {0.01, 0.01, 0.0};
   changed.now.frame.vx = {1.0, 0.001, 1.0};
   const auto layers = pictures::change_layers(changed.frame(), settings_of("speed"), extent_of(changed.now));
@@ -80,14 +80,14 @@ TEST(ChangeMap, WhereAMapGivesNoNumbersGrainsHaveMoved) {
   EXPECT_EQ(pictures::changing_kind(pictures::map_layers("clusters")), pictures::MapKind::gamma);
   EXPECT_EQ(pictures::changing_kind(pictures::map_layers("forces")), pictures::MapKind::displacement);
   EXPECT_EQ(pictures::changing_kind(pictures::map_layers("rotation")), pictures::MapKind::rotation);
-  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  ChangedBed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   changed.now.frame.x[1] += 0.25;
   const auto layers = pictures::change_layers(changed.frame(), settings_of("forces"), extent_of(changed.now));
   EXPECT_EQ(layers[0].values, (std::vector<double>{0.0, 0.25, 0.0})) << "total, not per degree";
 }
 
 TEST(ChangeMap, EveryMapHasAChange) {
-  Changed changed({0.1, 0.2, 0.3}, {0.3, 0.2, 0.1});
+  ChangedBed changed({0.1, 0.2, 0.3}, {0.3, 0.2, 0.1});
   for (Packing* packing : {&changed.now, &changed.before}) {
     packing->frame.internal_moment.assign(3, {1.0, 0.0, 0.0, 1.0});
     packing->statics.depth = 1.0;
@@ -101,7 +101,7 @@ TEST(ChangeMap, EveryMapHasAChange) {
 }
 
 TEST(ChangeMap, GainedContactsAreWholeLinesAndLostOnesStubs) {
-  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  ChangedBed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   test::add_contact(changed.before, 0, 1, 1.0);
   test::add_contact(changed.now, 1, 2, 1.0);
   changed.now.frame.x[0] -= 0.25;
@@ -123,7 +123,7 @@ TEST(ChangeMap, GainedContactsAreWholeLinesAndLostOnesStubs) {
 }
 
 TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
-  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  ChangedBed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   test::add_contact(changed.before, 0, 2, 1.0, 0.0, -1);  // grain 2 to the left of grain 0
   changed.now.frame.x[0] = 2.9;                           // has left on the left and is now on the right
   changed.now.frame.image[0] = -1;
@@ -135,7 +135,7 @@ TEST(ChangeMap, ALostContactPointsToTheImageThatItWasWith) {
 }
 
 TEST(ChangeMap, ALostContactPointsThroughTheEdgeThatItsGrainHasLeftThrough) {
-  Changed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
+  ChangedBed changed({0.1, 0.1, 0.1}, {0.1, 0.1, 0.1});
   test::add_contact(changed.before, 0, 2, 1.0);  // grain 2 to the right of grain 0, in the same image
   changed.now.frame.x[0] = 2.9;                  // has left on the left
   changed.now.frame.image[0] = -1;

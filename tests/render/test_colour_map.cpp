@@ -15,7 +15,7 @@ std::string text_of(const Colour& c) {
          std::to_string(c.alpha);
 }
 
-struct Known {
+struct KnownColour {
   ColourMap map;
   double share;
   Colour colour;
@@ -24,28 +24,28 @@ struct Known {
 /// Published values: viridis ends at #440154 and #fde725, with #21918c in the middle; cividis ends at (0, 34,
 /// 78) and (254, 232, 56).
 TEST(ColourMap, HasKnownColours) {
-  for (const Known& known : {Known{ColourMap::gray, 0.0, white},
-                             {ColourMap::gray, 1.0, black},
-                             {ColourMap::gray, 0.25, gray(0.25)},
-                             {ColourMap::viridis, 0.0, {0x44, 0x01, 0x54}},
-                             {ColourMap::viridis, 127.0 / 255.0, {0x21, 0x91, 0x8c}},
-                             {ColourMap::viridis, 1.0, {0xfd, 0xe7, 0x25}},
-                             {ColourMap::cividis, 0.0, {0, 34, 78}},
-                             {ColourMap::cividis, 127.0 / 255.0, {124, 123, 120}},
-                             {ColourMap::cividis, 1.0, {254, 232, 56}},
-                             {ColourMap::magma, 0.0, {0, 0, 4}},
-                             {ColourMap::magma, 127.0 / 255.0, {181, 54, 122}},
-                             {ColourMap::magma, 1.0, {252, 253, 191}},
-                             {ColourMap::inferno, 127.0 / 255.0, {186, 54, 85}},
-                             {ColourMap::inferno, 1.0, {252, 255, 164}},
-                             {ColourMap::plasma, 0.0, {13, 8, 135}},
-                             {ColourMap::plasma, 127.0 / 255.0, {203, 70, 121}},
-                             {ColourMap::plasma, 1.0, {240, 249, 33}},
-                             {ColourMap::gray_r, 0.0, black},
-                             {ColourMap::plasma_r, 0.0, {240, 249, 33}},
-                             {ColourMap::diverging, 0.0, {24, 66, 125}},
-                             {ColourMap::diverging, 0.5, {247, 247, 247}},
-                             {ColourMap::diverging, 1.0, {201, 95, 20}}}) {
+  for (const KnownColour& known : {KnownColour{ColourMap::gray, 0.0, white},
+                                   {ColourMap::gray, 1.0, black},
+                                   {ColourMap::gray, 0.25, gray(0.25)},
+                                   {ColourMap::viridis, 0.0, {0x44, 0x01, 0x54}},
+                                   {ColourMap::viridis, 127.0 / 255.0, {0x21, 0x91, 0x8c}},
+                                   {ColourMap::viridis, 1.0, {0xfd, 0xe7, 0x25}},
+                                   {ColourMap::cividis, 0.0, {0, 34, 78}},
+                                   {ColourMap::cividis, 127.0 / 255.0, {124, 123, 120}},
+                                   {ColourMap::cividis, 1.0, {254, 232, 56}},
+                                   {ColourMap::magma, 0.0, {0, 0, 4}},
+                                   {ColourMap::magma, 127.0 / 255.0, {181, 54, 122}},
+                                   {ColourMap::magma, 1.0, {252, 253, 191}},
+                                   {ColourMap::inferno, 127.0 / 255.0, {186, 54, 85}},
+                                   {ColourMap::inferno, 1.0, {252, 255, 164}},
+                                   {ColourMap::plasma, 0.0, {13, 8, 135}},
+                                   {ColourMap::plasma, 127.0 / 255.0, {203, 70, 121}},
+                                   {ColourMap::plasma, 1.0, {240, 249, 33}},
+                                   {ColourMap::gray_r, 0.0, black},
+                                   {ColourMap::plasma_r, 0.0, {240, 249, 33}},
+                                   {ColourMap::diverging, 0.0, {24, 66, 125}},
+                                   {ColourMap::diverging, 0.5, {247, 247, 247}},
+                                   {ColourMap::diverging, 1.0, {201, 95, 20}}}) {
     const Colour colour = colour_at(known.map, known.share);
     for (auto [is, should] : {std::pair{colour.red, known.colour.red},
                               {colour.green, known.colour.green},

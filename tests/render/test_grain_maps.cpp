@@ -142,8 +142,8 @@ TEST(RigidMap, TellsTheLargestClusterFromOthers) {
 }
 
 /// A lattice, and its state 2 degrees earlier: it has been sheared by 0.1 since.
-struct Sheared {
-  Sheared() : now(test::triangular_lattice(12, 8, true)) {
+struct ShearedBed {
+  ShearedBed() : now(test::triangular_lattice(12, 8, true)) {
     test::complete(now);
     before = now.frame;
     for (std::size_t i = 0; i < before.x.size(); ++i) now.frame.x[i] += 0.1 * now.frame.y[i];
@@ -159,7 +159,7 @@ struct Sheared {
 };
 
 TEST(StrainMaps, ShowTheDeformationOfNeighbourhoods) {
-  const Sheared sheared;
+  const ShearedBed sheared;
   EXPECT_TRUE(is_shade(sheared.map(in_gray("shear", 0.01, 1.0), false).discs[40].fill, 0.5)) << "logarithmic";
   EXPECT_TRUE(is_shade(sheared.map(in_gray("shear", 0.005, 0.5), true).discs[40].fill, 0.5))
       << "over two degrees";
@@ -173,7 +173,7 @@ TEST(StrainMaps, ShowTheDeformationOfNeighbourhoods) {
 }
 
 TEST(StrainMaps, NonaffineIsTheRootOfTheMeanSquareThatIsLeft) {
-  Sheared sheared;
+  ShearedBed sheared;
   sheared.now.frame.x[40] += 0.3;  // in the bulk: relative to it, all its neighbours have moved
   const pictures::MapSettings settings = in_gray("nonaffine", 0.03, 3.0);
   const FrameView view = sheared.map(settings, false);

@@ -77,14 +77,14 @@ TEST(CoarseMap, IsWhiteAtZeroAndBlackAtOneAndAHalfGammaC) {
 }
 
 /// A bed, and its state 2 degrees earlier.
-struct Moved {
+struct MovedBed {
   Packing before, now;
 };
 
 /// Two grains in a periodic bed of length 2; the second has moved by (0.3, 0.4) D and turned by +20 deg, the
 /// first has moved by 0.8 D through the right edge.
-Moved moved_grains() {
-  Moved moved{row_of_grains({0.1, 0.1}, true), row_of_grains({0.1, 0.1}, true)};
+MovedBed moved_grains() {
+  MovedBed moved{row_of_grains({0.1, 0.1}, true), row_of_grains({0.1, 0.1}, true)};
   moved.before.frame.x = {1.8, 1.0};
   moved.now.frame.x = {0.6, 1.3};
   moved.now.frame.image = {1, 0};
@@ -106,7 +106,7 @@ std::vector<Colour> fills_of(const FrameView& view) {
 }
 
 TEST(DisplacementMap, IsUnrolledOverThePeriodAndLogarithmic) {
-  const Moved moved = moved_grains();
+  const MovedBed moved = moved_grains();
   const pictures::MapSettings settings = with_range("displacement", 0.1, 10.0);
   const FrameView since = map_of(moved.now, settings, &moved.before.frame, false);
   const auto shade = [](double value) { return gray(0.5 * std::log10(value / 0.1)); };
@@ -125,7 +125,7 @@ TEST(DisplacementMap, NothingHasMovedWithoutAReference) {
 }
 
 TEST(DisplacementMap, OfAFlowAtOneTiltIsNotOverDegrees) {
-  Moved moved = moved_grains();
+  MovedBed moved = moved_grains();
   moved.before.frame.tilt = moved.now.frame.tilt;
   const FrameView view = map_of(moved.now, with_range("displacement", 0.1, 10.0), &moved.before.frame, true);
   EXPECT_EQ(fills_of(view)[1], gray(0.5 * std::log10(0.5 / 0.1)));
@@ -133,7 +133,7 @@ TEST(DisplacementMap, OfAFlowAtOneTiltIsNotOverDegrees) {
 }
 
 TEST(DisplacementArrows, PointWhereGrainsGoAndAreAsLongAsTheyMoved) {
-  Moved moved = moved_grains();
+  MovedBed moved = moved_grains();
   moved.now.frame.image[0] = 0;
   moved.now.frame.x[0] = moved.before.frame.x[0] = 0.4;
   moved.now.frame.y[0] = moved.before.frame.y[0] - 0.15;
@@ -180,7 +180,7 @@ TEST(DisplacementArrows, GoByNearlyAllGrainsAndCutTheLongest) {
 
 /// A frame with little motion has short arrows in the common range of all pictures of a run.
 TEST(DisplacementArrows, OfOneRangeCanBeCompared) {
-  Moved moved = moved_grains();
+  MovedBed moved = moved_grains();
   moved.now.frame.image[0] = 0;
   pictures::MapSettings settings = settings_of("gamma+displacement");
   settings.motion.fitting[pictures::MapKind::displacement] = {pictures::ScaleRange{0.01, 3.0},
@@ -202,7 +202,7 @@ TEST(DisplacementArrows, AreSpreadOverALongBed) {
 }
 
 TEST(RotationMap, IsWhiteAtZeroAndCounterClockwisePositive) {
-  const Moved moved = moved_grains();
+  const MovedBed moved = moved_grains();
   pictures::MapSettings settings = settings_of("rotation");
   settings.range_low = -40.0;
   settings.range_high = 40.0;

@@ -13,8 +13,8 @@ using test::row_of_grains;
 
 /// Hundred grains, of which grain i has moved by i + 1 thousandths of D and turned by as many degrees,
 /// alternately to the left and to the right.
-struct Moved {
-  Moved() : now(row_of_grains(std::vector<double>(100, 0.1))), before(now.frame) {
+struct MovedBed {
+  MovedBed() : now(row_of_grains(std::vector<double>(100, 0.1))), before(now.frame) {
     for (Index i = 0; i < 100; ++i) {
       now.frame.x[i] += 0.001 * (i + 1);
       now.frame.angle[i] += radians(i % 2 == 0 ? i + 1.0 : -i - 1.0);
@@ -46,7 +46,7 @@ TEST(LogHistogram, FindsQuantilesToTwoPercent) {
 }
 
 TEST(MotionSample, RangesLeaveOutFewGrains) {
-  const Moved moved;
+  const MovedBed moved;
   pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(false));
   const pictures::MotionRanges ranges = sample.ranges();
@@ -63,7 +63,7 @@ TEST(MotionSample, RangesLeaveOutFewGrains) {
 }
 
 TEST(MotionSample, PerDegreeIsApart) {
-  const Moved moved;
+  const MovedBed moved;
   pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(true));
   const pictures::MotionRanges ranges = sample.ranges();
@@ -73,7 +73,7 @@ TEST(MotionSample, PerDegreeIsApart) {
 }
 
 TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
-  Moved moved;
+  MovedBed moved;
   pictures::MotionSample still({pictures::MapKind::displacement, pictures::MapKind::rotation});
   still.add({moved.now.frame, moved.now.statics, nullptr, false, {}});
   still.add({moved.before, moved.now.statics, &moved.before, false, {}});
@@ -87,7 +87,7 @@ TEST(MotionSample, HasNoRangeWhereNothingMovedAndANarrowOneWhereAllMovedAlike) {
 }
 
 TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
-  Moved moved;
+  MovedBed moved;
   for (Index i = 0; i < 100; ++i) moved.now.frame.vx[i] = std::pow(10.0, -6.0 + 0.04 * i) * std::sqrt(10.0);
   pictures::MotionSample sample({pictures::MapKind::speed, pictures::MapKind::displacement});
   sample.add({{moved.now.frame, moved.now.statics}, nullptr, true});
@@ -126,7 +126,7 @@ TEST(MotionSample, RangesOfCoarseFieldsAreOfTheirLength) {
 }
 
 TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
-  const Moved moved;
+  const MovedBed moved;
   pictures::MotionSample sample({pictures::MapKind::displacement, pictures::MapKind::rotation});
   sample.add(moved.frame(false));
   const auto title = [&](const char* map, bool fitted, bool chosen) {

@@ -47,17 +47,17 @@ TEST(Scale, IsLinearOrLogarithmic) {
 
 TEST(Scale, BeyondItsEndsAsAtThem) {
   const pictures::Scale scale{ColourMap::viridis, 2.0, 6.0};
-  EXPECT_EQ(pictures::look_of(scale, 1.0).fill, colour_at(ColourMap::viridis, 0.0));
-  EXPECT_EQ(pictures::look_of(scale, 9.0).fill, colour_at(ColourMap::viridis, 1.0));
+  EXPECT_EQ(pictures::grain_style(scale, 1.0).fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_EQ(pictures::grain_style(scale, 9.0).fill, colour_at(ColourMap::viridis, 1.0));
   const pictures::Scale decades{ColourMap::viridis, 0.01, 100.0, true};
-  EXPECT_EQ(pictures::look_of(decades, 0.0).fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_EQ(pictures::grain_style(decades, 0.0).fill, colour_at(ColourMap::viridis, 0.0));
 }
 
 TEST(Scale, GrainsWithoutValueLookAsTheLowerEndAndAreNotMarked) {
-  const pictures::GrainLook look = pictures::look_of({ColourMap::viridis, 0.0, 1.0}, std::nan(""));
-  EXPECT_EQ(look.fill, colour_at(ColourMap::viridis, 0.0));
-  EXPECT_FALSE(look.marked);
-  EXPECT_TRUE(pictures::look_of({ColourMap::viridis, 0.0, 1.0}, 0.0).marked);
+  const pictures::GrainStyle style = pictures::grain_style({ColourMap::viridis, 0.0, 1.0}, std::nan(""));
+  EXPECT_EQ(style.fill, colour_at(ColourMap::viridis, 0.0));
+  EXPECT_FALSE(style.marked);
+  EXPECT_TRUE(pictures::grain_style({ColourMap::viridis, 0.0, 1.0}, 0.0).marked);
 }
 
 TEST(Rim, ShowsAWhiteGrainAndIsDarkerThanAColour) {

@@ -92,7 +92,7 @@ bool has_ended(pid_t process) {
          info.si_pid == process;
 }
 
-bool wait_until_it_catches(pid_t process, int signal) {
+bool wait_until_caught(pid_t process, int signal) {
   const std::string status = "/proc/" + std::to_string(process) + "/status", mark = "SigCgt:";
   for (int wait = 0; wait < 6000 && !has_ended(process); ++wait) {
     const std::string text = text_of(status);

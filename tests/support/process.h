@@ -31,7 +31,7 @@ int wait_for(pid_t process);
 /// Returns whether wait_for would return at once.
 bool has_ended(pid_t process);
 /// Waits until the process handles the signal, for at most half a minute.
-bool wait_until_it_catches(pid_t process, int signal);
+bool wait_until_caught(pid_t process, int signal);
 /// Sleeps for this time before attempt 0 to stop a program, and a quarter longer before each further attempt,
 /// so that the program finishes in few attempts on a slow machine.
 void pause_before(int attempt, double milliseconds);

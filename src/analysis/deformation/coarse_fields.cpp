@@ -110,10 +110,10 @@ void CoarseFields::add_contacts(const BedFrame& bed) {
 /// Calls visit(what, d, distance) for the sources within the cutoff of a point; d is their position relative
 /// to it.
 template <typename What, typename Visit>
-void CoarseFields::near(const Sources<What>& sources, double x, double y, const Visit& visit) const {
+void CoarseFields::visit_sources(const Sources<What>& sources, double x, double y, const Visit& visit) const {
   if (sources.what.empty()) return;
   const double farthest = cutoff_ * cutoff_ * (1.0 + 1e-12);
-  const auto meet = [&](Index k) {
+  const auto visit_source = [&](Index k) {
     Vector2 d(sources.x[k] - x, sources.y[k] - y);
     d.x() += nearest_image(d.x(), period_) * period_;
     if (d.squaredNorm() > farthest) return;  // avoids the square root in most cases
@@ -121,7 +121,7 @@ void CoarseFields::near(const Sources<What>& sources, double x, double y, const 
     if (distance < cutoff_) visit(sources.what[k], d, distance);
   };
   const Index column = column_of(sources.cells, x), row = row_of(sources.cells, y);
-  for (Index ring = 0; ring <= 1; ++ring) visit_ring(sources.cells, column, row, ring, meet);
+  for (Index ring = 0; ring <= 1; ++ring) visit_ring(sources.cells, column, row, ring, visit_source);
 }
 
 CoarseField CoarseFields::at(double x, double y) const {
@@ -129,7 +129,7 @@ CoarseField CoarseFields::at(double x, double y) const {
   Vector2 momentum = Vector2::Zero(), density_gradient = Vector2::Zero(), boundary = Vector2::Zero();
   Matrix2 momentum_gradient = Matrix2::Zero(), flux = Matrix2::Zero(), stress = Matrix2::Zero();
   LinearFit fit;
-  near(grains_, x, y, [&](const Moving& grain, const Vector2& d, double distance) {
+  visit_sources(grains_, x, y, [&](const MovingMass& grain, const Vector2& d, double distance) {
     const double q = distance / cutoff_, square = cutoff_ * cutoff_;
     const double weight = grain.mass * lucy_function(distance, cutoff_);
     const Vector2 gradient = grain.mass * lucy_norm * 12.0 * (1.0 - q) * (1.0 - q) / (square * square) * d;
@@ -140,10 +140,10 @@ CoarseField CoarseFields::at(double x, double y) const {
     flux += weight * grain.velocity * grain.velocity.transpose();
     fit.add(weight, d / cutoff_, grain.velocity);
   });
-  near(branches_, x, y, [&](const Tensor2& part, const Vector2&, double distance) {
+  visit_sources(branches_, x, y, [&](const Tensor2& part, const Vector2&, double distance) {
     stress += lucy_function(distance, cutoff_) * matrix(part);
   });
-  near(boundary_, x, y, [&](const Vector2& force, const Vector2&, double distance) {
+  visit_sources(boundary_, x, y, [&](const Vector2& force, const Vector2&, double distance) {
     boundary += lucy_function(distance, cutoff_) * force;
   });
   const Vector2 velocity = momentum / field.density;
@@ -162,10 +162,10 @@ std::vector<double> granular_temperatures(const BedFrame& bed, double cutoff) {
   std::vector<double> temperatures;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     LinearFit fit;
-    fields.near(fields.grains_, bed.frame.x[i], bed.frame.y[i],
-                [&](const CoarseFields::Moving& grain, const Vector2& d, double distance) {
-                  fit.add(grain.mass * lucy_function(distance, cutoff), d / cutoff, grain.velocity);
-                });
+    fields.visit_sources(fields.grains_, bed.frame.x[i], bed.frame.y[i],
+                         [&](const CoarseFields::MovingMass& grain, const Vector2& d, double distance) {
+                           fit.add(grain.mass * lucy_function(distance, cutoff), d / cutoff, grain.velocity);
+                         });
     temperatures.push_back(fit.temperature());
   }
   return temperatures;

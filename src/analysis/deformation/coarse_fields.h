@@ -59,7 +59,7 @@ class CoarseFields {
     std::vector<What> what;
     Cells cells;
   };
-  struct Moving {
+  struct MovingMass {
     double mass;
     Vector2 velocity;
   };
@@ -68,10 +68,10 @@ class CoarseFields {
   CoarseFields(const BedFrame& bed, double cutoff, bool with_contacts);
   void add_contacts(const BedFrame& bed);
   template <typename What, typename Visit>
-  void near(const Sources<What>& sources, double x, double y, const Visit& visit) const;
+  void visit_sources(const Sources<What>& sources, double x, double y, const Visit& visit) const;
 
   double cutoff_, period_;
-  Sources<Moving> grains_;
+  Sources<MovingMass> grains_;
   Sources<Tensor2> branches_;
   Sources<Vector2> boundary_;
 };

@@ -52,8 +52,8 @@ std::vector<ObservableRow> rows_of_last_rise(std::span<const ObservableRow> rows
   std::vector<double> tilts;
   for (const ObservableRow& row : rows) tilts.push_back(at(row, Observable::tilt));
   const SeriesPart part = last_rise(tilts);
-  const auto of_rise = rows.subspan(part.first, part.size());
-  std::vector<ObservableRow> rise(of_rise.begin(), of_rise.end());
+  const auto rise_rows = rows.subspan(part.first, part.size());
+  std::vector<ObservableRow> rise(rise_rows.begin(), rise_rows.end());
   if (!slopes_backwards(tilts, part)) return rise;
   for (ObservableRow& row : rise)
     for (const Observable field :

@@ -47,7 +47,7 @@ std::vector<NumberOfRun> make_numbers() {
 
 std::optional<std::size_t> frame_at(const Analysis& analysis, const FramesOfRise& rise, Place place,
                                     std::size_t f) {
-  const auto of_threshold = [&](double RunThreshold::*tilt) {
+  const auto threshold_tilts = [&](double RunThreshold::*tilt) {
     return f < analysis.thresholds.size() ? frame_not_after(rise.tilts, analysis.thresholds[f].*tilt)
                                           : std::nullopt;
   };
@@ -57,13 +57,13 @@ std::optional<std::size_t> frame_at(const Analysis& analysis, const FramesOfRise
     case Place::start:
       return rise.frames.empty() ? std::nullopt : std::optional<std::size_t>(0);
     case Place::before_theta_d: {
-      const auto after = of_threshold(&RunThreshold::lc_jump);
+      const auto after = threshold_tilts(&RunThreshold::lc_jump);
       return after && *after > 0 ? std::optional(*after - 1) : std::nullopt;
     }
     case Place::theta_d:
-      return of_threshold(&RunThreshold::lc_jump);
+      return threshold_tilts(&RunThreshold::lc_jump);
     case Place::percolation:
-      return of_threshold(&RunThreshold::percolation);
+      return threshold_tilts(&RunThreshold::percolation);
     case Place::theta_c:
       return frame_not_after(rise.tilts, analysis.theta_c);
   }

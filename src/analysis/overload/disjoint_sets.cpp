@@ -22,13 +22,13 @@ DisjointSets::Place DisjointSets::find(Index element) {
 }
 
 bool DisjointSets::join(Index a, Index b, Index shift) {
-  const Place of_a = find(a);
-  const Place of_b = find(b);
-  if (of_a.root == of_b.root) return of_b.periods == of_a.periods + shift;
-  const Index between = of_a.periods + shift - of_b.periods;  // from the root of a to the root of b
-  const Index high = std::max(of_a.root, of_b.root);
-  parent_[high] = std::min(of_a.root, of_b.root);
-  periods_[high] = high == of_b.root ? between : -between;
+  const Place place_a = find(a);
+  const Place place_b = find(b);
+  if (place_a.root == place_b.root) return place_b.periods == place_a.periods + shift;
+  const Index between = place_a.periods + shift - place_b.periods;  // from the root of a to the root of b
+  const Index high = std::max(place_a.root, place_b.root);
+  parent_[high] = std::min(place_a.root, place_b.root);
+  periods_[high] = high == place_b.root ? between : -between;
   return true;
 }
 

@@ -21,8 +21,8 @@ std::vector<Link> neighbour_links(const BedFrame& bed, double reach) {
   std::vector<Link> links;
   if (bed.statics.free_count == 0) return links;
   const double period = period_of(bed.statics);
-  const std::vector<double> x = of_free_grains(bed.frame.x, bed.statics);
-  const std::vector<double> y = of_free_grains(bed.frame.y, bed.statics);
+  const std::vector<double> x = free_grain_values(bed.frame.x, bed.statics);
+  const std::vector<double> y = free_grain_values(bed.frame.y, bed.statics);
   const double largest = *std::max_element(bed.statics.radius.begin(), bed.statics.radius.end());
   const Cells cells = sort_into_cells(x, y, 2.0 * largest * reach, period);
   for (Index a = 0; a < bed.statics.free_count; ++a) {

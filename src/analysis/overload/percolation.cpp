@@ -74,12 +74,12 @@ BedEdges bed_edges(const BedFrame& bed) {
   return edges;
 }
 
-Spanning find_spanning(const Clusters& clusters, const BedEdges& edges) {
+SpanningClusters find_spanning(const Clusters& clusters, const BedEdges& edges) {
   const std::vector<bool> floor = touching(clusters, edges.floor);
   const std::vector<bool> surface = touching(clusters, edges.surface);
   const std::vector<bool> left = touching(clusters, edges.left);
   const std::vector<bool> right = touching(clusters, edges.right);
-  Spanning spanning;
+  SpanningClusters spanning;
   for (Index k = clusters.count() - 1; k >= 0; --k) {
     if (floor[k] && surface[k]) spanning.floor_to_surface = k;
     if (clusters.wraps[k] || (left[k] && right[k])) spanning.across = k;

@@ -20,12 +20,12 @@ struct BedEdges {
 BedEdges bed_edges(const BedFrame& bed);
 
 /// The largest cluster (the smallest label) that spans the bed; -1 if none does.
-struct Spanning {
+struct SpanningClusters {
   Index floor_to_surface = -1;
   Index across = -1;  ///< wall to wall, or linked to itself through the periodic edge
 };
 /// Finds the largest cluster that spans from floor to surface and the largest that spans along the bed.
-Spanning find_spanning(const Clusters& clusters, const BedEdges& edges);
+SpanningClusters find_spanning(const Clusters& clusters, const BedEdges& edges);
 
 /// Directed paths through the grains of a set.
 struct DirectedPaths {

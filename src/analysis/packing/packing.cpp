@@ -71,7 +71,7 @@ std::vector<Tensor2> section_stresses(const BedFrame& bed, double volume, int co
 
 Histogram stress_ratio_distribution(const BedFrame& bed, int bins) {
   Histogram histogram(0.0, 1.0, bins);
-  for (double gamma : of_free_grains(bed.frame.gamma, bed.statics)) histogram.add(gamma);
+  for (double gamma : free_grain_values(bed.frame.gamma, bed.statics)) histogram.add(gamma);
   return histogram;
 }
 

@@ -229,9 +229,9 @@ PairCorrelation force_correlation(const BedFrame& bed, double largest, int bins)
 }
 
 PairCorrelation stress_ratio_correlation(const BedFrame& bed, double largest, int bins) {
-  return pair_correlation(of_free_grains(bed.frame.x, bed.statics), of_free_grains(bed.frame.y, bed.statics),
-                          of_free_grains(bed.frame.gamma, bed.statics), largest, bins,
-                          period_of(bed.statics));
+  return pair_correlation(
+      free_grain_values(bed.frame.x, bed.statics), free_grain_values(bed.frame.y, bed.statics),
+      free_grain_values(bed.frame.gamma, bed.statics), largest, bins, period_of(bed.statics));
 }
 
 PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int bins) {
@@ -240,8 +240,8 @@ PairCorrelation mean_stress_correlation(const BedFrame& bed, double largest, int
     const Tensor2& moment = bed.frame.internal_moment[i];
     mean_stress.push_back((moment.xx + moment.yy) / (pi * bed.statics.radius[i] * bed.statics.radius[i]));
   }
-  const std::vector<double> y = of_free_grains(bed.frame.y, bed.statics);
-  return pair_correlation(of_free_grains(bed.frame.x, bed.statics), y,
+  const std::vector<double> y = free_grain_values(bed.frame.y, bed.statics);
+  return pair_correlation(free_grain_values(bed.frame.x, bed.statics), y,
                           over_layer_mean(y, mean_stress, layer_over_d * bed.statics.mean_diameter), largest,
                           bins, period_of(bed.statics));
 }

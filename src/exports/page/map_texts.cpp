@@ -38,25 +38,25 @@ std::string scale_json(const pictures::Scale& scale) {
                      {"log", json::truth(scale.logarithmic)}});
 }
 
-std::string look_text(const pictures::GrainLook& look) {
-  return colour_text(look.fill) + colour_text(look.rim);
+std::string style_text(const pictures::GrainStyle& style) {
+  return colour_text(style.fill) + colour_text(style.rim);
 }
 
 /// Returns the styles of clusters, the largest first: those of the coloured clusters, that of all others, and
 /// that of grains in no cluster.
-std::string looks_json(const PageFrame& frame, const pictures::MapLayer& layer) {
-  std::vector<std::string> looks(static_cast<std::size_t>(frame.clusters.count()));
+std::string styles_json(const PageFrame& frame, const pictures::MapLayer& layer) {
+  std::vector<std::string> styles(static_cast<std::size_t>(frame.clusters.count()));
   std::string none;
-  for (std::size_t i = 0; i < layer.looks.size(); ++i) {
+  for (std::size_t i = 0; i < layer.styles.size(); ++i) {
     const Index label = frame.clusters.label[i];
-    std::string& style = label < 0 ? none : looks[static_cast<std::size_t>(label)];
-    if (style.empty()) style = look_text(layer.looks[i]);
+    std::string& style = label < 0 ? none : styles[static_cast<std::size_t>(label)];
+    if (style.empty()) style = style_text(layer.styles[i]);
   }
-  if (none.empty()) none = look_text(pictures::outline_look());
-  const std::string rest = looks.empty() ? none : looks.back();
-  while (!looks.empty() && looks.back() == rest) looks.pop_back();
+  if (none.empty()) none = style_text(pictures::outline_style());
+  const std::string rest = styles.empty() ? none : styles.back();
+  while (!styles.empty() && styles.back() == rest) styles.pop_back();
   return json::line(
-      {{"first", json::array(looks)}, {"rest", json::quoted(rest)}, {"none", json::quoted(none)}});
+      {{"first", json::array(styles)}, {"rest", json::quoted(rest)}, {"none", json::quoted(none)}});
 }
 
 /// Returns "#ffffff..." for fills, and the same for rims: eight digits for each of 256 steps.
@@ -102,7 +102,7 @@ void MapTexts::add(const PageFrame& frame, const pictures::MapLayer& layer) {
     scales_.add(scale_json(*layer.scale));
     ramp_ = ramp_json(render::colour_ramp(layer.scale->colours));
   } else {
-    looks_.add(looks_json(frame, layer));
+    looks_.add(styles_json(frame, layer));
   }
 }
 

@@ -26,7 +26,7 @@ class MapTexts {
   pictures::MapKind kind_;
   std::string over_;  ///< colour of lines over the map
   std::string ramp_;  ///< fills and rims from end to end, if grains are coloured by a value
-  Distinct titles_, legends_, scales_, looks_;
+  DistinctTexts titles_, legends_, scales_, looks_;
 };
 
 /// The texts of lines between grains or at contacts over all frames: their titles, and their legends for each
@@ -40,7 +40,7 @@ class LineTexts {
  private:
   pictures::MapKind kind_;
   std::vector<pictures::OverColour> over_;
-  Distinct titles_;
+  DistinctTexts titles_;
   std::vector<std::string> legends_;  ///< one for each of these colours
 };
 

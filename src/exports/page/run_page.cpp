@@ -149,15 +149,15 @@ std::string bed_json(const PageRun& run, const PageParts& parts) {
 std::string frames_json(const PageRun& run, const PageParts& parts) {
   std::vector<std::string> numbers;
   std::vector<double> tilts;
-  std::size_t of_tilt = 0;
+  std::size_t tilt_frames = 0;
   for (const std::size_t k : run.frames) {
     numbers.push_back(std::to_string(k));
     tilts.push_back(degrees(run.file.all_frame_tilts()[k]));
-    of_tilt += k < run.file.frame_count() ? 1 : 0;
+    tilt_frames += k < run.file.frame_count() ? 1 : 0;
   }
   return json::line({{"numbers", json::list(numbers)},
                      {"tilts", json::rounded(tilts, 8)},
-                     {"of_tilt", json::number(of_tilt)},
+                     {"of_tilt", json::number(tilt_frames)},
                      {"captions", json::array(parts.captions)}});
 }
 
@@ -210,8 +210,8 @@ std::string data_json(const PageRun& run, const std::string& name, const PagePar
                        {"tables", json::list(tables.entries)},
                        {"fields", json_list(parts.grains.fields(), field_json)},
                        {"contacts", contacts_json(contacts)},
-                       {"outlines", json::quoted(colour_text(pictures::outline_look().fill) +
-                                                 colour_text(pictures::outline_look().rim))},
+                       {"outlines", json::quoted(colour_text(pictures::outline_style().fill) +
+                                                 colour_text(pictures::outline_style().rim))},
                        {"floor", json::quoted(colour_text(render::white) + colour_text(render::gray(0.75)))},
                        {"maps", json_list(parts.maps, [](const MapTexts& map) { return map.json(); })},
                        {"lines", json_list(parts.lines, [](const LineTexts& line) { return line.json(); })},
@@ -222,7 +222,7 @@ std::string data_json(const PageRun& run, const std::string& name, const PagePar
 }
 
 /// Escapes JSON for a script element, which would end at "</".
-std::string as_script(const std::string& text) {
+std::string escaped_for_script(const std::string& text) {
   std::string result;
   for (const char c : text)
     if (c == '<')
@@ -246,7 +246,7 @@ std::string run_page(const io::RunFile& file, const std::string& path, const ana
     if (part == "title") return xml_text(fmt::format("{}: {}", page_title(run), name));
     if (part == "style") return std::string(page_style());
     if (part == "script") return page_script();
-    if (part == "data") return as_script(data_json(run, name, parts, tables, contacts));
+    if (part == "data") return escaped_for_script(data_json(run, name, parts, tables, contacts));
     if (part == "tables") return tables.elements;
     return std::string();
   });

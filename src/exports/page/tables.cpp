@@ -76,13 +76,13 @@ std::vector<std::byte> difference_bytes(const CodeTable& table) {
 
 std::string packed_text(const CodeTable& table) { return base64(deflated(difference_bytes(table))); }
 
-void Distinct::add(const std::string& text) {
+void DistinctTexts::add(const std::string& text) {
   const auto found = std::ranges::find(texts_, text);
   places_.push_back(static_cast<int>(found - texts_.begin()));
   if (found == texts_.end()) texts_.push_back(text);
 }
 
-std::string Distinct::json() const {
+std::string DistinctTexts::json() const {
   std::vector<std::string> places;
   for (const int place : places_) places.push_back(std::to_string(place));
   return json::line({{"kinds", json::list(texts_)}, {"of", json::list(places)}});

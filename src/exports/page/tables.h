@@ -63,7 +63,7 @@ std::string packed_text(const CodeTable& table);
 std::vector<std::byte> deflated(std::span<const std::byte> bytes);
 
 /// Texts of frames, most of which are equal; each distinct text is stored once.
-class Distinct {
+class DistinctTexts {
  public:
   void add(const std::string& text);
   /// Returns {"kinds": [...], "of": [index of each frame's text]}; the texts are already JSON.

@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Bytes bad = spoilt(good.bytes, spoils);
   write_bytes(path, bad);
   try {
-    use_run(io::RunFile::of_bytes(bad, path), path);  // without a child process for each input
+    use_run(io::RunFile::from_bytes(bad, path), path);  // without a child process for each input
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) std::abort();
   }

@@ -33,14 +33,14 @@ TEST(Cells, rings_meet_each_point_once_and_the_near_ones_first) {
         std::vector<Index> met;
         bool more = true;
         for (Index ring = 0; more; ++ring) {
-          const auto meet = [&](Index j) {
+          const auto record = [&](Index j) {
             met.push_back(j);
             double dx = places.x[j] - places.x[i];
             dx += nearest_image(dx, period) * period;
             // A grain left for this ring is farther away than the previous rings.
             EXPECT_GE(std::hypot(dx, places.y[j] - places.y[i]), std::max(0, ring - 1) * cells.size);
           };
-          more = visit_ring(cells, column_of(cells, places.x[i]), row_of(cells, places.y[i]), ring, meet);
+          more = visit_ring(cells, column_of(cells, places.x[i]), row_of(cells, places.y[i]), ring, record);
         }
         std::sort(met.begin(), met.end());
         ASSERT_EQ(met.size(), 100u);

@@ -11,8 +11,8 @@ namespace {
 
 bool has(const std::string& line, const std::string& part) { return line.find(part) != std::string::npos; }
 
-RunShown tilting() {
-  RunShown shown;
+RunDisplay tilting() {
+  RunDisplay shown;
   shown.phase = session::Phase::tilt;
   shown.tilt = 12.345;
   shown.share = 12.345 / 20.0;
@@ -23,7 +23,7 @@ RunShown tilting() {
   return shown;
 }
 
-std::string run_text(const RunShown& shown, std::optional<int> width) {
+std::string run_text(const RunDisplay& shown, std::optional<int> width) {
   return progress_text(run_progress(shown, 3725.0, 11000.0), width);
 }
 
@@ -38,7 +38,7 @@ TEST(Durations, AreTextsOfTwoUnitsAtMost) {
 }
 
 TEST(ProgressText, FitsEveryWidth) {
-  RunShown shown = tilting();
+  RunDisplay shown = tilting();
   for (const session::Phase phase :
        {session::Phase::deposition, session::Phase::tilt, session::Phase::flow}) {
     shown.phase = phase;
@@ -66,14 +66,14 @@ TEST(ProgressText, OfALogHasAllButTheBar) {
 }
 
 TEST(ProgressText, PromisesNothingBeyondTheExpectedEnd) {
-  RunShown shown = tilting();
+  RunDisplay shown = tilting();
   shown.share = 1.05;
   const std::string line = run_text(shown, 200);
   EXPECT_FALSE(has(line, "%") || has(line, "ETA") || has(line, "[")) << line;
 }
 
 TEST(ProgressText, OfOtherStages) {
-  RunShown shown = tilting();
+  RunDisplay shown = tilting();
   shown.repose_assumed.reset();
   shown.phase = session::Phase::deposition;
   shown.time = 0.25;

@@ -30,7 +30,7 @@ TEST(ThreadTeam, shares_out_each_of_many_once) {
   with_teams([](ThreadTeam* team) {
     for (const std::size_t count : {0, 1, 2, 3, 1000}) {
       std::vector<int> done(count, 0);
-      share_out(team, count, [&done](std::size_t first, std::size_t last) {
+      distribute(team, count, [&done](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) ++done[i];
       });
       EXPECT_EQ(done, std::vector<int>(count, 1));
@@ -42,7 +42,7 @@ TEST(ThreadTeam, does_both_of_two_things_once) {
   with_teams([](ThreadTeam* team) {
     for (int round = 1; round <= 3; ++round) {
       std::array<int, 2> done{};
-      do_both(
+      run_both(
           team, [&done] { ++done[0]; }, [&done] { ++done[1]; });
       EXPECT_EQ(done, (std::array<int, 2>{1, 1}));
     }

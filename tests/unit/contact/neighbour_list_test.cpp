@@ -75,7 +75,7 @@ void expect_same(const Contacts& found, const Contacts& expected) {
 
 /// Uses one list through many small moves, a large one, and a change of the margin. It finds what brute force
 /// finds, bit-identical to a list made from scratch, with or without a team.
-void follow_a_list(bool periodic, double length, Index count) {
+void compare_lists(bool periodic, double length, Index count) {
   ThreadTeam team(3);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     World world = crowded_world(seed, periodic, length, count);
@@ -97,15 +97,15 @@ void follow_a_list(bool periodic, double length, Index count) {
   }
 }
 
-TEST(NeighbourList, finds_what_brute_force_finds_between_walls) { follow_a_list(false, 14.0 * radius, 80); }
+TEST(NeighbourList, finds_what_brute_force_finds_between_walls) { compare_lists(false, 14.0 * radius, 80); }
 
 TEST(NeighbourList, finds_what_brute_force_finds_in_a_periodic_bed) {
-  follow_a_list(true, 14.0 * radius, 80);
+  compare_lists(true, 14.0 * radius, 80);
 }
 
 // With fewer than three columns of cells, a grain meets its neighbours through several images.
 TEST(NeighbourList, finds_all_images_in_short_periodic_beds) {
-  for (double length : {3.0, 4.5, 6.0, 7.5, 9.0}) follow_a_list(true, length * radius, 20);
+  for (double length : {3.0, 4.5, 6.0, 7.5, 9.0}) compare_lists(true, length * radius, 20);
 }
 
 TEST(NeighbourList, finds_each_image_of_a_pair_that_meets_twice) {
@@ -291,7 +291,7 @@ TEST(NeighbourList, a_position_that_is_no_number_has_a_cell_as_all_have) {
       NeighbourList list;
       update_neighbour_list(list, world.grains, world.boundary, 0.1 * radius);
       const auto cells = static_cast<Index>(list.cells.start.size()) - 1;
-      for (const Index cell : list.cells.of_grain) EXPECT_TRUE(0 <= cell && cell < cells) << cell;
+      for (const Index cell : list.cells.grain_cell) EXPECT_TRUE(0 <= cell && cell < cells) << cell;
       std::vector<Index> grains = list.cells.grain;
       std::sort(grains.begin(), grains.end());
       for (Index i = 0; i < world.grains.count(); ++i) EXPECT_EQ(grains[i], i);

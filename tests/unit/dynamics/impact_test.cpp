@@ -16,10 +16,10 @@ namespace {
 using test::radius;
 
 /// Relative velocity at the contact of disks 0 and 1 with normal n from 0 to 1, computed independently.
-struct Relative {
+struct ContactVelocity {
   double normal, tangential;
 };
-Relative relative(const Grains& g, double angle) {
+ContactVelocity relative(const Grains& g, double angle) {
   const Vec2 n{std::cos(angle), std::sin(angle)};
   const Vec2 d{g.vx[1] - g.vx[0], g.vy[1] - g.vy[0]};
   return {d.x * n.x + d.y * n.y,
@@ -50,7 +50,7 @@ TEST_P(Impact, obeys_newtons_restitution_in_every_direction) {
     for (double angle : {0.0, 0.7, 2.0, -2.5}) {
       World world = test::two_disks(angle, {1.0 * std::cos(angle), 1.0 * std::sin(angle)}, {0.1, -0.2});
       world.grains.omega = {3.0, -7.0};
-      const Relative before = relative(world.grains, angle);
+      const ContactVelocity before = relative(world.grains, angle);
       ASSERT_LT(before.normal, 0.0);
       hit(world, settings_with(e, 0.0, 0.5));
       EXPECT_NEAR(relative(world.grains, angle).normal, -e * before.normal, 1e-13);

@@ -47,7 +47,7 @@ TEST(Claim, tells_who_has_it_and_counts_heartbeats) {
   ASSERT_TRUE(claim);
   for (int k = 0; k < 2; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(6));
-    EXPECT_TRUE(claim->beat());
+    EXPECT_TRUE(claim->record_heartbeat());
   }
   const std::optional<ClaimHolder> holder = read_claim(run, 0);
   ASSERT_TRUE(holder);
@@ -60,7 +60,7 @@ TEST(Claim, beats_only_as_often_as_it_is_told) {
   const test::TemporaryFolder folder;
   const std::string run = folder.path("seed-1.h5");
   std::optional<Claim> claim = Claim::take(run, {}, {7200.0});
-  EXPECT_TRUE(claim->beat());
+  EXPECT_TRUE(claim->record_heartbeat());
   EXPECT_EQ(read_claim(run, 0)->beats, 0u);
 }
 
@@ -107,11 +107,11 @@ TEST(Claim, of_the_next_number_replaces_a_dead_one_which_then_knows) {
   const test::TemporaryFolder folder;
   const std::string run = folder.path("seed-1.h5");
   std::optional<Claim> old = Claim::take(run, {}, quick);
-  ASSERT_TRUE(old->beat());
+  ASSERT_TRUE(old->record_heartbeat());
   std::optional<Claim> next = Claim::take(run, 0, quick);
   ASSERT_TRUE(next);
-  EXPECT_FALSE(old->beat());
-  EXPECT_TRUE(next->beat());
+  EXPECT_FALSE(old->record_heartbeat());
+  EXPECT_TRUE(next->record_heartbeat());
   EXPECT_FALSE(Claim::take(run, 0, quick)) << "another process that found the same dead claim";
   EXPECT_FALSE(std::filesystem::exists(claim_path(run, 0)));
 }
@@ -128,7 +128,7 @@ TEST(Claim, that_was_removed_is_lost) {
   const std::string run = folder.path("seed-1.h5");
   std::optional<Claim> claim = Claim::take(run, {}, quick);
   std::filesystem::remove(claim_path(run, 0));
-  EXPECT_FALSE(claim->beat());
+  EXPECT_FALSE(claim->record_heartbeat());
 }
 
 TEST(Claim, is_lost_to_one_of_a_higher_number) {
@@ -136,7 +136,7 @@ TEST(Claim, is_lost_to_one_of_a_higher_number) {
   const std::string run = folder.path("seed-1.h5");
   std::optional<Claim> claim = Claim::take(run, {}, quick);
   write_foreign_claim(claim_path(run, 1), 0);  // its worker has not yet removed the previous one
-  EXPECT_FALSE(claim->beat());
+  EXPECT_FALSE(claim->record_heartbeat());
 }
 
 TEST(Claim, lives_as_long_as_a_process_that_its_worker_has_started) {
@@ -164,7 +164,7 @@ TEST(Claim, of_the_last_number_is_replaced_by_one_that_is_free) {
   std::optional<Claim> claim = Claim::take(run, last, quick);
   ASSERT_TRUE(claim);
   EXPECT_EQ(claim->number(), 1);
-  EXPECT_TRUE(claim->beat());
+  EXPECT_TRUE(claim->record_heartbeat());
   EXPECT_FALSE(std::filesystem::exists(claim_path(run, last)));
   EXPECT_EQ(claims_of(run).size(), 2u);
 }

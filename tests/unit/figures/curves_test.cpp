@@ -62,7 +62,7 @@ class Curves : public ::testing::Test {
   }
 
   /// Changes the beds to beds between walls, 20 and 40 D deep, with ratios of 0.5 and 1 at failure.
-  void stand_between_walls() {
+  void use_walls() {
     const runs::RunView& run = groups_[0].runs[0];
     const double length = run.scenario.bed.length, diameter = run.statics.mean_diameter;
     groups_[0].runs[0].scenario.bed.boundary = scenario::BedBoundary::walls;
@@ -379,7 +379,7 @@ TEST_F(Curves, OfWallsAreThoseOfTheShortestBed) {
 }
 
 TEST_F(Curves, OfWallsNeedNumbersOnly) {
-  stand_between_walls();
+  use_walls();
   for (runs::RunView& run : groups_[0].runs) run.file.reset();
   const auto figure = wall_ratio_figure(groups_);
   ASSERT_TRUE(figure);
@@ -391,7 +391,7 @@ TEST_F(Curves, OfWallsNeedNumbersOnly) {
 }
 
 TEST_F(Curves, OfWallsLeaveOutRunsWithoutARatio) {
-  stand_between_walls();
+  use_walls();
   for (runs::RunView& run : groups_[0].runs)
     if (run.analysis.failure_ratio == 1.0) run.analysis.failure_ratio = not_known;
   const auto figure = wall_ratio_figure(groups_);

@@ -74,15 +74,15 @@ TEST(BackgroundTasks, those_that_wait_at_the_end_are_done) {
 }
 
 TEST(BackgroundTasks, those_that_wait_can_be_dropped) {
-  std::promise<void> go_on;
+  std::promise<void> permission;
   int done = 0;
   {
     BackgroundTasks tasks(3);
-    tasks.post([&go_on] { go_on.get_future().wait(); });
+    tasks.post([&permission] { permission.get_future().wait(); });
     for (int k = 0; k < 2; ++k) tasks.post([&done] { ++done; });
     tasks.drop();
     tasks.post([&done] { done += 10; });
-    go_on.set_value();
+    permission.set_value();
   }
   EXPECT_EQ(done, 10);
 }

@@ -157,7 +157,7 @@ TEST(Dumps, that_are_damaged_end_in_a_message_or_in_grains) {
       "#format x_y_z_r_matId\n1\t0\t2\t0.5\t0\n4\t0\t1\t0.6\t0\n", "frame,x,y,r\n0,1,2,0.5\n1,1,2,0.5\n"};
   const std::string bytes = std::string("\0\n\r\t \"#9-:e,;=\xff", 16) + "[";
   std::size_t read = 0, refused = 0;
-  const auto look_at = [&](const std::string& text) {
+  const auto parse_without_crash = [&](const std::string& text) {
     for (const int frame : {0, 1, -1}) try {
         for (const TableGrain& grain : bed_of(text, frame).grains) EXPECT_GT(grain.radius, 0.0);
         ++read;
@@ -168,12 +168,12 @@ TEST(Dumps, that_are_damaged_end_in_a_message_or_in_grains) {
   };
   for (const std::string& text : texts)
     for (std::size_t k = 0; k < text.size(); ++k) {
-      look_at(text.substr(0, k));
-      look_at(text.substr(k));
+      parse_without_crash(text.substr(0, k));
+      parse_without_crash(text.substr(k));
       for (const char byte : bytes) {
         std::string changed = text;
         changed[k] = byte;
-        look_at(changed);
+        parse_without_crash(changed);
       }
     }
   EXPECT_GT(read, 1000u);

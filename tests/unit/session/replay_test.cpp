@@ -33,12 +33,13 @@ void meddle(Session& session, std::int64_t step, std::int64_t tilt_began) {
 
 /// Runs the small bed with these commands, to its end or for a number of steps. With a store, it commits
 /// every `commit_every` steps and recreates the session from its checkpoint.
-struct Meddled {
+struct CommandedRun {
   std::optional<Session> session;
   std::vector<Command> commands;
 };
-Meddled meddled_run(std::int64_t steps, io::RunStore* store = nullptr, std::int64_t commit_every = 100) {
-  Meddled run;
+CommandedRun commanded_run(std::int64_t steps, io::RunStore* store = nullptr,
+                           std::int64_t commit_every = 100) {
+  CommandedRun run;
   run.session.emplace(small_bed());
   std::int64_t tilt_began = -1;
   while (true) {
@@ -64,7 +65,7 @@ Meddled meddled_run(std::int64_t steps, io::RunStore* store = nullptr, std::int6
 constexpr std::int64_t to_the_end = 1'000'000;
 
 TEST(Replay, of_a_run_with_commands_gives_the_same_bits) {
-  const Meddled run = meddled_run(to_the_end);
+  const CommandedRun run = commanded_run(to_the_end);
   ASSERT_EQ(run.commands.size(), 7u) << "every command was given";
   const std::int64_t steps = run.session->world().step;
   Session again(small_bed());
@@ -83,9 +84,9 @@ TEST(Replay, of_a_run_with_commands_gives_the_same_bits) {
 TEST(Replay, of_a_run_that_was_resumed_again_and_again_gives_the_same_bits) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("run.h5");
-  const Meddled whole = meddled_run(to_the_end);
+  const CommandedRun whole = commanded_run(to_the_end);
   io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
-  const Meddled parts = meddled_run(to_the_end, &store);
+  const CommandedRun parts = commanded_run(to_the_end, &store);
   EXPECT_EQ(state_hash(parts.session->world()), state_hash(whole.session->world()));
   store.pack();
   const io::RunFile stored = io::RunFile::open(path);
@@ -101,7 +102,7 @@ TEST(Replay, of_a_run_that_was_left_gives_the_same_bits) {
   const std::string path = folder.path("run.h5");
   {
     io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
-    meddled_run(20, &store);
+    commanded_run(20, &store);
   }
   const io::RunFile left = io::RunFile::open(path);
   ASSERT_EQ(left.commands().size(), 1u);
@@ -113,7 +114,7 @@ TEST(Replay, of_a_run_that_was_left_gives_the_same_bits) {
 
 TEST(Replay, is_kept_as_the_run_it_was) {
   const test::TemporaryFolder folder;
-  const Meddled run = meddled_run(to_the_end);
+  const CommandedRun run = commanded_run(to_the_end);
   const std::int64_t steps = run.session->world().step;
   const io::RunHeader header = run_header(Session(small_bed()), {});
   Session again(small_bed());

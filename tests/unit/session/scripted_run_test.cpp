@@ -31,7 +31,7 @@ scenario::Scenario scripted_bed() {
 }
 
 /// Runs to the end, optionally recreating the session from its checkpoint every `resume_every` steps.
-Session run_through(const scenario::Scenario& scenario, std::vector<Command>& commands, int resume_every = 0,
+Session run_session(const scenario::Scenario& scenario, std::vector<Command>& commands, int resume_every = 0,
                     int threads = 1) {
   Session session(scenario);
   while (session.phase() != Phase::done) {
@@ -50,7 +50,7 @@ std::uint64_t hash_of(const Session& session) { return state_hash(session.world(
 TEST(ScriptedRun, has_the_bits_of_one_that_is_driven) {
   const scenario::Scenario scenario = scripted_bed();
   std::vector<Command> commands;
-  const Session scripted = run_through(scenario, commands);
+  const Session scripted = run_session(scenario, commands);
 
   scenario::Scenario plain = scenario;
   plain.commands.clear();
@@ -76,10 +76,10 @@ TEST(ScriptedRun, has_the_bits_of_one_that_is_driven) {
 
 TEST(ScriptedRun, is_resumed_to_the_same_bits_wherever_it_was_left) {
   std::vector<Command> expected;
-  const Session whole = run_through(scripted_bed(), expected);
+  const Session whole = run_session(scripted_bed(), expected);
   for (const int every : {1, 7, 53}) {
     std::vector<Command> commands;
-    const Session resumed = run_through(scripted_bed(), commands, every, 1 + every % 2);
+    const Session resumed = run_session(scripted_bed(), commands, every, 1 + every % 2);
     EXPECT_EQ(hash_of(resumed), hash_of(whole)) << every;
     EXPECT_EQ(schedule_hash(resumed.schedule()), schedule_hash(whole.schedule())) << every;
     EXPECT_EQ(commands, expected) << every;
@@ -88,7 +88,7 @@ TEST(ScriptedRun, is_resumed_to_the_same_bits_wherever_it_was_left) {
 
 TEST(ScriptedRun, is_replayed_without_giving_a_command_twice) {
   std::vector<Command> commands;
-  const Session whole = run_through(scripted_bed(), commands);
+  const Session whole = run_session(scripted_bed(), commands);
   for (const std::int64_t steps : {whole.world().step, commands[1].step, commands[1].step + 1}) {
     Session session(scripted_bed());
     std::vector<Command> until;
@@ -96,9 +96,9 @@ TEST(ScriptedRun, is_replayed_without_giving_a_command_twice) {
       if (command.step < steps) until.push_back(command);
     EXPECT_EQ(replay(session, nullptr, until, steps, {}), RunEnd::complete);
     EXPECT_EQ(session.world().step, steps);
-    Session goes_on(scripted_bed(), session.checkpoint(0.0));
-    while (goes_on.phase() != Phase::done) goes_on.advance();
-    EXPECT_EQ(hash_of(goes_on), hash_of(whole)) << "left after " << steps;
+    Session continued(scripted_bed(), session.checkpoint(0.0));
+    while (continued.phase() != Phase::done) continued.advance();
+    EXPECT_EQ(hash_of(continued), hash_of(whole)) << "left after " << steps;
   }
 }
 
@@ -109,7 +109,7 @@ TEST(ScriptedRun, follows_a_tilt_that_comes_back) {
   scenario.commands = {{-0.4, {}, CommandKind::friction, -1, 0.3, 0.0},
                        {0.4, {}, CommandKind::friction, -1, 0.2, 0.0}};
   std::vector<Command> commands;
-  const Session session = run_through(scenario, commands, 13);
+  const Session session = run_session(scenario, commands, 13);
   ASSERT_EQ(commands.size(), 2u) << "each once";
   EXPECT_EQ(commands[0].x, 0.2);
   EXPECT_EQ(commands[1].step - commands[0].step, 30 + 70) << "on the way back";

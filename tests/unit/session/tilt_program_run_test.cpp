@@ -31,7 +31,7 @@ scenario::Scenario programmed_bed(std::vector<std::string> program = {"to 1", "h
   return scenario;
 }
 
-void run_through(Session& session) {
+void run_session(Session& session) {
   while (session.phase() != Phase::done) session.advance();
 }
 
@@ -112,7 +112,7 @@ TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
 TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
   const scenario::Scenario scenario = programmed_bed();
   Session whole(scenario);
-  run_through(whole);
+  run_session(whole);
   // The tilt begins at 0. Its steps are 60 (held), 100 (slowly down), 180 (soon below 0), 193, 194 and 195 (a
   // turn).
   Session begun(scenario);
@@ -123,7 +123,7 @@ TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
     while (first.world().step < begin + stop) first.advance();
     Session second(scenario, first.checkpoint(0.0));
     EXPECT_EQ(second.tilt_rate(), first.tilt_rate()) << stop;
-    run_through(second);
+    run_session(second);
     EXPECT_EQ(state_hash(second.world()), state_hash(whole.world())) << stop;
     EXPECT_EQ(schedule_hash(second.schedule()), schedule_hash(whole.schedule())) << stop;
   }
@@ -132,7 +132,7 @@ TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
 TEST(TiltProgramRun, resumed_again_and_again_and_replayed_gives_the_same_bits) {
   const scenario::Scenario scenario = programmed_bed();
   Session whole(scenario);
-  run_through(whole);
+  run_session(whole);
   std::optional<Session> parts(std::in_place, scenario);
   while (parts->phase() != Phase::done) {
     const io::Checkpoint checkpoint = parts->checkpoint(0.0);

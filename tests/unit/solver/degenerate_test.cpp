@@ -89,7 +89,7 @@ World rattlers_next_to_a_column() {
 
 /// Returns two disks that touch each other on both sides of a period; one rests on the plane, and the other
 /// moves down onto it.
-World pair_that_meets_twice() {
+World pair_with_two_contacts() {
   World world = empty_box(4.0 * test::radius, true);
   for (double x : {1.0, 3.0})
     add_disk(world.grains, {x * test::radius, test::radius}, test::radius, test::density, false);
@@ -117,8 +117,8 @@ bool finite(const ContactSolution& solution) {
 
 /// Solves from the guess in `solution`, and checks that the result is finite and admissible and that the
 /// report is correct.
-SolverReport solve_honestly(SolverKind kind, const ContactProblem& problem, ContactSolution& solution,
-                            int max_iterations = 5000) {
+SolverReport solve_and_check_report(SolverKind kind, const ContactProblem& problem, ContactSolution& solution,
+                                    int max_iterations = 5000) {
   SCOPED_TRACE(test::name_of(kind));
   SolverSettings settings;
   settings.kind = kind;
@@ -164,27 +164,27 @@ ContactSolution rest(const ContactProblem& problem) {
 }
 
 /// Solvers that must reach the tolerance. The others may fail, but must report it.
-enum class Converges { nobody, accelerated, both };
+enum class Convergence { nobody, accelerated, both };
 
-struct Degenerate {
+struct DegenerateCase {
   std::string name;
   ContactProblem problem;
-  Converges converges = Converges::both;
+  Convergence converges = Convergence::both;
   bool rests = false;  ///< whether the solution must remain at rest
 };
 
-void PrintTo(const Degenerate& degenerate, std::ostream* out) { *out << degenerate.name; }
+void PrintTo(const DegenerateCase& degenerate, std::ostream* out) { *out << degenerate.name; }
 
-class DegenerateProblem : public testing::TestWithParam<Degenerate> {};
+class DegenerateProblem : public testing::TestWithParam<DegenerateCase> {};
 
 TEST_P(DegenerateProblem, ends_converged_or_says_what_is_left) {
   const ContactProblem& problem = GetParam().problem;
   ContactSolution swept = test::no_guess(problem);
   ContactSolution accelerated = swept;
-  const SolverReport first = solve_honestly(SolverKind::gauss_seidel, problem, swept);
-  const SolverReport second = solve_honestly(SolverKind::accelerated, problem, accelerated);
-  EXPECT_TRUE(first.converged || GetParam().converges != Converges::both) << first.residual.eta;
-  EXPECT_TRUE(second.converged || GetParam().converges == Converges::nobody) << second.residual.eta;
+  const SolverReport first = solve_and_check_report(SolverKind::gauss_seidel, problem, swept);
+  const SolverReport second = solve_and_check_report(SolverKind::accelerated, problem, accelerated);
+  EXPECT_TRUE(first.converged || GetParam().converges != Convergence::both) << first.residual.eta;
+  EXPECT_TRUE(second.converged || GetParam().converges == Convergence::nobody) << second.residual.eta;
   const double scale = std::max(fall, difference(problem, free_motion(problem), rest(problem)));
   if (first.converged && second.converged) {
     EXPECT_LT(difference(problem, swept, accelerated), 1e-5 * scale);
@@ -202,7 +202,7 @@ TEST_P(DegenerateProblem, bodies_without_contact_fall_freely) {
   for (Index c = 0; c < problem.contact_count(); ++c) touched[problem.a[c]] = touched[problem.b[c]] = true;
   for (SolverKind kind : test::both_solvers) {
     ContactSolution solution = test::no_guess(problem);
-    solve_honestly(kind, problem, solution);
+    solve_and_check_report(kind, problem, solution);
     for (Index i = 0; i < problem.body_count(); ++i) {
       if (touched[i]) continue;
       EXPECT_EQ(solution.vx[i], problem.vx[i]);
@@ -220,14 +220,14 @@ TEST_P(DegenerateProblem, a_guess_of_any_size_does_no_harm) {
     for (SolverKind kind : test::both_solvers) {
       ContactSolution solution = test::no_guess(problem);
       std::fill(solution.pn.begin(), solution.pn.end(), size);
-      solve_honestly(kind, problem, solution, 500);
+      solve_and_check_report(kind, problem, solution, 500);
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Problems, DegenerateProblem,
-    testing::ValuesIn(std::vector<Degenerate>{
+    testing::ValuesIn(std::vector<DegenerateCase>{
         {.name = "nothing", .problem = ContactProblem{}},
         {.name = "no_contact", .problem = problem_of(test::two_disks(0.0, {1.0, 0.0}, {2.0, 0.0}, 1e-3))},
         {.name = "one_contact", .problem = test::one_contact(0.6, 0.5)},
@@ -242,13 +242,13 @@ INSTANTIATE_TEST_SUITE_P(
         {.name = "parallel_walls", .problem = problem_of(wedged(0.0, 0.0), 10.0)},
         {.name = "parallel_walls_too_narrow",
          .problem = problem_of(wedged(0.0, 1e-3), 0.5),
-         .converges = Converges::nobody},
+         .converges = Convergence::nobody},
         {.name = "heavy_below_light",
          .problem = problem_of(light_between_floor_and_heavy(1e-6)),
          .rests = true},
         {.name = "light_below_heavy",
          .problem = problem_of(light_between_floor_and_heavy(1e6)),
-         .converges = Converges::nobody},
+         .converges = Convergence::nobody},
         {.name = "hexagonal_periodic", .problem = problem_of(crystal(true, true)), .rests = true},
         {.name = "hexagonal_walled", .problem = problem_of(crystal(true, false)), .rests = true},
         {.name = "hexagonal_without_friction",
@@ -260,12 +260,12 @@ INSTANTIATE_TEST_SUITE_P(
         {.name = "square_rough", .problem = problem_of(crystal(false, false), 10.0), .rests = true},
         {.name = "tall_column",
          .problem = problem_of(test::column(200)),
-         .converges = Converges::accelerated,
+         .converges = Convergence::accelerated,
          .rests = true},
         {.name = "rattlers", .problem = problem_of(rattlers_next_to_a_column())},
-        {.name = "two_contacts_of_one_pair", .problem = problem_of(pair_that_meets_twice())},
+        {.name = "two_contacts_of_one_pair", .problem = problem_of(pair_with_two_contacts())},
         {.name = "crushed", .problem = problem_of(crushed())},
-        {.name = "crushed_rough", .problem = problem_of(crushed(), 10.0), .converges = Converges::nobody}}),
+        {.name = "crushed_rough", .problem = problem_of(crushed(), 10.0), .converges = Convergence::nobody}}),
     [](const auto& parameter) { return parameter.param.name; });
 
 }  // namespace

@@ -361,7 +361,7 @@ struct Contacts {
   std::vector<double> nx, ny, cn, ct, mu, pn, pt, wn, wt, un, ut;
   std::vector<ExactRow> velocity;
 
-  LookArrays arrays() {
+  ResidualArrays arrays() {
     return {a.data(),  b.data(),  nx.data(), ny.data(), cn.data(),       ct.data(), mu.data(),
             pn.data(), pt.data(), wn.data(), wt.data(), velocity.data(), un.data(), ut.data()};
   }
@@ -394,20 +394,20 @@ Contacts random_contacts(Index count, Index bodies) {
 TEST(SweepKernels, look_with_the_same_bits_whatever_the_processor) {
   Contacts baseline = random_contacts(203, 40);
   Contacts fastest = baseline;
-  LookSums sums[2];
-  sweep_kernels_baseline().look(baseline.arrays(), 0, 203, sums[0]);
-  sweep_kernels().look(fastest.arrays(), 0, 203, sums[1]);
+  ContactResidualSums sums[2];
+  sweep_kernels_baseline().residual(baseline.arrays(), 0, 203, sums[0]);
+  sweep_kernels().residual(fastest.arrays(), 0, 203, sums[1]);
   EXPECT_EQ(baseline.un, fastest.un);
   EXPECT_EQ(baseline.ut, fastest.ut);
-  EXPECT_EQ(std::memcmp(&sums[0], &sums[1], sizeof(LookSums)), 0);
+  EXPECT_EQ(std::memcmp(&sums[0], &sums[1], sizeof(ContactResidualSums)), 0);
 }
 
 TEST(SweepKernels, look_at_contacts_as_the_contact_law_does) {
   for (const Index first : {0, 5})
     for (const Index last : {5, 6, 7, 8, 200}) {
       Contacts contacts = random_contacts(200, 40);
-      LookSums sums;
-      sweep_kernels().look(contacts.arrays(), first, last, sums);
+      ContactResidualSums sums;
+      sweep_kernels().residual(contacts.arrays(), first, last, sums);
       ResidualSums plain;
       for (Index c = 0; c < 200; ++c) {
         const ExactRow &va = contacts.velocity[contacts.a[c]], &vb = contacts.velocity[contacts.b[c]];

@@ -112,14 +112,14 @@ TEST(FreeSurface, ends_in_ascending_order_at_the_length_of_the_bed) {
 }
 
 /// Area below a surface by the midpoint rule, with an error bound from the variation of the surface.
-struct Sampled {
+struct SampledArea {
   double area = 0.0, error = 0.0;
 };
-Sampled sampled_volume(const World& world, double samples_per_metre) {
+SampledArea sampled_volume(const World& world, double samples_per_metre) {
   const std::vector<double> heights =
       plain_surface(world, static_cast<std::size_t>(samples_per_metre * world.boundary.length));
   const double step = world.boundary.length / static_cast<double>(heights.size());
-  Sampled sampled;
+  SampledArea sampled;
   for (std::size_t k = 0; k < heights.size(); ++k) {
     sampled.area += step * heights[k];
     if (k > 0) sampled.error += step * std::abs(heights[k] - heights[k - 1]);
@@ -131,7 +131,7 @@ TEST(BedVolume, is_that_of_very_many_samples) {
   Random random(5);
   for (int k = 0; k < 6; ++k) {
     const World world = bed_of_chance(random, k % 2 == 0);
-    const Sampled sampled = sampled_volume(world, 1e5);
+    const SampledArea sampled = sampled_volume(world, 1e5);
     EXPECT_LT(sampled.error, 3e-3);
     EXPECT_NEAR(volume(world), sampled.area, sampled.error) << "bed " << k;
   }

@@ -22,7 +22,7 @@ PaperValue above(double value) {
   return {PaperQuantity::dilation,     "name", "where", "text", value, 0.0, "1", Relation::above, "",
           &analysis::Analysis::theta_c};
 }
-Spread spread(std::initializer_list<Measured> values) { return spread_of(std::vector(values)); }
+Spread spread(std::initializer_list<MeasuredValue> values) { return spread_of(std::vector(values)); }
 Agreement verdict_of(const PaperValue& paper, const Spread& ours) {
   return judge(paper, ours, paper_depth).agreement;
 }

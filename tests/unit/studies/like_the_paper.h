@@ -35,7 +35,7 @@ inline ReproductionResult like_the_paper(double spread) {
 }
 
 /// Sets a value in all analyses and thresholds of all runs.
-inline void set_everywhere(ReproductionResult& result, PaperQuantity quantity, Measured value) {
+inline void set_everywhere(ReproductionResult& result, PaperQuantity quantity, MeasuredValue value) {
   const auto q = static_cast<std::size_t>(quantity);
   for (ReproducedOutcome& outcome : result.outcomes) {
     for (auto& analysis : outcome.values)

@@ -70,8 +70,8 @@ struct HandMadeRun {
     for (std::size_t k = 0; k < tilts.size(); ++k) run.analysis.frames[k].tilt = tilts[k];
     return run;
   }
-  Measured value(PaperQuantity quantity, std::size_t factor = 0,
-                 Population population = Population::carrying) const {
+  MeasuredValue value(PaperQuantity quantity, std::size_t factor = 0,
+                      Population population = Population::carrying) const {
     return measure(measured(), quantity, factor, population);
   }
 };
@@ -192,7 +192,7 @@ TEST(Directions, near_180_deg_are_near_0) {
 TEST(MeasuredValue, of_a_slope_that_stands_is_none) {
   HandMadeRun run;
   run.set(&analysis::Analysis::theta_c, 0, none);
-  for (const Measured& measured : measure_all(run.measured(), 0, Population::carrying))
+  for (const MeasuredValue& measured : measure_all(run.measured(), 0, Population::carrying))
     EXPECT_TRUE(std::isnan(measured.value));
 }
 

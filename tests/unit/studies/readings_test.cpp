@@ -19,7 +19,7 @@ MeasuredValues like_the_paper() {
   return values;
 }
 
-Measured& value(MeasuredValues& values, PaperQuantity quantity) {
+MeasuredValue& value(MeasuredValues& values, PaperQuantity quantity) {
   return values[static_cast<std::size_t>(quantity)];
 }
 

@@ -95,7 +95,7 @@ TEST_F(BookmarksOfRun, stay_beside_it) {
     EXPECT_EQ(model.state.message, "");
   }
   ViewModel model = example::opened(run_);
-  ASSERT_TRUE(example::comes_true(model, [&] { return !model.events().empty(); }));
+  ASSERT_TRUE(example::wait_for_condition(model, [&] { return !model.events().empty(); }));
   std::vector<std::size_t> frames;
   for (const TimelineEvent& event : model.events())
     if (event.kind == TimelineEvent::Kind::bookmark) frames.push_back(event.frame);

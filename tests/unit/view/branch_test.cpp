@@ -196,7 +196,7 @@ TEST(BranchView, stays_a_replay_where_the_run_ends) {
   model.go_to(Landmark::last);
   EXPECT_EQ(test::exit_code_of([&] { model.branch(); }), ExitCode::usage);
   EXPECT_FALSE(model.is_live());
-  EXPECT_TRUE(example::comes_true(model, [&] { return model.has(Landmark::first); }));
+  EXPECT_TRUE(example::wait_for_condition(model, [&] { return model.has(Landmark::first); }));
 }
 
 }  // namespace

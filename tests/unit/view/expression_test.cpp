@@ -16,7 +16,7 @@ const std::vector<ExpressionName> names = {
     {"gamma", false}, {"y", false}, {"overloaded", true}, {"lc", false}};
 
 /// Evaluates a condition with gamma = 0.6, y = 40, overloaded = 1 and lc unknown.
-bool is_so(const std::string& text) {
+bool is_true(const std::string& text) {
   const std::map<std::string, double> values = {
       {"gamma", 0.6}, {"y", 40.0}, {"overloaded", 1.0}, {"lc", std::nan("")}};
   const Expression condition = parse_condition(text, names);
@@ -38,38 +38,38 @@ std::string error_of(const std::string& text) {
 TEST(Condition, comparisons_are_those_of_numbers) {
   for (const char* text : {"gamma < 0.7", "gamma <= 0.6", "gamma > .5", "gamma >= 0.6", "gamma == 6e-1",
                            "y != 39", "gamma<0.7", "  gamma\t< 0.7 ", "-gamma < 0", "0.7 > gamma", "y > -1"})
-    EXPECT_TRUE(is_so(text)) << text;
+    EXPECT_TRUE(is_true(text)) << text;
   for (const char* text : {"gamma < 0.6", "gamma > 0.6", "gamma >= 0.61", "gamma == 0.5", "y != 40"})
-    EXPECT_FALSE(is_so(text)) << text;
+    EXPECT_FALSE(is_true(text)) << text;
 }
 
 TEST(Condition, operators_bind_as_is_usual) {
-  EXPECT_TRUE(is_so("1 + 2 * 3 == 7"));
-  EXPECT_TRUE(is_so("(1 + 2) * 3 == 9"));
-  EXPECT_TRUE(is_so("8 - 4 - 2 == 2"));
-  EXPECT_TRUE(is_so("8 / 4 / 2 == 1"));
-  EXPECT_TRUE(is_so("2 - -y == 42"));
-  EXPECT_TRUE(is_so("-2 * 3 + 7 == 1"));
-  EXPECT_TRUE(is_so("abs(gamma - 1) < 0.5 && sqrt(y * 10) == 20"));
-  EXPECT_TRUE(is_so("y > 0 || y > 50 && y < 0")) << "&& before ||";
-  EXPECT_FALSE(is_so("(y > 0 || y > 50) && y < 0"));
-  EXPECT_FALSE(is_so("!gamma > 0.5")) << "applies to the comparison";
-  EXPECT_FALSE(is_so("!(gamma > 0.5 || y > 50)"));
-  EXPECT_TRUE(is_so("!!(gamma > 0.5) && !(y < 0)"));
+  EXPECT_TRUE(is_true("1 + 2 * 3 == 7"));
+  EXPECT_TRUE(is_true("(1 + 2) * 3 == 9"));
+  EXPECT_TRUE(is_true("8 - 4 - 2 == 2"));
+  EXPECT_TRUE(is_true("8 / 4 / 2 == 1"));
+  EXPECT_TRUE(is_true("2 - -y == 42"));
+  EXPECT_TRUE(is_true("-2 * 3 + 7 == 1"));
+  EXPECT_TRUE(is_true("abs(gamma - 1) < 0.5 && sqrt(y * 10) == 20"));
+  EXPECT_TRUE(is_true("y > 0 || y > 50 && y < 0")) << "&& before ||";
+  EXPECT_FALSE(is_true("(y > 0 || y > 50) && y < 0"));
+  EXPECT_FALSE(is_true("!gamma > 0.5")) << "applies to the comparison";
+  EXPECT_FALSE(is_true("!(gamma > 0.5 || y > 50)"));
+  EXPECT_TRUE(is_true("!!(gamma > 0.5) && !(y < 0)"));
 }
 
 TEST(Condition, a_flag_is_one_by_itself) {
-  EXPECT_TRUE(is_so("overloaded"));
-  EXPECT_FALSE(is_so("!overloaded"));
-  EXPECT_TRUE(is_so("overloaded && y > 30"));
-  EXPECT_TRUE(is_so("overloaded == 1"));
-  EXPECT_TRUE(is_so("(overloaded) + 1 == 2"));
+  EXPECT_TRUE(is_true("overloaded"));
+  EXPECT_FALSE(is_true("!overloaded"));
+  EXPECT_TRUE(is_true("overloaded && y > 30"));
+  EXPECT_TRUE(is_true("overloaded == 1"));
+  EXPECT_TRUE(is_true("(overloaded) + 1 == 2"));
 }
 
 TEST(Condition, of_a_value_that_is_not_there_no_comparison_holds) {
   for (const char* text : {"lc > 0", "lc <= 0", "lc == lc", "lc != 3", "abs(lc) > 0"})
-    EXPECT_FALSE(is_so(text)) << text;
-  EXPECT_TRUE(is_so("!(lc > 0)"));
+    EXPECT_FALSE(is_true(text)) << text;
+  EXPECT_TRUE(is_true("!(lc > 0)"));
 }
 
 TEST(Condition, what_is_wrong_is_said_with_its_place) {
@@ -104,7 +104,7 @@ TEST(Condition, what_is_wrong_is_said_with_its_place) {
 TEST(Condition, no_nesting_uses_up_the_stack) {
   EXPECT_NE(error_of(std::string(100000, '(')).find("at most 1000 characters, found 100000"),
             std::string::npos);
-  EXPECT_TRUE(is_so(std::string(400, '(') + "y > 0" + std::string(400, ')')));
+  EXPECT_TRUE(is_true(std::string(400, '(') + "y > 0" + std::string(400, ')')));
 }
 
 }  // namespace

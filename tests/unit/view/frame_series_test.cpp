@@ -30,12 +30,12 @@ std::shared_ptr<const Frame> read_bed(std::size_t k) {
 pictures::SeenFrames wait_for(FrameSeries& series, std::size_t frames) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   pictures::PictureSeries pictures;
-  while (pictures.met.instants.size() < frames && series.error().empty() &&
+  while (pictures.seen_frames.instants.size() < frames && series.error().empty() &&
          std::chrono::steady_clock::now() < end) {
     series.collect_ready(pictures);
     std::this_thread::yield();
   }
-  return pictures.met;
+  return pictures.seen_frames;
 }
 
 TEST(FrameSeries, has_the_values_of_each_frame) {
@@ -70,12 +70,13 @@ TEST(FrameSeries, has_values_of_the_tilt_and_colours_of_all_frames) {
   FrameSeries series(example::bed_statics(), read_bed);
   series.set_counts(6, 4);
   series.begin(rule, {});
-  const pictures::SeenFrames met = wait_for(series, 6);
+  const pictures::SeenFrames seen_frames = wait_for(series, 6);
   EXPECT_EQ(series.values().size(), 4u);
-  ASSERT_EQ(met.cluster_colours.size(), 6u);
-  EXPECT_TRUE(met.cluster_colours[0].empty());
-  ASSERT_EQ(met.cluster_colours[5].size(), 1u);
-  EXPECT_EQ(met.cluster_colours[5][0].track, met.cluster_colours[1][0].track) << "the same cluster, grown";
+  ASSERT_EQ(seen_frames.cluster_colours.size(), 6u);
+  EXPECT_TRUE(seen_frames.cluster_colours[0].empty());
+  ASSERT_EQ(seen_frames.cluster_colours[5].size(), 1u);
+  EXPECT_EQ(seen_frames.cluster_colours[5][0].track, seen_frames.cluster_colours[1][0].track)
+      << "the same cluster, grown";
 }
 
 TEST(FrameSeries, does_not_work_out_what_is_known) {
@@ -98,13 +99,13 @@ TEST(FrameSeries, begins_anew_with_another_rule) {
   other.threshold_factor = 4.0;  // above 1, so that nothing is overloaded
   series.begin(other, {});
   EXPECT_TRUE(series.values().empty());
-  const pictures::SeenFrames met = wait_for(series, 6);
+  const pictures::SeenFrames seen_frames = wait_for(series, 6);
   ASSERT_EQ(series.values().size(), 6u);
   EXPECT_EQ(series.values()[5].thresholds[0].overloaded_fraction, 0.0);
   EXPECT_EQ(series.rule(), other);
-  EXPECT_EQ(met.rule, other);
-  ASSERT_EQ(met.cluster_colours.size(), 6u);
-  EXPECT_TRUE(met.cluster_colours[5].empty());
+  EXPECT_EQ(seen_frames.rule, other);
+  ASSERT_EQ(seen_frames.cluster_colours.size(), 6u);
+  EXPECT_TRUE(seen_frames.cluster_colours[5].empty());
 }
 
 TEST(FrameSeries, takes_grains_with_their_neighbours) {
@@ -154,10 +155,10 @@ TEST(FrameSeries, has_a_tracker_that_has_met_its_frames) {
 }
 
 TEST(FrameSeries, leaves_out_what_was_begun_by_another_rule) {
-  std::atomic<bool> reading = false, go_on = false;
+  std::atomic<bool> reading = false, may_read = false;
   FrameSeries series(example::bed_statics(), [&](std::size_t) {
     reading = true;
-    while (!go_on) std::this_thread::yield();
+    while (!may_read) std::this_thread::yield();
     return read_bed(5);
   });
   series.set_counts(2, 2);
@@ -166,7 +167,7 @@ TEST(FrameSeries, leaves_out_what_was_begun_by_another_rule) {
   pictures::OverloadRule other = rule;
   other.threshold_factor = 4.0;
   series.begin(other, {});
-  go_on = true;
+  may_read = true;
   wait_for(series, 2);
   ASSERT_EQ(series.values().size(), 2u);
   EXPECT_EQ(series.values()[0].thresholds[0].overloaded_fraction, 0.0);

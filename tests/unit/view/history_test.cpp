@@ -45,15 +45,15 @@ bool wait_for(HistorySeries& series, std::size_t count) {
 TEST(History, is_of_what_is_asked_for) {
   HistorySeries series(read_frame);
   const Selection grains = {{3, 7}, std::nullopt};
-  series.ask(grains, 3);
+  series.set_question(grains, 3);
   ASSERT_TRUE(wait_for(series, 3));
   EXPECT_DOUBLE_EQ(series.instants()[2].places[0].x, 3.7);
   EXPECT_DOUBLE_EQ(series.instants()[2].places[1].x, 7.5);
   EXPECT_TRUE(std::isnan(series.instants()[2].fn)) << "no contact was requested";
-  series.ask(grains, 5);
+  series.set_question(grains, 5);
   ASSERT_TRUE(wait_for(series, 5)) << "only later frames are read";
   EXPECT_DOUBLE_EQ(degrees(series.instants()[4].tilt), 4.0);
-  series.ask({{}, ContactKey{3, 13, 0}}, 5);
+  series.set_question({{}, ContactKey{3, 13, 0}}, 5);
   EXPECT_TRUE(series.instants().empty()) << "another question starts from the beginning";
   ASSERT_TRUE(wait_for(series, 5));
   EXPECT_EQ(series.instants()[3].fn, 3.0);
@@ -68,9 +68,9 @@ TEST(History, ends_at_a_frame_that_cannot_be_read) {
     if (k == 2) throw std::runtime_error("damaged");
     return read_frame(k);
   });
-  series.ask({{3}, std::nullopt}, 5);
+  series.set_question({{3}, std::nullopt}, 5);
   ASSERT_TRUE(wait_for(series, 2));
-  series.ask({{4}, std::nullopt}, 2);
+  series.set_question({{4}, std::nullopt}, 2);
   EXPECT_TRUE(wait_for(series, 2)) << "another question is answered";
 }
 
@@ -143,7 +143,7 @@ TEST_F(HistoryInView, the_contact_has_its_curves) {
   EXPECT_FALSE(model_->contact_inspection());
   EXPECT_TRUE(model_->contact_history().empty());
   model_->select(ContactKey{3, 13, 0});
-  EXPECT_TRUE(example::comes_true(*model_, [this] {
+  EXPECT_TRUE(example::wait_for_condition(*model_, [this] {
     const auto plots = model_->contact_history();
     return !plots.empty() && plots[0].series[0].x.size() == model_->frame_count();
   }));
@@ -158,7 +158,7 @@ TEST_F(HistoryInView, trails_lead_to_the_frame_shown) {
   EXPECT_EQ(trail_lines(), 0);
   model_->state.selecting.trails = true;
   model_->go_to(3);
-  EXPECT_TRUE(example::comes_true(*model_, [&] { return trail_lines() == 2 * 3; }))
+  EXPECT_TRUE(example::wait_for_condition(*model_, [&] { return trail_lines() == 2 * 3; }))
       << "three steps of two grains";
   model_->go_to(1);
   model_->update(0.0);

@@ -17,7 +17,7 @@
 namespace talus::view {
 namespace {
 
-using example::comes_true, example::opened, example::plot;
+using example::wait_for_condition, example::opened, example::plot;
 
 /// Returns whether the run is done and its last frame is available.
 bool has_ended(ViewModel& model) {
@@ -45,13 +45,14 @@ TEST_F(ViewOfScenario, follows_the_run) {
   model_->state.map.layers = pictures::map_layers("displacement+clusters");
   EXPECT_EQ(model_->first().map(2.0).discs.empty(), false);
   model_->live()->run_to(radians(0.5));
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
+  ASSERT_TRUE(wait_for_condition(*model_, [this] { return model_->frame().tilt > radians(0.49); }));
   model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] {
+  ASSERT_TRUE(wait_for_condition(*model_, [this] {
     model_->first().map(2.0);
     return has_ended(*model_);
   }));
-  ASSERT_TRUE(comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
+  ASSERT_TRUE(
+      wait_for_condition(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
   EXPECT_EQ(plot(*model_, "overloaded").series[0].x.size(), 5u) << "at 0, 0.25 ... 1 deg";
   EXPECT_NEAR(degrees(model_->frame().tilt), 1.0, 1e-9);
   EXPECT_GE(plot(*model_, "stress").series[0].x.size(), 17u);
@@ -80,28 +81,29 @@ TEST_F(ViewOfScenario, shows_all_of_a_bed_that_is_higher_than_its_scenario_says)
 
 TEST_F(ViewOfScenario, looks_back_while_the_run_goes_on) {
   model_->go_to(0);
-  EXPECT_FALSE(model_->looks_back()) << "no frame is recorded yet";
+  EXPECT_FALSE(model_->shows_recorded_frame()) << "no frame is recorded yet";
   model_->live()->run_to(radians(0.6));
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame_count() == 3; }));
+  ASSERT_TRUE(wait_for_condition(*model_, [this] { return model_->frame_count() == 3; }));
   model_->go_to(1);
-  EXPECT_TRUE(model_->looks_back());
+  EXPECT_TRUE(model_->shows_recorded_frame());
   EXPECT_EQ(model_->frame_index(), 1u);
   EXPECT_NEAR(degrees(model_->frame().tilt), 0.25, 0.02);
   EXPECT_TRUE(model_->state.announcement.empty());
   const double shown = model_->frame().tilt;
   model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->frame_count() == 5 && has_ended(*model_); }));
+  ASSERT_TRUE(
+      wait_for_condition(*model_, [this] { return model_->frame_count() == 5 && has_ended(*model_); }));
   EXPECT_EQ(model_->frame().tilt, shown) << "the inspected grain stays";
   EXPECT_NE(model_->state.announcement.find("ended at 1.00°"), std::string::npos)
       << model_->state.announcement;
   EXPECT_EQ(model_->frame_tilts().size(), 5u);
   model_->follow();
-  EXPECT_FALSE(model_->looks_back());
+  EXPECT_FALSE(model_->shows_recorded_frame());
   EXPECT_NEAR(degrees(model_->frame().tilt), 1.0, 1e-9);
   model_->go_to(Landmark::first);
   EXPECT_EQ(model_->frame_index(), 0u);
   model_->restart(5);
-  EXPECT_FALSE(model_->looks_back());
+  EXPECT_FALSE(model_->shows_recorded_frame());
   EXPECT_EQ(model_->frame_count(), 0u);
   EXPECT_TRUE(model_->state.announcement.empty());
 }
@@ -111,13 +113,13 @@ TEST_F(ViewOfScenario, tells_that_the_slope_has_failed) {
                                     {"contact.friction=0.05", "tilt.end_angle=40", "tilt.step=0.05"}, "",
                                     false, "talus view");
   model.live()->play();
-  ASSERT_TRUE(comes_true(model, [&model] { return model.theta_c_known(); }));
+  ASSERT_TRUE(wait_for_condition(model, [&model] { return model.theta_c_known(); }));
   EXPECT_NE(model.state.announcement.find("The slope failed at "), std::string::npos);
-  ASSERT_TRUE(comes_true(model, [&model] {
+  ASSERT_TRUE(wait_for_condition(model, [&model] {
     return std::ranges::find(model.events(), "theta_c", &TimelineEvent::name) != model.events().end();
   }));
   model.go_to(Landmark::theta_c);
-  EXPECT_TRUE(model.looks_back());
+  EXPECT_TRUE(model.shows_recorded_frame());
   EXPECT_LE(model.frame().tilt, model.theta_c());
 }
 
@@ -126,7 +128,7 @@ TEST_F(ViewOfScenario, measures_displacements_from_the_frame_recorded_before) {
   model_->state.map.range_low = 1e-12;  // the bed is small and creeps
   model_->state.map.range_high = 1e-3;
   model_->live()->play();
-  ASSERT_TRUE(comes_true(*model_, [this] { return has_ended(*model_); }));
+  ASSERT_TRUE(wait_for_condition(*model_, [this] { return has_ended(*model_); }));
   model_->update(0.0);
   const std::vector<render::Disc> discs = model_->first().map(2.0).discs;
   EXPECT_FALSE(std::ranges::all_of(discs, [&discs](const render::Disc& disc) {
@@ -140,7 +142,7 @@ TEST_F(ViewOfScenario, begins_a_recorded_run_anew) {
   EXPECT_EQ(model.seed(), 3u);
   EXPECT_EQ(model.render_command(), "") << "no frame is recorded yet";
   model.live()->play();
-  ASSERT_TRUE(comes_true(model, [&model] { return has_ended(model); }));
+  ASSERT_TRUE(wait_for_condition(model, [&model] { return has_ended(model); }));
   model.update(0.0);
   EXPECT_EQ(model.render_command(), "talus render " + output + " --map gamma --at 1 --theta-c 20");
   for (const char* next : {"a-2.h5", "a-3.h5"}) {
@@ -171,7 +173,7 @@ TEST_F(ViewOfScenario, that_cannot_begin_anew_goes_on) {
 TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {
   EXPECT_TRUE(model_->may_discard()) << "it has not begun";
   model_->live()->step(3);
-  ASSERT_TRUE(comes_true(*model_, [this] { return model_->live()->status().step == 3; }));
+  ASSERT_TRUE(wait_for_condition(*model_, [this] { return model_->live()->status().step == 3; }));
   EXPECT_FALSE(model_->may_discard());
   EXPECT_NE(model_->state.message.find("not saved"), std::string::npos);
   EXPECT_TRUE(model_->may_discard());

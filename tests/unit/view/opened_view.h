@@ -20,7 +20,7 @@ inline view::ViewModel opened(const std::string& path) {
 }
 
 /// Updates until the condition holds.
-inline bool comes_true(view::ViewModel& model, const std::function<bool()>& holds) {
+inline bool wait_for_condition(view::ViewModel& model, const std::function<bool()>& holds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (!holds() && std::chrono::steady_clock::now() < end) {
     model.update(0.0);

@@ -18,7 +18,7 @@ const Plot& plot(const std::vector<Plot>& plots, const std::string& name) {
   return *std::ranges::find(plots, name, &Plot::name);
 }
 
-std::vector<Plot> of_row(const ObservableRow& row) {
+std::vector<Plot> plots_of_row(const ObservableRow& row) {
   std::vector<Plot> plots = empty_plots();
   plot_observables(std::vector{row}, example::bed_statics(), {}, plots);
   return plots;
@@ -39,7 +39,7 @@ TEST(Plots, of_stress_have_the_laws_beside_them) {
   at(row, Observable::tilt) = radians(30.0);
   at(row, Observable::stress_ratio) = 0.4;
   at(row, Observable::sigma_t_over_n) = 0.7;
-  const auto plots = of_row(row);
+  const auto plots = plots_of_row(row);
   const Plot& stress = plot(plots, "stress");
   ASSERT_EQ(stress.series.size(), 4u);
   const double expected[] = {0.4, 0.7, 0.5, 1.0 / std::sqrt(3.0)};
@@ -64,7 +64,7 @@ TEST(Plots, give_strain_in_percent_and_energy_by_the_weight_of_a_grain) {
 }
 
 TEST(Plots, leave_out_what_a_logarithm_cannot_show) {
-  EXPECT_TRUE(std::isnan(plot(of_row({}), "energy").series[0].y.at(0)));
+  EXPECT_TRUE(std::isnan(plot(plots_of_row({}), "energy").series[0].y.at(0)));
 }
 
 TEST(Plots, of_frames_are_over_degrees) {
@@ -92,9 +92,9 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
   ObservableRow row{};
   at(row, Observable::tilt) = radians(15.0);
   at(row, Observable::time) = 2.5;
-  for (const auto& [axis, title, of_frame, of_row] : {std::tuple{PlotAxis::tilt, "θ in °", 18.0, 15.0},
-                                                      {PlotAxis::angle_left, "θ_c − θ in °", 2.0, 5.0},
-                                                      {PlotAxis::time, "t in s", 3.5, 2.5}}) {
+  for (const auto& [axis, title, of_frame, plots_of_row] : {std::tuple{PlotAxis::tilt, "θ in °", 18.0, 15.0},
+                                                            {PlotAxis::angle_left, "θ_c − θ in °", 2.0, 5.0},
+                                                            {PlotAxis::time, "t in s", 3.5, 2.5}}) {
     std::vector<Plot> plots = empty_plots();
     name_axis(axis, plots);
     const PlotAbscissa abscissa{axis, radians(20.0)};
@@ -104,8 +104,8 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
     EXPECT_EQ(plot(plots, "gamma").x_title, "γ = q/p");
     EXPECT_NEAR(plot(plots, "cluster").series[0].x.at(0), of_frame, 1e-12) << title;
     for (const PlotSeries& series : plot(plots, "stress").series)
-      EXPECT_NEAR(series.x.at(0), of_row, 1e-12) << title;
-    EXPECT_NEAR(plot(plots, "energy").series[0].x.at(0), of_row, 1e-12) << title;
+      EXPECT_NEAR(series.x.at(0), plots_of_row, 1e-12) << title;
+    EXPECT_NEAR(plot(plots, "energy").series[0].x.at(0), plots_of_row, 1e-12) << title;
   }
 }
 

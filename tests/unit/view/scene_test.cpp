@@ -15,13 +15,13 @@
 namespace talus::view {
 namespace {
 
-struct Drawn {
+struct DrawnScene {
   pictures::PictureSeries pictures;
   Frame frame = example::bed_frame(10.0, 4);
   analysis::Clusters clusters;
   render::FrameView map;
 
-  Drawn() {
+  DrawnScene() {
     pictures.run.statics = example::bed_statics();
     settings().layers = {pictures::MapKind::gamma};
     settings().theta_c = radians(20.0);
@@ -57,7 +57,7 @@ TEST(GrowingDiameters, are_round_steps_up_to_the_one_chosen) {
 }
 
 TEST(Scene, is_the_map_where_nothing_is_selected) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   const render::FrameView view = drawn.shown({});
   EXPECT_EQ(view.discs.size(), drawn.map.discs.size());
   EXPECT_TRUE(view.lines.empty());
@@ -66,7 +66,7 @@ TEST(Scene, is_the_map_where_nothing_is_selected) {
 }
 
 TEST(Scene, has_the_grains_of_its_part) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   const render::FrameView view = drawn.shown({}, {3.1, 4.9, 1.1, 2.9});
   EXPECT_EQ(view.discs.size(), 4u);
   EXPECT_EQ(view.x_min, 3.1);
@@ -74,7 +74,7 @@ TEST(Scene, has_the_grains_of_its_part) {
 }
 
 TEST(Scene, rings_the_grain) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   const render::FrameView view = drawn.shown(selection_of(15));
   ASSERT_EQ(view.lines.size(), 128u);
   for (const render::Line& line : view.lines) {
@@ -85,7 +85,7 @@ TEST(Scene, rings_the_grain) {
 }
 
 TEST(Scene, draws_circles_through_the_periodic_edge) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   Overlay overlay = selection_of(10);  // grain at (0.5, 1.5)
   overlay.diameters = {3.0};
   const render::FrameView view = drawn.shown(overlay);
@@ -99,7 +99,7 @@ TEST(Scene, draws_circles_through_the_periodic_edge) {
 }
 
 TEST(Scene, tells_l_c_from_other_circles) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   Overlay overlay = selection_of(15);
   overlay.diameters = {4.0};
   overlay.critical_length = 2.0;
@@ -117,7 +117,7 @@ TEST(Scene, tells_l_c_from_other_circles) {
 
 /// Column 0 of four grains touches both neighbouring columns, one of them across the edge.
 TEST(Scene, outlines_the_cluster_and_leaves_its_grains) {
-  Drawn drawn;
+  DrawnScene drawn;
   for (Index i = 0; i < example::columns * example::rows; ++i)
     if (i % example::columns != 0)
       drawn.frame.x[i] += 0.05;  // a gap on the right; the left contact stays closed
@@ -141,7 +141,7 @@ TEST(Scene, outlines_the_cluster_and_leaves_its_grains) {
 }
 
 TEST(Scene, draws_walls_where_they_are) {
-  Drawn drawn;
+  DrawnScene drawn;
   drawn.pictures.run.statics.periodic = false;
   const render::FrameView view = drawn.shown({}, {-2.0, 12.0, -3.0, 6.0});
   ASSERT_EQ(view.lines.size(), 2u);
@@ -154,42 +154,42 @@ TEST(Scene, draws_walls_where_they_are) {
 }
 
 TEST(Scene, knows_when_a_map_is_another) {
-  const Drawn drawn;
+  const DrawnScene drawn;
   const auto frame = std::make_shared<const Frame>(drawn.frame);
   const MapSource own = source_of(drawn.pictures, 0, frame, nullptr);
-  const auto changed = [&](const std::function<void(Drawn&)>& change, std::size_t k = 0) {
-    Drawn other;
+  const auto changed = [&](const std::function<void(DrawnScene&)>& change, std::size_t k = 0) {
+    DrawnScene other;
     change(other);
     return !(source_of(other.pictures, k, frame, nullptr) == own);
   };
-  EXPECT_FALSE(changed([](Drawn&) {}));
-  EXPECT_TRUE(changed([](Drawn& other) { other.settings().threshold_factor = 2.0; }));
-  EXPECT_TRUE(changed([](Drawn& other) { other.pictures.extent.y_max += 1.0; }));
-  EXPECT_TRUE(changed([](Drawn& other) { other.pictures.since = 1; }));
+  EXPECT_FALSE(changed([](DrawnScene&) {}));
+  EXPECT_TRUE(changed([](DrawnScene& other) { other.settings().threshold_factor = 2.0; }));
+  EXPECT_TRUE(changed([](DrawnScene& other) { other.pictures.extent.y_max += 1.0; }));
+  EXPECT_TRUE(changed([](DrawnScene& other) { other.pictures.since = 1; }));
   EXPECT_NE(own, source_of(drawn.pictures, 0, frame, frame));
   EXPECT_NE(own, source_of(drawn.pictures, 0, std::make_shared<const Frame>(drawn.frame), nullptr));
-  EXPECT_FALSE(changed([](Drawn& other) { pictures::meet(other.pictures, other.frame); }))
+  EXPECT_FALSE(changed([](DrawnScene& other) { pictures::add_frame(other.pictures, other.frame); }))
       << "it shows no clusters";
 }
 
 TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
-  Drawn drawn;
+  DrawnScene drawn;
   drawn.settings().layers = {pictures::MapKind::clusters};
   const auto frame = std::make_shared<const Frame>(drawn.frame);
   const auto source = [&] { return source_of(drawn.pictures, 1, frame, nullptr); };
   const MapSource none = source();
-  pictures::meet(drawn.pictures, drawn.frame);
+  pictures::add_frame(drawn.pictures, drawn.frame);
   const MapSource one = source();
   EXPECT_NE(none, one) << "colours follow those of the first frame";
-  pictures::meet(drawn.pictures, drawn.frame);
+  pictures::add_frame(drawn.pictures, drawn.frame);
   const MapSource two = source();
   EXPECT_NE(one, two) << "the frame itself was added";
-  pictures::meet(drawn.pictures, drawn.frame);
+  pictures::add_frame(drawn.pictures, drawn.frame);
   EXPECT_EQ(two, source()) << "later frames change nothing";
 }
 
 TEST(Scene, gives_the_reason_where_a_map_cannot_be_drawn) {
-  Drawn drawn;
+  DrawnScene drawn;
   drawn.settings().theta_c = radians(1.0);
   const render::FrameView view = draw_map(drawn.pictures, 0, drawn.frame, nullptr);
   EXPECT_NE(view.title.find("angle of repose"), std::string::npos);

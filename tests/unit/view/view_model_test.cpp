@@ -24,7 +24,7 @@
 namespace talus::view {
 namespace {
 
-using example::comes_true, example::opened, example::plot;
+using example::wait_for_condition, example::opened, example::plot;
 
 const std::vector<std::string> single_grains = {"l_min=0"};  // settings of an analysis
 
@@ -35,7 +35,8 @@ class ViewOfRun : public testing::Test {
     model_.emplace(opened(path_));
   }
   bool wait_for_all() {
-    return comes_true(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() == 6; });
+    return wait_for_condition(*model_,
+                              [this] { return plot(*model_, "overloaded").series[0].x.size() == 6; });
   }
   test::TemporaryFolder folder_;
   std::string path_;
@@ -69,10 +70,10 @@ TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
   ASSERT_TRUE(wait_for_all());
   model_->go_to(3);
   for (const PlotAxis axis : {PlotAxis::time, PlotAxis::angle_left, PlotAxis::tilt}) {
-    model_->state.plot_looks["stress"].zoomed = {1.0, 2.0};
+    model_->state.plot_options["stress"].zoomed = {1.0, 2.0};
     model_->set_plot_axis(axis);
     EXPECT_EQ(model_->plot_axis(), axis);
-    EXPECT_FALSE(model_->state.plot_looks["stress"].zoomed.has_value());
+    EXPECT_FALSE(model_->state.plot_options["stress"].zoomed.has_value());
     const auto number = static_cast<int>(axis);
     const double shown = *model_->plot_marks().shown;
     EXPECT_EQ(shown, plot(*model_, "overloaded").series[0].x.at(3)) << number;
@@ -144,7 +145,7 @@ TEST_F(ViewOfUnfailedRun, assumes_an_angle) {
 
 TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
   ASSERT_TRUE(wait_for_all());
-  ASSERT_TRUE(comes_true(*model_, [this] { return !model_->update(0.0); }));
+  ASSERT_TRUE(wait_for_condition(*model_, [this] { return !model_->update(0.0); }));
   while (model_->update(0.0)) {
   }
   EXPECT_FALSE(model_->update(1.0));
@@ -312,7 +313,7 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   const std::vector<render::Colour> palette = pictures::cluster_palette();
   // The colours follow from the previous frame once it has been processed; until then this frame is the
   // first.
-  EXPECT_TRUE(comes_true(model, [&] { return fill_at(6.5f) == palette[0]; }));
+  EXPECT_TRUE(wait_for_condition(model, [&] { return fill_at(6.5f) == palette[0]; }));
   EXPECT_TRUE(fill_at(1.5f) == palette[1]);
   // Joined by contacts, each column is a separate cluster, too small for a colour; colours of the other rule
   // do not count.
@@ -398,7 +399,7 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
     }
   }
   ViewModel model = opened(path);
-  ASSERT_TRUE(comes_true(model, [&] { return plot(model, "overloaded").series[0].x.size() == 4; }));
+  ASSERT_TRUE(wait_for_condition(model, [&] { return plot(model, "overloaded").series[0].x.size() == 4; }));
   for (const auto& file : std::filesystem::directory_iterator(io::run_folder(path))) {
     if (file.path().filename().string().starts_with("segment_")) std::filesystem::remove(file);
   }

@@ -15,7 +15,7 @@ namespace {
 
 using test::Packing;
 
-Spanning spanning(const Packing& packing, const std::vector<bool>& in_set) {
+SpanningClusters spanning(const Packing& packing, const std::vector<bool>& in_set) {
   const std::vector<Link> links = neighbour_links(packing);
   const double period = packing.statics.periodic ? packing.statics.length : 0.0;
   return find_spanning(find_clusters(in_set, links, packing.frame.x, period), bed_edges(packing));
@@ -33,10 +33,10 @@ TEST(Spanning, of_a_triangular_lattice_begins_at_one_half) {
         low.push_back(draw < 0.4);
         high.push_back(draw < 0.6);
       }
-      const Spanning below = spanning(packing, low);
+      const SpanningClusters below = spanning(packing, low);
       EXPECT_EQ(below.floor_to_surface, -1);
       EXPECT_EQ(below.across, -1);
-      const Spanning above = spanning(packing, high);
+      const SpanningClusters above = spanning(packing, high);
       EXPECT_EQ(above.floor_to_surface, 0);
       EXPECT_EQ(above.across, 0);
     }
