@@ -75,7 +75,7 @@ def changed_table(path, units, bed):
 
 def changed_script(text, bed):
     """Returns the script with another width, bed and names, which draws the PDF and the SVG."""
-    head, _, rest = text.partition("# What all figures share")
+    head, _, rest = text.partition("# Common part of all figures")
     variables = dict(line.split(" = ", 1) for line in head.splitlines() if " = " in line and not line.startswith("#"))
     number = {name: float(value) for name, value in variables.items() if re.fullmatch(r"-?[0-9.]+(e[-+]?\d+)?", value)}
     width, before = WIDTHS[bed["columns"]], float(variables["width"].split()[0])
