@@ -10,7 +10,7 @@ from quoted_numbers import correlation, number, rows_of, summary
 POURED = ("default: 6 sqrt(g D), rate 0.25, h = 1 ms", "pour-6")
 PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), ("rate 1", "fast-pour"), ("rate 0.05", "slow-pour"),
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
-LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc"), ("400 D", "length-400")]
+LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
 WALL_LENGTHS = (100, 150, 200, 250, 300)
 #: Depth of the paper's beds, D, and its k_L - k_0.
@@ -79,7 +79,7 @@ def time_steps(beds):
 def missed_steps(beds):
     """Steps that miss their tolerance, in each bed."""
     groups = [("the paper's bed, 8000 grains", "paper-pbc"), *((label, group) for label, group in [("poured, 4000 grains", "pour-6"), *PREPARATIONS[-2:]]),
-              ("between walls, L = 100 D", "paper-wbc-100"), ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
+              ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
     columns = [("missed in the deposition of a bed", "unconverged_deposition", 1), ("missed in its tilt", "unconverged_tilt", 1)]
     return of_groups(beds, groups, "bed", columns)
 
