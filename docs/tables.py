@@ -5,10 +5,10 @@ import functools
 import math
 import statistics
 
-from quoted_numbers import correlation, number, rows_of, summary
+from quoted_numbers import SHORT, correlation, number, rows_of, summary
 
 POURED = ("default: 6 sqrt(g D), rate 0.25, h = 1 ms", "pour-6")
-PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), ("rate 1", "fast-pour"), ("rate 0.05", "slow-pour"),
+PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), ("rate 1", "fast-pour"),
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
 LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
@@ -385,11 +385,11 @@ def tolerances(_):
 
 def measured(beds, *groups):
     """One sentence: which beds a report is about, and the program that computed them."""
-    versions = {bed["version"] for group in groups for bed in beds.groups[group]}
-    each = [f"`{group}` ({len(beds.groups[group])} beds)" for group in groups]
+    names = [SHORT.get(group, group) for group in groups]
+    versions = {bed["version"] for name in names for bed in beds.groups[name]}
+    each = [f"`{name}` ({len(beds.groups[name])} beds)" for name in names]
     text = " and ".join(filter(None, [", ".join(each[:-1]), each[-1]]))
-    return (f"Computed by Talus {' and '.join(sorted(versions))}: {text}. `docs/data/campaign list NAME` prints the command of each "
-            "ensemble, `docs/data/campaign run NAME` runs it, and `docs/data/campaign collect` writes the tables of `docs/data`.")
+    return f"Computed by Talus {' and '.join(sorted(versions))}: {text} ([how](README.md#how-to-repeat-a-study))."
 
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
