@@ -45,8 +45,10 @@ std::string heading(const runs::RunView& run) {
   const double diameter = run.statics.mean_diameter;
   const double l_min = runs::from_facts(analysis.parameters).l_min;
   text += fmt::format("; Gamma_c = {:.4f}; l_c cut at {:.4g} D\n", gamma_c, analysis.lc_cut / diameter);
-  return text + (l_min > 0.0 ? fmt::format("gamma averaged over the grains within {:.4g} D\n", 0.5 * l_min)
-                             : std::string("gamma of single grains\n"));
+  return text +
+         (l_min > 0.0
+              ? fmt::format("gamma of each grain together with its neighbours within {:.4g} D\n", 0.5 * l_min)
+              : std::string("gamma of single grains\n"));
 }
 
 std::string span_text(const analysis::FrameThreshold& at) {

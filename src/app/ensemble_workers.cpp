@@ -190,7 +190,7 @@ void refuse_old_tables(const ensemble::EnsemblePlan& plan) {
       throw Error(ExitCode::bad_data,
                   fmt::format("{} is the table of a member whose run was not kept by an earlier version of "
                               "Talus; use another folder, or remove the table to compute the member again",
-                              ensemble::second_file(plan.members[m].path, ".csv")));
+                              ensemble::path_with_extension(plan.members[m].path, ".csv")));
 }
 
 /// Reports variants that a corrected command has withdrawn from an ensemble.
@@ -238,7 +238,7 @@ void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& cons
     if (states[m].stage != ensemble::MemberStage::failed) continue;
     const ensemble::MemberFailure failure = ensemble::read_failure(plan.members[m].path);
     failed.push_back(
-        {ensemble::second_file(plan.members[m].path, ".log"), failure.exit_code, failure.message});
+        {ensemble::path_with_extension(plan.members[m].path, ".log"), failure.exit_code, failure.message});
   }
   if (failed.empty()) return;
   const char* const them = failed.size() == 1 ? "it" : "them";

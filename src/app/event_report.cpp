@@ -126,7 +126,7 @@ std::string event_table(const runs::RunView& run, const EventUnits& unit, std::s
 }
 
 std::string too_few(double count) {
-  return fmt::format("no law: {:.0f} events, {} needed", count, analysis::min_to_distinguish);
+  return fmt::format("no law: {:.0f} events, {} needed", count, analysis::min_fitted_values);
 }
 
 std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& unit) {

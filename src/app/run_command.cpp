@@ -235,14 +235,14 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
 
 /// Draws maps of the frames during the run. Meanwhile the solver uses one thread fewer if no processor is
 /// free, because threads that share a processor delay the others, which wait for them many times per step.
-void draw_second_view(pictures::LiveMaps& maps, int threads, session::Session& session,
-                      session::RunControl& control) {
+void draw_maps_during_run(pictures::LiveMaps& maps, int threads, session::Session& session,
+                          session::RunControl& control) {
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   const int fewer = processors > threads ? threads : std::max(1, threads - 1);
   control.on_frame = [&maps](const Frame& frame) { maps.add(frame); };
   control.on_step = [&maps, &session, threads, fewer,
-                     on_end = std::move(control.on_step)](const session::RunProgress& progress) {
-    on_end(progress);
+                     report_step = std::move(control.on_step)](const session::RunProgress& progress) {
+    report_step(progress);
     session.use_threads(maps.drawing() ? fewer : threads);
   };
 }
@@ -260,7 +260,7 @@ void run(const RunArguments& arguments) {
   OpenRun open = open_run(arguments, request, resumed);
   if (maps) begin_maps(*maps, open, arguments);
   control.on_step = run_shown(arguments.quiet);
-  if (maps) draw_second_view(*maps, arguments.threads, open.session, control);
+  if (maps) draw_maps_during_run(*maps, arguments.threads, open.session, control);
   const session::RunEnd end = [&] {
     const CommitOnSignals commit;
     return session::run_to_end(open.session, open.store, control);

@@ -57,7 +57,7 @@ int number_after(const std::string& run, std::optional<int> found) {
 }  // namespace
 
 std::string claim_path(const std::string& run, int number) {
-  return second_file(run, fmt::format("{}{}", infix, number).c_str());
+  return path_with_extension(run, fmt::format("{}{}", infix, number).c_str());
 }
 
 std::optional<ClaimName> parse_claim_name(const std::string& file) {

@@ -17,7 +17,7 @@ struct EnsembleManifest {
   std::string until = {};                 ///< "theta_c:0.2": no new members once reached; empty: all members
   std::vector<Variant> variants = {};     ///< their scenario files are in the folder
   MemberTask task = {};
-  std::string keep = {};  ///< selects the completed runs that are kept (keeps_frames); empty: all
+  std::string keep = {};  ///< selects the members whose frames are kept (keeps_frames); empty: all
 };
 
 /// Returns DIR/ensemble.manifest.

@@ -89,7 +89,7 @@ std::size_t count_of(const std::vector<MemberState>& states, MemberStage stage) 
   return static_cast<std::size_t>(std::ranges::count(states, stage, &MemberState::stage));
 }
 
-std::string failure_path(const std::string& run) { return second_file(run, failure_ending); }
+std::string failure_path(const std::string& run) { return path_with_extension(run, failure_ending); }
 
 void record_failure(const std::string& run, const MemberFailure& failure) {
   io::write_text(failure_path(run), fmt::format("exit code {}\n{}\n", failure.exit_code, failure.message));

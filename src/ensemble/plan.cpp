@@ -81,7 +81,7 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan) {
   return seconds;
 }
 
-std::string second_file(const std::string& path, const char* ending) {
+std::string path_with_extension(const std::string& path, const char* ending) {
   return std::filesystem::path(path).replace_extension(ending).string();
 }
 

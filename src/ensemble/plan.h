@@ -58,7 +58,7 @@ std::vector<double> estimated_seconds(const EnsemblePlan& plan);
 /// Splits `text` at separators; an empty text gives one empty part.
 std::vector<std::string> split(const std::string& text, char separator);
 
-/// Returns the path of a member with another extension, such as ".log".
-std::string second_file(const std::string& path, const char* ending);
+/// Returns the path of a member's run file with another extension, such as ".log".
+std::string path_with_extension(const std::string& path, const char* ending);
 
 }  // namespace talus::ensemble

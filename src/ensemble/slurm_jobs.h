@@ -35,7 +35,7 @@ EnsembleMark mark_of(const EnsemblePlan& plan);
 /// steps of a completed member no longer count.
 bool is_further(const EnsembleMark& now, const EnsembleMark& before);
 
-/// Largest number of consecutive starts of a task without progress of any member.
+/// Number of consecutive starts without progress of any member after which a task is not queued again.
 inline constexpr int max_idle_starts = 3;
 
 /// The progress that a task remembers from one start to the next.

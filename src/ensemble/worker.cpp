@@ -124,7 +124,7 @@ void compute(Worker& worker, ClaimedMember& claimed) {
   bool lost = false;
   const auto keep_claim = [&] { return !(lost = lost || !claimed.claim.record_heartbeat()); };
   const std::vector<FailedJob> failed =
-      run_jobs({{std::move(arguments), second_file(member.path, ".log")}}, "the worker", keep_claim);
+      run_jobs({{std::move(arguments), path_with_extension(member.path, ".log")}}, "the worker", keep_claim);
   const int code = failed.empty() ? 0 : failed.front().exit_code;
   // Another worker continues the member, so that the error of a process that was considered dead does not
   // count as a failure.

@@ -85,7 +85,7 @@ std::optional<Figure> wall_stress_figure(std::span<const RunGroup> groups, const
 /// 15 (paper, Fig. 7).
 std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups);
 
-// angle_figures.cpp
+// angle_distributions.cpp and angle_correlations.cpp
 // Characteristic angles of the runs of an ensemble: their distributions and correlations.
 /// Bins of equal width, and the lower edge of the first.
 struct HistogramBins {

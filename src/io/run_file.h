@@ -67,7 +67,7 @@ class RunFile {
   /// Returns the outcomes of perturbed copies of the bed on the way to failure, in order.
   std::vector<TrialRow> trials() const;
   const Checkpoint& checkpoint() const;  ///< last state, with results and timing
-  /// Whether the last state is stored; a repaired run may have lost it, and then has no grains in it.
+  /// Whether the last state is stored. A repaired run may have lost it; its checkpoint then has no grains.
   bool has_state() const { return checkpoint().world.grains.count() > 0; }
   /// Returns what the run lost before it was repaired; empty if nothing is missing.
   std::string lost() const;

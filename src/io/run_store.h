@@ -101,8 +101,8 @@ class RunStore {
   /// folder was removed or replaced.
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
-  /// Packs everything committed into the file at `path`, which is renamed to its name once it has proved
-  /// readable, and removes the folder. Ends the store. Calls `should_continue` before each frame, and returns
+  /// Packs everything committed into a file, which is renamed to `path` once it has proved readable, and
+  /// removes the folder. Ends the store. Calls `should_continue` before each frame, and returns
   /// false if it returns false. In that case, and if it throws, the folder is kept, and pack can be called
   /// again.
   bool pack(const std::function<bool()>& should_continue = {}, const PackedParts& parts = {});

@@ -86,9 +86,10 @@ struct Scenario {
   } deposition;
 
   struct Tilt {
-    double rate = 1.0;                ///< deg/s
-    double step = 0.001;              ///< tilt in one time step h = step / rate, deg
-    std::optional<double> end_angle;  ///< deg; without a value ("repose"): the angle at which the slope fails
+    double rate = 1.0;    ///< deg/s
+    double step = 0.001;  ///< tilt in one time step h = step / rate, deg
+    std::optional<double>
+        end_angle;  ///< last tilt, deg; without a value ("repose"): when the slope has failed
     /// Tilt programme as phrases (scenario/tilt_program.h); without any ("none") the tilt grows at `rate`.
     std::vector<std::string> program;
     /// "stop": the run ends at failure; "lower", "hold": the tilt is lowered or held until the flow has

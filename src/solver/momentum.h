@@ -13,7 +13,7 @@ namespace talus::solver {
 /// that no motion has, forces drift along a self-stress, and momentum accelerates the drift.
 struct Momentum {
   static constexpr double tolerated_growth = 1.2;
-  static constexpr double theta_begun_anew = 0.25;
+  static constexpr double theta_after_restart = 0.25;
 
   double theta = 1.0;
   double beta = 0.0;        ///< extrapolation: y = P + beta (P - P of the previous sweep)
@@ -24,7 +24,7 @@ struct Momentum {
   void update(double change, double ascent) {
     min_change = min_change > 0.0 ? std::min(min_change, change) : change;
     if (ascent > 0.0 || change > tolerated_growth * min_change) {
-      theta = theta_begun_anew;
+      theta = theta_after_restart;
       beta = 0.0;
       min_change = change;
       return;

@@ -25,8 +25,8 @@ class FrameAhead {
   FrameAhead(const FrameAhead&) = delete;
   FrameAhead& operator=(const FrameAhead&) = delete;
 
-  /// Begins to prepare frame k with neighbourhoods of diameter l_min (D) and larger, reading it unless it is
-  /// `known`. Does nothing if another frame is in progress or no thread is available.
+  /// Begins to prepare frame k with the gamma of neighbourhoods of diameter l_min (D), reading it unless it
+  /// is `known`. Does nothing if another frame is in progress or no thread is available.
   void begin(std::size_t k, double l_min, const std::shared_ptr<const Frame>& known = nullptr);
   /// Returns frame k if it was the last one begun, with the same l_min; waits until it is ready. Returns
   /// nothing if something else was begun, if grains are missing, or if reading failed (reading it again

@@ -38,11 +38,12 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
 TEST_F(Analyze, prints_both_thresholds_side_by_side) {
   const Outcome outcome = analyze({"--set", "gamma_c=0.3"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  expect_parts(outcome.out, {"bed.h5  (analysis stored in the file)",
-                             "4 frames, 0.00 to 1.50 deg; the slope has not failed; Gamma_c = 0.3000",
-                             "; l_c cut at 4 D\ngamma averaged over the grains within 1.5 D\n",
-                             "gamma >= 1 Gamma_c = 0.3000", "gamma >= 2 Gamma_c = 0.6000", "\n  1.50 ",
-                             "percolation, 2 Gamma_c", "dilation, centre of mass"});
+  expect_parts(outcome.out,
+               {"bed.h5  (analysis stored in the file)",
+                "4 frames, 0.00 to 1.50 deg; the slope has not failed; Gamma_c = 0.3000",
+                "; l_c cut at 4 D\ngamma of each grain together with its neighbours within 1.5 D\n",
+                "gamma >= 1 Gamma_c = 0.3000", "gamma >= 2 Gamma_c = 0.6000", "\n  1.50 ",
+                "percolation, 2 Gamma_c", "dilation, centre of mass"});
 }
 
 TEST_F(Analyze, says_what_is_left_out_of_a_slope_that_stands) {

@@ -10,7 +10,7 @@
 
 namespace talus::analysis {
 
-// Each take_ function sets members of a record that are defined in the table of quantities.
+// Each measure_ function sets members of a record that are defined in the table of quantities.
 
 /// Sets the coordination numbers, 0 if no grain carries force, and the share of rattlers.
 void measure_coordination(const BedFrame& bed, FrameRecord& record);

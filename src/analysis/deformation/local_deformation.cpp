@@ -92,7 +92,7 @@ void measure_deformation(const Frame& before, const BedFrame& bed, FrameRecord& 
   const auto count = static_cast<double>(shears.size());
   std::ranges::sort(shears, std::greater());
   const double sum = std::accumulate(shears.begin(), shears.end(), 0.0);
-  const auto top = static_cast<std::ptrdiff_t>(std::ceil(max_strained * count));
+  const auto top = static_cast<std::ptrdiff_t>(std::ceil(most_strained_share * count));
   record.local_shear = sum / count;
   record.local_shear_share = std::accumulate(shears.begin(), shears.begin() + top, 0.0) / sum;
   record.nonaffine = std::sqrt(nonaffine / count);

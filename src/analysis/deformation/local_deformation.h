@@ -12,8 +12,8 @@ namespace talus::analysis {
 /// centres within this distance of its own, the first two shells.
 inline constexpr double deformation_reach = 2.0;
 
-/// Share of the grains, those with the largest strain, that measures localisation.
-inline constexpr double max_strained = 0.1;
+/// Share of the grains, those with the largest strain, whose part of the total strain measures localisation.
+inline constexpr double most_strained_share = 0.1;
 
 /// Deformation of the neighbours of one grain. NaN if they do not span the plane: fewer than two, or in one
 /// line.

@@ -23,7 +23,7 @@ PowerLaw law_of_tail(std::span<const double> tail, double minimum) {
   law.count = static_cast<int>(tail.size());
   double logarithms = 0.0;
   for (const double value : tail) logarithms += std::log(value / minimum);
-  if (law.count < min_to_distinguish || !(logarithms > 0.0)) return law;
+  if (law.count < min_fitted_values || !(logarithms > 0.0)) return law;
   const auto n = static_cast<double>(tail.size());
   law.exponent = 1.0 + n / logarithms;
   law.error = (law.exponent - 1.0) / std::sqrt(n);
@@ -49,7 +49,7 @@ PowerLaw power_law(std::span<const double> values) {
   std::erase(all, 0.0);
   PowerLaw best;
   best.count = static_cast<int>(all.size());
-  for (std::size_t k = 0; k + min_to_distinguish <= all.size(); ++k) {
+  for (std::size_t k = 0; k + min_fitted_values <= all.size(); ++k) {
     if (k > 0 && all[k] == all[k - 1]) continue;
     const PowerLaw law = law_of_tail(std::span(all).subspan(k), all[k]);
     if (std::isfinite(law.exponent) && !(law.distance >= best.distance)) best = law;
@@ -61,7 +61,7 @@ ExponentialLaw exponential_law(std::span<const double> values, double minimum) {
   const std::vector<double> waits = ascending_from(values, minimum);
   ExponentialLaw law;
   law.count = static_cast<int>(waits.size());
-  if (law.count < min_to_distinguish) return law;
+  if (law.count < min_fitted_values) return law;
   const auto n = static_cast<double>(waits.size());
   double sum = 0.0;
   for (const double wait : waits) sum += wait - minimum;

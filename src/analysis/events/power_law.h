@@ -7,9 +7,9 @@
 
 namespace talus::analysis {
 
-/// Smallest number of values for an exponent. With fewer, the standard error of alpha - 1 is about a third or
+/// Smallest number of values for an exponent. With fewer, its standard error is about a third of alpha - 1 or
 /// more.
-inline constexpr int min_to_distinguish = 10;
+inline constexpr int min_fitted_values = 10;
 
 /// A continuous power law, density ~ x^-alpha for x >= `minimum` (Clauset, Shalizi and Newman 2009, Eqs. 3.1,
 /// 3.2 and 3.9).
@@ -24,12 +24,12 @@ struct PowerLaw {
   double share_from(double x) const;
 };
 
-/// Fits the values at or above `minimum` > 0. The exponent is NaN with fewer than min_to_distinguish values
+/// Fits the values at or above `minimum` > 0. The exponent is NaN with fewer than min_fitted_values values
 /// or if all are equal; the count is set in any case.
 PowerLaw power_law_from(std::span<const double> values, double minimum);
 
 /// Fits with the value as minimum that gives the smallest distance, among those that leave at least
-/// min_to_distinguish values (Clauset, Shalizi and Newman 2009, section 3.3). Values that are not positive
+/// min_fitted_values values (Clauset, Shalizi and Newman 2009, section 3.3). Values that are not positive
 /// are ignored.
 PowerLaw power_law(std::span<const double> values);
 
@@ -41,7 +41,7 @@ struct ExponentialLaw {
 };
 
 /// Fits the values at or above `minimum`, ignoring NaN. The minimum is subtracted from them because shorter
-/// values cannot be resolved. The mean is NaN with fewer than min_to_distinguish values.
+/// values cannot be resolved. The mean is NaN with fewer than min_fitted_values values.
 ExponentialLaw exponential_law(std::span<const double> values, double minimum);
 
 }  // namespace talus::analysis

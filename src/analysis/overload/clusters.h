@@ -26,8 +26,8 @@ struct Clusters {
 Clusters find_clusters(const std::vector<bool>& in_set, const std::vector<Link>& links,
                        const std::vector<double>& x, double period);
 
-/// Return the number of grains in the largest cluster, 0 if there are no clusters, and its share of the
-/// grains of the set, then NaN.
+/// Return the size of the largest cluster in grains, and its share of the grains of the set. Without clusters
+/// the size is 0 and the share is NaN.
 Index largest_size(const Clusters& clusters);
 double largest_share(const Clusters& clusters);
 

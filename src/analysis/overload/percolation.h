@@ -11,7 +11,7 @@ namespace talus::analysis {
 
 /// Free grains at the edges of the bed, from which clusters may span it. D is the mean diameter.
 struct BedEdges {
-  std::vector<bool> floor;  ///< touching a floor grain with a force, or centre less than D above y = 0
+  std::vector<bool> floor;  ///< force-carrying contact with the floor, or centre less than D above y = 0
   /// Top less than D below the highest top in the same column of the bed, about D wide.
   std::vector<bool> surface;
   std::vector<bool> left, right;  ///< edge less than D away from a side wall; none in a periodic bed
