@@ -55,8 +55,8 @@ QuantityRows packing_rows() {
        "10)",
        moments, curve("σ_T/σ_N", "σ_T/σ_N of the packing", Observable::sigma_t_over_n)},
       {&FrameRecord::stress_ratio, "packing/stress_ratio", "T", "1",
-       "Gamma = Q/P of the packing (paper, Eq. 7); sin(theta) for a periodic bed in equilibrium (paper, Eq. "
-       "11)",
+       "Gamma = Q/P of the packing (paper, Eq. 7); at least sin(theta) for a periodic bed in equilibrium, "
+       "equal to it in the paper's Eq. 11",
        moments, curve("Γ = Q/P", "Γ = Q/P of the packing", Observable::stress_ratio)},
       {&FrameRecord::volume_strain, "packing/volume_strain", "T", "1",
        "(V - V0)/V0, V0 at the start of the tilt; negative = contraction; from /observables", "",

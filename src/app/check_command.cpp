@@ -153,8 +153,8 @@ void print_run_json(const std::string& path, const io::RunFile& run, const sessi
 }
 
 void print_run(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
-  print("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "whole" : "damaged",
-        run.complete() ? "complete" : "not complete");
+  print("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "intact" : "damaged",
+        run.complete() ? "complete" : "incomplete");
   if (!run.lost().empty()) print("  lost        %s (before it was repaired)\n", run.lost().c_str());
   if (check.changed == 0)
     print("  hashes      correct\n");

@@ -322,7 +322,7 @@ void add_view_command(CLI::App& app) {
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace an existing run or screenshot of this name");
   command->add_option("--at", arguments->at,
-                      "Start at this angle in degrees, or at repose, the last frame before failure");
+                      "Start a replay at this angle in degrees, or at repose, the last frame before failure");
   command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by number")
       ->check(in_range(0, 1000000000));

@@ -23,9 +23,9 @@ Precision parse_precision(const std::string& text) {
     const bool has_error = error == std::errc() && end == last && precision.error > 0.0;
     if (has_error && is_number_of_run(precision.quantity)) return precision;
     if (has_error)
-      throw Error(ExitCode::usage,
-                  fmt::format("--until {}: {} is no result of a run; expected {}", visible_word(text),
-                              visible_word(precision.quantity), joined(numbers_of_run(), ", ")));
+      throw Error(ExitCode::usage, fmt::format("--until {}: {} is not a result of a run; expected one of {}",
+                                               visible_word(text), visible_word(precision.quantity),
+                                               joined(numbers_of_run(), ", ")));
   }
   throw Error(ExitCode::usage,
               fmt::format("--until {}: expected a quantity and the standard error of its mean, such as "

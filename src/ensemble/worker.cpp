@@ -120,7 +120,7 @@ void compute(Worker& worker, ClaimedMember& claimed) {
     arguments.emplace_back("--max-wall");
     arguments.push_back(*left);
   }
-  if (worker.options.on_end) worker.options.on_end(member.name, -1);
+  if (worker.options.on_change) worker.options.on_change(member.name, -1);
   bool lost = false;
   const auto keep_claim = [&] { return !(lost = lost || !claimed.claim.record_heartbeat()); };
   const std::vector<FailedJob> failed =
@@ -129,7 +129,7 @@ void compute(Worker& worker, ClaimedMember& claimed) {
   // Another worker continues the member, so that the error of a process that was considered dead does not
   // count as a failure.
   if (lost || (code != 0 && !claimed.claim.record_heartbeat())) return;
-  if (worker.options.on_end) worker.options.on_end(member.name, code);
+  if (worker.options.on_change) worker.options.on_change(member.name, code);
   if (code == static_cast<int>(ExitCode::stopped))
     throw Error(ExitCode::stopped,
                 "the worker was stopped; the members under way resume from their checkpoints");

@@ -18,7 +18,7 @@ struct WorkerOptions {
   ClaimTimes times;
   std::optional<double> max_wall;  ///< time limit, s
   /// Called when a member begins, with `exit_code` -1, and when it ends. May be empty.
-  std::function<void(const std::string& member, int exit_code)> on_end;
+  std::function<void(const std::string& member, int exit_code)> on_change;
   std::string only = {};  ///< the only member that it may compute; empty: any
   /// Called when a member is postponed because another process writes its run. May be empty.
   std::function<void(const std::string& member, const std::string& writer)> on_wait = {};

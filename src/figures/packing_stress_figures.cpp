@@ -36,7 +36,7 @@ std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
   figure.title = "Stress ratio of the packing over sin(theta) (paper, Fig. 5)";
   figure.caption =
       "Stress ratio Gamma = Q/P of the packing over the sine of the tilt theta, up to theta_c. Dotted: Gamma "
-      "= sin(theta), equilibrium of a periodic bed (paper, Eq. 11).";
+      "= sin(theta), the least value for a periodic bed in equilibrium (paper, Eq. 11).";
   return over_tilt(std::move(figure), groups, analysis::quantity_of(&analysis::FrameRecord::stress_ratio));
 }
 

@@ -35,7 +35,7 @@ void for_each_field(SomeFrame& frame, Direction direction) {
   if constexpr (Direction::reads)
     if (std::ranges::count(across, 0) != std::ssize(across))
       direction.reader.refuse(grains + "image/value",
-                              "holds an image across the bed, which has no period there");
+                              "holds a periodic image across the depth of the bed, which is not periodic");
   fields.array(grains + "angle/value", frame.angle);
   fields.pairs(grains + "velocity/value", frame.vx, frame.vy);
   fields.array(grains + "angular_velocity/value", frame.omega);

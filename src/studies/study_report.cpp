@@ -31,7 +31,8 @@ bool is_known(const StudyResult& result, StudyQuantity quantity) {
   });
 }
 
-/// Mean ± error, or the mean with four digits where it has no error. A count says where seeds are missing.
+/// Returns mean ± error, or the mean with four digits if it has no error; a count is added if seeds are
+/// missing.
 std::string mean_text(const Statistics& value, double factor, std::size_t seeds, bool sign = false) {
   if (value.count == 0) return "-";
   const double mean = value.mean * factor, error = value.error * factor;
@@ -97,7 +98,7 @@ std::string introduction(const StudyResult& result) {
   if (!plan.baseline.empty()) text += fmt::format("Baseline: {}.\n", markdown_escaped(plan.baseline));
   for (const std::string& version : versions) text += fmt::format("Computed by Talus {}.\n", version);
   if (versions.size() > 1)
-    text += "**Runs of several versions stand side by side: differences may be theirs.**\n";
+    text += "**The runs come from several versions of Talus, which may cause differences.**\n";
   return text + "\n";
 }
 
