@@ -69,14 +69,14 @@ void add_range(TextTable& table, const std::vector<MeasuredState>& states, doubl
   }
   if (middles.empty()) return;
   std::ranges::sort(middles);
+  const double median = 0.5 * (middles[(middles.size() - 1) / 2] + middles[middles.size() / 2]);
   const std::string range =
       high < range_edges.back() ? fmt::format("{:.3g} - {:.3g}", low, high) : fmt::format("> {:.3g}", low);
   auto& row = table.rows.emplace_back();
   row = {{range}};
   for (const std::size_t count : {middles.size(), alone, none, erratic})
     row.push_back({std::to_string(count)});
-  for (const double value : {middles.front(), middles[middles.size() / 2], middles.back()})
-    row.push_back({push_text(value)});
+  for (const double value : {middles.front(), median, middles.back()}) row.push_back({push_text(value)});
 }
 
 std::vector<TextCell> state_row(const MeasuredState& state) {

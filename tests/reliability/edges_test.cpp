@@ -285,10 +285,10 @@ TEST_F(Edges, settings_of_the_user_change_no_figure) {
   umask(mask);
 }
 
-TEST_F(Edges, a_word_that_is_no_command_is_told_with_the_nearest) {
+TEST_F(Edges, an_unknown_command_is_reported_with_the_nearest) {
   const Outcome outcome = talus({"frob", "x"});
   EXPECT_EQ(outcome.exit_code, 64);
-  EXPECT_EQ(outcome.err, "talus: error: 'frob' is no command; talus --help lists them\n");
+  EXPECT_EQ(outcome.err, "talus: error: 'frob' is not a command; talus --help lists them\n");
   EXPECT_NE(talus({"rnu", "x"}).err.find("did you mean 'run'"), std::string::npos);
 }
 
