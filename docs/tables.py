@@ -79,7 +79,7 @@ def time_steps(beds):
 def missed_steps(beds):
     """Steps that miss their tolerance, in each bed."""
     groups = [("the paper's bed, 8000 grains", "paper-pbc"), *((label, group) for label, group in [("poured, 4000 grains", "pour-6"), *PREPARATIONS[-2:]]),
-              ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
+              ("between walls, L = 100 D", "paper-wbc-100"), ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
     columns = [("missed in the deposition of a bed", "unconverged_deposition", 1), ("missed in its tilt", "unconverged_tilt", 1)]
     return of_groups(beds, groups, "bed", columns)
 
@@ -183,18 +183,18 @@ def states():
 
 
 def threshold(state):
-    """The middle of the bracket of the push that starts an avalanche, sqrt(g D): 0 below the smallest push, infinite above the largest;
-    NaN if the bed does not hold."""
-    if not state["holds"]:
-        return math.nan
-    without, with_push = state["v_without"], state["v_with"]
-    if math.isnan(with_push):
-        return math.inf
-    return 0.0 if math.isnan(without) or without == 0 else math.sqrt(without * with_push)
+    """The logarithmic middle of the bracket of the push that starts an avalanche, sqrt(g D): the smallest push if the bed does not hold or
+    needs less, infinite above the largest."""
+    return math.inf if math.isnan(state["v_with"]) else math.sqrt(max(state["v_without"], PUSHES[0]) * max(state["v_with"], PUSHES[0]))
+
+
+def bracketed(state):
+    """Whether the threshold lies between the smallest and the largest push."""
+    return PUSHES[0] < threshold(state) < math.inf
 
 
 def push_text(value):
-    if value == 0:
+    if value == PUSHES[0]:
         return f"< {PUSHES[0]:g}"
     return f"> {PUSHES[1]:g}" if math.isinf(value) else f"{value:.2g}"
 
@@ -203,8 +203,8 @@ def metastability(_):
     rows = []
     for low, high in CLASSES:
         here = [state for state in states() if low < state["distance"] <= high]
-        found = [threshold(state) if state["holds"] else 0.0 for state in here]
-        brackets = [state for state in here if state["holds"] and 0 < threshold(state) < math.inf or not state["monotone"]]
+        found = [threshold(state) for state in here]
+        brackets = [state for state in here if bracketed(state) or not state["monotone"]]
         rows.append([f"{low:g} to {high:g}" if high < math.inf else f"above {low:g}", str(len(here)), str(sum(not s["holds"] for s in here)),
                      str(sum(math.isinf(v) for v in found)), str(sum(not s["monotone"] for s in brackets)),
                      *(push_text(f(found)) if found else "–" for f in (min, statistics.median, max))])
@@ -222,9 +222,9 @@ def metastability_numbers(beds):
     onset = {seed: max((state["theta"] for state in each if state["theta"] <= min(
         [s["theta"] for s in each if s["holds"] and threshold(s) < math.inf] or [math.inf])), default=math.nan) for seed, each in by_seed.items()}
     onset = {seed: theta for seed, theta in onset.items() if not math.isnan(theta)}
-    found = {"beds": len(last), "last.fail": sum(not s["holds"] for s in last), "last.smallest": sum(threshold(s) == 0 for s in last),
-             "last.others": sum(threshold(s) > 0 for s in last), "nearest": min(s["distance"] for s in last), "farthest": max(s["distance"] for s in last)}
-    brackets = [state for state in states() if state["holds"] and 0 < threshold(state) < math.inf]
+    found = {"beds": len(last), "last.fail": sum(not s["holds"] for s in last), "last.smallest": sum(s["holds"] and threshold(s) == PUSHES[0] for s in last),
+             "last.others": sum(threshold(s) > PUSHES[0] for s in last), "nearest": min(s["distance"] for s in last), "farthest": max(s["distance"] for s in last)}
+    brackets = [state for state in states() if bracketed(state)]
     found |= {"brackets": len(brackets), "erratic": sum(not s["monotone"] for s in states() if s["holds"])}
     theta_c = {int(state["seed"]): state["theta_c"] for state in states()}
     pairs = {"theta_c": theta_c, "lc_jump": beds.values("dynamic-angle", "lc_jump"), "theta_r": beds.values("dynamic-angle", "theta_r")}
