@@ -1,4 +1,4 @@
-# Widths in ten classes of half the mean force: gray up to the mean, black above. The widest is at most half a grain wide,
+# Widths in ten classes of half the mean force: gray up to the mean, black above. The widest is about a third of a grain wide,
 # so that chains stay separate. Lengths are in cm.
 class(force) = (c = ceil(2 * force), c < 1 ? 1 : c > 10 ? 10 : c)
 map_cm = smaller(map_height * width, asked_height > 4 ? asked_height - 2.1 : 1.2 * width)

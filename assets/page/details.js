@@ -31,7 +31,8 @@ function showDetails(go) {
     table(["quantity", "meaning"], data.curves.quantities.map((quantity) => [
       quantity.common ? rich(quantity.title) : quantity.title, quantity.definition])));
   byId("provenance").append(table(["", ""], [["run", data.name], ...data.provenance]),
-    element("p", {}, "Positions are stored with 16 bits, other values to better than one shade of their map, forces to 2 %."));
+    element("p", {},
+      "Positions are stored with 16 bits, other values to better than one shade of their map, forces above a quarter of their mean to 2 %."));
   byId("keys").append(table(["", ""], keyHelp));
   byId("foot").append(`${data.name}: frames ${frames.numbers[0]} to ${frames.numbers[frames.count - 1]} of the run, ${frames.count} on this page.`);
 }

@@ -185,9 +185,9 @@ void add_reproduce_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "reproduce",
       "Run, analyse and draw the beds of the paper, and write a report that compares them with it");
-  command->add_flag("--quick", arguments->quick,
-                    "Use beds of half the depth, which take a few minutes; their lengths cannot be compared "
-                    "with the paper");
+  command->add_flag(
+      "--quick", arguments->quick,
+      "Use beds of half the depth, for a quick look; their lengths cannot be compared with the paper");
   command->add_option(
       "-o,--output", arguments->folder,
       "Folder of runs, figures and report; complete members are kept [reproduction, or reproduction-quick]");

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double slowest = 1e-3;  // deg/s
 
-/// Returns how many frames of that size are cached: all of the paper's bed, which has about 90 of 1.6 MB.
+/// Returns how many frames of that size are cached: all of the paper's bed.
 std::size_t max_kept(const Frame& frame) {
   constexpr std::size_t budget = 256u << 20, of_grain = 90, of_contact = 60;  // bytes
   const std::size_t size = of_grain * frame.x.size() + of_contact * frame.contacts.a.size() + 1;
