@@ -20,6 +20,8 @@ do for [s = 1:(many ? 1 : words(seeds))] {
   style = sprintf("linetype %d linecolor rgb '%s'", type(s), shade(s))
   entry = add_entry(style . " linewidth 0.7", style . sprintf(" pointsize %g", size), "", entry_of(s))
 }
+entry = add_point("pointtype 8 pointsize 0.6 linecolor rgb '#60000000'", "no avalanche")
+entry = add_point("pointtype 10 pointsize 0.6 linecolor rgb '#60000000'", "weakest push suffices")
 if (theta_d_lc > 0) { entry = add_line("linestyle 102", "{/:Italic θ_d} ({/:Italic l_c})") }
 if (theta_d_dilation > 0) { entry = add_line("linestyle 103", "{/:Italic θ_d} (dilation)") }
 eval open_page
@@ -35,7 +37,7 @@ do for [panel = 1:2] {
   x_title = "{/:Italic θ_c} − {/:Italic θ} (°)"
   y_title = panel == 1 ? "{/:Italic v} / ({/:Italic gD})^{1/2}" : "{/:Italic E} / {/:Italic mgD}"
   eval axes
-  set label 1 letter(panel) at graph 0.04, graph 0.93
+  set label 1 letter(panel) at graph 0.96, graph 0.07 right
   plot file every ::0::0 using (0):(1) with points pointtype -1, \
        for [s = 1:words(seeds)] file using (x(s)):(none(high) ? column(low) : NaN) with points linetype type(s) linecolor rgb shade(s) linewidth 1 pointtype 8 pointsize 0.6, \
        for [s = 1:words(seeds)] file using (x(s)):(column(low) == 0 && !none(high) ? column(high) : NaN) with points linetype type(s) linecolor rgb shade(s) pointtype 10 pointsize 0.6, \
