@@ -196,7 +196,7 @@ def bracketed(state):
 def push_text(value):
     if value == PUSHES[0]:
         return f"< {PUSHES[0]:g}"
-    return f"> {PUSHES[1]:g}" if math.isinf(value) else f"{value:.2g}"
+    return f"> {PUSHES[1]:g}" if math.isinf(value) else f"{value:.2f}"
 
 
 def metastability(_):
