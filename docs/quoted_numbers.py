@@ -92,6 +92,8 @@ class Values:
     demo.theta_c                     of a run of the first pages: demo, smooth, collapse, paper (class method of_run)
     paper-pbc.theta_c                a mean over beds, with its standard error; .error, .deviation, .n, .min, .max give one of these, .errors
                                      the mean in standard errors
+    paper-pbc.theta_c.beds:0.2       the number of beds whose mean has this standard error; .pairs:0.2 the number of beds of each of two kinds
+                                     whose difference has it
     paper-pbc.theta_c-lc_jump        the same of a difference, bed by bed
     poured.theta_c.7                 of one seed
     paper-pbc.theta_c~lc_jump        a correlation over beds; .errors gives its distance from 0 in standard errors
@@ -149,6 +151,9 @@ class Values:
         if statistic.isdigit():
             return values[int(statistic)]
         found = summary(values.values())
+        kind, _, error = statistic.partition(":")
+        if kind in ("beds", "pairs"):
+            return math.ceil({"beds": 1, "pairs": 2}[kind] * (found["deviation"] / float(error)) ** 2)
         return found[statistic] if statistic else (found["mean"], found["error"])
 
     def of_run(self, name):
