@@ -346,11 +346,19 @@ def forces(_):
 
 
 def force_numbers(_):
-    """Standard deviation of p_o over other admissible forces, as p_o@0.min, .mean and .max over the beds."""
+    """Of a quantity over other admissible forces, with .min, .mean and .max over the beds: p_o@0, its standard deviation;
+    p_o@0.relative, the same over the mean; p_o@0.excess, the stored value less the mean; p_o@0.farthest, the largest relative difference
+    from the stored value; p_o@0.above, the largest value over sin(tilt), less 1."""
     found = {}
     for row in rows_of("forces.csv"):
-        if row["quantity"] == "p_o" and row["deviation"]:
-            found.setdefault(f"p_o@{float(row['tilt (deg)']):g}", []).append(number(row["deviation"]))
+        if not row["deviation"]:
+            continue
+        tilt = number(row["tilt (deg)"])
+        stored, mean, deviation, least, largest = (number(row[key]) for key in ("stored", "mean", "deviation", "least", "largest"))
+        sine = math.sin(math.radians(tilt))
+        for measure, value in (("", deviation), (".relative", deviation / mean), (".excess", stored - mean),
+                               (".farthest", max(stored - least, largest - stored) / stored), (".above", largest / sine - 1 if sine else math.nan)):
+            found.setdefault(f"{row['quantity']}@{tilt:g}{measure}", []).append(value)
     return {f"{key}.{name}": f(values) for key, values in found.items() for name, f in (("min", min), ("mean", statistics.mean), ("max", max))}
 
 
