@@ -139,7 +139,7 @@ void add_replay_command(CLI::App& app) {
       ->add_flag("--overwrite", arguments->overwrite,
                  "Replace an existing run of this name; the old file is kept until the new run is complete")
       ->needs(output);
-  command->add_flag("-q,--quiet", arguments->quiet, "Print errors only");
+  command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   command->callback([arguments] { replay_run(*arguments); });
 }
 
