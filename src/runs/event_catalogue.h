@@ -10,7 +10,8 @@
 
 namespace talus::runs {
 
-/// Velocity error of the solver at a residual eta, over eta g h, in the bed of the paper (docs/solver.md).
+/// Velocity error of the solver at a residual eta, over eta g h, in the bed of the paper
+/// (docs/studies/solver-trials.md).
 inline constexpr double solver_velocity_error = 3000.0;
 /// Default threshold of events over this velocity error.
 inline constexpr double event_threshold_factor = 10.0;

@@ -125,11 +125,11 @@ TEST_P(BedAtRest, balances) {
     unbalanced = std::max(unbalanced, std::hypot(net.x, net.y));
   }
   EXPECT_LT(identity, 1e-10 * mean_weight);
-  EXPECT_LT(unbalanced, 1e-2 * mean_weight);
+  EXPECT_LT(unbalanced, 1e-5 * mean_weight);
 
   const Vec2 carried = force_on_boundary(world);
-  EXPECT_NEAR(carried.y, -test::weight(world), 1e-4 * test::weight(world));
-  EXPECT_NEAR(carried.x, 0.0, 1e-4 * test::weight(world));
+  EXPECT_NEAR(carried.y, -test::weight(world), 1e-6 * test::weight(world));
+  EXPECT_NEAR(carried.x, 0.0, 1e-6 * test::weight(world));
   RecordProperty("unbalanced_over_mg", std::to_string(unbalanced / mean_weight * 1e6) + "e-6");
   RecordProperty("carried_minus_one", std::to_string((-carried.y / test::weight(world) - 1.0) * 1e6) + "e-6");
 }
@@ -151,12 +151,12 @@ TEST_P(BedAtRest, grain_stresses_add_up_to_the_moment_of_the_outer_forces) {
   const Tensor2 outer = moment_of_outer_forces(world, midpoint);
   const double scale = sum.yy;
   EXPECT_GT(scale, 0.0);
-  EXPECT_NEAR(sum.yy, outer.yy, 1e-4 * scale);
-  EXPECT_NEAR(sum.yx, outer.yx, 1e-4 * scale);
+  EXPECT_NEAR(sum.yy, outer.yy, 1e-5 * scale);
+  EXPECT_NEAR(sum.yx, outer.yx, 1e-5 * scale);
   double error = std::max(std::fabs(sum.yy - outer.yy), std::fabs(sum.yx - outer.yx));
   if (!GetParam()) {
-    EXPECT_NEAR(sum.xx, outer.xx, 1e-4 * scale);
-    EXPECT_NEAR(sum.xy, outer.xy, 1e-4 * scale);
+    EXPECT_NEAR(sum.xx, outer.xx, 1e-5 * scale);
+    EXPECT_NEAR(sum.xy, outer.xy, 1e-5 * scale);
     error = std::max({error, std::fabs(sum.xx - outer.xx), std::fabs(sum.xy - outer.xy)});
   }
   RecordProperty("virial_error", std::to_string(error / scale * 1e6) + "e-6");
