@@ -178,7 +178,7 @@ void add_forces_command(CLI::App& app) {
   command->footer(
       "The grains of each frame are kept in place, and forces that carry them are\nsought from many initial "
       "guesses. A set of forces that does not converge, or\nleaves a grain unsupported, is reported but not "
-      "counted.\nThe run file is not changed (see docs/studies/admissible-forces.md).");
+      "counted.\nThe run file is not changed (see docs/analysis.md).");
   command->callback([arguments] { compare(*arguments); });
 }
 

@@ -138,9 +138,11 @@ TEST(ViewPage, commands_and_options_exist) {
             2);
 }
 
-TEST(ForcesPage, commands_and_options_exist) {
-  ASSERT_GT(commands("docs/studies/admissible-forces.md").size(), 1u);
-  EXPECT_GT(check_page("docs/studies/admissible-forces.md", {"forces_command"}), 3);
+TEST(AnalysisPage, commands_and_options_exist) {
+  ASSERT_GT(commands("docs/analysis.md").size(), 1u);
+  EXPECT_GT(check_page("docs/analysis.md", {"analyze_command", "forces_command", "events_command",
+                                            "info_command", "run_command", "frame_options"}),
+            10);
 }
 
 TEST(ExportPage, commands_and_options_exist) {
