@@ -12,7 +12,7 @@ PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), 
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
 LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
-WALL_LENGTHS = (100, 150, 200, 250, 300)
+WALL_LENGTHS = (100, 150, 200)
 #: Depth of the paper's beds, D, and its k_L - k_0.
 DEPTH, PAPER_K = 40.0, 2.5
 
