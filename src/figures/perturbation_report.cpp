@@ -98,7 +98,7 @@ std::vector<TextCell> state_row(const MeasuredState& state) {
 std::string perturbation_markdown(const RunGroup& group, std::span<const session::PerturbationTable> tables) {
   const std::vector<MeasuredState> states = states_of(group, tables);
   TextTable ranges{{{"theta_c - theta"}}, {}};
-  for (const char* title : {"states", "do not hold", "no avalanche", "erratic", "least", "median", "most"})
+  for (const char* title : {"states", "do not hold", "no avalanche", "erratic", "least", "median", "largest"})
     ranges.columns.push_back({title, true});
   double low = 0.0;
   for (const double high : range_edges) {
@@ -110,7 +110,7 @@ std::string perturbation_markdown(const RunGroup& group, std::span<const session
   for (const MeasuredState& state : states) each.rows.push_back(state_row(state));
   return fmt::format(
       "# Weakest push that starts an avalanche\n\n{}, patch of {} D, {} states of {}. Pushes in sqrt(g D), "
-      "angles in deg. Least, median and most refer to the midpoints of the brackets.\n\n{}\n{}",
+      "angles in deg. Least, median and largest refer to the midpoints of the brackets.\n\n{}\n{}",
       group.label, session::patch_text(tables.front().plan.patch), states.size(),
       runs_text(group.runs.size()), markdown_text(ranges), markdown_text(each));
 }

@@ -55,7 +55,7 @@ std::vector<Reading> make_readings() {
   add(base, 0, "moments averaged over 1 deg", averaged);
   add(base, 0, "neighbours joined", neighbours);
   add(base, 0, "l_c cut as in the paper", cut);
-  add(base, 0, "neighbourhoods from 4 D on", wider);
+  add(base, 0, "neighbourhoods of at least 4 D", wider);
   return all;
 }
 

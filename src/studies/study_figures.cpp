@@ -107,7 +107,7 @@ const std::vector<StudyField>& study_fields() {
         {"residual_max_moving", "while moving", solver, 1.0, "the same for the other steps"},
         {"unconverged_share", "not converged, in % of steps", solver, 100.0,
          "share of the steps of the tilt that missed their tolerance"},
-        {"iterations_per_step", "iterations a step", solver, 1.0,
+        {"iterations_per_step", "iterations per step", solver, 1.0,
          "mean iterations of the solver in a step of the tilt"},
         {"wall_s", "wall time in s", solver, 1.0,
          "time spent in the steps of deposition and tilt, on one thread"},

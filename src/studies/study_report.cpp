@@ -112,10 +112,10 @@ std::string differences(const StudyResult& result) {
   };
   const std::string angle = scenario::short_text(result.reference) + " deg";
   std::string text = fmt::format(
-      "## Difference to the baseline: theta_c, and the bed at {}\n\n{}", angle,
+      "## Difference from the baseline: theta_c, and the bed at {}\n\n{}", angle,
       table_of(result, quantities_of({StudyGroup::slope, StudyGroup::at_reference}), 1, difference));
   if (is_known(result, StudyQuantity::theta_c))
-    text += "## Difference to the baseline: the bed at theta_c\n\n" +
+    text += "## Difference from the baseline: the bed at theta_c\n\n" +
             table_of(result, quantities_of({StudyGroup::at_theta_c}), 1, difference);
   return fmt::format(
       "{}Mean of the differences of runs with the same seed ± standard error. Within error: zero lies in the "

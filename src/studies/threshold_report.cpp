@@ -84,7 +84,7 @@ std::string best_text(const ReproductionPlan& plan, std::span<const ReadingResul
 /// Names a result other than the best one that has the smallest deviation.
 std::string least_text(const ReproductionPlan& plan, std::span<const ReadingResult> results,
                        std::size_t least) {
-  return fmt::format("The smallest median deviation has {}: {}, with {} that agree.",
+  return fmt::format("{} has the smallest median deviation: {}, with {} that agree.",
                      result_text(plan, results[least]), deviation_text(results[least]),
                      score_text(results[least]));
 }
@@ -153,13 +153,13 @@ std::vector<ReportBlock> introduction() {
               ("Grains with 3 contacts or more: a grain held by two contacts has gamma near 1 whatever its "
                "load; here it does not count."),
               "Moments averaged over 1 deg: the internal moment of each grain is a mean over 1 deg of tilt.",
-              ("Neighbours joined: overloaded grains join to clusters where their centres are closer than "
-               "1.1 times the sum of their radii, in contact or not."),
-              "l_c cut as in the paper: at 30 D of 40 D, so at 3/4 of the depth; else at the depth.",
-              ("l_c ends at Gamma_c: grains count from 2 Gamma_c on, but their neighbourhoods grow until the "
-               "stress ratio is Gamma_c."),
-              ("Neighbourhoods from 4 D on: a grain is taken together with all within 2 D of it, and l_c is "
-               "not below 4 D."),
+              ("Neighbours joined: overloaded grains form a cluster if their centres are closer than 1.1 "
+               "times the sum of their radii, in contact or not."),
+              "l_c cut as in the paper: at 30 D of 40 D, so at 3/4 of the depth; otherwise at the depth.",
+              ("l_c ends at Gamma_c: grains are overloaded if gamma >= 2 Gamma_c, but their neighbourhoods "
+               "grow until the stress ratio is Gamma_c."),
+              ("Neighbourhoods of at least 4 D: a grain is taken together with all within 2 D of it, and l_c "
+               "is at least 4 D."),
           }}};
 }
 
