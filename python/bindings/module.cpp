@@ -234,7 +234,7 @@ void require_files() {
   if (cannot_use_files)
     throw Error(ExitCode::unavailable,
                 "this process was forked while another thread was in a simulation, and can neither read nor "
-                "record runs: start it by the method \"spawn\" of multiprocessing");
+                "record runs: start it with the method \"spawn\" of multiprocessing");
 }
 
 /// Returns the picture that a simulation or a frame draws.
@@ -242,8 +242,8 @@ template <typename Draw>
 py::array drawn(Draw&& draw) {
   if (cannot_draw)
     throw Error(ExitCode::unavailable,
-                "this process was forked while another thread was drawing, and cannot draw: start it by the "
-                "method \"spawn\" of multiprocessing");
+                "this process was forked while another thread was drawing, and cannot draw: start it with "
+                "the method \"spawn\" of multiprocessing");
   const Count count(draws_under_way);
   return pixels(draw());
 }

@@ -195,7 +195,7 @@ class CheckedFile:
         attribute = h5py.h5a.open(data_set, b"definition")
         kind = attribute.get_type()
         if not is_fixed_text(kind) or attribute.shape != ():
-            raise self.refuse(name, "has a definition that is not a text")
+            raise self.refuse(name, "has a definition that is not text")
         text = np.empty((), dtype=f"S{kind.get_size()}")
         attribute.read(text, mtype=kind)
         return as_text(text[()])

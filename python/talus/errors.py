@@ -35,9 +35,9 @@ class MissingPackage(Error, ImportError):
 
 
 def check_text(name: Any, what: str) -> str:
-    """Returns the name. Raises WrongType if it is not a text."""
+    """Returns the name. Raises WrongType if it is not a string."""
     if not isinstance(name, str):
-        raise WrongType(f"{what} {short(name)}: expected a text")
+        raise WrongType(f"{what} {short(name)}: expected a string")
     return name
 
 

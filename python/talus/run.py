@@ -338,7 +338,7 @@ def as_path(path: Any) -> Path:
             raise TypeError
         return Path(path)
     except TypeError:
-        raise WrongType(f"{short(path)}: expected the path of a file or folder, as a text or a Path") from None
+        raise WrongType(f"{short(path)}: expected the path of a file or folder, as a string or a Path") from None
 
 
 def reopen(path: Path, units: Units, mark: bytes, known: tuple[bytes, Identity] | None) -> Run:

@@ -81,7 +81,7 @@ def _toml(value: Any, key: str) -> str:
         return value.isoformat()
     if isinstance(value, list | tuple | np.ndarray):
         return "[" + ", ".join(_toml(one, key) for one in value) + "]"
-    raise WrongType(f"{key} = {short(value)}: expected a number, a text, True or False, or a list of these")
+    raise WrongType(f"{key} = {short(value)}: expected a number, a string, True or False, or a list of these")
 
 
 def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
@@ -212,7 +212,7 @@ class LiveContacts:
 
     @property
     def pair(self) -> np.ndarray:
-        """(C, 2) ids of the bodies a < b; from the number of grains on, b is a plane."""
+        """(C, 2) ids a < b of the bodies; b is a plane if it is not below the number of grains."""
         return self._core._pair
 
     @property

@@ -67,7 +67,7 @@ void draw_file_panel(Gui& gui) {
   named_text(gui, "picture path", "", state.picture_path, "PNG file to write");
   double& printed = state.map.printed;
   named_number(gui, "printed", "print width", printed, "%.1f cm",
-               "width in print, such as 8.6 for a column, at which letters have 8 points; 0: "
+               "width in print, such as 8.6 for a column, at which letters are 8 points high; 0: "
                "for a screen");
   if (!(printed >= 4.0)) printed = 0.0;
   printed = std::min(printed, 200.0);

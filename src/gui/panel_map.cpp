@@ -161,7 +161,7 @@ void draw_map_panel(Gui& gui) {
       gui, "l_min", "γ within ℓ", state.map.l_min, 0.0, 10.0, "%.1f D",
       "diameter of the neighbourhood that gives a grain its γ; 3: its first neighbours, 0: the grain alone");
   named_slider(gui, "threshold", "overloaded", state.map.threshold_factor, 0.1, 4.0, "γ ≥ %.2f Γc",
-               "multiple of Γc from which grains are overloaded: [ and ]");
+               "grains are overloaded if γ is at least this multiple of Γc: [ and ]");
   named_slider(gui, "length", "coarse over ℓ", state.map.length, 1.0, 40.0, "%.1f D",
                "averaging diameter of coarse, density, stress, shear_rate and temperature: , and .");
   choose_angle(gui, state.since, "since", "moved since an angle",
