@@ -165,9 +165,8 @@ void Movie::fail() {
   const std::size_t size = std::fread(text.data(), 1, text.size(), messages_);
   std::string said(text.data(), size);
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  throw Error(ExitCode::io_error,
-              fmt::format("{}: ffmpeg gave up{}", path_,
-                          said.empty() ? "; is the size of files limited?" : ": " + said));
+  throw Error(ExitCode::io_error, fmt::format("{}: ffmpeg gave up{}", path_,
+                                              said.empty() ? "; is the file size limited?" : ": " + said));
 }
 
 }  // namespace talus::render

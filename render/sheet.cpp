@@ -180,7 +180,7 @@ Arrangement arrange(std::vector<std::vector<FrameView>> pictures, int width, int
   if (!best)
     throw Error(ExitCode::usage,
                 fmt::format("the maps with their texts do not fit into {} x {} px; use a larger size, "
-                            "or for fewer maps",
+                            "or fewer maps",
                             width, height));
   best->left = (width - best->columns * best->cell) / 2;
   best->top = (height - best->height) / 2;

@@ -141,7 +141,7 @@ void add_animate_command(CLI::App& app) {
                           "curves of --trace fill them [from --width and the shape of the bed]");
   command
       ->add_option("--aspect", arguments->aspect,
-                   "Aspect ratio, e.g. 16:9; sets the height that belongs to --width")
+                   "Aspect ratio, e.g. 16:9; determines the height from --width")
       ->excludes(size);
   command
       ->add_option("-o,--output", arguments->movie.output,

@@ -42,7 +42,8 @@ void dump(const DumpArguments& arguments) {
                           fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
   print("%s: %s, after frame %zu: %d contacts of %d bodies%s\n", arguments.output.c_str(), from.c_str(), k,
         step.problem.contact_count(), step.problem.body_count(),
-        number == run.checkpoint().world.step + 1 ? ", to the last bit" : ", from single precision");
+        number == run.checkpoint().world.step + 1 ? ", bit-identical to the run"
+                                                  : ", from a frame in single precision");
 }
 
 }  // namespace

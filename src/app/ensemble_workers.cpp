@@ -178,8 +178,8 @@ void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known) {
   ensemble::drop_leftovers(plan);
   if (const std::size_t dropped = ensemble::drop_frames(manifest, plan, folder, known); dropped > 0)
     print_error(
-        "talus: note: the frames of %zu member%s that %s done were removed (--keep %s); run and analysis are "
-        "kept\n",
+        "talus: note: the frames of %zu member%s that %s done were removed (--keep %s); all other data "
+        "are kept\n",
         dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep).c_str());
 }
 
@@ -199,7 +199,7 @@ static void report_withdrawn(const std::vector<ensemble::Variant>& before,
   for (const ensemble::Variant& variant : before)
     if (std::ranges::find(now, variant.name, &ensemble::Variant::name) == now.end())
       print_error("talus: note: %s is withdrawn from the ensemble: none of its members could be computed\n",
-                  variant.name.empty() ? "the scenario as it was" : variant.name.c_str());
+                  variant.name.empty() ? "the earlier scenario" : variant.name.c_str());
 }
 
 void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest& wanted,

@@ -131,7 +131,7 @@ std::string too_few(double count) {
 
 std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& unit) {
   if (std::isnan(analysis.event_size_exponent)) return too_few(analysis.event_size_count);
-  return fmt::format("density ~ E^-a, a = {} from E = {:.3g} m g D on ({:.0f} of {:.0f})",
+  return fmt::format("density ~ E^-a, a = {} for E >= {:.3g} m g D ({:.0f} of {:.0f})",
                      ensemble::plus_minus(analysis.event_size_exponent, analysis.event_size_exponent_error),
                      analysis.event_size_minimum / unit.energy, analysis.event_size_count,
                      analysis.event_count);
@@ -140,7 +140,7 @@ std::string sizes_line(const analysis::Analysis& analysis, const EventUnits& uni
 std::string waits_line(const analysis::Analysis& analysis) {
   if (std::isnan(analysis.event_waiting_exponent)) return too_few(analysis.event_waiting_count);
   return fmt::format(
-      "mean {} deg beyond the shortest; as a power law a = {} from {:.3g} deg on ({:.0f})",
+      "mean {} deg beyond the shortest; as a power law a = {} for angles >= {:.3g} deg ({:.0f})",
       ensemble::plus_minus(degrees(analysis.event_waiting_mean), degrees(analysis.event_waiting_mean_error)),
       ensemble::plus_minus(analysis.event_waiting_exponent, analysis.event_waiting_exponent_error),
       degrees(analysis.event_waiting_minimum), analysis.event_waiting_count);
@@ -268,7 +268,7 @@ std::string moves_text(const MovedGrains& grains) {
                           {number_cell("{:.1f}", move.depth / unit.diameter)},
                           {number_cell("{:.4g}", move.displacement / unit.diameter)}});
   text += "\n" + aligned_text(table, 1);
-  if (shown < count) text += fmt::format("the first {}; --csv and --json have all\n", shown);
+  if (shown < count) text += fmt::format("the first {}; --csv and --json list all\n", shown);
   return text;
 }
 

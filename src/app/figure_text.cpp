@@ -78,7 +78,7 @@ std::string gnuplot_text(const figures::Figure& figure, const FigureSize& size) 
   const double width = figure_width(figure, size);
   std::string text = fmt::format(
       "# {0}\n# To draw it again as PDF, SVG and PNG: gnuplot {1}.gp\n\nfigure = \"{1}\"\nwidth = {2}  # "
-      "cm\nheight = {3}\nasked_height = {4}  # cm; 0: as its panels need\n",
+      "cm\nheight = {3}\nasked_height = {4}  # cm; 0: as high as its panels require\n",
       figure.title, figure.name, scenario::short_text(width),
       scenario::short_text(width * figure.height_over_width), scenario::short_text(size.height));
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);

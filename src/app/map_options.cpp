@@ -51,7 +51,8 @@ void add_scale_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option(
           "--threshold", options.threshold,
-          "Grains are overloaded from this multiple of Gamma_c on; the paper states 1 and draws 2 [1]")
+          "Grains are overloaded if gamma is at least this multiple of Gamma_c; the paper states 1 and draws "
+          "2 [1]")
       ->check(in_range(0.01, 100.0));
   command
       .add_option("--length", options.length,

@@ -113,10 +113,11 @@ OpenRun start_run(const RunRequest& request) {
   const session::RunOrigin origin =
       session::with_bed({text, request.scenario, request.command_line, request.threads}, session);
   if (!request.bed.empty() && request.bed != origin.bed)
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} (deposition.file) holds another bed than when the ensemble was started; undo "
-                            "the change, then compute this member with talus ensemble retry",
-                            visible(scenario.deposition.file)));
+    throw Error(
+        ExitCode::bad_data,
+        fmt::format("{} (deposition.file) no longer holds the bed with which the ensemble was started; "
+                    "undo the change, then compute this member with talus ensemble retry",
+                    visible(scenario.deposition.file)));
   io::RunHeader header = session::run_header(session, origin);
   header.provenance.insert(header.provenance.end(), request.facts.begin(), request.facts.end());
   output_target(request.output, output_of_scenario(request.scenario, scenario));
@@ -131,7 +132,7 @@ void require_same_scenario(const RunRequest& request, const scenario::Scenario& 
   const scenario::Scenario asked = scenario::read_scenario(request.scenario, request.settings);
   if (asked != stored)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is a run of another scenario than {}: {}; name another run with -o, or "
+                fmt::format("{} is a run of another scenario, not of {}: {}; name another run with -o, or "
                             "restart this one with --overwrite instead of --resume",
                             request.output, request.scenario, scenario::differences(stored, asked)));
 }

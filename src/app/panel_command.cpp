@@ -39,7 +39,7 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
   if (!plan.traces.empty())
     throw Error(ExitCode::usage, "--trace marks one angle, but a panel shows several; use talus render");
   if (arguments.maps.bare && !arguments.panel.title.empty())
-    throw Error(ExitCode::usage, "--title and --bare exclude each other: a bare bed has no texts");
+    throw Error(ExitCode::usage, "--title and --bare exclude each other: a bare bed has no text");
   if (plan.width / static_cast<int>(plan.maps.size()) < render::smallest_width)
     throw Error(ExitCode::usage,
                 fmt::format("--width {}: each of {} maps next to each other needs at least {} px",

@@ -76,10 +76,11 @@ void refuse_no_states(const PerturbArguments& arguments, const figures::RunGroup
   const std::string end = std::isnan(lowest)
                               ? std::string("none of the beds failed")
                               : fmt::format("the beds failed at {:.2f} to {:.2f} deg", lowest, highest);
-  throw Error(ExitCode::bad_data,
-              fmt::format("no copy was pushed: no tilt from --from {:g} deg on was reached before failure, "
-                          "and {}; use a lower --from and another folder",
-                          arguments.plan.first, end));
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("no copy was pushed: no tilt of at least {:g} deg (--from) was reached before failure, "
+                  "and {}; use a lower --from and another folder",
+                  arguments.plan.first, end));
 }
 
 /// Reports the finished seeds. Writes the tables in any case, and the figure if gnuplot is installed.
@@ -124,7 +125,7 @@ void run_perturb(PerturbArguments& arguments) {
       compute_ensemble(wanted, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
   const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
   if (ensemble::done_members(plan).empty()) {
-    refuse_failures(plan, "nothing is left to report");
+    refuse_failures(plan, "nothing can be reported");
     print_text(ensemble_text(view));  // other workers compute it
     return;
   }

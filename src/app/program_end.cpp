@@ -61,7 +61,7 @@ int report_malformed(std::string_view path) {
 [[noreturn]] void end_without_main() noexcept {
   if (std::current_exception()) _exit(report_exception());
   if (errno == ENOMEM) _exit(report_out_of_memory());
-  _exit(report(ExitCode::internal, "ended without a reason"));
+  _exit(report(ExitCode::internal, "ended for an unknown reason"));
 }
 
 /// Reports lack of memory at exit, because HDF5 calls exit(-1) if some of its allocations fail.

@@ -80,13 +80,14 @@ void compare(const ReplayArguments& arguments, const io::RunFile& run, const Wor
   const std::string file = runs::stored_scenario(run.header(), arguments.run).deposition.file;
   const bool may_be_bed =
       !file.empty() && !run.header().branch && session::bed_of(run.header().provenance).empty();
-  throw Error(ExitCode::internal,
-              fmt::format("{}: its scenario and commands give another end state than the stored one; it was "
-                          "computed by version {}, whose results may differ in the last digits{}",
-                          arguments.run, runs::version_of(run.header().provenance),
-                          may_be_bed ? fmt::format(", or its bed (deposition.file) in {} has changed since",
-                                                   visible(file))
-                                     : ""));
+  throw Error(
+      ExitCode::internal,
+      fmt::format("{}: its scenario and commands give an end state that differs from the stored one; it "
+                  "was computed by version {}, whose results may differ in the last digits{}",
+                  arguments.run, runs::version_of(run.header().provenance),
+                  may_be_bed
+                      ? fmt::format(", or its bed (deposition.file) in {} has changed since", visible(file))
+                      : ""));
 }
 
 void replay_run(const ReplayArguments& arguments) {

@@ -168,7 +168,7 @@ void reproduce(const ReproduceArguments& arguments) {
       compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ensemble::ReadingsTask{}},
                        {folder, {}, "", arguments.jobs}, {});
   if (ensemble::done_members(plan).empty()) {
-    refuse_failures(plan, "nothing is left to report");
+    refuse_failures(plan, "nothing can be reported");
     print_text(ensemble_text(view));  // other workers compute it
     return;
   }

@@ -312,8 +312,8 @@ void add_run_command(CLI::App& app) {
       ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   CLI::Option* frames = command->add_option("--pictures", arguments->frames,
-                                            "Folder for maps of each frame, drawn during the run; any text, "
-                                            "even a number, is its name; needs --map");
+                                            "Folder for maps of each frame, drawn during the run; any value, "
+                                            "even a number, is taken as its name; needs --map");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments] {
     if (!arguments->branch.empty() && arguments->at.empty()) throw CLI::RequiredError("--at");

@@ -77,7 +77,7 @@ std::string text_of(const EnsembleManifest& manifest) {
 [[noreturn]] void refuse_damaged(const std::string& path) {
   throw Error(ExitCode::bad_data,
               path +
-                  " is not what talus wrote; its runs are not affected: begin another ensemble from its "
+                  " is not what talus wrote; its runs are not affected: start another ensemble from its "
                   "scenario, and move them there");
 }
 
@@ -94,8 +94,8 @@ void read_scenario_of(Variant& variant, const std::string& folder) {
   if (hash_of(text) != variant.origin.scenario)
     throw Error(ExitCode::bad_data,
                 variant.scenario_file +
-                    " was changed since the ensemble began; expected the original scenario: "
-                    "undo the change, or begin another ensemble with it");
+                    " has changed since the ensemble was started; expected the original scenario: "
+                    "undo the change, or start another ensemble with it");
   variant.scenario = scenario::parse_scenario(text, variant.scenario_file);
 }
 
@@ -179,7 +179,7 @@ void require_same(const EnsembleManifest& found, const EnsembleManifest& wanted,
                 fmt::format("{} holds an ensemble with other variants, {} among them; repeat its --vary with "
                             "more values, or give another folder",
                             folder,
-                            found.variants.front().name.empty() ? "the scenario as it is"
+                            found.variants.front().name.empty() ? "the unchanged scenario"
                                                                 : found.variants.front().name));
 }
 
@@ -297,7 +297,7 @@ EnsembleManifest read_ensemble(const std::string& folder) {
   if (!is_ensemble(folder))
     throw Error(
         ExitCode::missing_input,
-        fmt::format("{}: no ensemble here; begin one with: talus ensemble SCENARIO --seeds 1-50 -o {}",
+        fmt::format("{}: no ensemble here; start one with: talus ensemble SCENARIO --seeds 1-50 -o {}",
                     folder, shell_quoted(folder)));
   const std::string text = io::read_text(path);
   const std::size_t seal = text.rfind("hash ");
@@ -314,7 +314,7 @@ EnsembleManifest read_ensemble(const std::string& folder) {
       throw LocatedError(
           ExitCode::bad_data,
           fmt::format("{}:{}:1: error: '{}' is not a line that talus writes ({}); the runs of the "
-                      "ensemble are not affected: begin another one from its scenario, and "
+                      "ensemble are not affected: start another one from its scenario, and "
                       "move them there",
                       path, number, visible_word(line), error.what()));
     }
@@ -376,8 +376,8 @@ void hash_beds(std::vector<Variant>& variants, const std::string& folder) {
     if (is_known && !there->origin.bed.empty() && there->origin.bed != variant.origin.bed)
       throw Error(
           ExitCode::bad_data,
-          fmt::format("{} (deposition.file) holds another bed than when the ensemble in {} began with "
-                      "it; undo the change, give the changed bed another name, or the ensemble "
+          fmt::format("{} (deposition.file) no longer holds the bed with which the ensemble in {} was "
+                      "started; undo the change, give the changed bed another name, or the ensemble "
                       "another folder",
                       visible(variant.scenario.deposition.file), folder));
   }

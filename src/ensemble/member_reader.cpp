@@ -93,15 +93,15 @@ void require_own_run(const Member& member, const io::RunHeader& header) {
   if (scenario != member.scenario)
     throw Error(
         ExitCode::bad_data,
-        fmt::format("{} is a run of another scenario than this member of the ensemble: {}; expected the "
-                    "scenario, the settings and the version that the ensemble began with; give another "
-                    "folder, or remove the run",
+        fmt::format("{} is a run of another scenario, not of this member of the ensemble: {}; expected the "
+                    "scenario, the settings and the version with which the ensemble was started; give "
+                    "another folder, or remove the run",
                     member.path, scenario::differences(scenario, member.scenario)));
   const std::string bed = session::bed_of(header.provenance);
   if (!bed.empty() && !member.origin.bed.empty() && bed != member.origin.bed)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} began with another bed than this ensemble: {} (deposition.file) was changed; "
-                            "undo the change, and remove the run",
+                fmt::format("{} was not computed from the bed of this ensemble: {} (deposition.file) has "
+                            "changed; undo the change, and remove the run",
                             member.path, visible(scenario.deposition.file)));
 }
 

@@ -192,7 +192,7 @@ void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t pl
   const auto bodies = static_cast<Index>(bed.frame.x.size() + planes);
   const FrameContacts& c = bed.frame.contacts;
   if (!c.moment.empty() && c.moment.size() != c.a.size())
-    reader.refuse(moments, "holds another number of rows than " + contacts + "pair");
+    reader.refuse(moments, "does not have as many rows as " + contacts + "pair");
   for (std::size_t k = 0; k < c.a.size(); ++k)
     if (c.a[k] < 0 || c.a[k] >= bed.frame.grain_count() || c.b[k] <= c.a[k] || c.b[k] >= bodies)
       reader.refuse(contacts + "pair",

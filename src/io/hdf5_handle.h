@@ -76,8 +76,9 @@ inline void throw_cause(const std::string& name) {
   constexpr int of_the_system[] = {EIO, ENOSPC, EDQUOT, EMFILE, ENFILE, ESTALE};
   const int cause = errno;
   if (cause == ENOMEM)
-    throw Error(ExitCode::out_of_memory,
-                name + ": out of memory while it was read; if there is enough, the file is malformed");
+    throw Error(
+        ExitCode::out_of_memory,
+        name + ": out of memory while it was read; if enough memory is available, the file is malformed");
   if (std::ranges::find(of_the_system, cause) != std::end(of_the_system))
     throw system_error(ExitCode::io_error, "read", name, cause);
 }

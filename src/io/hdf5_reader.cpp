@@ -115,7 +115,7 @@ std::size_t Reader::block_size(const DataSet& set, std::optional<Rows> rows) con
   const Rows block = rows.value_or(Rows{0, set.dims[0]});
   if (block.count > set.dims[0] || block.first > set.dims[0] - block.count)
     refuse(set.path,
-           fmt::format("has {} rows; row {} was asked for", set.dims[0], block.first + block.count));
+           fmt::format("has {} rows; row {} was requested", set.dims[0], block.first + block.count));
   constexpr hsize_t most = hsize_t{1} << 40;  // more than any file can hold
   hsize_t size = std::min<hsize_t>(block.count, most);
   for (std::size_t d = 1; d < set.dims.size(); ++d)
@@ -215,7 +215,7 @@ std::string Reader::attribute(const std::string& path, const char* name) const {
   const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
   if (!is_fixed_text(type.get()) || H5Sget_simple_extent_npoints(space.get()) != 1 ||
       !can_hold(file_size_, H5Tget_size(type.get())))
-    refuse(path, fmt::format("has no attribute {} that is a text", name));
+    refuse(path, fmt::format("has no text attribute {}", name));
   std::string text(H5Tget_size(type.get()), '\0');
   if (H5Aread(attribute.get(), type.get(), text.data()) < 0)
     refuse(path, fmt::format("has an attribute {} that cannot be read", name));

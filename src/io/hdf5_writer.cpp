@@ -181,7 +181,7 @@ void Writer::write_rows(const DataSetField& field, std::uint64_t first_row,
 void Writer::write_bytes(const DataSetField& field, std::span<const std::byte> values, hid_t type) {
   create(field);
   if (H5Tequal(type, file_type(field.type)) <= 0)
-    throw Error(ExitCode::internal, "values of another type than that of " + field.path);
+    throw Error(ExitCode::internal, "values whose type is not that of " + field.path);
   write_rows(field, 0, values);
   attach_hash(open_.at(field.path).id.get(), piece_hash(field.path, values));
 }
@@ -256,13 +256,13 @@ void Writer::remove(const std::string& path) {
 }
 
 void Writer::write_contents() {
-  checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "bring values into a file");
+  checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "write values to a file");
   write_text("/contents", contents_);
 }
 
 std::vector<std::byte> Writer::image() {
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "complete a file");
-  const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "measure a file");
+  const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "get the size of a file");
   std::vector<std::byte> bytes(user_block_ + static_cast<std::size_t>(size));
   checked(H5Fget_file_image(file_.get(), bytes.data() + user_block_, static_cast<std::size_t>(size)),
           "copy a file");

@@ -121,7 +121,7 @@ struct RunFile::State {
     const RunHeader now = read_header(*reader);
     if (now.scenario_resolved != header.scenario_resolved || now.seed != header.seed)
       throw Error(ExitCode::missing_input,
-                  path + ": another run has taken the place of the one that was read");
+                  path + ": was replaced by another run while it was being read; open it again");
     whole_file(*reader);  // establishes the sizes that its data sets must match
     packed_since = true;
     return true;
@@ -136,7 +136,7 @@ struct RunFile::State {
     std::size_t s = 0, in_segment = k;
     for (; s < segments.size() && in_segment >= segments[s].frames; ++s) in_segment -= segments[s].frames;
     if (s == segments.size())
-      throw Error(ExitCode::internal, fmt::format("the run has {} frames only", all_tilts.size()));
+      throw Error(ExitCode::internal, fmt::format("the run has only {} frames", all_tilts.size()));
     hdf5::Reader& from = segment(s);
     return {from, packed_since ? k : in_segment};
   }
@@ -181,7 +181,8 @@ struct RunFile::State {
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
-      if (packed_since) throw Error(ExitCode::missing_input, folder + ": was packed meanwhile");
+      if (packed_since)
+        throw Error(ExitCode::missing_input, folder + ": was packed while it was being read; open it again");
       append(all_tilts, from.read<double>("/frames/tilt"));
       append(all_times, from.read<double>("/frames/time"));
       append(all_steps, from.read<std::int64_t>("/frames/step"));

@@ -312,7 +312,8 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
     throw Error(ExitCode::missing_input, folder + ": no interrupted run there");
   auto state = std::make_unique<State>(path);
   if (run_presence(path) != RunPresence::folder)
-    throw Error(ExitCode::cannot_create, path + " was being written by another process until this moment");
+    throw Error(ExitCode::cannot_create,
+                path + " was being written by another process until just now; repeat the command");
   exclude_other_writers(folder, state->lock);
   try {
     state->manifest = read_manifest(folder);

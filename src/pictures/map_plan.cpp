@@ -98,9 +98,9 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
       std::ranges::count(plan.traces, TraceKind::largest_cluster) == 0)
     refuse("--joined applies only to the map clusters and the trace largest_cluster");
   if (options.bare && !options.traces.empty())
-    refuse("--trace and --bare cannot be combined: traces are furniture");
+    refuse("--trace and --bare cannot be combined: a bare bed has no traces");
   if (options.bare && !options.purpose.empty())
-    refuse("--for and --bare cannot be combined: a bed alone has no letters");
+    refuse("--for and --bare cannot be combined: a bare bed has no text");
 }
 
 [[noreturn]] void refuse_colours(std::string_view name) {

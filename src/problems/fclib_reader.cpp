@@ -94,7 +94,7 @@ void check_index(const FclibFile& file, const std::string& path, const std::vect
 /// Returns the line (row or column) of each entry of compressed rows or columns.
 std::vector<Index> line_of_entries(const FclibFile& file, std::size_t lines, std::size_t entries) {
   const std::string path = "/fclib_local/W/p";
-  const auto begin = file.read<Index>(path, lines + 1, "one more than the rows of W");
+  const auto begin = file.read<Index>(path, lines + 1, "one more than the number of rows of W");
   if (begin[0] != 0 || static_cast<std::size_t>(begin[lines]) != entries)
     file.refuse(path, fmt::format("goes from {} to {}, expected 0 to {}, the entries of W", begin[0],
                                   begin[lines], entries));

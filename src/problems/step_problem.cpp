@@ -76,10 +76,11 @@ StepProblem form_step(World& world, const dynamics::StepSettings& settings, doub
   if (settings.law.rolling_friction > 0.0)
     throw Error(
         ExitCode::bad_data,
-        fmt::format("the contacts of the run resist rolling (contact.rolling_friction = {:g}), and problems "
-                    "of a step and its admissible forces have no moments; choose a run with "
-                    "contact.rolling_friction = 0",
-                    settings.law.rolling_friction));
+        fmt::format(
+            "the contacts of the run resist rolling (contact.rolling_friction = {:g}), but "
+            "contact problems in files and admissible forces do not include moments; choose a run with "
+            "contact.rolling_friction = 0",
+            settings.law.rolling_friction));
   dynamics::StepWorkspace workspace;
   dynamics::begin_step(world, settings, workspace);
   if (closed_below > 0.0) {

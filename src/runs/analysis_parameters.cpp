@@ -20,8 +20,8 @@ scenario::NumberRange above_zero_or(double high, std::string word) {
 const std::vector<AnalysisKey>& analysis_keys() {
   static const std::vector<AnalysisKey> keys = {
       {{"threshold_factors", "Gamma_c", scenario::NumberList{4, 10.0},
-        "thresholds from which a grain counts as overloaded; everything that depends on a threshold is "
-        "computed for each"},
+        "thresholds at or above which a grain counts as overloaded; everything that depends on a threshold "
+        "is computed for each"},
        &P::threshold_factors},
       {{"gamma_c", "", above_zero_or(1.0, "run"),
         "Gamma_c, the threshold of the packing; run: sin(theta_c), if the slope has failed"},
@@ -31,8 +31,8 @@ const std::vector<AnalysisKey>& analysis_keys() {
         "for l_c begins; 3: a grain and its first neighbours; 0: the single grain"},
        &P::l_min},
       {{"lc_factor", "Gamma_c", above_zero_or(10.0, "threshold"),
-        "stress ratio of a neighbourhood at which the search for l_c ends; threshold: that from which a "
-        "grain counts as overloaded"},
+        "stress ratio of a neighbourhood at which the search for l_c ends; threshold: that of the "
+        "overloaded grains"},
        &P::lc_factor},
       {{"lc_cut", "D", above_zero_or(1e4, "depth"),
         "diameter at which the search for l_c ends; depth: min(H, L/2)"},
@@ -53,14 +53,14 @@ const std::vector<AnalysisKey>& analysis_keys() {
        &P::sections},
       {{"bins", "", scenario::IntegerRange{1, 1000}, "bins of each distribution and correlation"}, &P::bins},
       {{"event_velocity", "g h", above_zero_or(1e6, "solver"),
-        "rms velocity of the free grains from which a bed counts as rearranging; solver: 10 times the "
-        "velocity error of the solver at its tolerance"},
+        "rms velocity of the free grains at or above which a bed counts as rearranging; solver: 10 times "
+        "the velocity error of the solver at its tolerance"},
        &P::event_velocity},
       {{"event_quiet", "sqrt(D/g)", from_zero_to(1000.0),
         "time for which a bed must stay below event_velocity for a rearrangement to be over"},
        &P::event_quiet},
       {{"event_displacement", "D", from_zero_to(100.0),
-        "displacement from which a grain counts as moved in an event"},
+        "displacement at or above which a grain counts as moved in an event"},
        &P::event_displacement},
       {{"event_size_min", "m g D", above_zero_or(1e12, "fit"),
         "smallest energy in the power-law fit of sizes; fit: the value with the best agreement"},

@@ -123,7 +123,7 @@ std::string unknown_key_of_setting(const KeyHeads& keys, const std::string& name
   if (meant.empty() && name.starts_with("command."))
     return fmt::format(
         "unknown key '{}': expected command.N.KEY with N from 1 to the number of [[command]] tables of the "
-        "scenario, and KEY at, time, kind, grain, x or y",
+        "scenario, and KEY one of at, time, kind, grain, x and y",
         visible_word(name));
   const std::vector<std::string> several = keys_called(keys, name);
   if (!meant.empty() || !several.empty())

@@ -144,7 +144,7 @@ FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
   });
   FileGrains grains{file.path, 0, {}, {}, {}, std::move(table.remark)};
   if (floor_grains > 0)
-    grains.remark += fmt::format("{}{} grains with their tops at y = 0 left out, as a floor",
+    grains.remark += fmt::format("{}{} grains with their tops at y = 0 left out as the floor",
                                  grains.remark.empty() ? "" : "; ", floor_grains);
   for (const TableGrain& grain : table.grains) {
     // Coordinates of a dump may be unwrapped, and x may equal the period in single precision.

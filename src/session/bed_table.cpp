@@ -22,9 +22,8 @@ std::string_view unmarked(std::string_view text, const std::string& name) {
   constexpr std::string_view utf8 = "\xef\xbb\xbf", low_first = "\xff\xfe", high_first = "\xfe\xff";
   if (text.starts_with(low_first) || text.starts_with(high_first) ||
       text.find('\0') != std::string_view::npos)
-    throw Error(
-        ExitCode::bad_data,
-        name + ": this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
+    throw Error(ExitCode::bad_data,
+                name + ": this is not a table in UTF-8: it is in UTF-16, or not text; save it as UTF-8 text");
   return text.starts_with(utf8) ? text.substr(utf8.size()) : text;
 }
 

@@ -84,9 +84,9 @@ std::string advice_for_rest(const scenario::Scenario& scenario, double velocity)
                usual = scenario::Scenario::Deposition().rest_velocity;
   const auto keeps = [](const char* key, double value) {
     const bool whole = std::fabs(value) == 1.0;
-    return fmt::format("with {} = {:g} impacts dissipate {} energy{}: set it closer to 0{}", key, value,
+    return fmt::format("with {} = {:g}, impacts dissipate {} energy{}: set it closer to 0{}", key, value,
                        whole ? "no" : "little",
-                       whole ? ", so that neither more time nor a tolerance helps" : "",
+                       whole ? ", so neither more time nor a lower tolerance helps" : "",
                        whole ? "" : ", or allow more time (deposition.max_time)");
   };
   if (law.restitution > elastic) return keeps("contact.restitution", law.restitution);
@@ -94,7 +94,7 @@ std::string advice_for_rest(const scenario::Scenario& scenario, double velocity)
     return keeps("contact.tangential_restitution", law.tangential_restitution);
   if (velocity < rest)
     return "it has only just fallen below that, or the solver misses its tolerance: allow more time "
-           "(deposition.max_time), or more solver.max_iterations";
+           "(deposition.max_time), or raise solver.max_iterations";
   if (velocity < usual)
     return fmt::format("set deposition.rest_velocity higher: beds come to rest with the default of {:g}",
                        usual);

@@ -86,7 +86,7 @@ Session session_at_start(const io::RunHeader& header, const std::string& name) {
     throw Error(
         ExitCode::bad_data,
         fmt::format(
-            "{} (deposition.file) holds another bed than when {} was computed from it; undo the change",
+            "{} (deposition.file) no longer holds the bed from which {} was computed; undo the change",
             visible(scenario.deposition.file), name));
   }
   check_branch_start(*header.branch, scenario, name);

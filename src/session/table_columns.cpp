@@ -156,8 +156,7 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
   if (unit != scenario::LengthUnit::mean_diameter && *own != unit)
     place.refuse(
         cell.column,
-        fmt::format("the column \"{}\" names another unit than deposition.file_unit: omit one of them",
-                    shown));
+        fmt::format("the column \"{}\" has a unit other than deposition.file_unit: omit one of them", shown));
   named.column.unit = *own;
   return named;
 }

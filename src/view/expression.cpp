@@ -135,7 +135,7 @@ class Parser {
     if (error != std::errc()) fail(token_.place, fmt::format("{} is out of range", token_.text));
     if (size < rest.size() && letters.find(rest[size]) != std::string_view::npos)
       fail(token_.place + size,
-           fmt::format("expected an operator or the end after {}, found '{}'; numbers are without units",
+           fmt::format("expected an operator or the end after {}, found '{}'; write numbers without units",
                        token_.text, visible_word(rest.substr(size, 1))));
   }
 

@@ -163,14 +163,15 @@ TEST(EnsembleMembers, knows_the_bed_that_its_members_begin_with) {
   write_file(folder, "a.csv", other_grains);
   const Outcome more = ensemble("0.3,0.5", "1", "1");
   EXPECT_EQ(more.exit_code, 65);
-  EXPECT_NE(more.err.find("/a.csv (deposition.file) holds another bed"), std::string::npos) << more.err;
+  EXPECT_NE(more.err.find("/a.csv (deposition.file) no longer holds the bed"), std::string::npos) << more.err;
   EXPECT_EQ(run_talus({"ensemble", "work", "e"}, folder.path()).exit_code, 0);
   EXPECT_NE(text_of(folder.path("e/contact.friction=0.3/seed-2.failed"))
-                .find("/a.csv (deposition.file) holds another bed"),
+                .find("/a.csv (deposition.file) no longer holds the bed"),
             std::string::npos);
   const Outcome replay = run_talus({"replay", "e/contact.friction=0.3/seed-1.h5"}, folder.path());
   EXPECT_EQ(replay.exit_code, 65);
-  EXPECT_NE(replay.err.find("/a.csv (deposition.file) holds another bed"), std::string::npos) << replay.err;
+  EXPECT_NE(replay.err.find("/a.csv (deposition.file) no longer holds the bed"), std::string::npos)
+      << replay.err;
   write_file(folder, "a.csv", three_grains);
   EXPECT_EQ(run_talus({"replay", "e/contact.friction=0.3/seed-1.h5"}, folder.path()).exit_code, 0);
   EXPECT_EQ(run_talus({"ensemble", "retry", "e"}, folder.path()).exit_code, 0);

@@ -80,7 +80,7 @@ TEST_F(Events, name_the_first_grains_that_moved_so_far) {
   const Outcome table = events({"--displacement", "1e-5"});
   ASSERT_EQ(table.exit_code, 0) << table.err;
   expect_texts(table.out, {"of 40 grains moved 1e-05 D or more since the tilt began\n", "grain  frame  theta",
-                           "the first 20; --csv and --json have all\n"});
+                           "the first 20; --csv and --json list all\n"});
   const Outcome csv =
       run_talus({"events", "bed.h5", "bed.h5", "--displacement", "1e-5", "--csv"}, folder_.path());
   EXPECT_TRUE(csv.out.starts_with(

@@ -37,7 +37,7 @@ TEST_F(ForeignBed, is_read_from_what_talus_exports) {
     const Outcome run = run_from(path, {"--set", "deposition.frame=-1"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out.find(path + ": frame 2 of 3"), 0u) << run.out;
-    EXPECT_NE(run.out.find("10 grains with their tops at y = 0 left out, as a floor\n"), std::string::npos)
+    EXPECT_NE(run.out.find("10 grains with their tops at y = 0 left out as the floor\n"), std::string::npos)
         << run.out;
     EXPECT_EQ(grains_of("from.h5"), "30");
     EXPECT_EQ(talus({"replay", "from.h5"}).exit_code, 0);

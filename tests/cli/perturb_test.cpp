@@ -71,8 +71,9 @@ TEST(Perturb, says_so_where_no_copy_was_pushed) {
   const Outcome outcome =
       run_talus({"perturb", "bed.toml", "-o", "p", "--from", "30", "--seeds", "1"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 65);
-  EXPECT_NE(outcome.err.find("from --from 30 deg on was reached before failure, and none of the beds failed"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.err.find("of at least 30 deg (--from) was reached before failure, and none of the beds failed"),
+      std::string::npos)
       << outcome.err;
 }
 

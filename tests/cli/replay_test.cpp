@@ -101,7 +101,7 @@ TEST_F(Replay, that_finds_another_end_says_so) {
   store.commit(session.segment(), session.checkpoint(0.0));
   const Outcome replay = talus({"replay", "bed.h5", "--quiet"});
   EXPECT_EQ(replay.exit_code, 70);
-  EXPECT_NE(replay.err.find("another end state"), std::string::npos) << replay.err;
+  EXPECT_NE(replay.err.find("an end state that differs"), std::string::npos) << replay.err;
 }
 
 TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {

@@ -101,7 +101,7 @@ TEST(ProgramEnd, by_exit_or_terminate_after_a_failed_allocation_is_that_of_missi
   };
   EXPECT_EXIT(leave(), out_of_memory, "talus: error: out of memory");
   EXPECT_EXIT(terminate(ENOMEM), out_of_memory, "talus: error: out of memory");
-  EXPECT_EXIT(terminate(0), testing::ExitedWithCode(70), "ended without a reason");
+  EXPECT_EXIT(terminate(0), testing::ExitedWithCode(70), "ended for an unknown reason");
 }
 
 }  // namespace

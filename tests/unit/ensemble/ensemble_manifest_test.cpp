@@ -332,7 +332,7 @@ TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
     FAIL() << "nothing was rejected";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_TRUE(std::string(error.what()).starts_with(file + " (deposition.file) holds another bed"))
+    EXPECT_TRUE(std::string(error.what()).starts_with(file + " (deposition.file) no longer holds the bed"))
         << error.what();
   }
   std::filesystem::remove(file);

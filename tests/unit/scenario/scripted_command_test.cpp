@@ -49,8 +49,7 @@ TEST(ScriptedCommands, are_changed_by_settings) {
 TEST(ScriptedCommands, refuse_settings_of_commands_that_are_not_there) {
   const std::string none =
       "': expected command.N.KEY with N from 1 to the number of [[command]] tables of the scenario, and KEY "
-      "at, "
-      "time, kind, grain, x or y";
+      "one of at, time, kind, grain, x and y";
   for (const std::string name : {"command.3.at", "command.0.at", "command.x"})
     EXPECT_EQ(message_of_settings({name + "=1"}), "--set " + name + "=1: error: unknown key '" + name + none);
   EXPECT_EQ(message_of_settings({"command.2.x=12"}),

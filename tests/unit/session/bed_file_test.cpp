@@ -161,7 +161,7 @@ TEST(BedOfDump, fits_the_period_and_leaves_out_another_floor) {
   const World world = bed_of_file({dump.path}, plan_of(true, false), &remark);
   EXPECT_EQ(world.grains.free_count, 1);
   EXPECT_NEAR(world.grains.x[0], 0.025, 1e-15) << "unwrapped before";
-  EXPECT_EQ(remark, dump.path + ": ignored: type; 2 grains with their tops at y = 0 left out, as a floor");
+  EXPECT_EQ(remark, dump.path + ": ignored: type; 2 grains with their tops at y = 0 left out as the floor");
   EXPECT_TRUE(
       message_of(head + "11" + rows).starts_with("bed.csv: its periodic box is 11 D long: expected "));
   EXPECT_TRUE(message_of("3,2,0.005\n").ends_with("; it fits with deposition.file_unit = \"m\""));

@@ -57,9 +57,9 @@ TEST(BedTable, has_any_ends_of_lines_and_a_byte_order_mark) {
   expect_two_grains("x,y,radius\r0.5,1.25,0.4\r\r3,-0.125,0.6\r", 2, 4);
   for (const std::string mark : {"\xff\xfe", "\xfe\xff"})
     EXPECT_EQ(message_of(mark + "1,2,0.5\n"),
-              "bed.csv: this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
+              "bed.csv: this is not a table in UTF-8: it is in UTF-16, or not text; save it as UTF-8 text");
   EXPECT_EQ(message_of(std::string("1\0,\0002\0", 6)),
-            "bed.csv: this is not a table in UTF-8: it is in UTF-16 or not a text; save it as UTF-8 text");
+            "bed.csv: this is not a table in UTF-8: it is in UTF-16, or not text; save it as UTF-8 text");
 }
 
 TEST(BedTable, has_its_columns_in_the_order_of_their_names) {
@@ -93,7 +93,7 @@ TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
     ADD_FAILURE() << "two units";
   } catch (const LocatedError& error) {
     EXPECT_STREQ(error.what(),
-                 "bed.csv:1:3: error: the column \"y [m]\" names another unit than deposition.file_unit: "
+                 "bed.csv:1:3: error: the column \"y [m]\" has a unit other than deposition.file_unit: "
                  "omit one of them");
   }
   EXPECT_EQ(in_metres(2.0, scenario::LengthUnit::mean_diameter, 0.01), 0.02);

@@ -31,10 +31,10 @@ TEST(AdviceForRest, names_the_key_that_keeps_a_bed_from_rest) {
   };
   EXPECT_EQ(
       advice([](scenario::Scenario& s) { s.contact.restitution = 1.0; }, 1.0),
-      "with contact.restitution = 1 impacts dissipate no energy, so that neither more time nor a tolerance "
+      "with contact.restitution = 1, impacts dissipate no energy, so neither more time nor a lower tolerance "
       "helps: set it closer to 0");
   EXPECT_EQ(advice([](scenario::Scenario& s) { s.contact.restitution = 0.97; }, 1.0),
-            "with contact.restitution = 0.97 impacts dissipate little energy: set it closer to 0, or allow "
+            "with contact.restitution = 0.97, impacts dissipate little energy: set it closer to 0, or allow "
             "more time (deposition.max_time)");
   for (const double e_t : {-1.0, 1.0})
     EXPECT_TRUE(
