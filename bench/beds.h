@@ -6,8 +6,9 @@
 
 namespace talus::bench {
 
-/// Tilt of a bed since it came to rest, at 0.001 deg per step. At ten degrees the bed is about to take the
-/// next step: its tilt is that of the step, its forces are those of the previous step.
+/// Tilt of a bed: flat as it came to rest, or ten degrees, reached in steps of 0.001 deg. At ten degrees the
+/// bed is about to take the next step: its tilt is that of the step, its forces are those of the previous
+/// step.
 enum class Slope { flat, ten_degrees };
 
 /// Returns the periodic bed of `grains` grains, seed 1, SI units.

@@ -33,7 +33,7 @@ double seconds_of(double dt);
 /// g.
 FrozenStep dimensionless_next_step(const World& world, double dt, Candidates candidates);
 
-/// No impulses.
+/// Returns a first guess of zero impulses.
 solver::ContactSolution cold_guess(const solver::ContactProblem& problem);
 
 }  // namespace talus::bench

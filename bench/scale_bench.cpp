@@ -36,7 +36,7 @@ double seconds_per_iteration(const FrozenStep& step, int threads, int iterations
 /// Returns medians for one and two threads, measured alternately.
 std::array<double, 2> pass_seconds(const FrozenStep& step) {
   constexpr int repetitions = 7;
-  // At most 512 iterations, as in most solves of a run; longer ones also compute the mean of iterates.
+  // Fewer than 512 iterations, as in most solves of a run; longer solves also average impulses.
   const int iterations = std::clamp(150'000'000 / step.problem.contact_count(), 100, 400);
   std::array<solver::SolverWorkspace, 2> workspaces;
   std::array<std::array<double, repetitions>, 2> seconds{};

@@ -25,7 +25,7 @@ struct SiconosReport {
 /// Siconos's storage of W.
 enum class Storage { sparse_blocks, dense };
 
-/// A problem in Siconos's form. `local` must outlive it, because its blocks are not copied.
+/// A problem in Siconos's form, with copies of the data of `local`.
 class SiconosProblem {
  public:
   SiconosProblem(const LocalProblem& local, Storage storage);
