@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Ranks what is measured in a frame by how well it predicts the distance of a slope from failure.
+"""Ranks the quantities measured in a frame by how well they predict the distance of a slope from failure.
 
     python3 docs/studies/precursor_ranking.py runs/beds/ensemble.h5 -o figures/precursor-ranking.csv
     python3 docs/studies/precursor_ranking.py runs/beds/seed-*[0-9].h5 -o figures/precursor-ranking.csv
@@ -37,8 +37,8 @@ MIN_CALIBRATION = 5
 MIN_BEDS = 8
 #: Two measures that are correlated more closely than this are the same; beyond it, rounding errors decide.
 MAX_CORRELATION = 0.999
-#: Smallest deviation of a measure at one distance, over that at all distances: a count that is still zero in the few
-#: beds that calibrate it is not known that well.
+#: Smallest deviation of a measure at one distance, over that at all distances: a count that is zero in each of the few
+#: beds that calibrate it is not known exactly.
 MIN_DEVIATION = 0.01
 
 
@@ -114,7 +114,7 @@ def mean_far(tilt, values):
 
 
 def interpolated(tilt, values, at):
-    """Values between two tilts; NaN outside of them, or if one of both is not known."""
+    """Values interpolated between two tilts; NaN outside the tilts, or if either value is missing."""
     result = np.full(len(at), np.nan)
     for k, angle in enumerate(at):
         u = np.searchsorted(tilt, angle - SAME_ANGLE)
@@ -130,21 +130,21 @@ def interpolated(tilt, values, at):
 
 
 def mean(values, axis=None):
-    """The mean of what is known; NaN if nothing is."""
+    """The mean of the values that are not NaN; NaN if there are none."""
     count = np.sum(~np.isnan(values), axis)
     return np.where(count > 0, np.nansum(values, axis) / np.maximum(count, 1), np.nan)
 
 
 def deviation(values, axis=None):
-    """The standard deviation (n - 1) of what is known; NaN for fewer than two values."""
+    """The standard deviation (n - 1) of the values that are not NaN; NaN for fewer than two."""
     count = np.sum(~np.isnan(values), axis)
     square = np.nansum((values - np.expand_dims(mean(values, axis), axis or 0)) ** 2, axis)
     return np.where(count > 1, np.sqrt(square / np.maximum(count - 1, 1)), np.nan)
 
 
 def change(near, far):
-    """How a measure has changed in each bed at each distance since that bed was far from failure: the logarithm of their
-    ratio if the measure is positive in all beds throughout, else their difference."""
+    """The change of a measure in each bed at each distance, relative to the same bed far from failure: the logarithm of
+    the ratio if the measure is positive in all beds throughout, else the difference."""
     if np.all(~(near <= 0)) and np.all(~(far <= 0)):
         return np.log(near / far[:, None])
     return near - far[:, None]
@@ -156,8 +156,8 @@ def squared_errors(*measures):
 
     The observer knows all other beds (leave-one-out) and assumes that their measures at each distance are
     normally distributed, with the means and the covariance over the beds. All distances are equally likely beforehand. The estimate is the
-    mean of the distance once the measure is known (Bayes), which has the least mean square error. A measure that says
-    nothing thus has the standard deviation of the distances themselves."""
+    mean of the distance once the measure is known (Bayes), which has the least mean square error. The error of a measure
+    without information is thus the standard deviation of the distances themselves."""
     values = np.stack(measures)
     values = np.where(np.isnan(values).any(axis=0), np.nan, values)
     scale = [deviation(measure.ravel()) for measure in measures]
