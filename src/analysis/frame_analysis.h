@@ -37,14 +37,13 @@ void measure_clusters(const Clusters& clusters, const BedEdges& edges, FrameThre
 Analysis begin_analysis(const RunStatics& statics, const AnalysisParameters& parameters, double theta_c);
 
 /// Returns the records of a frame at each threshold of `analysis`: overloaded grains, their l_c, and their
-/// clusters. `frame` and `analysis` are as for analyse_frame; `volume` of the bed is that of frame_volume,
-/// m^2.
+/// clusters. `bed` and `analysis` are as for analyse_frame; `volume` is that of frame_volume, m^2.
 std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const AnalysisParameters& parameters,
                                                const Analysis& analysis, double volume);
 
-/// Returns everything that can be measured in one frame. The frame comes from with_analysed_gamma and
-/// `analysis` from begin_analysis, both with the same parameters. Quantities taken from the observables of
-/// the run are left unset.
+/// Returns everything that can be measured in one frame. The frame of `bed` comes from with_analysed_gamma
+/// and `analysis` from begin_analysis, both with the same parameters. Quantities taken from the observables
+/// of the run, from the persistence diagram (topology.h) or from an earlier frame are left unset.
 FrameRecord analyse_frame(const BedFrame& bed, const AnalysisParameters& parameters,
                           const Analysis& analysis);
 

@@ -153,7 +153,7 @@ struct EventRecord {
   Index sharing = 0;
 };
 
-/// The analysis of a run. There are no thresholds if neither theta_c nor a threshold is given.
+/// The analysis of a run. There are no thresholds if neither theta_c nor gamma_c is known.
 struct Analysis {
   std::string key;   ///< hash of all inputs of the analysis
   Facts parameters;  ///< name and value as text, in the order of the table of parameters

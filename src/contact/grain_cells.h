@@ -10,8 +10,8 @@
 namespace talus::contact {
 
 struct GrainCells {
-  double x0 = 0.0, y0 = 0.0;  ///< lower left corner of the grid, m
-  double cell_x = 1.0, cell_y = 1.0;
+  double x0 = 0.0, y0 = 0.0;          ///< lower left corner of the grid, m
+  double cell_x = 1.0, cell_y = 1.0;  ///< width and height of a cell, m
   Index columns = 1, rows = 1;
   bool periodic = false;
   double length = 0.0;  ///< length of the bed, m

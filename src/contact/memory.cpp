@@ -10,8 +10,8 @@ bool before(const Contacts& one, Index c, const Contacts& other, Index d) {
   return one.a[c] < other.a[d] || (one.a[c] == other.a[d] && one.b[c] < other.b[d]);
 }
 
-/// Returns the number of consecutive contacts, from c to the last and from d on, that belong to the same
-/// pairs.
+/// Returns the number of consecutive contacts that belong to the same pairs in both lists: c ... last - 1 of
+/// one, and from d on of the other.
 Index persisting(const Contacts& contacts, Index c, Index last, const Contacts& previous, Index d) {
   const Index longest = std::min(last - c, previous.count() - d);
   Index run = 0;

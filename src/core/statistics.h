@@ -33,8 +33,8 @@ struct Resamples {
 };
 Resamples resamples_of(int values);
 
-/// Largest number of values that are resampled. For more values the bootstrap interval equals that of
-/// Student's t, which is used instead.
+/// Largest number of values that are resampled. For more values the bootstrap interval hardly differs from
+/// that of Student's t, which is used instead.
 inline constexpr int max_resampled = 200;
 
 /// Returns the summary of the values that are not NaN. `resamples` are those of their number, or empty. With

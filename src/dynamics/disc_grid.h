@@ -42,8 +42,8 @@ class DiscGrid {
     return boundary_.periodic ? std::remainder(to - from, boundary_.length) : to - from;
   }
 
-  /// Returns the first contact of a grain that falls along x from the height `from`, with discs whose centres
-  /// are lower.
+  /// Returns the first contact of a grain whose centre falls along the vertical line at x from the height
+  /// `from`, m, with the plane floor and with the discs whose centres are below `from`.
   Touch first_touch(double x, double radius, double from) const;
 
   /// Calls visit(disc) for each disc with its centre in a rectangle, and for some discs near it.

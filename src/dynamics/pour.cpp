@@ -7,8 +7,8 @@
 namespace talus::dynamics {
 namespace {
 
-/// Returns the height, m, at which a disk that falls along x first touches one of `grains`; -infinity if
-/// none.
+/// Returns the height of the centre, m, at which a disk that falls along the vertical line at x first touches
+/// one of `grains`; -infinity if it touches none.
 double first_touch(const Grains& grains, const Boundary& boundary, double x, double radius) {
   double height = -std::numeric_limits<double>::infinity();
   const double half = boundary.periodic ? 0.5 * boundary.length : std::numeric_limits<double>::infinity();
@@ -21,7 +21,8 @@ double first_touch(const Grains& grains, const Boundary& boundary, double x, dou
   return height;
 }
 
-/// Returns the height at which a disk first touches the floor, if that is a plane.
+/// Returns the height of the centre, m, at which a disk first touches the floor, if that is a plane;
+/// -infinity otherwise.
 double first_touch(const std::vector<Plane>& planes, double radius) {
   double height = -std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes)

@@ -30,7 +30,7 @@ struct PourRule {
 /// platform.
 std::vector<Arrival> pour_arrivals(const BedPlan& plan);
 
-/// Returns the number, of `count` grains, that have arrived by a time (s).
+/// Returns how many of `count` grains have arrived by a time (s).
 Index arrived_by(double time, const PourRule& rule, Index count);
 
 /// Returns the grains with all arrivals that are missing inserted after the free ones. Only sizes and masses

@@ -21,8 +21,8 @@ class GuiWindow {
   GuiWindow(const GuiWindow&) = delete;
   GuiWindow& operator=(const GuiWindow&) = delete;
 
-  /// Waits for news for at most a tenth of a second and shows it, at most 60 pictures per second and none
-  /// without changes. Dropping a file on the window requests to open it.
+  /// Waits for a change for at most a tenth of a second and shows it, with at most 60 pictures per second.
+  /// Draws nothing without a change. Dropping a file on the window requests to open it.
   GuiRequests next_picture(view::ViewModel& model);
 
   bool closed() const;  ///< whether the user has asked to close it

@@ -28,11 +28,11 @@ struct Manifest {
   static constexpr const char* file_name = "manifest";
   static constexpr const char* header_name = "header.h5";
 
-  /// The packed file next to the folder belongs to an earlier run, and is kept until this one is packed.
+  /// Whether the packed file next to the folder belongs to an earlier run, and is kept until this one is
+  /// packed.
   bool replaces = false;
-  /// The packed file of this run, identified by the hash of its seal, when it is about to be renamed or has
-  /// been; 0 before that. Set only if a packed file is replaced; otherwise an existing packed file belongs to
-  /// this run.
+  /// Hash of the seal of this run's packed file, from just before that file is renamed; 0 earlier. Set only
+  /// if a packed file is replaced; otherwise an existing packed file belongs to this run.
   std::uint64_t packed_seal = 0;
   StoredFile header;
   StoredFile checkpoint;

@@ -14,8 +14,8 @@ struct RepairRequest {
 };
 
 struct RepairReport {
-  bool was_whole = false;               ///< nothing was written in this case
-  bool of_folder = false;               ///< the run was incomplete
+  bool was_whole = false;               ///< whether the run was undamaged; nothing was written then
+  bool of_folder = false;               ///< whether the run was a folder, that is, incomplete
   std::vector<std::string> kept, lost;  ///< one line each
 };
 

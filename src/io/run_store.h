@@ -101,10 +101,10 @@ class RunStore {
   /// folder was removed or replaced.
   void commit(const Segment& segment, const Checkpoint& checkpoint);
 
-  /// Packs everything committed into a file, which is renamed to `path` once it has proved readable, and
-  /// removes the folder. Ends the store. Calls `should_continue` before each frame, and returns
-  /// false if it returns false. In that case, and if it throws, the folder is kept, and pack can be called
-  /// again.
+  /// Packs everything committed into a file, which is renamed to `path` once it has proved readable, removes
+  /// the folder, and ends the store. Calls `should_continue`, if given, before each frame, and stops if that
+  /// returns false; pack then returns false too. In that case, and if pack throws, the folder is kept, and
+  /// pack can be called again.
   bool pack(const std::function<bool()>& should_continue = {}, const PackedParts& parts = {});
 
   /// Returns the seconds spent in commit so far.

@@ -1,7 +1,7 @@
 #pragma once
-/// The beginning of files: an HDF5 signature, or a seal, which reveals damage anywhere before HDF5 reads the
-/// file; malformed data can crash HDF5. A seal is a text with the size and the hash of the file, in the bytes
-/// before the HDF5 part (its "user block"), which other HDF5 readers skip.
+/// The beginning of a file: an HDF5 signature, or a seal. A seal reveals damage anywhere in the file before
+/// HDF5 reads it, because malformed data can crash HDF5. It is a text with the size and the hash of the file,
+/// in the bytes before the HDF5 part (its "user block"), which other HDF5 readers skip.
 
 #include <cstddef>
 #include <cstdint>

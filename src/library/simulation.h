@@ -1,7 +1,7 @@
 #pragma once
 /// A run controlled by a program, which steps, steers, measures, draws, records and copies it. `talus run`
-/// steps the same Session, so the same scenario and commands give bit-identical results, independent of the
-/// numbers of steps per call.
+/// steps the same Session, so the same scenario and commands give bit-identical results, however the steps
+/// are divided among calls.
 
 #include <cstdint>
 #include <functional>

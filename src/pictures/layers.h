@@ -16,7 +16,7 @@ struct MapLayer {
   std::vector<GrainStyle> styles;   ///< one for each free grain; empty: the layer has lines only
   std::vector<render::Line> lines;  ///< without copies across a periodic edge
   render::Legend legend;
-  std::vector<double> values{};  ///< one for each free grain, if looks follow from a value on this scale
+  std::vector<double> values{};  ///< one for each free grain, if values on `scale` determine their looks
   std::optional<Scale> scale{};
 };
 

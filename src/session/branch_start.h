@@ -1,5 +1,5 @@
 #pragma once
-/// Check that the first state of a branch agrees with its scenario.
+/// Checks that the first state of a branch agrees with its scenario.
 
 #include <string>
 

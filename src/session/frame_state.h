@@ -21,9 +21,9 @@ Schedule commanded_schedule(const io::RunFile& run, std::int64_t step);
 
 /// Returns everything that a run needs to continue from frame k. State that the series record is that of the
 /// run: the phase and its steps, the time at rest, settings of commands, the baseline of strains. Counters
-/// start at zero: wall times, warnings, unconverged steps. Throws as world_at_frame, Error(bad_data) if a
-/// repaired run lacks steps, rows or commands, and Error(usage) if the run ends with that frame. `branch` is
-/// the scenario with which the run continues [scenario of the run]; it must agree on everything before the
+/// start at zero: wall times, warnings, unconverged steps. Throws as world_at_frame does, Error(bad_data) if
+/// a repaired run lacks steps, rows or commands, and Error(usage) if the run ends with that frame. `branch`
+/// is the scenario with which the run continues, by default its own; it must agree on everything before the
 /// frame.
 io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k,
                                    const scenario::Scenario* branch = nullptr);

@@ -12,6 +12,7 @@ struct Baseline {
   double volume = 0.0;                 ///< V0, m^2
   double centre_of_mass_height = 0.0;  ///< y0, m
 };
+/// Returns the baseline of a bed, which is 0 without free grains.
 Baseline measure_baseline(const World& world);
 
 /// Inputs of a row of observables in addition to the world.
@@ -24,6 +25,8 @@ struct RowContext {
   double residual = 0.0;              ///< largest eta since the last row
   bool at_rest = false;
 };
+/// Returns a row of the observables (core/observables.h), in SI units and per metre of thickness. Compression
+/// is positive, and so is a shear stress due to gravity towards +x.
 ObservableRow measure(const World& world, const RowContext& context);
 
 /// Returns a row of the series of steps.

@@ -17,7 +17,8 @@ struct PerturbationPlan {
   double every = 0.5;   ///< deg, interval between states
   SurfacePatch patch;
 
-  static constexpr double highest = 60.0, min_every = 1e-3;  ///< deg, bounds of both
+  /// deg: largest value of both, and smallest interval.
+  static constexpr double highest = 60.0, min_every = 1e-3;
 
   bool operator==(const PerturbationPlan&) const = default;
 };

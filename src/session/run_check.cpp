@@ -231,7 +231,7 @@ Loads loads_of(const BedFrame& bed) {
   const auto count = static_cast<std::size_t>(bed.frame.grain_count());
   Loads loads{std::vector<Vector2>(count, Vector2::Zero()), std::vector<Tensor2>(count)};
   const FrameContacts& contacts = bed.frame.contacts;
-  // On the other side of a contact lever arm and force both change sign, so the moment does not.
+  // For the other body of a contact, lever arm and force both change sign, so their product does not.
   const auto add = [&](Index body, double sign, const Vector2& normal, const Vector2& force) {
     if (body >= bed.frame.grain_count()) return;  // plane
     const auto grain = static_cast<std::size_t>(body);

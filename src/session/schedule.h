@@ -57,10 +57,12 @@ struct RunSeconds {
 /// needs.
 struct Schedule {
   Phase phase = Phase::deposition;
-  std::int64_t tilt_steps = 0;   ///< steps taken in the phase
-  std::int64_t flow_steps = 0;   ///< steps taken in the phase
-  std::int64_t quiet_steps = 0;  ///< consecutive steps up to the current one
-  std::int64_t unconverged_in_a_row = 0;
+  std::int64_t tilt_steps = 0;  ///< steps taken in the tilt
+  std::int64_t flow_steps = 0;  ///< steps taken in the flow after failure
+  /// Consecutive steps up to the last one that were not faster than deposition.rest_velocity; 0 until all
+  /// grains have arrived.
+  std::int64_t quiet_steps = 0;
+  std::int64_t unconverged_in_a_row = 0;  ///< consecutive unconverged steps up to the last one
   Baseline baseline;
   dynamics::SurfaceFlow flow;
   double surface_height = 0.0;        ///< m, mean free surface at the last row

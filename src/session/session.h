@@ -33,12 +33,12 @@ class Session {
   /// Records a row and a frame of the current state, with which a branch of another run starts.
   void record_start();
 
-  /// Takes one step; recorded data go to segment(). Does nothing once done.
-  /// Commands of the scenario whose angle or time has come are carried out before a step of the tilt or of
-  /// the flow, as by apply. Throws Error(bad_data) if the bed does not come to rest within
-  /// deposition.max_time; if a command of the scenario cannot be carried out, leaving the state as
-  /// before the step; and if the preceding step exceeded a guard whose action is to stop: its state is intact
-  /// and can be inspected, but neither a copy nor a resumed run can pass it.
+  /// Takes one step; recorded data go to segment(). Does nothing once done. Commands of the scenario whose
+  /// angle or time has come are carried out before a step of the tilt or of the flow, as by apply. Throws
+  /// Error(bad_data) if the bed does not come to rest within deposition.max_time; if a command of the
+  /// scenario cannot be carried out, leaving the state as before the step; and if the preceding step exceeded
+  /// a guard whose action is to stop: its state is intact and can be inspected, but neither a copy nor a
+  /// resumed run can pass it.
   const dynamics::StepReport& advance();
 
   /// Applies a command before the next step, and records it with the number of steps taken. Friction applies
@@ -49,8 +49,8 @@ class Session {
   /// the run is done, for a rate of the tilt after failure, and for a release without a drag.
   void apply(Command command);
 
-  /// Sets whether the commands of the scenario are carried out [yes]; a replay applies the recorded ones
-  /// instead.
+  /// Sets whether the commands of the scenario are carried out, as they are by default; a replay applies the
+  /// recorded ones instead.
   void follow_script(bool follows) { follows_script_ = follows; }
 
   /// Sets the number of threads of the solver; the result does not depend on it.

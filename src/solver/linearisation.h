@@ -27,7 +27,8 @@ struct BlockSums {
 
 /// Arrays kept between solves.
 struct Linearisation {
-  // Double precision, at P0, in the order of the problem.
+  // Double precision, at P0, in the order of the problem: impulses (N s), relative velocities (m/s), and
+  // inverses of the Delassus diagonal (kg).
   std::vector<double> pn, pt, un, ut, wn, wt;
   std::vector<ExactRow> exact_force;  ///< impulses of the contacts, and one more entry of zero
   std::vector<ExactRow> exact_velocity;
@@ -57,7 +58,8 @@ struct Linearisation {
   bool are_new = true;      ///< whether contacts or bodies differ from those of the last problem
   bool are_loaded = false;  ///< whether the data of contacts and bodies are complete; false after a failure
   bool have_new_order = true;  ///< whether all groups must be loaded again
-  /// Units of the single precision: impulse (N s), and the velocity (m/s) that it gives a mean body.
+  /// Units of the single precision: impulse (N s), the velocity (m/s) that it gives a mean body, and their
+  /// ratio, the mean inverse mass of the bodies that move (1/kg).
   double impulse_unit = 1.0, velocity_unit = 1.0, mobility_unit = 1.0;
   Index moving = 0;  ///< number of bodies with a finite mass
   /// Whether all contacts have the same friction, and all bodies are disks in single precision: r^2 / I is
@@ -75,6 +77,7 @@ void prepare(const ContactProblem& problem, const ContactSolution& guess, Thread
 /// Sets P0 to these impulses, made admissible.
 void load_contacts(const ContactProblem& problem, const ContactSolution& impulses, Index first_block,
                    Index last_block, Linearisation& w);
+/// Computes the velocities at P0 of bodies first ... last - 1.
 void sum_exact_velocities(const ContactProblem& problem, const SweepKernels& kernels, Index first, Index last,
                           Linearisation& w);
 /// Computes the relative velocities at P0 and the sums of the blocks.
@@ -121,6 +124,7 @@ void unload_impulses(const ContactProblem& problem, Index first_block, Index las
 void unload_velocities(const ContactProblem& problem, Index first, Index last, const Linearisation& w,
                        ContactSolution& solution);
 
+/// Return the arrays of groups and rows on which the kernels of a sweep work.
 ContactArrays contact_arrays(Linearisation& w);
 BodyArrays body_arrays(Linearisation& w);
 

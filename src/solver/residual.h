@@ -15,9 +15,9 @@ struct Residual {
 
 /// Sums over contacts from which the residual is computed.
 struct ResidualSums {
-  double change = 0.0;  ///< || P' - P ||^2
-  double impulse = 0.0, impulse_after = 0.0;
-  double largest = 0.0;
+  double change = 0.0;                        ///< || P' - P ||^2
+  double impulse = 0.0, impulse_after = 0.0;  ///< || P ||^2 and || P' ||^2
+  double largest = 0.0;                       ///< largest | P' - P |^2 of a single contact
 
   /// Adds a contact whose exact solution changes its impulse from `from` to `to`.
   void add(Impulse from, Impulse to) { add(from, to, 0.0, 0.0); }

@@ -10,7 +10,8 @@
 namespace talus::solver {
 
 struct RollingContacts {
-  // Double precision, at P0, in the order of the problem.
+  // Double precision, at P0, in the order of the problem: rolling impulse (N s), its relative velocity (m/s),
+  // 1 / W_rr (kg), and l (m).
   std::vector<double> pr, ur, wr, length;
   // Single precision, in the order of the sweep.
   std::vector<RollingGroup> groups;

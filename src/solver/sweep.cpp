@@ -7,7 +7,7 @@
 namespace talus::solver {
 namespace {
 
-// Smallest number of domains (about 250 000 contacts) for a wave; smaller beds stay in the last cache.
+// Smallest number of domains (about 250 000 contacts) for a wave; smaller beds stay in the last-level cache.
 constexpr Index domains_for_wave = 64;
 // A wave starts at one place for each member of a team; between two places, each sweep needs this many
 // domains.

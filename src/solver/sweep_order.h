@@ -17,9 +17,8 @@ namespace talus::solver {
 ///   - a sweep has three phases: even domains with the contacts between them and their odd neighbours; odd
 ///     domains; the remaining contacts, usually none if domains consist of columns. The parts of a phase
 ///     share no body that moves, so they can be swept simultaneously;
-///   - within a part, contacts form groups of eight, a few of them interleaved, that share no body that
-///   moves;
-///     each contact belongs to the first group that has room.
+///   - within a part, contacts form groups of eight, a few of them interleaved. The contacts of such a set of
+///     groups share no body that moves; each contact belongs to the first set that has room.
 /// The order follows from the problem alone, so that the bits of a result do not depend on the threads.
 struct SweepOrder {
   static constexpr int phases = 3;

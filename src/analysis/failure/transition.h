@@ -57,7 +57,7 @@ struct GrowthExponent {
 inline constexpr double growth_window = 10.0;
 
 /// Fits the logarithm of the sizes against that of theta_c - theta by least squares, for 0 < theta_c - theta
-/// <= `window` (rad); NaN sizes are left out. NaN with fewer than 5 sizes.
+/// <= `window` (rad); sizes that are 0 or NaN are left out. NaN with fewer than 5 sizes.
 GrowthExponent growth_exponent(std::span<const double> tilts, std::span<const double> sizes, double theta_c,
                                double window);
 

@@ -20,8 +20,9 @@ struct Neighbour {
   }
 };
 
-/// Moves the entries with a squared distance up to `high` to the front, sorted, and returns their number; no
-/// entry is below `low`. Fast if the grains are evenly spread over an area. `scratch` is working memory.
+/// Moves the entries with a squared distance up to `high` (m^2) to the front, sorted, and returns their
+/// number. No entry may be below `low` (m^2). Fast if the grains are evenly spread over an area. `scratch` is
+/// working memory.
 std::size_t sort_nearest(std::vector<Neighbour>& neighbours, double low, double high,
                          std::vector<Neighbour>& scratch);
 
@@ -45,7 +46,7 @@ class Neighbourhoods {
     neighbours_.clear();
     Tensor2 sum;
     double reached = 0.0;  // all grains up to this distance are in the sum
-    // Slightly larger; the test of the distance decides.
+    // Slightly larger than the square because of rounding; the distance itself is compared below.
     const double farthest = radius * radius * (1.0 + 1e-9);
     for (Index ring = 0; reached <= radius; ++ring) {
       const bool more =

@@ -35,7 +35,8 @@ struct DirectedPaths {
 
 /// Finds the paths of links between grains with `in_set` in which every step, from centre to centre, is
 /// within `spread` (rad) of `direction` (rad, relative to the bed). Every step must rise: direction - spread
-/// > 0 and direction + spread < pi. The paper's "directed" percolation (section V C) is at 60 and 120 deg.
+/// > 0 and direction + spread < pi. The paper expects "directed" percolation along the preferred directions
+/// of its contacts (section V B), which rise at 60 and 120 deg.
 DirectedPaths directed_paths(const BedFrame& bed, const std::vector<bool>& in_set,
                              const std::vector<Link>& links, const BedEdges& edges, double direction,
                              double spread);

@@ -25,7 +25,7 @@ FabricComponent fabric_component(const Frame& frame, int m);
 /// Computes the same with contact c weighted by weights[c] >= 0; NaN if all weights are 0.
 FabricComponent fabric_component(const FrameContacts& contacts, int m, const std::vector<double>& weights);
 
-/// Returns the preferred directions of contact normals, in deg to 1 deg: the angles within 30 deg of 0, 60
+/// Returns the preferred directions of contact normals, in whole degrees: the angles within 30 deg of 0, 60
 /// and 120 deg at which the density of directions, smoothed with a normal distribution of 5 deg standard
 /// deviation, is highest. NaN without contacts.
 std::array<double, 3> direction_peaks(const Frame& frame);

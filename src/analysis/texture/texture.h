@@ -9,8 +9,8 @@ namespace talus::analysis {
 
 /// Anisotropies about the major principal direction of the stress of the contact forces (Rothenburg and
 /// Bathurst 1989). Each is the amplitude of the cosine, or for tangential forces the sine, of twice the angle
-/// to this direction. Those of forces and lengths come from weighted sums over contacts, less that of the
-/// contacts. NaN without contacts.
+/// to this direction. a_n and a_l are the anisotropies of the contacts weighted by normal force and by branch
+/// length, less a_c; a_t is relative to the sum of the normal forces. NaN without contacts.
 struct Texture {
   double axis = 0.0;               ///< rad
   double contacts = 0.0;           ///< a_c
