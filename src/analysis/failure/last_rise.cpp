@@ -1,7 +1,6 @@
 #include "analysis/failure/last_rise.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace talus::analysis {
 
@@ -28,15 +27,13 @@ bool slopes_backwards(std::span<const double> tilts, const SeriesPart& part) {
 }
 
 bool has_side(const Quantity& quantity) {
-  return quantity.member == QuantityMember(&FrameRecord::sigma_t_over_n);
+  return quantity.member == QuantityMember(&FrameRecord::sigma_t_over_n) ||
+         quantity.member == QuantityMember(&FrameRecord::texture_axis);
 }
 
 double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f,
                           bool mirrored_slope) {
-  const double number = number_of(quantity, frame, f);
-  if (!mirrored_slope) return number;
-  if (has_side(quantity)) return -number;
-  return quantity.member == QuantityMember(&FrameRecord::texture_axis) ? std::numbers::pi - number : number;
+  return (mirrored_slope && has_side(quantity) ? -1.0 : 1.0) * number_of(quantity, frame, f);
 }
 
 FramesOfRise last_rise(std::span<const FrameRecord> frames) {

@@ -47,11 +47,12 @@ struct FramesOfRise {
 /// Returns the last rise of the frames of a run.
 FramesOfRise last_rise(std::span<const FrameRecord> frames);
 
-/// Whether a frame quantity changes sign if the bed slopes backwards.
+/// Whether a frame quantity changes sign if the bed slopes backwards: sigma_T/sigma_N, and the direction of
+/// the principal stress to the bed, an axis in (-pi/2, pi/2].
 bool has_side(const Quantity& quantity);
 
 /// Returns a number of a frame of such a rise as if the bed were always tilted to the same side: for a bed
-/// that slopes backwards, sigma_T/sigma_N changes sign and a direction relative to the bed is mirrored.
+/// that slopes backwards, the sign of quantities with a side changes.
 double number_on_one_side(const Quantity& quantity, const FrameRecord& frame, std::size_t f,
                           bool mirrored_slope);
 
