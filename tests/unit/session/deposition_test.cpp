@@ -58,7 +58,7 @@ TEST(AdviceForRest, ends_the_message_about_a_bed_that_is_not_at_rest) {
     ADD_FAILURE() << "at rest";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("g h; with contact.restitution = 1 impacts"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("g h; with contact.restitution = 1, impacts"), std::string::npos)
         << error.what();
   }
 }
