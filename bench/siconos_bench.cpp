@@ -44,18 +44,19 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-ContactSolution with_impulses(const ContactProblem& problem, const std::vector<Impulse>& p) {
-  ContactSolution solution;
-  for (const Impulse& impulse : p) {
+solver::ContactSolution with_impulses(const solver::ContactProblem& problem,
+                                      const std::vector<solver::Impulse>& p) {
+  solver::ContactSolution solution;
+  for (const solver::Impulse& impulse : p) {
     solution.pn.push_back(impulse.normal);
     solution.pt.push_back(impulse.tangential);
   }
-  velocities_from_impulses(problem, solution);
+  solver::velocities_from_impulses(problem, solution);
   return solution;
 }
 
-std::vector<Impulse> impulses(const ContactSolution& solution) {
-  std::vector<Impulse> p;
+std::vector<solver::Impulse> impulses(const solver::ContactSolution& solution) {
+  std::vector<solver::Impulse> p;
   for (std::size_t c = 0; c < solution.pn.size(); ++c) p.push_back({solution.pn[c], solution.pt[c]});
   return p;
 }
@@ -63,22 +64,22 @@ std::vector<Impulse> impulses(const ContactSolution& solution) {
 /// One problem in the forms of both solvers.
 struct Match {
   FrozenStep step;
-  LocalProblem local;
+  solver::LocalProblem local;
   SiconosProblem siconos;
-  SolverWorkspace workspace;
+  solver::SolverWorkspace workspace;
 
   explicit Match(FrozenStep frozen)
       : step(std::move(frozen)), local(local_problem(step.problem)), siconos(local, Storage::sparse_blocks) {}
 };
 
 struct TalusRun {
-  SolverReport report;
-  ContactSolution solution;
+  solver::SolverReport report;
+  solver::ContactSolution solution;
   double seconds = 0.0;
 };
 
 TalusRun run_talus(Match& match, double eta) {
-  SolverSettings settings;
+  solver::SolverSettings settings;
   settings.tolerance = eta;
   settings.max_iterations = 200000;
   TalusRun run{{}, match.step.guess};
@@ -103,7 +104,7 @@ double eta_for_error(Match& match, double error) {
 
 struct SiconosRun {
   SiconosReport report;
-  std::vector<Impulse> p;
+  std::vector<solver::Impulse> p;
 };
 
 SiconosRun run_siconos(Match& match, double error, int max_sweeps) {
@@ -120,7 +121,8 @@ int affordable_sweeps(Match& match, const Limits& limits) {
 }
 
 /// Returns sqrt of the mean of |v1 - v2|^2 over free bodies; rotation counts with its rim velocity.
-double rms_difference(const ContactProblem& problem, const ContactSolution& one, const ContactSolution& two) {
+double rms_difference(const solver::ContactProblem& problem, const solver::ContactSolution& one,
+                      const solver::ContactSolution& two) {
   double sum = 0.0;
   int count = 0;
   for (Index i = 0; i < problem.body_count(); ++i) {
@@ -140,7 +142,7 @@ double norm(const std::vector<double>& n, const std::vector<double>& t) {
   return std::sqrt(sum);
 }
 
-double relative_impulse_difference(const ContactSolution& one, const ContactSolution& two) {
+double relative_impulse_difference(const solver::ContactSolution& one, const solver::ContactSolution& two) {
   std::vector<double> n = one.pn;
   std::vector<double> t = one.pt;
   for (std::size_t c = 0; c < n.size(); ++c) {
@@ -151,17 +153,17 @@ double relative_impulse_difference(const ContactSolution& one, const ContactSolu
 }
 
 /// Returns || U1 - U2 || over the norm to which Siconos's error is relative.
-double relative_velocity_difference(const Match& match, const ContactSolution& one,
-                                    const ContactSolution& two) {
-  const std::vector<RelativeVelocity> u1 = local_form(match.step.problem, one).u;
-  const LocalSolution other = local_form(match.step.problem, two);
+double relative_velocity_difference(const Match& match, const solver::ContactSolution& one,
+                                    const solver::ContactSolution& two) {
+  const std::vector<solver::RelativeVelocity> u1 = local_form(match.step.problem, one).u;
+  const solver::LocalSolution other = local_form(match.step.problem, two);
   double difference = 0.0;
   double impulse = 0.0;
   double velocity = 0.0;
   double free_velocity = 0.0;
   const auto add_square = [](double& sum, double n, double t) { sum += n * n + t * t; };
   for (std::size_t c = 0; c < u1.size(); ++c) {
-    const RelativeVelocity& u2 = other.u[c];
+    const solver::RelativeVelocity& u2 = other.u[c];
     add_square(difference, u1[c].normal - u2.normal, u1[c].tangential - u2.tangential);
     add_square(impulse, other.p[c].normal, other.p[c].tangential);
     add_square(velocity, u2.normal, u2.tangential);
@@ -208,9 +210,9 @@ void print_ratio(double ratio, bool siconos_fails, bool talus_fails) {
 }
 
 void print_row(Match& match, Index grains, const Case& setting, const Timing& timing) {
-  const ContactProblem& problem = match.step.problem;
-  const ContactSolution theirs = with_impulses(problem, timing.siconos.p);
-  const ContactSolution& ours = timing.talus.solution;
+  const solver::ContactProblem& problem = match.step.problem;
+  const solver::ContactSolution theirs = with_impulses(problem, timing.siconos.p);
+  const solver::ContactSolution& ours = timing.talus.solution;
   const double their_error = match.siconos.error(timing.siconos.p);
   const double our_error = match.siconos.error(impulses(ours));
   const bool siconos_fails = their_error > setting.tolerance;
@@ -223,7 +225,7 @@ void print_row(Match& match, Index grains, const Case& setting, const Timing& ti
   print_solve(our_seconds, timing.talus_seconds.size(), timing.talus.report.iterations, talus_fails);
   print_ratio(their_seconds / our_seconds, siconos_fails, talus_fails);
   std::printf(" %.2e | %.2e | %.2e | %.2e |", their_error, our_error,
-              natural_map_residual(problem, theirs).eta, timing.talus.report.residual.eta);
+              solver::natural_map_residual(problem, theirs).eta, timing.talus.report.residual.eta);
   std::printf(" %.1e | %.1e | %.1e |\n", relative_velocity_difference(match, ours, theirs),
               rms_difference(problem, ours, theirs) / match.step.gravity_step,
               relative_impulse_difference(ours, theirs));
@@ -241,7 +243,7 @@ void print_header() {
 
 void run_case(Index grains, const Case& setting, bool si, const Limits& limits) {
   constexpr double dt = 5e-3;
-  const double h = si ? time_step(Scenario{}) : seconds_of(dt);
+  const double h = si ? scenario::time_step(scenario::Scenario{}) : seconds_of(dt);
   const World world = bed(grains, setting.slope, h);
   FrozenStep step =
       si ? next_step(world, h, Candidates::close) : dimensionless_next_step(world, dt, Candidates::close);

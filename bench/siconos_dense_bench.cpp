@@ -37,13 +37,13 @@ int run(int argc, char** argv) {
 
   const FrozenStep step =
       dimensionless_next_step(bed(grains, Slope::flat, seconds_of(5e-3)), 5e-3, Candidates::close);
-  const LocalProblem local = local_problem(step.problem);
-  LocalSolution answer;
+  const solver::LocalProblem local = local_problem(step.problem);
+  solver::LocalSolution answer;
   answer.p.resize(local.mu.size());
   SiconosProblem problem(local, Storage::dense);
   const Peer& peer = peers.at(name);
   const SiconosReport report = problem.solve(peer.solver, tolerance, peer.max_iterations, answer.p);
-  velocities_from_impulses(local, answer);
+  solver::velocities_from_impulses(local, answer);
   std::printf("| %s | %d | %d | %d | %.3g | %d | %.2e |\n", name.c_str(), grains, local.contact_count(),
               report.info, report.seconds, report.iterations, problem.error(answer.p));
   return 0;

@@ -34,9 +34,9 @@ double norm(const std::vector<double>& values) {
   return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0));
 }
 
-std::vector<double> flat(const std::vector<Impulse>& p) {
+std::vector<double> flat(const std::vector<solver::Impulse>& p) {
   std::vector<double> r;
-  for (const Impulse& impulse : p) r.insert(r.end(), {impulse.normal, impulse.tangential});
+  for (const solver::Impulse& impulse : p) r.insert(r.end(), {impulse.normal, impulse.tangential});
   return r;
 }
 
@@ -44,7 +44,7 @@ std::vector<double> flat(const std::vector<Impulse>& p) {
 
 struct SiconosProblem::State {
   std::vector<double> q, mu, dense;
-  std::vector<DelassusBlock> blocks;
+  std::vector<solver::DelassusBlock> blocks;
   std::vector<double*> block;
   std::vector<unsigned int> size;  ///< number of rows up to the end of each block row
   std::vector<std::size_t> row_begin, column;
@@ -52,15 +52,15 @@ struct SiconosProblem::State {
   NumericsMatrix* matrix = nullptr;
   FrictionContactProblem* problem = nullptr;
 
-  void point_at_blocks(const LocalProblem& local);
-  void fill_dense(const LocalProblem& local);
+  void point_at_blocks(const solver::LocalProblem& local);
+  void fill_dense(const solver::LocalProblem& local);
 };
 
-void SiconosProblem::State::point_at_blocks(const LocalProblem& local) {
-  static_assert(sizeof(DelassusBlock) == 4 * sizeof(double));
+void SiconosProblem::State::point_at_blocks(const solver::LocalProblem& local) {
+  static_assert(sizeof(solver::DelassusBlock) == 4 * sizeof(double));
   const auto contacts = static_cast<std::size_t>(local.contact_count());
   blocks = local.block;
-  for (DelassusBlock& each : blocks) block.push_back(&each.nn);
+  for (solver::DelassusBlock& each : blocks) block.push_back(&each.nn);
   for (std::size_t c = 0; c < contacts; ++c) size.push_back(static_cast<unsigned int>(2 * (c + 1)));
   row_begin.assign(local.row_begin.begin(), local.row_begin.end());
   column.assign(local.column.begin(), local.column.end());
@@ -76,12 +76,12 @@ void SiconosProblem::State::point_at_blocks(const LocalProblem& local) {
   matrix->matrix1 = &sparse;
 }
 
-void SiconosProblem::State::fill_dense(const LocalProblem& local) {
+void SiconosProblem::State::fill_dense(const solver::LocalProblem& local) {
   const std::size_t n = q.size();
   dense.assign(n * n, 0.0);
   for (std::size_t c = 0; c < mu.size(); ++c)
     for (Index k = local.row_begin[c]; k < local.row_begin[c + 1]; ++k) {
-      const DelassusBlock& w = local.block[k];
+      const solver::DelassusBlock& w = local.block[k];
       double* first = &dense[static_cast<std::size_t>(2 * local.column[k]) * n + 2 * c];
       first[0] = w.nn;
       first[1] = w.tn;
@@ -92,10 +92,10 @@ void SiconosProblem::State::fill_dense(const LocalProblem& local) {
   matrix->matrix0 = dense.data();
 }
 
-SiconosProblem::SiconosProblem(const LocalProblem& local, Storage storage)
+SiconosProblem::SiconosProblem(const solver::LocalProblem& local, Storage storage)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  for (const RelativeVelocity& q : local.q) s.q.insert(s.q.end(), {q.normal, q.tangential});
+  for (const solver::RelativeVelocity& q : local.q) s.q.insert(s.q.end(), {q.normal, q.tangential});
   s.mu = local.mu;
   s.matrix = NM_new();
   s.matrix->size0 = s.matrix->size1 = static_cast<int>(s.q.size());
@@ -117,7 +117,7 @@ SiconosProblem::~SiconosProblem() {
 }
 
 SiconosReport SiconosProblem::solve(SiconosSolver solver, double tolerance, int max_iterations,
-                                    std::vector<Impulse>& p) {
+                                    std::vector<solver::Impulse>& p) {
   const Options options = make_options(solver, tolerance, max_iterations);
   std::vector<double> r = flat(p);
   std::vector<double> u(r.size(), 0.0);
@@ -131,7 +131,7 @@ SiconosReport SiconosProblem::solve(SiconosSolver solver, double tolerance, int 
   return report;
 }
 
-double SiconosProblem::error(std::vector<Impulse> p) {
+double SiconosProblem::error(std::vector<solver::Impulse> p) {
   std::vector<double> r = flat(p);
   std::vector<double> u(r.size(), 0.0);
   double error = 0.0;

@@ -28,16 +28,17 @@ enum class Storage { sparse_blocks, dense };
 /// A problem in Siconos's form, with copies of the data of `local`.
 class SiconosProblem {
  public:
-  SiconosProblem(const LocalProblem& local, Storage storage);
+  SiconosProblem(const solver::LocalProblem& local, Storage storage);
   ~SiconosProblem();
   SiconosProblem(const SiconosProblem&) = delete;
   SiconosProblem& operator=(const SiconosProblem&) = delete;
 
   /// Solves from the first guess in `p`; only the call of the solver is timed.
-  SiconosReport solve(SiconosSolver solver, double tolerance, int max_iterations, std::vector<Impulse>& p);
+  SiconosReport solve(SiconosSolver solver, double tolerance, int max_iterations,
+                      std::vector<solver::Impulse>& p);
 
   /// Returns fc2d_compute_error, relative to the largest of || P ||, || U || and || q ||.
-  double error(std::vector<Impulse> p);
+  double error(std::vector<solver::Impulse> p);
 
  private:
   struct State;
