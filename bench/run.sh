@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the benchmarks and writes every result to bench/results/: bench/run.sh [PART...]
-# Parts: solver, scale, siconos, siconos_si, siconos_dense, paper, dem, crowded, frames, ensemble, store, render, python, view, analysis; all if none is named.
+# Parts: solver, scale, siconos, siconos_si, siconos_dense, runs, dem, crowded, frames, ensemble, store, render, python, view, analysis; all if none is named.
 set -euo pipefail
 
 cd -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")/.."
@@ -17,6 +17,12 @@ build() {
   cmake --build --preset bench
 }
 
+# Prints the sizes of the caches that one core can use.
+caches() {
+  local index=/sys/devices/system/cpu/cpu0/cache
+  cat "$index"/index2/size "$index"/index3/size 2>/dev/null | paste -s -d ',' | sed 's/K,/ and /; s/K$/ KiB/'
+}
+
 # heading TITLE COMMAND: prints the subject, the command, the build, the machine and the date.
 heading() {
   local compiler
@@ -26,7 +32,7 @@ heading() {
 
 - command: \`$2\`
 - Talus: $revision, $("$compiler" --version | head -1), $(sed -n 's/^CMAKE_CXX_FLAGS_RELEASE:[A-Z]*=//p' "$build/CMakeCache.txt")
-- processor: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) cores
+- processor: $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), caches $(caches)
 - load of the machine at the start: $(cut -d ' ' -f 1 /proc/loadavg); date: $(date -u +%F)
 
 TEXT
@@ -98,12 +104,12 @@ siconos_dense() {
   keep siconos_dense.md
 }
 
-paper() {
+runs() {
   {
-    heading "The paper's run" "bench/run_paper.py $build/talus"
-    /usr/bin/python3 bench/run_paper.py "$build/talus"
-  } >"$results/paper.md.part"
-  keep paper.md
+    heading "Whole runs" "bench/run_whole.py $build/talus"
+    /usr/bin/python3 bench/run_whole.py "$build/talus"
+  } >"$results/runs.md.part"
+  keep runs.md
 }
 
 dem() {
@@ -198,12 +204,12 @@ analysis() {
 }
 
 parts=("$@")
-((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense paper dem crowded frames ensemble store render python view analysis)
+((${#parts[@]} > 0)) || parts=(solver scale siconos siconos_si siconos_dense runs dem crowded frames ensemble store render python view analysis)
 build
 mkdir -p "$results"
 for part in "${parts[@]}"; do
   case $part in
-    solver | scale | siconos | siconos_si | siconos_dense | paper | dem | crowded | frames | ensemble | store | render | python | view | analysis) "$part" ;;
+    solver | scale | siconos | siconos_si | siconos_dense | runs | dem | crowded | frames | ensemble | store | render | python | view | analysis) "$part" ;;
     *) printf 'bench/run.sh: error: unknown part "%s"; the parts are listed at the top of this file\n' "$part" >&2 && exit 64 ;;
   esac
   printf '%s: done after %d s\n' "$part" "$SECONDS"

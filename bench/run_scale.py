@@ -29,9 +29,9 @@ def main():
     for _ in range(arguments.rounds):
         for grains, measured in rows.items():
             measured.append(measure(arguments.program, grains))
-    print("| grains | contacts | ns per contact and iteration, 1 thread | 2 threads | "
-          f"the latter against {REFERENCE} grains | ns per grain and iteration, 1 thread | 2 threads | "
-          "peak bytes per grain | eta of remembered forces |")
+    heads = [f"ns per {what} and iteration, {threads}" for what in ("contact", "grain") for threads in ("1 thread", "2 threads")]
+    heads.insert(2, f"relative to {REFERENCE} grains, 2 threads")
+    print(f"| grains | contacts | {' | '.join(heads)} | peak memory, bytes per grain | eta of remembered forces |")
     print("|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
     for grains, measured in rows.items():
         _, contacts, one, two, grain_one, grain_two, peak, eta = (statistics.median(cells) for cells in zip(*measured))
