@@ -12,7 +12,7 @@ PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), 
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
 LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
-WALL_LENGTHS = (100, 150, 200)
+WALL_LENGTHS = (100, 150, 200, 250, 300)
 #: Depth of the paper's beds, D, and its k_L - k_0.
 DEPTH, PAPER_K = 40.0, 2.5
 
@@ -159,14 +159,19 @@ def smooth_walls(beds):
     return walls(beds, "smooth-walls", (100, 200, 300))
 
 
+def one_value(means):
+    """The weighted mean of some means with their errors, and the chi-squared of a fit by it."""
+    weighted = sum(m["mean"] / m["error"] ** 2 for m in means) / sum(m["error"] ** -2 for m in means)
+    return weighted, sum(((m["mean"] - weighted) / m["error"]) ** 2 for m in means)
+
+
 def wall_numbers(beds):
     each = {length: wall_k(beds, f"paper-wbc-{length}", length) for length in WALL_LENGTHS}
     everything = summary(value for values in each.values() for value in values)
     means = [summary(values) for values in each.values()]
-    weighted = sum(m["mean"] / m["error"] ** 2 for m in means) / sum(m["error"] ** -2 for m in means)
+    longer = one_value(means[1:])
     return {"k": (everything["mean"], everything["error"]), "k_errors": (everything["mean"] - PAPER_K) / everything["error"],
-            "k_growth": (means[-1]["mean"] - means[0]["mean"]) / math.hypot(means[-1]["error"], means[0]["error"]),
-            "chi_squared": sum(((m["mean"] - weighted) / m["error"]) ** 2 for m in means)}
+            "chi_squared": one_value(means)[1], "k_from_150": longer[0], "chi_squared_from_150": longer[1]}
 
 
 # ---- Metastability.
@@ -365,30 +370,49 @@ def force_numbers(_):
 # ---- Tolerances.
 
 
+def tolerance_rows():
+    """The rows of tolerances.csv by variation and seed; those of the baseline under "baseline"."""
+    by = {}
+    for row in rows_of("tolerances.csv"):
+        by.setdefault(row["variation"], {})[row["seed"]] = row
+    return by
+
+
+def tolerance_changes(members, baseline, key, scale=1.0):
+    """Differences of a quantity to the baseline, bed by bed."""
+    pairs = [(number(row[key]) * scale, number(baseline[seed][key]) * scale) for seed, row in members.items() if seed in baseline]
+    return [ours - theirs for ours, theirs in pairs if not math.isnan(ours - theirs)]
+
+
 def tolerances(_):
-    found = rows_of("tolerances.csv")
+    by = tolerance_rows()
+    baseline = by["baseline"]
     columns = [("iterations", "iterations_per_step", 1, 1), ("theta_c, deg", "theta_c_deg", 2, 1),
                ("volume strain at the reference, %", "volume_strain_at_reference", 3, 100), ("creep, % of H", "creep_at_reference", 2, 100),
                ("z", "coordination_number_at_reference", 4, 1), ("p_o", "overloaded_fraction_at_reference", 3, 1)]
-    columns = [column for column in columns if column[1] in found[0]]
-    variation = "variation" if "variation" in found[0] else "variant"
-    by = {}
-    for row in found:
-        by.setdefault(row[variation], {})[row["seed"]] = row
-    baseline = by.get("baseline") or by[""]
     rows = []
     for name, members in by.items():
-        cells = [f"`{name}`" if name not in ("", "baseline") else "**baseline**, values"]
-        for _, key, digits, scale in columns:
-            if members is baseline:
-                cells.append(with_error([number(r[key]) * scale for r in members.values() if r[key] not in ("", "nan", "NaN")], digits))
-                continue
-            pairs = [(number(r[key]) - number(baseline[s][key])) * scale for s, r in members.items()
-                     if s in baseline and r[key] not in ("", "nan", "NaN") and baseline[s][key] not in ("", "nan", "NaN")]
-            text = with_error(pairs, digits)
-            cells.append(text if text.startswith(("-", "–")) else f"+{text}")
-        rows.append(cells)
-    return markdown(["variation", *(column[0] for column in columns)], rows)
+        if members is baseline:
+            cells = [with_error([number(row[key]) * scale for row in members.values() if not math.isnan(number(row[key]))], digits)
+                     for _, key, digits, scale in columns]
+        else:
+            cells = [with_error(tolerance_changes(members, baseline, key, scale), digits) for _, key, digits, scale in columns]
+            cells = [cell if cell.startswith(("-", "–")) else f"+{cell}" for cell in cells]
+        rows.append(["**baseline**, values" if members is baseline else f"`{name}`", str(len(members)), *cells])
+    return markdown(["variation", "beds", *(column[0] for column in columns)], rows)
+
+
+def tolerance_numbers(_):
+    """Of each variation of tolerances.csv: VARIATION.beds, the number of beds that failed as slopes; .restless, of those that the baseline has
+    beyond that; .theta_c, .z, .p_o, the mean difference to the baseline with its error, .theta_c.errors in errors."""
+    by = tolerance_rows()
+    baseline, found = by["baseline"], {}
+    for name, members in by.items():
+        found |= {f"{name}.beds": len(members), f"{name}.restless": len(baseline) - len(members)}
+        for short, key in (("theta_c", "theta_c_deg"), ("z", "coordination_number_at_reference"), ("p_o", "overloaded_fraction_at_reference")):
+            each = summary(tolerance_changes(members, baseline, key))
+            found |= {f"{name}.{short}": (each["mean"], each["error"]), f"{name}.{short}.errors": each["errors"]}
+    return found
 
 
 def measured(beds, *groups):
@@ -405,4 +429,5 @@ TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparati
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
-REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers}
+REPORTS = {"walls": wall_numbers, "readings": reading_numbers, "forces": force_numbers, "ranking": ranking_numbers, "metastability": metastability_numbers,
+           "tolerances": tolerance_numbers}
