@@ -10,7 +10,7 @@ from quoted_numbers import SHORT, correlation, number, rows_of, summary
 POURED = ("default: 6 sqrt(g D), rate 0.25, h = 1 ms", "pour-6")
 PREPARATIONS = [POURED, ("2 sqrt(g D)", "pour-2"), ("10 sqrt(g D)", "pour-10"), ("rate 1", "fast-pour"), ("rate 0.05", "slow-pour"),
                 ("friction 0.3 while pouring", "low-friction"), ("geometric", "geometric"), ("collapse", "all-at-once")]
-LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc")]
+LENGTHS = [("50 D", "length-50"), ("100 D", "pour-6"), ("200 D", "paper-pbc"), ("400 D", "length-400")]
 STEPS = [("5 ms", "step-5ms"), ("1 ms", "pour-6"), ("0.25 ms", "step-250us")]
 WALL_LENGTHS = (100, 150, 200, 250, 300)
 #: Depth of the paper's beds, D, and its k_L - k_0.
