@@ -92,11 +92,6 @@ def size(_):
     return markdown(["grains", "contacts", *columns], rows, text_columns=0)
 
 
-def crowded(_):
-    rows = [[row["other processes"], row["1 thread"], row["2 threads"]] for row in rows_of_part("crowded")]
-    return markdown(["other load", "1 thread", "2 threads"], rows)
-
-
 def peers(_):
     """Siconos and LAMMPS on the paper's bed."""
     rows = []
@@ -145,7 +140,7 @@ def numbers(_):
     return found | {"view.steps.alone": float(row_of("view", display="no drawing")["steps/s"])}
 
 
-TABLES = {"measured-by": machine, "whole-runs": whole_runs, "size": size, "crowded": crowded, "peers": peers, "pictures": pictures}
+TABLES = {"measured-by": machine, "whole-runs": whole_runs, "size": size, "peers": peers, "pictures": pictures}
 
 
 def draw(path):
