@@ -20,8 +20,9 @@ build() {
 # Prints the sizes of the caches that one core can use.
 caches() {
   local index=/sys/devices/system/cpu/cpu0/cache
-  cat "$index"/index2/size "$index"/index3/size 2>/dev/null | paste -s -d ',' | sed 's/K,/ and /; s/K$/ KiB/'
+  printf 'L2 %s, L3 %s' "$(size_of "$index/index2/size")" "$(size_of "$index/index3/size")"
 }
+size_of() { [[ -r $1 ]] && numfmt --from=iec --to=iec-i --suffix=B <"$1" || echo unknown; }
 
 # heading TITLE COMMAND: prints the subject, the command, the build, the machine and the date.
 heading() {
@@ -32,7 +33,7 @@ heading() {
 
 - command: \`$2\`
 - Talus: $revision, $("$compiler" --version | head -1), $(sed -n 's/^CMAKE_CXX_FLAGS_RELEASE:[A-Z]*=//p' "$build/CMakeCache.txt")
-- processor: $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), caches $(caches)
+- processor: $(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), caches: $(caches)
 - load of the machine at the start: $(cut -d ' ' -f 1 /proc/loadavg); date: $(date -u +%F)
 
 TEXT

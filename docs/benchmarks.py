@@ -58,13 +58,13 @@ def milliseconds(text):
 
 
 def seconds(text):
-    """A time of Siconos or Talus as the page prints it: 355 ms, 10.2 s; `fails` stays."""
+    """A time of Siconos or Talus as the page prints it: 355 ms, 10.2 s."""
     value = float(re.search(r"[\d.]+", text)[0])
     return f"{value:.3g} s" if value >= 1 else f"{1000 * value:.3g} ms"
 
 
 def machine(_, *parts):
-    """One sentence: when, with which revision and where parts were measured."""
+    """With which revision, when and where parts were measured: a line for each machine and day."""
     found = {}
     for part in parts:
         text = text_of_part(part)
@@ -122,7 +122,8 @@ def pictures(_):
 def numbers(_):
     """Numbers in the sentences of the page: step.N, a step at 10 deg on N threads, ms; run.STAGE, share of the steps of the paper's run in
     per cent; run.median, its iterations; scale.growth, the largest bed relative to the paper's; siconos.PROBLEM.least, .largest, the ratios
-    over all sizes; dem.steps.N; view.KIND.slowest, .fastest, pictures per second; view.steps.*."""
+    over all sizes that Siconos solves; dem.steps.N, of Talus (0) and LAMMPS; view.live and view.replay, .least and .largest pictures per second;
+    view.steps, the same of steps per second, .alone without a window."""
     found = {f"step.{threads}": median_ms(f"steps_at_ten_degrees/threads:{threads}/iterations:200/real_time") for threads in (1, 2)}
     paper = row_of("runs", run="paper-pbc.toml")
     found |= {f"run.{name}": float(paper[f"{name}, % of the steps"]) for name in ("solve", "detect", "assemble", "move", "recall", "store")}

@@ -35,7 +35,7 @@ SHORT = {"poured": "demo:deposition.method=pour", "collapsed": "demo:deposition.
 
 
 def rows_of(name):
-    """The rows of a table of docs/data."""
+    """The rows of a table of docs/data, or of another file by its path."""
     with (DATA / name).open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
@@ -45,11 +45,11 @@ def number(text):
 
 
 class Beds:
-    """The beds of docs/data/beds.csv by their group."""
+    """The beds of docs/data/beds.csv, or of another such table, by their group."""
 
-    def __init__(self):
+    def __init__(self, path="beds.csv"):
         self.groups, self.units = {}, {}
-        for row in rows_of("beds.csv"):
+        for row in rows_of(path):
             values = {}
             for column, text in row.items():
                 name, _, unit = column.partition(" (")

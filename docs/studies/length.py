@@ -1,13 +1,13 @@
-#!/usr/bin/env python3
-"""Draws how the angle of repose depends on the length of periodic beds and of beds between walls, and how much load the walls carry,
-from docs/data/beds.csv.
+#!/usr/bin/python3
+"""Draws how the angle of repose depends on the length of periodic beds and of beds between walls, and how much load the walls carry.
 
     python3 docs/studies/length.py docs/data/beds.csv -o runs/length.png
 
-It needs Debian's python3-numpy and python3-matplotlib."""
+The beds of each length are those of the tables in docs/tables.py. It needs Debian's python3-numpy and python3-matplotlib."""
 
 import argparse
-import csv
+import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -15,25 +15,22 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-PERIODIC = {50: "length-50", 100: "pour-6", 200: "paper-pbc", 400: "length-400"}
-WALLS = {length: f"paper-wbc-{length}" for length in (100, 150, 200, 250, 300)}
-#: Depth of the beds, D, and the k_L - k_0 of the paper.
-DEPTH, PAPER_K = 40.0, 2.5
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from quoted_numbers import Beds, summary  # noqa: E402
+from tables import DEPTH, LENGTHS, PAPER_K, WALL_LENGTHS, wall_numbers  # noqa: E402
+
+PERIODIC = {int(label.removesuffix(" D")): group for label, group in LENGTHS}
+WALLS = {length: f"paper-wbc-{length}" for length in WALL_LENGTHS}
 
 
-def values(rows, groups, column):
-    """The values of a column over the beds of each length that has some."""
-    found = {length: np.array([float(row[column]) for row in rows if row["beds"] == beds and row[column]]) for length, beds in groups.items()}
-    return {length: each for length, each in found.items() if len(each)}
-
-
-def draw_means(axes, found, style, label, aside=0.0):
+def draw_means(axes, beds, groups, quantity, style, label, aside=0.0):
     """Single beds as small points, `aside` of their length, and means with standard errors."""
+    found = {length: list(beds.values(group, quantity).values()) for length, group in groups.items()}
     for length, each in found.items():
-        axes.plot(np.full(len(each), length + aside), each, ".", color="0.75", markersize=3, zorder=1)
-    means = [each.mean() for each in found.values()]
-    errors = [each.std(ddof=1) / np.sqrt(len(each)) for each in found.values()]
-    axes.errorbar(list(found), means, errors, fmt=style, color="black", capsize=3, label=label, zorder=2)
+        axes.plot([length + aside] * len(each), each, ".", color="0.75", markersize=3, zorder=1)
+    means = [summary(each) for each in found.values()]
+    axes.errorbar(list(found), [m["mean"] for m in means], [m["error"] for m in means], fmt=style, color="black", capsize=3, label=label, zorder=2)
 
 
 def main():
@@ -41,17 +38,14 @@ def main():
     parser.add_argument("beds", help="docs/data/beds.csv")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help="picture to write")
     arguments = parser.parse_args()
-    with open(arguments.beds, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    beds = Beds(Path(arguments.beds).resolve())
     figure, (repose, ratio) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
-    draw_means(repose, values(rows, PERIODIC, "theta_c (deg)"), "o-", "periodic", aside=-6)
-    draw_means(repose, values(rows, WALLS, "theta_c (deg)"), "s--", "between walls", aside=6)
+    draw_means(repose, beds, PERIODIC, "theta_c", "o-", "periodic", aside=-6)
+    draw_means(repose, beds, WALLS, "theta_c", "s--", "between walls", aside=6)
     repose.set(xlabel="L / D", ylabel="theta_c, deg", xlim=(0, 420))
-    found = values(rows, WALLS, "failure_ratio (1)")
-    draw_means(ratio, found, "s", "beds and their means")
-    fitted = np.mean(np.concatenate([3 * (1 - each) * length / DEPTH for length, each in found.items()]))
+    draw_means(ratio, beds, WALLS, "failure_ratio", "s", "beds and their means")
     length = np.linspace(80, 320, 100)
-    for k, style, whose in ((fitted, "k-", "mean of the beds"), (PAPER_K, "k:", "the paper's")):
+    for k, style, whose in ((wall_numbers(beds)["k"][0], "k-", "mean of the beds"), (PAPER_K, "k:", "the paper's")):
         ratio.plot(length, 1 - k * DEPTH / (3 * length), style, label=f"k_L - k_0 = {k:.1f}, {whose}")
     ratio.set(xlabel="L / D", ylabel="(sigma_T / sigma_N) / tan theta", xlim=(80, 320), ylim=(0.3, 0.95))
     for axes in (repose, ratio):

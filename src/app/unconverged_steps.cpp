@@ -16,11 +16,10 @@ StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps) {
       "moving)",
       100.0 * share, record.residual_max_rest, record.residual_max_moving);
   if (usual) return {true, fmt::format("{}; this is usual (docs/solver.md).", text)};
-  return {
-      false,
-      fmt::format("{}: {} in the deposition, {} in the tilt, {} after failure; less than one in a thousand "
-                  "is usual (docs/solver.md); raise solver.max_iterations",
-                  text, record.unconverged_deposition, record.unconverged_tilt, record.unconverged_flow)};
+  return {false, fmt::format("{}: {} in the deposition, {} in the tilt, {} after failure; up to {:g} % is "
+                             "usual (docs/solver.md); raise solver.max_iterations",
+                             text, record.unconverged_deposition, record.unconverged_tilt,
+                             record.unconverged_flow, 100.0 * usual_unconverged_share)};
 }
 
 }  // namespace talus::app

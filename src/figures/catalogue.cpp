@@ -9,9 +9,9 @@ namespace talus::figures {
 std::span<const FigureRecipe> figure_catalogue() {
   using enum Material;
   static constexpr FigureRecipe recipes[] = {
-      {"fig04-shear-stress", "Normalised shear stress over tan(theta) (paper, Fig. 4)", values,
+      {"fig04-shear-stress", "Normalised shear stress against tan(theta) (paper, Fig. 4)", values,
        Subject::packing, "a run", shear_stress_figure},
-      {"fig05-stress-ratio", "Stress ratio of the packing over sin(theta) (paper, Fig. 5)", values,
+      {"fig05-stress-ratio", "Stress ratio of the packing against sin(theta) (paper, Fig. 5)", values,
        Subject::packing, "a run", stress_ratio_figure},
       {"fig06-wall-stress", "Stress sigma_xx along a bed between walls (paper, Fig. 6)", frames,
        Subject::walls, "a bed between walls that has failed", wall_stress_figure},
@@ -47,7 +47,7 @@ std::span<const FigureRecipe> figure_catalogue() {
        "a run that has failed", critical_contacts_figure},
       {"correlations", "Correlation of forces and stresses over distance", distributions, Subject::further,
        "a run that has failed", correlations},
-      {"dynamic-angle", "Angle at rest over theta_c and theta_d", values, Subject::further,
+      {"dynamic-angle", "Angle at rest against theta_c and theta_d", values, Subject::further,
        "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
       {"cycles", "Cycles of the tilt, and what accumulates over them", frames, Subject::further,
        "a run with a tilt programme (tilt.program)", cycles_figure},

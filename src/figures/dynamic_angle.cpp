@@ -140,7 +140,7 @@ Table flow_trace(const runs::RunView& run) {
 std::optional<Figure> dynamic_angle_figure(std::span<const RunGroup> groups) {
   Figure figure;
   figure.name = "dynamic-angle";
-  figure.title = "Angle at rest over theta_c and theta_d";
+  figure.title = "Angle at rest against theta_c and theta_d";
   figure.wide = true;
   figure.height_over_width = 0.3;
   set_variable(figure, "flow", 0.0);

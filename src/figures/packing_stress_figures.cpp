@@ -23,7 +23,7 @@ std::optional<Figure> over_tilt(Figure figure, std::span<const RunGroup> groups,
 std::optional<Figure> shear_stress_figure(std::span<const RunGroup> groups) {
   Figure figure;
   figure.name = "fig04-shear-stress";
-  figure.title = "Normalised shear stress over tan(theta) (paper, Fig. 4)";
+  figure.title = "Normalised shear stress against tan(theta) (paper, Fig. 4)";
   figure.caption =
       "Shear over normal stress of the packing, sigma_T / sigma_N, over the tangent of the tilt theta, up to "
       "theta_c. Dotted: sigma_T / sigma_N = tan(theta), equilibrium of a periodic bed (paper, Eq. 10).";
@@ -33,7 +33,7 @@ std::optional<Figure> shear_stress_figure(std::span<const RunGroup> groups) {
 std::optional<Figure> stress_ratio_figure(std::span<const RunGroup> groups) {
   Figure figure;
   figure.name = "fig05-stress-ratio";
-  figure.title = "Stress ratio of the packing over sin(theta) (paper, Fig. 5)";
+  figure.title = "Stress ratio of the packing against sin(theta) (paper, Fig. 5)";
   figure.caption =
       "Stress ratio Gamma = Q/P of the packing over the sine of the tilt theta, up to theta_c. Dotted: Gamma "
       "= sin(theta), the least value for a periodic bed in equilibrium (paper, Eq. 11).";

@@ -27,6 +27,7 @@ TEST(UnconvergedSteps, AreAWarningWhereTheyAreMany) {
   const StepRemark remark = remark_on(record_of(21), 10000);
   EXPECT_FALSE(remark.usual);
   EXPECT_NE(remark.text.find("0 in the deposition, 21 in the tilt, 0 after failure"), std::string::npos);
+  EXPECT_NE(remark.text.find("up to 0.2 % is usual"), std::string::npos);
   EXPECT_NE(remark.text.find("solver.max_iterations"), std::string::npos);
 }
 
