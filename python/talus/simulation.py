@@ -414,13 +414,13 @@ class Simulation:
         return self._core.done
 
     @property
-    def residual(self) -> float:
-        """Residual eta of the last step (docs/solver.md)."""
+    def residual(self) -> float | None:
+        """Residual eta of the last step (docs/solver.md); None before the first step."""
         return self._core.residual
 
     @property
-    def converged(self) -> bool:
-        """Whether the last step reached its tolerance."""
+    def converged(self) -> bool | None:
+        """Whether the last step reached its tolerance; None before the first step."""
         return self._core.converged
 
     @property

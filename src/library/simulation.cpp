@@ -251,8 +251,11 @@ bool Simulation::done() const { return phase() == session::Phase::done; }
 double Simulation::tilt() const { return degrees(world().tilt); }
 double Simulation::tilt_rate() const { return degrees(state_->session.tilt_rate()); }
 double Simulation::friction() const { return state_->session.law().friction; }
-double Simulation::residual() const { return state_->session.last_report().solver.residual.eta; }
-bool Simulation::converged() const { return state_->session.last_report().solver.converged; }
+std::optional<double> Simulation::residual() const { return state_->session.schedule().last.residual; }
+std::optional<bool> Simulation::converged() const {
+  const std::optional<double> converged = state_->session.schedule().last.converged;
+  return converged ? std::optional(*converged != 0.0) : std::nullopt;
+}
 std::string Simulation::state_hash() const { return hash_text(talus::state_hash(world())); }
 std::optional<double> Simulation::theta_c() const {
   const std::optional<double> angle = state_->session.angle_of_repose();

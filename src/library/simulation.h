@@ -90,8 +90,10 @@ class Simulation {
   double tilt() const;       ///< deg
   double tilt_rate() const;  ///< deg/s
   double friction() const;   ///< coefficient between grains
-  double residual() const;   ///< eta of the last step (docs/solver.md)
-  bool converged() const;    ///< whether the last step reached its tolerance
+  /// Return eta of the last step (docs/solver.md) and whether it reached its tolerance; empty before the
+  /// first step, and after the resumption of a run that an earlier version wrote.
+  std::optional<double> residual() const;
+  std::optional<bool> converged() const;
   std::string state_hash() const;
   std::optional<double> theta_c() const;  ///< deg; empty if the slope has not failed
 

@@ -76,6 +76,7 @@ class RunCourse {
     if (const auto row = row_at(step); row != rows_.end())
       schedule.surface_displacement = at(*row, Observable::surface_displacement);
     schedule.flow = flow_at(step, world, schedule.phase);
+    schedule.last = last_step(step);
     return schedule;
   }
 
@@ -141,6 +142,24 @@ class RunCourse {
         std::ranges::upper_bound(rows_, static_cast<double>(step), {},
                                  [](const ObservableRow& row) { return at(row, Observable::step); });
     return after == rows_.begin() ? rows_.end() : after - 1;
+  }
+
+  /// Returns what the run recorded of the step that led to a state.
+  LastStep last_step(std::int64_t step) const {
+    if (step == run_.checkpoint().world.step) return end_.last;
+    const std::optional<io::BranchOrigin>& branch = run_.header().branch;
+    if (branch && step == branch->start.world.step)
+      return stored_schedule(start_of(*branch), follows_failure(), "the run", "/branch").last;
+    LastStep last;
+    if (const auto row = row_at(step);
+        row != rows_.end() && at(*row, Observable::step) == static_cast<double>(step))
+      last.largest_overlap = at(*row, Observable::largest_overlap);
+    if (const auto next = first_after(step);
+        next != steps_.begin() && at(*(next - 1), StepField::step) == static_cast<double>(step)) {
+      last.residual = at(*(next - 1), StepField::residual);
+      last.converged = at(*(next - 1), StepField::converged);
+    }
+    return last;
   }
 
   /// Returns the progress, by the rows, of the flow that failed the slope at or after this step.

@@ -21,8 +21,8 @@ struct RowContext {
   dynamics::ContactLawParameters law;
   double mean_diameter = 0.0;         ///< m
   double surface_displacement = 0.0;  ///< m
-  double largest_overlap = 0.0;       ///< m
-  double residual = 0.0;              ///< largest eta since the last row
+  double largest_overlap = 0.0;       ///< m, of the last step
+  double residual = 0.0;              ///< largest eta since the last row, that of the last step included
   bool at_rest = false;
 };
 /// Returns a row of the observables (core/observables.h), in SI units and per metre of thickness. Compression

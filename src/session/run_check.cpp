@@ -103,8 +103,10 @@ void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const io:
               fmt::format("{}, but /steps has {} rows", checkpoint.world.step, rows.size()));
 }
 
-void check_observables(const std::vector<ObservableRow>& rows, double last_step, bool lacks_values,
-                       Findings& found) {
+/// Checks the rows of a run. The first row of a branch, at step `begun`, need not know the overlap of its
+/// step.
+void check_observables(const std::vector<ObservableRow>& rows, double begun, double last_step,
+                       bool lacks_values, Findings& found) {
   double before = -1.0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double step = at(rows[k], Observable::step);
@@ -115,7 +117,8 @@ void check_observables(const std::vector<ObservableRow>& rows, double last_step,
     before = step;
     for (const Observable field : {Observable::time, Observable::tilt, Observable::kinetic_energy,
                                    Observable::volume_strain, Observable::largest_overlap})
-      if (!lacks_values && !std::isfinite(at(rows[k], field)))
+      if (!lacks_values && !std::isfinite(at(rows[k], field)) &&
+          !(field == Observable::largest_overlap && step == begun))
         found.add(
             std::string("/observables/").append(observable_fields[static_cast<std::size_t>(field)].name),
             fmt::format("row {} is not finite", k));
@@ -388,7 +391,7 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
     check_remaining_steps(steps, found);
   else
     check_steps(steps, begun, run.checkpoint(), found);
-  check_observables(rows, static_cast<double>(last_step), lacks, found);
+  check_observables(rows, static_cast<double>(begun), static_cast<double>(last_step), lacks, found);
   const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   check_parameters(run.header(), scenario, found);
   if (run.header().branch) check_branch(run, scenario, found);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <limits>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -24,6 +25,7 @@ enum class StoragePolicy {
   always,
   where_not_zero,  ///< a missing value is zero
   as_result,       ///< derived from others: written, never read
+  where_known,     ///< not state; an unknown value is missing
 };
 
 /// A value of the schedule (an empty one is stored as NaN), or a derived result.
@@ -92,6 +94,11 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({results, name + "_first_step", &s.warnings.first[k], where_not_zero});
     all.push_back({reals, std::string("broken_").append(guard_names[k]), &s.broken[k], where_not_zero});
   }
+  all.push_back({reals, "last_largest_overlap", &s.last.largest_overlap, where_known});
+  all.push_back({reals, "last_residual", &s.last.residual, where_known});
+  all.push_back({reals, "last_converged", &s.last.converged, where_known});
+  all.push_back({reals, "last_friction", &s.last.friction, where_known});
+  all.push_back({reals, "last_wall_friction", &s.last.wall_friction, where_known});
   if (follows) {
     all.push_back({integers, "flow_steps", &s.flow_steps});
     all.push_back({integers, "unconverged_flow", &s.record.unconverged_flow});
@@ -168,6 +175,8 @@ void take(double number, const ScheduleField& field, const io::Checkpoint& check
       refuse(field, origin, fmt::format("is {}, expected a finite number", scenario::short_text(number)));
     **real = number;
   } else if (std::optional<double>* const* real_or_none = std::get_if<std::optional<double>*>(&field.value)) {
+    if (field.kept == StoragePolicy::where_known)
+      check(std::numeric_limits<double>::max(), "a number, 0 or more");
     if (!std::isnan(number)) **real_or_none = number;
   }
 }
@@ -199,6 +208,7 @@ void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint)
   for (const ScheduleField& field : fields(schedule, follows)) {
     const double number = number_of(field.value);
     if (field.kept == StoragePolicy::where_not_zero && number == 0.0) continue;
+    if (field.kept == StoragePolicy::where_known && !std::isfinite(number)) continue;
     if (field.place == CheckpointGroup::integers)
       checkpoint.integers.emplace_back(field.name, static_cast<std::int64_t>(number));
     else
@@ -228,7 +238,9 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
 std::uint64_t schedule_hash(Schedule schedule) {
   Hasher hash;
   for (const ScheduleField& field : fields(schedule, true)) {
-    if (field.place == CheckpointGroup::timing || field.kept == StoragePolicy::as_result) continue;
+    if (field.place == CheckpointGroup::timing || field.kept == StoragePolicy::as_result ||
+        field.kept == StoragePolicy::where_known)
+      continue;
     hash.add_array(field.name);
     hash.add(number_of(field.value));
   }

@@ -46,6 +46,16 @@ struct ScriptCourse {
   std::int64_t steps = 0;              ///< steps taken since the tilt began
 };
 
+/// What is known of the last step, for those who look at the state; no later step depends on it, so it is not
+/// part of the state. Values are empty before the first step, and where a file does not tell them.
+struct LastStep {
+  std::optional<double> largest_overlap;  ///< m, at the midpoint; 0 without overlaps
+  std::optional<double> residual;         ///< eta
+  std::optional<double> converged;        ///< 1 if eta reached the tolerance of the step, else 0
+  std::optional<double> friction;         ///< coefficient of friction used between grains
+  std::optional<double> wall_friction;    ///< coefficient of friction used at side walls
+};
+
 /// Wall time, s; not part of the state.
 struct RunSeconds {
   double deposition = 0.0;
@@ -80,6 +90,7 @@ struct Schedule {
   SolverRecord record;
   GuardWarnings warnings;
   GuardValues broken{};  ///< values of guards that the last step exceeded and that stop the run; otherwise 0
+  LastStep last;
   RunSeconds seconds;
 };
 
@@ -94,8 +105,8 @@ bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenar
 std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, const Schedule& schedule);
 
 /// Adds the values of a schedule to a checkpoint, under the names of a common table. Omits settings that no
-/// command has changed, guards that were never exceeded, and values of the flow after failure unless the
-/// scenario `follows` it.
+/// command has changed, guards that were never exceeded, unknown values of the last step, and values of the
+/// flow after failure unless the scenario `follows` it.
 void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint);
 
 /// Reads the schedule from a checkpoint. Throws Error(bad_data) if a value is missing or impossible; messages
@@ -103,7 +114,8 @@ void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint)
 Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const std::string& origin,
                          const std::string& group = "/checkpoint");
 
-/// Returns a hash of all values of the table that are state, to the last bit; wall times are excluded.
+/// Returns a hash of all values of the table that are state, to the last bit; wall times and values of the
+/// last step are excluded.
 std::uint64_t schedule_hash(Schedule schedule);
 
 }  // namespace talus::session

@@ -354,6 +354,9 @@ void Session::take_step() {
        : schedule_.phase == Phase::deposition ? schedule_.record.unconverged_deposition
                                               : schedule_.record.unconverged_flow);
   const double eta = report_.solver.residual.eta;
+  const dynamics::ContactLawParameters used = law();
+  schedule_.last = {report_.largest_overlap, eta, report_.solver.converged ? 1.0 : 0.0, used.friction,
+                    used.wall_friction};
   schedule_.residual_since_row = std::max(schedule_.residual_since_row, eta);
   if (tilting) {
     double& worst = is_at_rest() ? schedule_.record.residual_max_rest : schedule_.record.residual_max_moving;
@@ -386,8 +389,9 @@ ObservableRow Session::row() const {
   context.law = law();
   context.mean_diameter = scenario_.grains.mean_diameter;
   context.surface_displacement = schedule_.surface_displacement;
-  context.largest_overlap = report_.largest_overlap;
-  context.residual = schedule_.residual_since_row;
+  context.largest_overlap = schedule_.last.largest_overlap.value_or(not_known);
+  context.residual = schedule_.residual_since_row > 0.0 ? schedule_.residual_since_row
+                                                        : schedule_.last.residual.value_or(not_known);
   context.at_rest = is_at_rest();
   return measure(world_, context);
 }
@@ -406,11 +410,7 @@ double Session::tilt_rate() const {
   return schedule_.course ? schedule_.course->rate : radians(scenario_.tilt.rate);
 }
 
-Session Session::copy() const {
-  Session other(scenario_, checkpoint(0.0));
-  other.report_ = report_;
-  return other;
-}
+Session Session::copy() const { return {scenario_, checkpoint(0.0)}; }
 
 io::Checkpoint Session::checkpoint(double seconds_writing) const {
   io::Checkpoint checkpoint;

@@ -162,9 +162,38 @@ TEST(Simulation, that_is_a_copy_says_what_the_original_says) {
   Simulation sim(test::small_tilted_bed(3.0));
   sim.tilt_to(0.5);
   const Simulation copy = sim;
-  EXPECT_TRUE(sim.converged());
+  EXPECT_EQ(sim.converged(), true);
   EXPECT_EQ(copy.converged(), sim.converged());
   EXPECT_EQ(copy.residual(), sim.residual());
+}
+
+/// The overlap is that of the contacts of the state, computed here from their gaps.
+TEST(Simulation, that_is_resumed_or_branched_off_knows_its_last_step) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(3.0));
+  EXPECT_FALSE(sim.residual());
+  EXPECT_FALSE(sim.converged());
+  EXPECT_TRUE(std::isnan(sim.quantity("largest_overlap")));
+  sim.record(folder.path("run.h5"));
+  sim.tilt_to(1.0);
+  sim.commit();
+  sim.save(folder.path("branch.h5"));
+  const double overlap = -std::ranges::min(sim.world().contacts.gap);
+  const std::optional<double> residual = sim.residual();
+  EXPECT_GT(overlap, 0.0);
+  EXPECT_EQ(sim.quantity("largest_overlap"), overlap);
+  { const Simulation gone = std::move(sim); }
+  const auto first_row = [](const std::string& path) { return io::RunFile::open(path).all_observables()[0]; };
+  for (const char* name : {"run.h5", "branch.h5"}) {
+    Simulation later = Simulation::resume(folder.path(name));
+    EXPECT_EQ(later.quantity("largest_overlap"), overlap) << name;
+    EXPECT_EQ(later.residual(), residual) << name;
+    EXPECT_EQ(later.quantity("residual"), residual) << name << ": a row has just been recorded";
+    EXPECT_EQ(later.converged(), true) << name;
+    later.save(folder.path("again"), true);
+    EXPECT_EQ(at(first_row(folder.path("again")), Observable::largest_overlap), overlap) << name;
+  }
+  EXPECT_EQ(at(first_row(folder.path("branch.h5")), Observable::largest_overlap), overlap);
 }
 
 TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {

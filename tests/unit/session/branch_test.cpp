@@ -138,6 +138,12 @@ TEST(Branch, knows_how_the_run_stood_at_each_frame) {
     }
     EXPECT_EQ(found.drag.has_value(), expected.drag.has_value()) << k;
     EXPECT_EQ(found.baseline.volume, expected.baseline.volume) << k;
+    EXPECT_EQ(found.last.residual, expected.last.residual) << k;
+    EXPECT_EQ(found.last.converged, expected.last.converged) << k;
+    EXPECT_EQ(found.last.largest_overlap.has_value(), k % 2 == 0) << "rows: every 0.2 deg, frames: every 0.5";
+    if (found.last.largest_overlap) {
+      EXPECT_EQ(found.last.largest_overlap, expected.last.largest_overlap) << k;
+    }
     ++compared;
   }
   EXPECT_GE(compared, 4u);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +90,27 @@ TEST(Schedule, each_stored_value_counts) {
     other.reals[k].second = std::nextafter(other.reals[k].second, 100.0);
     EXPECT_NE(schedule_hash(read(other)), hash) << checkpoint.reals[k].first;
   }
+}
+
+/// No later step depends on the last one's report, so it counts for no hash, and files without it are read.
+TEST(Schedule, has_the_last_step_beside_its_state) {
+  Schedule schedule = full_schedule();
+  schedule.last = {1e-9, 2e-7, 1.0, 0.4, 0.2};
+  const io::Checkpoint checkpoint = stored(schedule);
+  EXPECT_EQ(stored(read(checkpoint)).reals, checkpoint.reals);
+  EXPECT_EQ(schedule_hash(schedule), schedule_hash(full_schedule()));
+  EXPECT_FALSE(read(stored(full_schedule())).last.residual);
+  schedule.last.residual = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(read(stored(schedule)).last.residual) << "a file has no infinite number";
+  for (const char* name :
+       {"last_largest_overlap", "last_residual", "last_converged", "last_friction", "last_wall_friction"})
+    for (const double impossible : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+      io::Checkpoint other = checkpoint;
+      for (auto& [known, value] : other.reals)
+        if (known == name) value = impossible;
+      EXPECT_TRUE(refusal(other).starts_with(std::string("run.h5: data set /checkpoint/reals/") + name))
+          << impossible;
+    }
 }
 
 TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
