@@ -103,6 +103,8 @@ def check_owner(run: Run, seed: int, scenario: dict[str, Any], bed: str) -> None
                  for key, value in keys.items() if known.get(key, value) != value]
     if run.seed != seed:
         differing.append(f"seed {run.seed}")
+    if run.departures:
+        differing.append("commands that its scenario does not have, or the start as a branch")
     if bed and run.provenance.get("bed_hash", bed) != bed:
         differing.append("its bed")
     if differing:

@@ -135,6 +135,12 @@ class Frame:
         return self._read("gamma")
 
     @property
+    def friction(self) -> float:
+        """Coefficient of friction between grains in the step that gave the forces of the frame; `run.friction` is that
+        of the scenario, which a command may have changed since."""
+        return self.run.friction_of(self.index)
+
+    @property
     def radius(self) -> np.ndarray:
         """(N,) radii."""
         return self.run.radius

@@ -19,6 +19,9 @@ from talus.storage import Storage, find_run, manifest_text
 from talus.table import Table
 from talus.units import Units, check_units, unit_in, values_in
 
+#: Number of the kind of a command that sets the friction, in /commands/kind.
+FRICTION = 2
+
 
 def last_rise(tilts: np.ndarray) -> tuple[int, int]:
     """Returns the first index and the index after the last of the last stretch of tilts whose magnitude rises and does
@@ -87,7 +90,7 @@ class Run:
         self._check_statics()
         self.D = float(storage.read("parameters/mean_diameter"))  #: mean diameter of the free grains, always in m
         self.gravity = float(storage.read("parameters/gravity"))  #: m/s^2
-        self.friction = float(storage.read("parameters/friction"))  #: coefficient of friction between grains, mu
+        self.friction = float(storage.read("parameters/friction"))  #: mu of its scenario, with which it began
         self.periodic = bool(storage.read("parameters/periodic"))
         self.length: float  #: L, the period or the distance between the walls
         self.depth: float  #: H, nominal
@@ -228,6 +231,52 @@ class Run:
         """Number of planes (floor, walls); the largest possible number if the last state of the run is missing."""
         name = "checkpoint/plane_offset"
         return len(self.storage.read(name)) if self.storage.has(name) else 3
+
+    def friction_of(self, k: int) -> float:
+        """Returns the coefficient of friction between grains that was in force in the step which led to frame k, and
+        thus to its forces: as set by a command before, otherwise that of the scenario, of its deposition in the frame
+        of the bed at rest."""
+        step, branch = self.step[k], self.storage.names("branch/reals")
+        if branch and step == self["branch/step"] and "last_friction" in branch:
+            return self["branch/reals/last_friction"]
+        friction = self["branch/reals/friction"] if "friction" in branch else None
+        for command in np.flatnonzero(self._commands["kind"] == FRICTION):
+            if self._commands["step"][command] < step:
+                friction = float(self._commands["x"][command])
+        if friction is not None:
+            return friction
+        deposited = self.scenario["deposition"].get("friction", "contact") if k == 0 and self.tilt[k] == 0 else "contact"
+        return self.friction if deposited == "contact" else float(deposited)
+
+    @cached_property
+    def _commands(self) -> dict[str, np.ndarray]:
+        """The commands given to the run, by the names of their data sets."""
+        names = ("step", "kind", "grain", "x", "y")
+        known = self.storage.names("commands")
+        return {name: self["commands/" + name] if name in known else np.array([]) for name in names}
+
+    @cached_property
+    def departures(self) -> int:
+        """How much was done to the run that its scenario does not say: commands that it does not have, and the start as
+        a branch. A run without any is the one that `talus run` makes of its scenario."""
+        kinds = ("push", "drop", "friction", "tilt_rate", "drag", "release")
+        wanted = [(kinds.index(c["kind"]), c.get("grain", -1), c.get("x", 0.0), c.get("y", 0.0), c.get("at"))
+                  for c in self.scenario.get("command", [])]
+        known, more = self._commands, 0
+        for step, kind, *values in zip(*(known[name].tolist() for name in ("step", "kind", "grain", "x", "y"))):
+            found = next((w for w in wanted if [w[0], *w[1:4]] == [kind, *values] and self._is_at(step, w[4])), None)
+            if found:
+                wanted.remove(found)
+            else:
+                more += 1
+        return more + bool(self.storage.names("branch"))
+
+    def _is_at(self, step: int, angle: float | None) -> bool:
+        """Whether a command at this step was given at an angle in degrees, to the spacing of the observables."""
+        steps, tilts = self.storage.read("observables/step"), np.degrees(self.storage.read("observables/tilt"))
+        k = int(np.searchsorted(steps, step, side="right"))
+        near = tilts[max(k - 2, 0) : k + 2]
+        return angle is None or (len(near) > 0 and near.min() - 1e-6 <= angle <= near.max() + 1e-6)
 
     def frame_at(self, angle: float | Literal["repose"]) -> Frame:
         """Returns the frame of the tilt nearest to an angle in degrees, or, for "repose", the last frame with a tilt up

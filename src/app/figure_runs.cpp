@@ -52,7 +52,7 @@ void refuse_settings(const Reading& reading, const std::string& path) {
 void add_ensemble(Reading& reading, const std::string& folder) {
   for (const ensemble::Member& member : done_members(folder)) {
     add_run(reading, member.path);
-    ensemble::require_own_run(member, reading.input.runs.back().file->header());
+    ensemble::require_own_run(member, *reading.input.runs.back().file);
   }
 }
 

@@ -33,6 +33,7 @@ struct RunInfo {
   std::uint64_t seed = 0;
   Index grains = 0;  ///< free grains
   Index floor_grains = 0;
+  bool periodic = false;
   std::size_t frames = 0;       ///< frames of the tilt
   std::size_t flow_frames = 0;  ///< frames after failure
   bool has_frames = true;       ///< false: only times and tilts of the frames are kept
@@ -42,6 +43,9 @@ struct RunInfo {
   double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
   double tilt = 0.0;                               ///< rad, tilt of the last state
   std::size_t steps = 0;
+  Friction friction;             ///< with which the tilt or the branch began
+  Friction deposition_friction;  ///< that of a run which is not a branch
+  double branch_rate = none;     ///< rad/s, set by a command before the branch began
   std::vector<Command> commands;
   std::vector<std::string> waiting;   ///< commands of the scenario that a complete run did not reach
   std::vector<double> command_tilts;  ///< rad; NaN during the deposition
@@ -62,6 +66,10 @@ std::string fact(const Facts& facts, const std::string& name) {
 
 double figure(const Figures& figures, const std::string& name) {
   return find_value(figures, name).value_or(none);
+}
+
+double figure_or(const Figures& figures, const std::string& name, double otherwise) {
+  return find_value(figures, name).value_or(otherwise);
 }
 
 /// Reads the entries that depend on the stored scenario; leaves them unset if this version cannot read it.
@@ -107,6 +115,7 @@ RunInfo read_info(const std::string& path) {
   info.seed = run.header().seed;
   info.grains = statics.free_count;
   info.floor_grains = static_cast<Index>(statics.radius.size()) - statics.free_count;
+  info.periodic = statics.periodic;
   info.frames = run.frame_count();
   info.flow_frames = run.all_frame_tilts().size() - info.frames;
   info.has_frames = run.has_frames();
@@ -121,6 +130,13 @@ RunInfo read_info(const std::string& path) {
   count_steps(run.steps(), info);
   info.commands = session::given_commands(run.commands());
   info.branch = run.header().branch;
+  info.friction = run.header().friction;
+  info.deposition_friction = run.header().deposition_friction;
+  if (info.branch) {
+    // Earlier versions kept the scenario of the run, although a command had set another friction.
+    info.friction.grains = figure_or(info.branch->start.reals, "friction", info.friction.grains);
+    info.branch_rate = figure(info.branch->start.reals, "tilt_rate");
+  }
   info.command_tilts = tilts_of(info.commands, run);
   read_scenario(run, info);
   info.state_hash = run.has_state() ? hash_text(state_hash(run.checkpoint().world)) : "none";
@@ -129,6 +145,15 @@ RunInfo read_info(const std::string& path) {
   info.results = run.checkpoint().results;
   info.timing = run.checkpoint().timing;
   return info;
+}
+
+Json commands_of(const RunInfo& info) {
+  Json all = Json::array();
+  for (std::size_t k = 0; k < info.commands.size(); ++k)
+    all.push_back({{"step", info.commands[k].step},
+                   {"tilt_deg", degrees(info.command_tilts[k])},
+                   {"command", session::command_text(info.commands[k])}});
+  return all;
 }
 
 void print_json(const RunInfo& info) {
@@ -152,7 +177,13 @@ void print_json(const RunInfo& info) {
                      {"residual_max", info.residual_max},
                      {"unconverged_steps", info.unconverged_steps},
                      {"steps", info.steps},
+                     {"friction", info.friction.grains},
+                     {"wall_friction", info.friction.walls},
+                     {"deposition_friction", info.deposition_friction.grains},
+                     {"deposition_wall_friction", info.deposition_friction.walls},
+                     {"branch_tilt_rate_deg_per_s", degrees(info.branch_rate)},
                      {"commands", info.commands.size()},
+                     {"commands_given", commands_of(info)},
                      {"commands_not_carried_out", info.waiting},
                      {"state_hash", info.state_hash},
                      {"branch_of", branch ? Json(branch->run) : Json()},
@@ -187,6 +218,15 @@ std::string rest_text(const RunInfo& info) {
                              : fmt::format("{}, at a tilt of {}", in_degrees(theta_r), in_degrees(info.tilt));
 }
 
+std::string friction_text(const RunInfo& info) {
+  const auto text = [&](const Friction& friction) {
+    return fmt::format("{:g}", friction.grains) +
+           (info.periodic ? "" : fmt::format(" between grains and {:g} with the walls", friction.walls));
+  };
+  if (info.branch || text(info.friction) == text(info.deposition_friction)) return text(info.friction);
+  return fmt::format("{}; until the bed was at rest {}", text(info.friction), text(info.deposition_friction));
+}
+
 void print_commands(const RunInfo& info) {
   print_line("commands", std::to_string(info.commands.size()));
   for (std::size_t k = 0; k < info.commands.size(); ++k) {
@@ -208,9 +248,13 @@ void print_report(const RunInfo& info) {
                fmt::format("{}, frame {}, at {}, step {}; state hash of that run: {}", info.branch->run,
                            info.branch->frame, in_degrees(info.branch->start.world.tilt),
                            info.branch->start.world.step, info.branch->run_hash));
+  if (!std::isnan(info.branch_rate))
+    print_line("began with", fmt::format("a tilt rate of {:.4g} deg/s, set by a command before",
+                                         degrees(info.branch_rate)));
   print_line("version", runs::version_of(info.provenance));
   print_line("seed", std::to_string(info.seed));
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));
+  print_line("friction", friction_text(info));
   print_line("frames",
              std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
                  (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)) +

@@ -37,6 +37,11 @@ scenario::Scenario scenario_of_branch(const RunRequest& request, const io::RunHe
 void require_same_past(const RunRequest& request, const scenario::Scenario& parent,
                        const scenario::Scenario& branch, const session::Schedule& start) {
   scenario::Scenario past = branch;
+  // The branch states them only if its other friction does not imply them.
+  if (deposition_friction(past) == deposition_friction(parent)) {
+    past.deposition.friction = parent.deposition.friction;
+    past.deposition.wall_friction = parent.deposition.wall_friction;
+  }
   past.contact = parent.contact;
   past.solver = parent.solver;
   past.output = parent.output;
@@ -69,6 +74,57 @@ void require_same_past(const RunRequest& request, const scenario::Scenario& pare
   }
 }
 
+/// Whether one of the settings of --set gives this key.
+bool sets(const std::vector<std::string>& settings, std::string_view key) {
+  return std::ranges::any_of(settings, [key](const std::string& setting) {
+    std::string name = setting.substr(0, setting.find('='));
+    std::erase(name, ' ');
+    return name == key;
+  });
+}
+
+/// Whether the scenario has a command for the friction that was carried out before a branch begins.
+bool scripts_friction(const scenario::Scenario& scenario, const session::Schedule& start) {
+  return std::ranges::any_of(scenario.commands, [&](const scenario::ScriptedCommand& command) {
+    return command.kind == CommandKind::friction && session::is_reached(command, scenario, start.script);
+  });
+}
+
+/// Settles the friction of a branch of a run in which a command has set it: what the user gives for the
+/// branch is in force from its frame on, and without that the friction of the command becomes that of its
+/// scenario. Throws if a scenario file does not say which of them is meant.
+void settle_friction(const RunRequest& request, const scenario::Scenario& parent, session::Session& session,
+                     io::Checkpoint& start, std::string& text) {
+  const std::optional<double> commanded = session.schedule().friction;
+  if (!commanded) return;
+  const double given = session.scenario().contact.friction;
+  if (sets(request.settings, "contact.friction") || given != parent.contact.friction) {
+    std::erase_if(start.reals, [](const auto& real) { return real.first == "friction"; });
+    session = session::Session(session.scenario(), start, request.branch, "/branch");
+    return;
+  }
+  if (!request.scenario.empty() && !scripts_friction(session.scenario(), session.schedule()))
+    throw Error(ExitCode::bad_data,
+                fmt::format("a command has set the friction of {} to {:g} before this frame, and {} has "
+                            "contact.friction = {:g}; say which holds in the branch with --set "
+                            "contact.friction=VALUE",
+                            request.branch, *commanded, request.scenario, given));
+  session.adopt_friction();
+  start = session::start_of(session.checkpoint(0.0));
+  text = scenario::resolved_toml(session.scenario());
+}
+
+/// Throws if the user gives a rate of the tilt for a branch of a run in which a command has set another.
+void require_rate_in_force(const RunRequest& request, const session::Session& session) {
+  if (!session.schedule().course) return;
+  for (const char* key : {"tilt.rate", "tilt.step", "tilt.program"})
+    if (sets(request.settings, key))
+      throw Error(ExitCode::bad_data,
+                  fmt::format("--set {}: a command has set the rate of the tilt of {} to {:g} deg/s before "
+                              "this frame; change it in the branch with a command of the kind tilt_rate",
+                              key, request.branch, degrees(session.tilt_rate())));
+}
+
 }  // namespace
 
 OpenRun start_branch(const RunRequest& request) {
@@ -76,7 +132,8 @@ OpenRun start_branch(const RunRequest& request) {
   const std::string parameters = request.branch + ":/parameters";
   const scenario::Scenario parent = runs::stored_scenario(run.header(), parameters);
   std::string text;
-  const scenario::Scenario scenario = scenario_of_branch(request, run.header(), text);
+  scenario::Scenario scenario = scenario_of_branch(request, run.header(), text);
+  scenario::keep_deposition_friction(parent, scenario);
   FrameOptions frame;
   frame.at = {request.at};
   const std::size_t k = chosen_frames(run, request.branch, frame).front();
@@ -89,6 +146,9 @@ OpenRun start_branch(const RunRequest& request) {
   }
   session::Session session(scenario, origin.start, request.branch, "/branch");
   require_same_past(request, parent, scenario, session.schedule());
+  require_rate_in_force(request, session);
+  settle_friction(request, parent, session, origin.start, text);
+  scenario = session.scenario();
   if (const auto end = scenario.tilt.end_angle; end && degrees(session.world().tilt) >= *end)
     throw Error(ExitCode::bad_data,
                 fmt::format("the branch of {} begins at {:.2f} deg; expected a tilt.end_angle beyond it",

@@ -9,8 +9,8 @@ bool is_with_wall(const Frame& frame, Index c) {
   return frame.contacts.b[k] >= frame.grain_count() && std::abs(frame.contacts.nx[k]) > 0.5;
 }
 
-double friction_of_contact(const RunStatics& statics, const Frame& frame, Index c) {
-  return is_with_wall(frame, c) ? statics.wall_friction : statics.friction;
+double friction_of_contact(const Frame& frame, Index c) {
+  return is_with_wall(frame, c) ? frame.friction.walls : frame.friction.grains;
 }
 
 RunStatics arrived_statics(const RunStatics& all, Index count) {

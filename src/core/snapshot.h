@@ -30,6 +30,14 @@ struct FrameContacts {
   Index count() const { return static_cast<Index>(a.size()); }
 };
 
+/// Coefficients of friction in force in a step.
+struct Friction {
+  double grains = 0.0;  ///< mu between grains, and with the floor
+  double walls = 0.0;   ///< mu with the side walls
+
+  bool operator==(const Friction&) const = default;
+};
+
 /// The bed at one instant. Arrays run over all grains, floor included, in the order of their ids.
 struct Frame {
   std::int64_t step = 0;
@@ -42,6 +50,7 @@ struct Frame {
       internal_moment;        ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
   std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN for a grain that carries no load
   FrameContacts contacts;
+  Friction friction;  ///< of the step that led to this state, and thus of its forces
 
   Index grain_count() const { return static_cast<Index>(x.size()); }
 };
@@ -56,14 +65,12 @@ struct RunStatics {
   double depth = 0.0;          ///< m: nominal depth of the bed
   double mean_diameter = 0.0;  ///< m
   double gravity = 0.0;        ///< m/s^2
-  double friction = 0.0;       ///< coefficient between grains
-  double wall_friction = 0.0;  ///< coefficient with the side walls
 };
 
 /// Whether contact c of a frame is with a side wall, a plane with a normal along the bed.
 bool is_with_wall(const Frame& frame, Index c);
-/// Returns mu of contact c of a frame, as given by the scenario.
-double friction_of_contact(const RunStatics& statics, const Frame& frame, Index c);
+/// Returns mu of contact c of a frame.
+double friction_of_contact(const Frame& frame, Index c);
 
 /// Returns the constants of a frame with `count` grains, floor included, of a bed that is being poured: the
 /// free grains with the highest ids have not arrived yet.

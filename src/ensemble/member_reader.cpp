@@ -18,6 +18,7 @@
 #include "runs/run_view.h"
 #include "scenario/text.h"
 #include "session/run_header.h"
+#include "session/run_identity.h"
 
 namespace talus::ensemble {
 namespace {
@@ -61,7 +62,7 @@ MemberResult result_of(const Member& member, const io::RunFile& run, const analy
 
 MemberResult read_result(const Member& member, bool whole) {
   const io::RunFile run = io::RunFile::open(member.path);
-  require_own_run(member, run.header());
+  require_own_run(member, run);
   const std::optional<analysis::Analysis> analysis =
       io::read_analysis(run, whole ? averaged_quantities() : numbers_of_members());
   const bool is_valid = analysis && analysis->key == runs::analysis_key(run, analysis::AnalysisParameters());
@@ -87,7 +88,8 @@ const MemberResult& read_parts(const Member& member, KnownMembers& known, bool w
 
 }  // namespace
 
-void require_own_run(const Member& member, const io::RunHeader& header) {
+void require_own_run(const Member& member, const io::RunFile& run) {
+  const io::RunHeader& header = run.header();
   // Values are compared, not texts: a key that an earlier version did not have takes its default.
   const scenario::Scenario scenario = runs::stored_scenario(header, member.path);
   if (scenario != member.scenario)
@@ -97,6 +99,11 @@ void require_own_run(const Member& member, const io::RunHeader& header) {
                     "scenario, the settings and the version with which the ensemble was started; give "
                     "another folder, or remove the run",
                     member.path, scenario::differences(scenario, member.scenario)));
+  if (const std::vector<std::string> more = session::departures(run, scenario); !more.empty())
+    throw Error(ExitCode::bad_data,
+                fmt::format("{} is not a run of its scenario alone, as the members of an ensemble are: {}; "
+                            "give another folder, or remove the run",
+                            member.path, session::departures_text(more)));
   const std::string bed = session::bed_of(header.provenance);
   if (!bed.empty() && !member.origin.bed.empty() && bed != member.origin.bed)
     throw Error(ExitCode::bad_data,
@@ -108,7 +115,7 @@ void require_own_run(const Member& member, const io::RunHeader& header) {
 bool is_complete(const Member& member) {
   const io::RunPresence presence = io::run_presence(member.path);
   if (presence == io::RunPresence::none) return false;
-  require_own_run(member, io::RunFile::open(member.path).header());
+  require_own_run(member, io::RunFile::open(member.path));
   return presence == io::RunPresence::packed;
 }
 

@@ -9,12 +9,13 @@
 #include "ensemble/member_state.h"
 #include "ensemble/member_values.h"
 #include "ensemble/plan.h"
-#include "io/run_store.h"
+#include "io/run_file.h"
 
 namespace talus::ensemble {
 
-/// Throws Error(bad_data) if a run has another scenario, seed or bed than the member.
-void require_own_run(const Member& member, const io::RunHeader& header);
+/// Throws Error(bad_data) if a run has another scenario, seed or bed than the member, or if more was done to
+/// it than its scenario says: a branch, or a run with commands of a script.
+void require_own_run(const Member& member, const io::RunFile& run);
 
 /// Whether the run of a member is complete. Throws the errors of require_own_run and RunFile::open.
 bool is_complete(const Member& member);

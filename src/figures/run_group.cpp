@@ -6,8 +6,10 @@
 
 #include "base/errors.h"
 #include "base/paths.h"
+#include "base/version.h"
 #include "scenario/keys.h"
 #include "scenario/text.h"
+#include "session/run_identity.h"
 
 namespace talus::figures {
 namespace {
@@ -36,11 +38,21 @@ scenario::Scenario essence_of(const RunGroup& group) { return essence(group.runs
 
 /// Whether the run belongs to the group. It does not if the group has another run with its seed: results may
 /// differ in bits between versions of Talus.
-bool belongs_to(const RunGroup& group, const runs::RunView& run) {
-  return essence_of(group) == essence(run.scenario) &&
+bool belongs_to(const RunGroup& group, const runs::RunView& run, const std::vector<std::string>& departures) {
+  return essence_of(group) == essence(run.scenario) && group.departures == departures &&
          std::ranges::none_of(group.runs, [&](const runs::RunView& other) {
            return other.scenario.seed == run.scenario.seed && other.state_hash != run.state_hash;
          });
+}
+
+/// Returns what distinguishes a run from others of its scenario. Stored values are those of members of an
+/// ensemble, which are runs of their scenario alone.
+std::vector<std::string> departures_of(const runs::RunView& run) {
+  if (!run.file) return {};
+  std::vector<std::string> found = session::departures(*run.file, run.scenario);
+  const std::string by = find_value(run.file->header().provenance, "version").value_or("unknown");
+  if (by != version) found.push_back("computed by version " + by);
+  return found;
 }
 
 /// Returns the name of the folder of the first run.
@@ -92,11 +104,16 @@ void sort_by_seed(RunGroup& group) {
 std::vector<RunGroup> group_runs(std::vector<runs::RunView> runs) {
   std::vector<RunGroup> groups;
   for (runs::RunView& run : runs) {
-    auto group = std::ranges::find_if(groups, [&](const RunGroup& each) { return belongs_to(each, run); });
-    if (group == groups.end()) group = groups.insert(group, RunGroup{bed_label(run.scenario), {}});
+    const std::vector<std::string> departures = departures_of(run);
+    auto group =
+        std::ranges::find_if(groups, [&](const RunGroup& each) { return belongs_to(each, run, departures); });
+    if (group == groups.end())
+      group = groups.insert(group, RunGroup{bed_label(run.scenario), {}, departures});
     group->runs.push_back(std::move(run));
   }
   distinguish_by_name(groups);
+  for (RunGroup& group : groups)
+    if (!group.departures.empty()) group.label += ", " + session::departures_text(group.departures);
   distinguish_folders(groups);
   std::ranges::for_each(groups, sort_by_seed);
   std::ranges::stable_sort(groups, {}, [](const RunGroup& group) {

@@ -8,12 +8,16 @@
 
 namespace talus::figures {
 
-/// An ensemble: runs that differ only in their seed and in settings without effect on the result.
+/// An ensemble: runs that differ only in their seed and in settings without effect on the result. Commands
+/// and the start of a branch have an effect.
 struct RunGroup {
   /// "PBC, L = 200 D", followed by the keys that distinguish it from another group of that bed, or by its
   /// folder.
   std::string label;
   std::vector<runs::RunView> runs;  ///< ascending in seed
+  /// What was done to the runs that their scenario does not say (session::departures), and the version of
+  /// Talus that computed them, if it is another.
+  std::vector<std::string> departures = {};
 
   bool periodic() const { return runs.front().scenario.bed.boundary == scenario::BedBoundary::periodic; }
 };

@@ -13,6 +13,7 @@ namespace {
 constexpr std::int8_t free_species = 0;
 constexpr std::int8_t floor_species = 1;
 
+constexpr const char* friction_of_grains = "/parameters/friction";
 constexpr const char* edges = "/particles/grains/box/edges";
 constexpr Range diameters = {1e-9, 1e9};
 
@@ -26,7 +27,6 @@ void for_each_field(Statics& statics, double d, Direction direction) {
   fields.scalar("/parameters/periodic", statics.periodic);
   fields.scalar("/parameters/mean_diameter", statics.mean_diameter, diameters);
   fields.scalar("/parameters/gravity", statics.gravity, not_negative);
-  fields.scalar("/parameters/friction", statics.friction, not_negative);
 }
 
 void write_statics(hdf5::Writer& writer, const RunStatics& statics) {
@@ -62,14 +62,17 @@ RunStatics read_statics(hdf5::Reader& reader) {
   return statics;
 }
 
-/// Returns a parameter that only the scenario of the run states.
-double stored_wall_friction(const hdf5::Reader& reader, const std::string& scenario) {
+/// Reads the coefficients of friction, most of which only the scenario of the run states.
+void read_friction(hdf5::Reader& reader, RunHeader& header) {
   const std::string path = "/parameters/scenario_resolved";
   try {
-    return scenario::parse_scenario(scenario, path).contact.wall_friction;
+    const scenario::Scenario scenario = scenario::parse_scenario(header.scenario_resolved, path);
+    header.friction = scenario::friction(scenario);
+    header.deposition_friction = scenario::deposition_friction(scenario);
   } catch (const Error& error) {
     reader.refuse(path, std::string("is not a scenario: ") + error.what());
   }
+  header.friction.grains = reader.read_scalar<double>(friction_of_grains, not_negative);
 }
 
 /// Whether `inverse` is the inverse of a mass, or 0 for a grain of the floor.
@@ -115,6 +118,7 @@ void write_header(hdf5::Writer& writer, const RunHeader& header) {
   writer.write_text("/parameters/scenario_given", header.scenario_given);
   writer.write_text("/parameters/scenario_resolved", header.scenario_resolved);
   write_statics(writer, header.statics);
+  writer.write_scalar(friction_of_grains, header.friction.grains);
   writer.write_scalar("/provenance/seed", header.seed);
   if (header.branch) write_branch(writer, *header.branch);
   for (const auto& [name, fact] : header.provenance) writer.write_text("/provenance/" + name, fact);
@@ -135,7 +139,7 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
   header.scenario_given = reader.read_text("/parameters/scenario_given");
   header.scenario_resolved = reader.read_text("/parameters/scenario_resolved");
   header.statics = read_statics(reader);
-  header.statics.wall_friction = stored_wall_friction(reader, header.scenario_resolved);
+  read_friction(reader, header);
   header.seed = reader.read_scalar<std::uint64_t>("/provenance/seed");
   if (reader.has("/branch") && (!keeps || keeps("/branch"))) {
     header.branch = read_branch(reader);

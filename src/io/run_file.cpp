@@ -76,7 +76,12 @@ bool is_known_trial(const TrialRow& row, std::int64_t last) {
   return at(row, TrialField::step) <= static_cast<double>(last);
 }
 
-bool is_known_command(const Command& command, std::int64_t last) { return command.step <= last; }
+/// Returns the friction in the last step before a state; empty if an earlier version has not stored it.
+std::optional<Friction> friction_of_last_step(const Checkpoint& state) {
+  const auto grains = find_value(state.reals, "last_friction");
+  const auto walls = find_value(state.reals, "last_wall_friction");
+  return grains && walls ? std::optional(Friction{*grains, *walls}) : std::nullopt;
+}
 
 }  // namespace
 
@@ -88,6 +93,7 @@ struct RunFile::State {
   std::vector<StoredSegment> segments;
   std::string name;  ///< name in messages
   std::vector<double> all_tilts, all_times;
+  std::vector<Command> commands;
   std::vector<std::int64_t> all_steps;
   bool has_frames = true;
   std::vector<double> tilts;                   ///< tilts of the frames that belong to the tilt
@@ -152,6 +158,7 @@ struct RunFile::State {
     const FramePlace place = place_of(k);
     Frame frame = record(place.reader, place.row);
     check_frame(place.reader, {frame, header.statics}, plane_count());
+    frame.friction = friction_of_frame(k);
     return frame;
   }
 
@@ -178,6 +185,25 @@ struct RunFile::State {
     return checkpoint.world.grains.count() == 0 ? 3 : checkpoint.world.boundary.planes.size();
   }
 
+  std::optional<double> commanded_friction(std::int64_t step) const {
+    std::optional<double> friction;
+    if (header.branch) friction = find_value(header.branch->start.reals, "friction");
+    for (const Command& command : commands)
+      if (command.kind == CommandKind::friction && command.step < step) friction = command.x;
+    return friction;
+  }
+
+  Friction friction_of_frame(std::size_t k) const {
+    const bool is_branch = header.branch.has_value();
+    // A branch begins with the forces of the last step of its parent run.
+    if (is_branch && all_steps[k] == header.branch->start.world.step)
+      if (const auto before = friction_of_last_step(header.branch->start)) return *before;
+    const bool follows_deposition = k == 0 && all_tilts[k] == 0.0;
+    Friction friction = follows_deposition ? header.deposition_friction : header.friction;
+    friction.grains = commanded_friction(all_steps[k]).value_or(friction.grains);
+    return friction;
+  }
+
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s) {
       hdf5::Reader& from = segment(s);
@@ -186,6 +212,7 @@ struct RunFile::State {
       append(all_tilts, from.read<double>("/frames/tilt"));
       append(all_times, from.read<double>("/frames/time"));
       append(all_steps, from.read<std::int64_t>("/frames/step"));
+      append(commands, read_commands(from));
     }
     last_tilt_step = find_value(checkpoint.integers, last_tilt_step_name);
     tilts = all_tilts;
@@ -345,6 +372,12 @@ std::vector<StepRow> RunFile::steps() const { return state_->rows(read_steps, is
 
 std::vector<TrialRow> RunFile::trials() const { return state_->rows(read_trials, is_known_trial); }
 
-std::vector<Command> RunFile::commands() const { return state_->rows(read_commands, is_known_command); }
+const std::vector<Command>& RunFile::commands() const { return state_->commands; }
+
+std::optional<double> RunFile::commanded_friction(std::int64_t step) const {
+  return state_->commanded_friction(step);
+}
+
+Friction RunFile::friction_of_frame(std::size_t k) const { return state_->friction_of_frame(k); }
 
 }  // namespace talus::io

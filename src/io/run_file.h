@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,13 @@ class RunFile {
   Frame positions(std::size_t k) const;
   std::vector<StepRow> steps() const;
   /// Returns the commands given to the run while it was computed, in order.
-  std::vector<Command> commands() const;
+  const std::vector<Command>& commands() const;
+  /// Returns the friction between grains that a command, of the run or before the start of a branch, had set
+  /// in the step that ended as number `step`; empty if none had.
+  std::optional<double> commanded_friction(std::int64_t step) const;
+  /// Returns the friction in force in the step that led to frame k, and thus to its forces: that of a
+  /// command, otherwise of the scenario, of its deposition in the frame of the bed at rest.
+  Friction friction_of_frame(std::size_t k) const;
   /// Returns the outcomes of perturbed copies of the bed on the way to failure, in order.
   std::vector<TrialRow> trials() const;
   const Checkpoint& checkpoint() const;  ///< last state, with results and timing

@@ -66,7 +66,7 @@ void Simulation::State::advance() {
   else
     session.advance();
   if (before == session::Phase::deposition && session.phase() == session::Phase::tilt)
-    begin = session::make_frame(session.world(), session.law());
+    begin = session.frame();
   if (!recorder)
     session.clear_segment();
   else if (session.phase() == session::Phase::done)
@@ -85,7 +85,7 @@ void Simulation::State::commit() {
 
 MeasuredFrame& Simulation::State::measure() {
   if (!measured) {
-    Frame frame = session::make_frame(session.world(), session.law());
+    Frame frame = session.frame();
     RunStatics arrived = arrived_statics(statics, frame.grain_count());
     measured.emplace(FrameInput{std::move(frame), std::move(arrived), parameters, session.angle_of_repose(),
                                 begin, session.row()});
@@ -289,6 +289,8 @@ void Simulation::record(const std::string& path, bool overwrite) {
     throw Error(ExitCode::usage,
                 "a recording cannot begin during the deposition: begin it before the first step, or when the "
                 "bed is at rest (deposit)");
+  if (!state.is_new && state.session.adopt_friction())
+    state.origin.scenario_text = scenario::resolved_toml(scenario());
   session::RunOrigin origin = state.origin;
   const World& now = world();
   if (!state.is_new)

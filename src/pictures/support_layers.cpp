@@ -30,7 +30,7 @@ MapLayer coordination_layer(const MapFrame& bed, const ScaleChoice& choice) {
 
 MapLayer rigid_layer(const MapFrame& bed, bool over_grains) {
   const Index fixed = bed.statics.free_count;
-  if (bed.statics.friction == 0.0) {
+  if (bed.frame.friction.grains == 0.0) {
     MapLayer none;
     none.styles.assign(static_cast<std::size_t>(fixed), outline_style());
     none.title = "Rigid clusters are not counted without friction";

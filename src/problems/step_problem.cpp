@@ -36,20 +36,6 @@ double weight(const World& world) {
   return mass * world.gravity;
 }
 
-/// Settings in effect at a step, after the commands of the run.
-struct EffectiveSettings {
-  double friction = 0.0;
-  std::optional<double> tilt_rate;  ///< rad/s, if it was changed
-  std::optional<session::Drag> drag;
-};
-EffectiveSettings effective_settings(const io::RunFile& run, const scenario::Scenario& scenario,
-                                     std::int64_t step) {
-  const session::Schedule given = session::commanded_schedule(run, step + 1);
-  EffectiveSettings now{given.friction.value_or(scenario.contact.friction), {}, given.drag};
-  if (given.course) now.tilt_rate = given.course->rate;
-  return now;
-}
-
 /// Returns the number of steps before the first one of the tilt.
 std::int64_t first_step(const io::RunFile& run) {
   if (!run.header().branch) return run.frame(0).step;
@@ -61,9 +47,9 @@ std::int64_t first_step(const io::RunFile& run) {
 /// otherwise, unless a command has changed the rate, it is an integer multiple of the step of the tilt, as in
 /// a run. The first frame is the one before the first step of the tilt.
 double next_tilt(const io::RunFile& run, const World& world, const scenario::Scenario& scenario,
-                 const EffectiveSettings& now) {
+                 const session::Schedule& now) {
   const double tilt = world.tilt;
-  if (now.tilt_rate) return tilt + *now.tilt_rate * scenario::time_step(scenario);
+  if (now.course) return tilt + now.course->rate * scenario::time_step(scenario);
   if (run.has_program()) return scenario::TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
   const double step_angle = radians(scenario.tilt.step);
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
@@ -117,10 +103,10 @@ FrameStart start_at_frame(const io::RunFile& run, std::size_t k) {
   const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   FrameStart start;
   start.world = session::world_at_frame(run, k);
-  const EffectiveSettings now = effective_settings(run, scenario, start.world.step);
+  const session::Schedule now = session::commanded_schedule(run, start.world.step + 1);
   start.settings = session::step_settings(scenario);
   start.tolerance = tolerance_of(start.world, scenario);
-  start.settings.law.friction = now.friction;
+  start.settings.law.friction = now.friction.value_or(scenario.contact.friction);
   start.mean_diameter = scenario.grains.mean_diameter;
   if (start.world.step != run.checkpoint().world.step) start.closed_below = gap_resolution(start.world);
   start.next_tilt = next_tilt(run, start.world, scenario, now);

@@ -151,14 +151,6 @@ void find_growth(analysis::Analysis& analysis) {
 std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParameters& parameters) {
   std::string text =
       fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), io::analysis_version);
-  // These lines distinguish analyses that treat walls, frictionless contacts and holds of the tilt separately
-  // from stored analyses that do not.
-  const RunStatics& statics = run.header().statics;
-  if (!statics.periodic && statics.wall_friction != statics.friction)
-    text += fmt::format("wall_friction={}\n", statics.wall_friction);
-  if (statics.friction == 0.0) text += "frictionless\n";
-  const auto sets_rate = [](const Command& command) { return command.kind == CommandKind::tilt_rate; };
-  if (std::ranges::any_of(run.commands(), sets_rate)) text += "rows by time\n";
   for (const auto& [name, value] : as_facts(parameters)) text += fmt::format("{}={}\n", name, value);
   return hash_text(hash_bytes(std::as_bytes(std::span(text))));
 }

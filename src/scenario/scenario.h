@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/command.h"
+#include "core/snapshot.h"
 
 namespace talus::scenario {
 
@@ -135,6 +136,25 @@ struct Scenario {
 
   bool operator==(const Scenario&) const = default;
 };
+
+/// Return the coefficients of friction after the deposition, and until the bed is at rest.
+inline Friction friction(const Scenario& scenario) {
+  return {scenario.contact.friction, scenario.contact.wall_friction};
+}
+inline Friction deposition_friction(const Scenario& scenario) {
+  return {scenario.deposition.friction.value_or(scenario.contact.friction),
+          scenario.deposition.wall_friction.value_or(scenario.contact.wall_friction)};
+}
+
+/// States the friction until the bed was at rest where it would otherwise follow a friction that was changed
+/// later; `was` is the scenario with which the bed was deposited.
+inline void keep_deposition_friction(const Scenario& was, Scenario& scenario) {
+  const Friction used = deposition_friction(was), implied = deposition_friction(scenario);
+  if (!scenario.deposition.friction && implied.grains != used.grains)
+    scenario.deposition.friction = used.grains;
+  if (!scenario.deposition.wall_friction && implied.walls != used.walls)
+    scenario.deposition.wall_friction = used.walls;
+}
 
 /// Returns the time step h, s.
 inline double time_step(const Scenario& scenario) { return scenario.tilt.step / scenario.tilt.rate; }

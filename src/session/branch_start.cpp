@@ -126,7 +126,7 @@ void check_commanded(const CheckedStart& start, const Schedule& schedule) {
 void check_branch_start(const io::BranchOrigin& branch, const scenario::Scenario& scenario,
                         const std::string& file) {
   const bool follows = scenario.tilt.after_failure != scenario::AfterFailure::stop;
-  const Schedule schedule = stored_schedule(start_of(branch), follows, file, "/branch");
+  const Schedule schedule = stored_schedule(start_of(branch.start), follows, file, "/branch");
   const CheckedStart start{branch, scenario, file};
   check_boundary(start);
   check_velocities(start);

@@ -48,13 +48,13 @@ class RunCourse {
     for (const Command& command : run_.commands()) {
       if (command.step >= step) break;
       schedule.tilt_steps = tilt_steps(command.step);
-      if (command.kind == CommandKind::friction) schedule.friction = command.x;
       if (command.kind == CommandKind::tilt_rate)
         schedule.course =
             TiltCourse{radians(command.x), scheduled_tilt(scenario_, program, schedule), schedule.tilt_steps};
       if (command.kind == CommandKind::drag) schedule.drag = Drag{command.grain, command.x, command.y};
       if (command.kind == CommandKind::release) schedule.drag.reset();
     }
+    schedule.friction = run_.commanded_friction(step);
     return schedule;
   }
 
@@ -106,8 +106,7 @@ class RunCourse {
     Schedule schedule;
     if (!run_.header().branch) return schedule;
     const Schedule start =
-        stored_schedule(start_of(*run_.header().branch), follows_failure(), "the run", "/branch");
-    schedule.friction = start.friction;
+        stored_schedule(start_of(run_.header().branch->start), follows_failure(), "the run", "/branch");
     schedule.course = start.course;
     schedule.drag = start.drag;
     schedule.script = start.script;
@@ -149,7 +148,7 @@ class RunCourse {
     if (step == run_.checkpoint().world.step) return end_.last;
     const std::optional<io::BranchOrigin>& branch = run_.header().branch;
     if (branch && step == branch->start.world.step)
-      return stored_schedule(start_of(*branch), follows_failure(), "the run", "/branch").last;
+      return stored_schedule(start_of(branch->start), follows_failure(), "the run", "/branch").last;
     LastStep last;
     if (const auto row = row_at(step);
         row != rows_.end() && at(*row, Observable::step) == static_cast<double>(step))
@@ -244,8 +243,8 @@ Schedule commanded_schedule(const io::RunFile& run, std::int64_t step) {
   return RunCourse(run).commanded(step);
 }
 
-io::Checkpoint start_of(const io::BranchOrigin& branch) {
-  io::Checkpoint none, start = branch.start;
+io::Checkpoint start_of(io::Checkpoint start) {
+  io::Checkpoint none;
   store_schedule({}, true, none);
   start.results = none.results;
   return start;
@@ -258,6 +257,8 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
   wrap_rounded(checkpoint.world);
   const RunCourse course(run);
   Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
+  schedule.last.friction = run.friction_of_frame(k).grains;
+  schedule.last.wall_friction = run.friction_of_frame(k).walls;
   if (schedule.phase == Phase::done)
     throw Error(ExitCode::usage,
                 fmt::format("the run ends with its frame at {:.3f} deg: a branch starts from an earlier one",

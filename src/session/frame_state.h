@@ -28,7 +28,7 @@ Schedule commanded_schedule(const io::RunFile& run, std::int64_t step);
 io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k,
                                    const scenario::Scenario* branch = nullptr);
 
-/// Returns the checkpoint that a stored branch starts from: a file stores its state, without results.
-io::Checkpoint start_of(const io::BranchOrigin& branch);
+/// Returns the checkpoint of a branch from its start in a file, which has no results.
+io::Checkpoint start_of(io::Checkpoint start);
 
 }  // namespace talus::session

@@ -109,6 +109,7 @@ Frame make_frame(const World& world, const dynamics::ContactLawParameters& law) 
   frame.step = world.step;
   frame.time = world.time;
   frame.tilt = world.tilt;
+  frame.friction = {law.friction, law.wall_friction};
   frame.x = grains.x;
   if (world.boundary.periodic)
     for (double& x : frame.x) x = within_period(x, world.boundary.length);

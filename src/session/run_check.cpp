@@ -48,33 +48,6 @@ bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Friction coefficients of contacts between grains, and with side walls.
-struct Frictions {
-  double grains = 0.0, walls = 0.0;
-};
-
-/// Returns the friction in force at a step: that of the scenario, or as set by a command in the run or before
-/// the start of a branch. For a run that may lack a command, the largest value that a command can set.
-double friction_at(const io::RunFile& run, double given, std::int64_t step) {
-  if (may_lack_commands(run)) return scenario::largest_friction;
-  if (run.header().branch) given = find_value(run.header().branch->start.reals, "friction").value_or(given);
-  for (const Command& command : run.commands())
-    if (command.kind == CommandKind::friction && command.step < step) given = command.x;
-  return given;
-}
-
-/// Returns the friction coefficients of frame k; the first frame has the forces of the last step of the
-/// deposition.
-Frictions frictions_of(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k,
-                       const Frame& frame) {
-  Frictions mu{scenario.contact.friction, scenario.contact.wall_friction};
-  if (k == 0 && frame.tilt == 0.0)
-    mu = {scenario.deposition.friction.value_or(mu.grains),
-          scenario.deposition.wall_friction.value_or(mu.walls)};
-  mu.grains = friction_at(run, mu.grains, frame.step);
-  return mu;
-}
-
 // --- series ---
 
 /// Checks the steps of a run with lost data, which can only be required to ascend.
@@ -177,8 +150,7 @@ double overlap(const BedFrame& bed, std::size_t c) {
   return bed.statics.radius[a] + bed.statics.radius[b] - std::hypot(x, bed.frame.y[b] - bed.frame.y[a]);
 }
 
-void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_allowed, const std::string& name,
-                    Findings& found) {
+void check_contacts(const BedFrame& bed, double overlap_allowed, const std::string& name, Findings& found) {
   const FrameContacts& contacts = bed.frame.contacts;
   const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
   double deepest = 0.0, mobilised = 0.0;
@@ -186,9 +158,9 @@ void check_contacts(const BedFrame& bed, const Frictions& mu, double overlap_all
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
     deepest = std::max(deepest, overlap(bed, c));
     if (contacts.fn[c] < 0.0) ++pulling;
-    const bool wall = contacts.b[c] >= bed.frame.grain_count() && std::abs(contacts.nx[c]) > 0.5;
     // Forces far below the weight of a grain have few significant digits in single precision.
-    const double limit = (wall ? mu.walls : mu.grains) * contacts.fn[c] + smallest_force * unit;
+    const double limit =
+        friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + smallest_force * unit;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
   RunCheck& check = found.check;
@@ -322,7 +294,7 @@ void check_parameters(const io::RunHeader& header, const scenario::Scenario& sce
   const double diameter = scenario.grains.mean_diameter;
   const std::pair<const char*, std::pair<double, double>> values[] = {
       {"mean_diameter", {statics.mean_diameter, diameter}},
-      {"friction", {statics.friction, scenario.contact.friction}},
+      {"friction", {header.friction.grains, scenario.contact.friction}},
       {"depth", {statics.depth, scenario.bed.depth * diameter}},
       {"gravity", {statics.gravity, World().gravity}}};
   for (const auto& [name, pair] : values)
@@ -408,15 +380,17 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
   for (std::size_t k = 0; run.has_frames() && k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
     try {
-      const Frame frame = run.frame(k);
+      Frame frame = run.frame(k);
       if (!run.is_as_written(frame, k)) found.add_changed(name);
       if (frame.step <= before || frame.step > last_step)
         found.add("/frames/step",
                   fmt::format("{} is of step {}, after one of step {}", name, frame.step, before));
       before = frame.step;
+      // A lost command can have set any friction.
+      if (may_lack_commands(run)) frame.friction.grains = scenario::largest_friction;
       const BedFrame bed{frame, statics};
       if (check_values(bed, name, found)) {
-        check_contacts(bed, frictions_of(run, scenario, k, frame), overlap_allowed(scenario), name, found);
+        check_contacts(bed, overlap_allowed(scenario), name, found);
         check_rolling(bed, scenario.contact.rolling_friction, name, found);
         Loads loads = loads_of(bed);
         check_moments(frame, loads, name, found);

@@ -50,6 +50,8 @@ std::string bed_of(const Facts& provenance) { return find_value(provenance, bed_
 io::RunHeader run_header(const Session& session, const RunOrigin& origin) {
   io::RunHeader header;
   header.statics = run_statics(session.scenario(), session.world());
+  header.friction = scenario::friction(session.scenario());
+  header.deposition_friction = scenario::deposition_friction(session.scenario());
   header.scenario_given = origin.scenario_text;
   header.scenario_resolved = scenario::resolved_toml(session.scenario());
   header.seed = session.scenario().seed;
@@ -90,7 +92,7 @@ Session session_at_start(const io::RunHeader& header, const std::string& name) {
             visible(scenario.deposition.file), name));
   }
   check_branch_start(*header.branch, scenario, name);
-  Session session(scenario, start_of(*header.branch), name, "/branch");
+  Session session(scenario, start_of(header.branch->start), name, "/branch");
   session.record_start();
   return session;
 }

@@ -77,8 +77,6 @@ RunStatics run_statics(const scenario::Scenario& scenario, const World& world) {
   statics.depth = scenario.bed.depth * scenario.grains.mean_diameter;
   statics.mean_diameter = scenario.grains.mean_diameter;
   statics.gravity = world.gravity;
-  statics.friction = scenario.contact.friction;
-  statics.wall_friction = scenario.contact.wall_friction;
   return statics;
 }
 
@@ -123,11 +121,28 @@ void Session::reserve_grains() {
 dynamics::ContactLawParameters Session::law() const {
   dynamics::ContactLawParameters law = contact_law(scenario_);
   if (schedule_.phase == Phase::deposition) {
-    law.friction = scenario_.deposition.friction.value_or(law.friction);
-    law.wall_friction = scenario_.deposition.wall_friction.value_or(law.wall_friction);
+    law.friction = deposition_friction(scenario_).grains;
+    law.wall_friction = deposition_friction(scenario_).walls;
   }
   law.friction = schedule_.friction.value_or(law.friction);
   return law;
+}
+
+dynamics::ContactLawParameters Session::law_of_last_step() const {
+  dynamics::ContactLawParameters last = law();
+  last.friction = schedule_.last.friction.value_or(last.friction);
+  last.wall_friction = schedule_.last.wall_friction.value_or(last.wall_friction);
+  return last;
+}
+
+Frame Session::frame() const { return make_frame(world_, law_of_last_step()); }
+
+bool Session::adopt_friction() {
+  if (!schedule_.friction) return false;
+  const scenario::Scenario was = scenario_;
+  scenario_.contact.friction = *std::exchange(schedule_.friction, {});
+  keep_deposition_friction(was, scenario_);
+  return true;
 }
 
 dynamics::StepSettings Session::settings() const {
@@ -176,7 +191,7 @@ void Session::apply(Command command) {
 
 void Session::record_start() {
   record_row();
-  segment_.frames.push_back(make_frame(world_, law()));
+  segment_.frames.push_back(frame());
 }
 
 void Session::check_guards() const {
@@ -340,7 +355,7 @@ void Session::record(bool row, bool frame) {
     return (schedule_.tilt_steps + schedule_.flow_steps) % steps_between(every, scenario_.tilt.step) == 0;
   };
   if (row || due(scenario_.output.observable_every)) record_row();
-  if (frame || due(scenario_.output.frame_every)) segment_.frames.push_back(make_frame(world_, law()));
+  if (frame || due(scenario_.output.frame_every)) segment_.frames.push_back(this->frame());
 }
 
 void Session::take_step() {
@@ -386,7 +401,7 @@ void Session::watch() {
 ObservableRow Session::row() const {
   RowContext context;
   context.baseline = schedule_.baseline;
-  context.law = law();
+  context.law = law_of_last_step();
   context.mean_diameter = scenario_.grains.mean_diameter;
   context.surface_displacement = schedule_.surface_displacement;
   context.largest_overlap = schedule_.last.largest_overlap.value_or(not_known);

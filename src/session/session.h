@@ -33,6 +33,10 @@ class Session {
   /// Records a row and a frame of the current state, with which a branch of another run starts.
   void record_start();
 
+  /// Makes the friction that a command has set that of the scenario, so that the header of a branch from here
+  /// states it. Returns whether a command has set any.
+  bool adopt_friction();
+
   /// Takes one step; recorded data go to segment(). Does nothing once done. Commands of the scenario whose
   /// angle or time has come are carried out before a step of the tilt or of the flow, as by apply. Throws
   /// Error(bad_data) if the bed does not come to rest within deposition.max_time; if a command of the
@@ -68,6 +72,10 @@ class Session {
   bool follows_program() const { return !program_.empty() && !schedule_.course; }
   /// Returns the contact law of the next step.
   dynamics::ContactLawParameters law() const;
+  /// Returns the contact law of the last step, by which the present forces are judged.
+  dynamics::ContactLawParameters law_of_last_step() const;
+  /// Returns the present state in the form in which a run stores it.
+  Frame frame() const;
   /// Returns the rate of the tilt, rad/s: that of the scenario, of a command, or of the part of a programme
   /// that the next step belongs to; negative if the tilt decreases, 0 if it is held.
   double tilt_rate() const;

@@ -27,7 +27,7 @@ HistoryInstant instant_of(const Frame& frame, const Selection& question) {
     instant.fn = frame.contacts.fn[c];
     instant.ft = frame.contacts.ft[c];
     instant.status = frame.contacts.status[c];
-    instant.with_wall = is_with_wall(frame, *found);
+    instant.friction = friction_of_contact(frame, *found);
   }
   return instant;
 }
@@ -87,17 +87,16 @@ void HistorySeries::work(const std::stop_token& stop) {
   }
 }
 
-std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
-                                double weight, const PlotAbscissa& abscissa) {
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, double weight,
+                                const PlotAbscissa& abscissa) {
   PlotSeries normal{"f_n", {}, {}}, tangential{"f_t", {}, {}}, mobilisation{"|f_t|/μf_n", {}, {}},
       sliding{"slides", {}, {}, true};
-  for (std::size_t k = 0; k < instants.size(); ++k) {
-    const HistoryInstant& at = instants[k];
+  for (const HistoryInstant& at : instants) {
     const double x = place_on(abscissa, at.tilt, at.time);
     for (PlotSeries* series : {&normal, &tangential, &mobilisation, &sliding}) series->x.push_back(x);
     normal.y.push_back(at.fn / weight);
     tangential.y.push_back(at.ft / weight);
-    mobilisation.y.push_back(mobilised(at.fn, at.ft, friction[k]));
+    mobilisation.y.push_back(mobilised(at.fn, at.ft, at.friction));
     sliding.y.push_back(1.0);
   }
   std::vector<Plot> plots = {

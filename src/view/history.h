@@ -32,7 +32,7 @@ struct HistoryInstant {
   double fn = not_known,
          ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 if it is open
   ContactStatus status = ContactStatus::open;
-  bool with_wall = false;  ///< whether the contact is with a wall, if it carries force
+  double friction = not_known;  ///< mu of the contact, if it carries force
 };
 
 HistoryInstant instant_of(const Frame& frame, const Selection& question);
@@ -76,9 +76,8 @@ class HistorySeries {
 };
 
 /// Returns two plots along the run: "contact forces", in units of the weight `weight` (N/m), and
-/// "mobilisation", which is 1 while the contact slides. `friction` has the value at each instant. An open
-/// contact has no mobilisation.
-std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, std::span<const double> friction,
-                                double weight, const PlotAbscissa& abscissa);
+/// "mobilisation", which is 1 while the contact slides. An open contact has no mobilisation.
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, double weight,
+                                const PlotAbscissa& abscissa);
 
 }  // namespace talus::view

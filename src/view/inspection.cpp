@@ -95,10 +95,10 @@ double mobilised(double fn, double ft, double friction) {
   return fn > 0.0 && friction > 0.0 ? std::abs(ft) / (friction * fn) : not_known;
 }
 
-ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction) {
+ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key) {
   ContactInspection inspection;
   inspection.key = key;
-  inspection.friction = friction;
+  inspection.friction = bed.frame.friction.grains;
   inspection.mobilisation = not_known;
   const FrameContacts& contacts = bed.frame.contacts;
   if (const auto found = contact_of_key(contacts, key)) {
@@ -111,7 +111,7 @@ ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, do
     inspection.px = contacts.px[c];
     inspection.py = contacts.py[c];
     inspection.status = contacts.status[c];
-    if (is_with_wall(bed.frame, *found)) inspection.friction = bed.statics.wall_friction;
+    inspection.friction = friction_of_contact(bed.frame, *found);
     inspection.mobilisation = mobilised(inspection.fn, inspection.ft, inspection.friction);
   }
   inspection.a_name = body_name(bed, key.a, -inspection.nx);

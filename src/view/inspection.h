@@ -66,9 +66,8 @@ struct ContactInspection {
   double mobilisation = 0.0;  ///< |f_t| / (mu f_n); NaN without friction
 };
 
-/// Inspects a contact. `friction` is that between grains at the time of the frame; a contact with a side wall
-/// has that of the walls.
-ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key, double friction);
+/// Inspects a contact; one that is open is taken to be between grains.
+ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key);
 
 /// Returns the mobilised share of friction, |f_t| / (friction f_n); NaN if the contact is open or has no
 /// friction.

@@ -352,7 +352,7 @@ void LiveRun::State::describe() {
 }
 
 void LiveRun::State::show_frame() {
-  auto next = std::make_shared<const Frame>(session::make_frame(session.world(), session.law()));
+  auto next = std::make_shared<const Frame>(session.frame());
   // A delay of one step is made up by the next.
   const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
   show_at = std::max(show_at + interval, Clock::now());

@@ -318,7 +318,6 @@ class ViewModel {
   /// Returns the marks of the selection in the frame shown, without the inspected grain.
   Overlay selection_marks() const;
   /// Returns mu between grains at a step, as set by commands.
-  double friction_at(std::int64_t step) const;
   /// Reads the data for trails and for the selected contact; returns whether any have arrived.
   bool follow_history();
   /// Moves the camera to the inspected grain, if requested.

@@ -272,9 +272,14 @@ void ViewModel::branch() {
     begin_series();
     throw;
   }
+  scenario_text_ = run.header().scenario_given;
+  if (session::Session start(of_run, origin.start); start.adopt_friction()) {
+    of_run = start.scenario();
+    origin.start = session::start_of(start.checkpoint(0.0));
+    scenario_text_ = scenario::resolved_toml(of_run);
+  }
   origin_ = std::move(origin);
   scenario_ = std::move(of_run);
-  scenario_text_ = run.header().scenario_given;
   command_line_ = fmt::format("talus view {}", pictures_.path);
   parent_tilts_ = run.all_frame_tilts();
   parent_theta_c_ = theta_c_;

@@ -80,30 +80,16 @@ bool ViewModel::follow_history() {
   return history_->collect_ready();
 }
 
-double ViewModel::friction_at(std::int64_t step) const {
-  double friction = statics().friction;
-  // A branch continues with the settings of earlier commands.
-  if (const auto& origin = replay_ ? pictures_.run.branch : origin_)
-    friction = find_value(origin->start.reals, "friction").value_or(friction);
-  for (const Command& command : commands_)
-    if (command.kind == CommandKind::friction && command.step < step) friction = command.x;
-  return friction;
-}
-
 std::optional<ContactInspection> ViewModel::contact_inspection() const {
   const std::optional<ContactKey>& contact = state.selecting.selection.contact;
   if (!contact) return std::nullopt;
-  return inspect_contact(bed(), *contact, friction_at(frame_->step));
+  return inspect_contact(bed(), *contact);
 }
 
 std::vector<Plot> ViewModel::contact_history() const {
   if (!history_ || !history_->question().contact) return {};
-  const std::vector<HistoryInstant>& instants = history_->instants();
-  std::vector<double> friction;
-  for (const HistoryInstant& at : instants)
-    friction.push_back(at.with_wall ? statics().wall_friction : friction_at(at.step));
   const double weight = runs::mean_grain_mass(all_statics_) * statics().gravity;
-  return contact_plots(instants, friction, weight, abscissa());
+  return contact_plots(history_->instants(), weight, abscissa());
 }
 
 void ViewModel::follow_grain() {

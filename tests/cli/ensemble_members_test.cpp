@@ -56,6 +56,28 @@ TEST(EnsembleMembers, is_not_stopped_by_a_value_with_a_mistake_in_it) {
   EXPECT_EQ(more.out.find("e: 5 of 6 done, 0 under way, 1 failed"), 0u) << more.out;
 }
 
+TEST(EnsembleMembers, are_no_branches_although_these_have_the_scenario_and_the_seed) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  ASSERT_EQ(run_talus(ensemble_of("e", "1-2"), folder.path()).exit_code, 0);
+  std::filesystem::rename(folder.path("e/seed-2.h5"), folder.path("whole.h5"));
+  ASSERT_EQ(
+      run_talus({"run", "--branch", "whole.h5", "--at", "0.5", "-q", "-o", "e/seed-2.h5"}, folder.path())
+          .exit_code,
+      0);
+  for (const std::vector<std::string>& words : {ensemble_of("e", "1-2"),
+                                                {"ensemble", "average", "e"},
+                                                {"figures", "e", "--only", "fig09", "-o", "f"}}) {
+    const Outcome outcome = run_talus(words, folder.path());
+    EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
+    EXPECT_NE(
+        outcome.err.find("e/seed-2.h5 is not a run of its scenario alone, as the members of an ensemble "
+                         "are: branch at 0.50 deg"),
+        std::string::npos)
+        << outcome.err;
+  }
+}
+
 TEST(EnsembleMembers, whose_files_are_damaged_stop_no_others_and_are_begun_anew) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);

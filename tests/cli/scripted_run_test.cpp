@@ -85,6 +85,31 @@ TEST_F(ScriptedCommandLine, a_branch_begins_with_a_frame) {
   EXPECT_EQ(info("branch.h5", "branch_of"), "plain.h5");
 }
 
+// In the run the friction is 0.5 up to 2 deg, and 0.3 from there on.
+TEST_F(ScriptedCommandLine, a_branch_takes_the_friction_that_is_given_or_that_of_the_run) {
+  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
+  const auto branch = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"run", "--branch", "bed.h5", "--at", "3", "-q", "-o", name});
+    return talus(more);
+  };
+  ASSERT_EQ(branch("same.h5", {}).exit_code, 0);
+  EXPECT_EQ(info("same.h5", "friction"), "0.3");
+  EXPECT_NE(talus({"info", "same.h5"}).out.find("friction            0.3\n"), std::string::npos);
+  ASSERT_EQ(branch("given.h5", {"--set", "contact.friction=0.5"}).exit_code, 0);
+  EXPECT_EQ(info("given.h5", "friction"), "0.5");
+  EXPECT_NE(info("given.h5", "state_hash"), info("same.h5", "state_hash"));
+  for (const char* run : {"same.h5", "given.h5"}) {
+    EXPECT_EQ(talus({"check", run}).exit_code, 0) << run;
+    EXPECT_EQ(talus({"replay", run}).exit_code, 0) << run;
+  }
+  // A file that still has the friction of the beginning, and no command, does not say which of both is meant.
+  write_file(folder_, "plain.toml", plain_bed);
+  ASSERT_EQ(branch("file.h5", {"bed.toml"}).exit_code, 0);
+  EXPECT_EQ(info("file.h5", "friction"), "0.3");
+  ASSERT_EQ(branch("file.h5", {"bed.toml", "--overwrite", "--set", "contact.friction=0.9"}).exit_code, 0);
+  EXPECT_EQ(info("file.h5", "friction"), "0.9");
+}
+
 TEST_F(ScriptedCommandLine, a_branch_that_cannot_be_is_refused) {
   take_run(folder_, "plain.h5", plain_bed);
   const auto refused = [&](std::vector<std::string> more, int code, const std::string& message) {

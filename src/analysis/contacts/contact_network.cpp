@@ -59,7 +59,7 @@ double deviator_product(const Tensor2& one, const Tensor2& other) {
 }  // namespace
 
 double mobilisation_of(const BedFrame& bed, Index c) {
-  const double allowed = friction_of_contact(bed.statics, bed.frame, c) * bed.frame.contacts.fn[c];
+  const double allowed = friction_of_contact(bed.frame, c) * bed.frame.contacts.fn[c];
   return allowed > 0.0 ? std::min(1.0, std::fabs(bed.frame.contacts.ft[c]) / allowed) : 1.0;
 }
 

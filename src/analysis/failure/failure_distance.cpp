@@ -19,7 +19,7 @@ std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int lay
   for (Index c = 0; c < contacts.count(); ++c) {
     const bool is_shared = contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count;
     const double part = is_shared ? 0.5 : 1.0;
-    const bool has_friction = friction_of_contact(bed.statics, bed.frame, c) > 0.0;
+    const bool has_friction = friction_of_contact(bed.frame, c) > 0.0;
     for_each_free_end(bed, c, [&](Index i) {
       ForceCount& count = layer_of(i);
       count.contacts += part;

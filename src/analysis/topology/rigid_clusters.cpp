@@ -143,7 +143,7 @@ std::vector<Bond> bonds_of(const BedFrame& bed) {
 }
 
 void measure_rigid_clusters(const BedFrame& bed, FrameRecord& record) {
-  if (bed.statics.friction == 0.0) {  // rotations without resistance would count as motions
+  if (bed.frame.friction.grains == 0.0) {  // rotations without resistance would count as motions
     record.rigid_clusters = -1;
     return;
   }

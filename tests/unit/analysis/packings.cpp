@@ -30,7 +30,7 @@ Packing empty_packing(double length, bool periodic) {
   packing.statics.length = length;
   packing.statics.periodic = periodic;
   packing.statics.mean_diameter = 1.0;
-  packing.statics.friction = 0.5;
+  packing.frame.friction.grains = 0.5;
   return packing;
 }
 
@@ -58,7 +58,7 @@ void add_contact(Packing& packing, Index a, Index b, double fn, double ft, int s
   contacts.py.push_back(frame.y[a] + packing.statics.radius[a] * dy / distance);
   contacts.fn.push_back(fn);
   contacts.ft.push_back(ft);
-  contacts.status.push_back(stress::contact_status(fn, ft, packing.statics.friction));
+  contacts.status.push_back(stress::contact_status(fn, ft, packing.frame.friction.grains));
 }
 
 void moments_from_contacts(Packing& packing) {

@@ -60,7 +60,7 @@ io::RunHeader header() {
   header.statics.depth = 0.4;
   header.statics.mean_diameter = 0.01;
   header.statics.gravity = 9.81;
-  header.statics.friction = 0.5;
+  header.friction = header.deposition_friction = {0.5, 0.5};
   header.scenario_given = "seed = 3\n# \xCE\xB8 in a comment\n";
   header.scenario_resolved = "seed = 3\n";
   header.seed = 0xfedcba9876543210;

@@ -100,7 +100,8 @@ void expect_same_header(const RunHeader& read, const RunHeader& written) {
   EXPECT_EQ(read.statics.depth, written.statics.depth);
   EXPECT_EQ(read.statics.mean_diameter, written.statics.mean_diameter);
   EXPECT_EQ(read.statics.gravity, written.statics.gravity);
-  EXPECT_EQ(read.statics.friction, written.statics.friction);
+  EXPECT_EQ(read.friction, written.friction);
+  EXPECT_EQ(read.deposition_friction, written.deposition_friction);
 }
 
 template <typename Named>

@@ -19,7 +19,7 @@ constexpr double mean_diameter = 2.0 * test::radius;
 
 ForceSearch search_for(int solutions) { return {.solutions = solutions, .tolerance = tolerance}; }
 
-RunStatics statics_of(const World& world, double length, double friction) {
+RunStatics statics_of(const World& world, double length) {
   RunStatics statics;
   statics.free_count = world.grains.free_count;
   statics.radius = world.grains.radius;
@@ -28,7 +28,6 @@ RunStatics statics_of(const World& world, double length, double friction) {
   statics.length = statics.depth = length;
   statics.mean_diameter = mean_diameter;
   statics.gravity = world.gravity;
-  statics.friction = friction;
   return statics;
 }
 
@@ -268,7 +267,7 @@ class MeasuredForces : public testing::Test {
   static FrameForces forces_of(const FrozenBed& bed, double length, ForceSearch search,
                                const std::vector<std::string>& settings = {"gamma_c=0.3"}) {
     const Frame stored = session::make_frame(loaded_world(bed, bed.step.guess), bed.law);
-    return admissible_forces(bed, {stored, statics_of(bed.world, length, bed.law.friction)},
+    return admissible_forces(bed, {stored, statics_of(bed.world, length)},
                              runs::parse_analysis_settings(settings), std::nan(""), search);
   }
 };

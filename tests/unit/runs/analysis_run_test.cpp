@@ -72,7 +72,7 @@ void write_run(const std::string& path, const std::vector<Index>& soft, double t
   header.statics.depth = 4.0 * diameter;
   header.statics.mean_diameter = diameter;
   header.statics.gravity = 9.81;
-  header.statics.friction = 0.5;
+  header.friction = header.deposition_friction = {0.5, 0.5};
   io::Segment segment;
   for (std::size_t k = 0; k < soft.size(); ++k)
     segment.frames.push_back(column(static_cast<double>(k), soft[k]));

@@ -63,8 +63,7 @@ class EventCatalogue : public testing::Test {
                       8.0 * diameter,
                       2.0 * diameter,
                       diameter,
-                      g,
-                      0.5};
+                      g};
     io::Segment segment;
     segment.frames = {bed_after(begin, 0.0, 0.0), bed_after(begin + 100, 0.5, 0.0),
                       bed_after(begin + 200, 0.5, 0.25), bed_after(begin + 300, 2.0, 0.25)};

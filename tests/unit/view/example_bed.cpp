@@ -18,7 +18,6 @@ RunStatics bed_statics() {
   statics.depth = rows;
   statics.mean_diameter = 1.0;
   statics.gravity = 10.0;
-  statics.friction = 0.5;
   return statics;
 }
 
@@ -28,6 +27,7 @@ Frame bed_frame(double tilt, Index overloaded) {
   frame.tilt = radians(tilt);
   frame.step = std::lround(1000.0 * tilt);
   frame.time = 0.1 * tilt;
+  frame.friction = {0.5, 0.5};
   for (Index i = 0; i < columns * (rows + 1); ++i) {
     const bool floor = i >= statics.free_count;
     const Index column = i % columns, row = floor ? -1 : i / columns;

@@ -82,41 +82,43 @@ TEST(History, a_grain_that_has_not_arrived_has_no_place) {
 TEST(Contact, is_told_by_force_and_friction) {
   const RunStatics statics = example::bed_statics();
   const auto frame = read_frame(4);
-  const ContactInspection inspection = inspect_contact({*frame, statics}, {3, 13, 0}, 0.5);
+  const ContactInspection inspection = inspect_contact({*frame, statics}, {3, 13, 0});
   EXPECT_TRUE(inspection.carries);
   EXPECT_EQ(inspection.fn, 4.0);
   EXPECT_EQ(inspection.ft, -1.0);
   EXPECT_DOUBLE_EQ(inspection.mobilisation, 0.5);
   EXPECT_EQ(inspection.a_name, "grain 3");
   EXPECT_EQ(inspection.b_name, "grain 13");
-  const ContactInspection open = inspect_contact({*frame, statics}, {3, 43, 1}, 0.5);
+  const ContactInspection open = inspect_contact({*frame, statics}, {3, 43, 1});
   EXPECT_FALSE(open.carries);
   EXPECT_EQ(open.b_name, "floor grain 43");
   EXPECT_TRUE(std::isnan(open.mobilisation));
-  EXPECT_TRUE(std::isnan(inspect_contact({*frame, statics}, {3, 13, 0}, 0.0).mobilisation));
+  Frame smooth = *frame;
+  smooth.friction = {};
+  EXPECT_TRUE(std::isnan(inspect_contact({smooth, statics}, {3, 13, 0}).mobilisation));
 }
 
 TEST(Contact, with_a_wall_has_the_friction_of_the_wall) {
-  RunStatics statics = example::bed_statics();
-  statics.wall_friction = 1.0;
+  const RunStatics statics = example::bed_statics();
   Frame frame = *read_frame(4);
+  frame.friction.walls = 1.0;
   const auto c = static_cast<std::size_t>(contact_of_key(frame.contacts, {3, 13, 0}).value());
   const Index wall = frame.grain_count();
   frame.contacts.b[c] = wall;
   frame.contacts.nx[c] = -1.0;
-  const ContactInspection inspection = inspect_contact({frame, statics}, {3, wall, 0}, 0.5);
+  const ContactInspection inspection = inspect_contact({frame, statics}, {3, wall, 0});
   EXPECT_EQ(inspection.b_name, "left wall");
   EXPECT_EQ(inspection.friction, 1.0);
   EXPECT_DOUBLE_EQ(inspection.mobilisation, 0.25);
-  EXPECT_TRUE(instant_of(frame, {{}, ContactKey{3, wall, 0}}).with_wall);
+  EXPECT_EQ(instant_of(frame, {{}, ContactKey{3, wall, 0}}).friction, 1.0);
 }
 
 TEST(Contact, its_curves_are_along_the_run) {
   std::vector<HistoryInstant> instants;
   for (std::size_t k = 0; k < 4; ++k)
     instants.push_back(instant_of(*read_frame(k), {{}, ContactKey{3, 13, 0}}));
-  const std::vector<double> friction = {0.5, 0.5, 0.5, 0.25};
-  const std::vector<Plot> plots = contact_plots(instants, friction, 2.0, {PlotAxis::tilt, not_known});
+  instants[3].friction = 0.25;
+  const std::vector<Plot> plots = contact_plots(instants, 2.0, {PlotAxis::tilt, not_known});
   ASSERT_EQ(plots.size(), 2u);
   EXPECT_NEAR(plots[0].series[0].x[3], 3.0, 1e-12) << "deg";
   EXPECT_EQ(plots[0].series[0].y[3], 1.5) << "in units of the weight";

@@ -76,7 +76,7 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
   Packing packing = triangle_with_chain();
   packing.frame.contacts.ft = {0.3, 0.3, 0.0, 0.0, 0.0, 0.0};
   packing.frame.contacts.fn.assign(6, 1.0);
-  packing.statics.wall_friction = 1.0;
+  packing.frame.friction.walls = 1.0;
   for (std::size_t c : {0U, 1U}) packing.frame.contacts.b[c] = packing.frame.grain_count();
   packing.frame.contacts.nx[0] = -1.0;  // with the left wall
   packing.frame.contacts.ny[0] = 0.0;
@@ -84,7 +84,7 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
   packing.frame.contacts.ny[1] = -1.0;
   EXPECT_DOUBLE_EQ(mobilisation_of(packing, 0), 0.3);
   EXPECT_DOUBLE_EQ(mobilisation_of(packing, 1), 0.6);
-  packing.statics.wall_friction = 0.0;
+  packing.frame.friction.walls = 0.0;
   packing.frame.contacts.ft[0] = 0.0;
   EXPECT_EQ(mobilisation_of(packing, 0), 1.0) << "nothing prevents sliding";
 }

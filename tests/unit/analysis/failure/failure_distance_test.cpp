@@ -39,11 +39,11 @@ TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
 // 10 components minus 5 for the contacts, which are all critical, and 6 equations without those of torques.
 TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
   Packing packing = two_layers();
-  packing.statics.friction = packing.statics.wall_friction = 0.0;
+  packing.frame.friction = {};
   FrameRecord record;
   measure_failure_distance(packing, 2.0, record);
   EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
-  packing.statics.wall_friction = 0.5;
+  packing.frame.friction.walls = 0.5;
   packing.frame.contacts.nx.back() = 0.0;  // with the floor
   measure_failure_distance(packing, 2.0, record);
   EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);

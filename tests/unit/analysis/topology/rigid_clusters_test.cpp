@@ -105,7 +105,7 @@ TEST(RigidClusters, are_not_counted_without_friction) {
   for (Index i = 0; i < 3; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
   test::add_contact(packing, 0, 1, 1.0);
   test::add_contact(packing, 1, 2, 1.0);
-  packing.statics.friction = 0.0;
+  packing.frame.friction.grains = 0.0;
   FrameRecord record;
   measure_rigid_clusters(packing, record);
   EXPECT_EQ(record.rigid_clusters, -1);

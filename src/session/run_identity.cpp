@@ -1,0 +1,101 @@
+#include "session/run_identity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/core.h>
+
+#include "core/trigonometry.h"
+#include "scenario/scripted_command.h"
+#include "session/command.h"
+#include "session/frame_state.h"
+
+namespace talus::session {
+namespace {
+
+/// A command with the moment at which it was given.
+struct Given {
+  Command command;
+  double tilt = 0.0;  ///< deg; NaN in the deposition
+  double time = 0.0;  ///< s since the tilt began
+};
+
+/// Returns the number of steps before the first one of the tilt.
+std::int64_t steps_before_tilt(const io::RunFile& run) {
+  if (run.header().branch) {
+    const io::Checkpoint& start = run.header().branch->start;
+    return start.world.step - find_value(start.integers, "tilt_steps").value_or(0) -
+           find_value(start.integers, "flow_steps").value_or(0);
+  }
+  return run.all_frame_tilts().empty() ? 0 : run.instant(0).step;
+}
+
+std::vector<Given> commands_given(const io::RunFile& run, const scenario::Scenario& scenario) {
+  std::vector<Given> all;
+  if (run.commands().empty()) return all;
+  const World& end = run.checkpoint().world;
+  std::vector<ObservableRow> rows = run.all_observables();
+  if (run.has_state()) rows = rows_up_to(rows, end.step, end.time, end.tilt);
+  const std::int64_t before = steps_before_tilt(run);
+  for (const Command& command : run.commands())
+    all.push_back({command, degrees(tilt_before(command, run.commands(), rows)),
+                   static_cast<double>(command.step - before) * scenario::time_step(scenario)});
+  return all;
+}
+
+/// Whether the run carried out a command of its scenario here, to the resolution of a step.
+bool is_of_script(const Given& given, const scenario::ScriptedCommand& scripted,
+                  const scenario::Scenario& scenario) {
+  const Command& one = given.command;
+  if (one.kind != scripted.kind || one.x != scripted.x || one.y != scripted.y || one.grain != scripted.grain)
+    return false;
+  if (scripted.time) return std::abs(given.time - *scripted.time) <= 1.5 * scenario::time_step(scenario);
+  // A command may have made the tilt faster than that of the scenario.
+  constexpr double fastest = 100.0;  // deg/s
+  return std::abs(given.tilt - scripted.at.value_or(0.0)) <= 1.5 * fastest * scenario::time_step(scenario);
+}
+
+/// Removes the commands that the scenario has.
+void drop_scripted(std::vector<Given>& given, const scenario::Scenario& scenario) {
+  for (const scenario::ScriptedCommand& scripted : scenario.commands) {
+    const auto found = std::ranges::find_if(
+        given, [&](const Given& each) { return is_of_script(each, scripted, scenario); });
+    if (found != given.end()) given.erase(found);
+  }
+}
+
+std::string moment_text(const Given& given) {
+  return std::isnan(given.tilt) ? "in the deposition"
+                                : fmt::format("at {:.2f} deg, {:.2f} s", given.tilt + 0.0, given.time);
+}
+
+std::string branch_text(const io::Checkpoint& start) {
+  std::string text = fmt::format("branch at {:.2f} deg", degrees(start.world.tilt));
+  if (const auto rate = find_value(start.reals, "tilt_rate"))
+    text += fmt::format(" with a tilt rate of {:.4g} deg/s", degrees(*rate));
+  if (find_value(start.integers, "drag_grain")) text += " with a dragged grain";
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> departures(const io::RunFile& run, const scenario::Scenario& scenario) {
+  std::vector<std::string> found;
+  if (run.header().branch) found.push_back(branch_text(run.header().branch->start));
+  std::vector<Given> given = commands_given(run, scenario);
+  drop_scripted(given, scenario);
+  std::vector<Command> commands;
+  for (const Given& each : given) commands.push_back(each.command);
+  auto next = given.begin();
+  for (const Command& command : given_commands(commands)) {
+    next = std::ranges::find(next, given.end(), command, &Given::command);
+    found.push_back(fmt::format("{} {}", command_text(command), moment_text(*next)));
+  }
+  return found;
+}
+
+std::string departures_text(const std::vector<std::string>& departures) {
+  if (departures.empty()) return "";
+  return departures.front() + (departures.size() > 1 ? fmt::format(" and {} more", departures.size() - 1) : "");
+}
+
+}  // namespace talus::session

@@ -1,0 +1,167 @@
+/// What was in force in a frame, and what was done to a run that its scenario does not say.
+
+#include "session/run_identity.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/contacts/contact_network.h"
+#include "core/bed_frame.h"
+#include "core/trigonometry.h"
+#include "session/frame_state.h"
+#include "session/run.h"
+#include "session/run_check.h"
+#include "session/run_header.h"
+#include "support/small_bed.h"
+#include "support/temporary_folder.h"
+
+namespace talus::session {
+namespace {
+
+/// Records a run to its end, with commands at tilts (deg), and returns it.
+io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path,
+                     std::vector<std::pair<double, Command>> commands = {}) {
+  Session session(scenario);
+  io::RunStore store = io::RunStore::create(path, run_header(session, {}), false);
+  while (session.phase() != Phase::done) {
+    for (auto& [tilt, command] : commands)
+      if (session.phase() == Phase::tilt && degrees(session.world().tilt) > tilt - 1e-9) {
+        session.apply(command);
+        tilt = 1000.0;
+      }
+    session.advance();
+  }
+  store.commit(session.segment(), session.checkpoint(0.0));
+  store.pack();
+  return io::RunFile::open(path);
+}
+
+/// Returns the largest |f_t| / f_n, and the share of contacts at which it reaches mu, counted by hand.
+struct Counted {
+  double largest = 0.0, sliding = 0.0;
+};
+Counted counted(const Frame& frame, double mu) {
+  Counted found;
+  const FrameContacts& contacts = frame.contacts;
+  for (std::size_t c = 0; c < contacts.fn.size(); ++c) {
+    const double ratio = std::abs(contacts.ft[c]) / contacts.fn[c];
+    found.largest = std::max(found.largest, ratio);
+    if (ratio > (1.0 - 1e-5) * mu) found.sliding += 1.0 / static_cast<double>(contacts.fn.size());
+  }
+  return found;
+}
+
+TEST(FrictionInForce, is_that_of_the_step_which_gave_the_forces_of_a_frame) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.deposition.friction = 2.0;
+  const io::RunFile run = recorded(scenario, folder.path("run.h5"), {{1.0, {0, CommandKind::friction, -1, 0.1}}});
+  ASSERT_GT(run.frame_count(), 4u);
+  std::vector<double> largest;
+  for (std::size_t k = 0; k < run.frame_count(); ++k) {
+    const Frame frame = run.frame(k);
+    const double tilt = degrees(frame.tilt), mu = k == 0 ? 2.0 : tilt < 1.0 + 1e-6 ? 0.5 : 0.1;
+    EXPECT_EQ(frame.friction, (Friction{mu, 0.5})) << tilt;
+    const Counted by_hand = counted(frame, mu);
+    EXPECT_LE(by_hand.largest, mu * (1.0 + 1e-5)) << tilt;
+    double mobilised = 0.0;
+    Index sliding = 0;
+    for (Index c = 0; c < frame.contacts.count(); ++c) {
+      mobilised = std::max(mobilised, analysis::mobilisation_of({frame, run.header().statics}, c));
+      sliding += frame.contacts.status[c] == ContactStatus::sliding ? 1 : 0;
+    }
+    EXPECT_NEAR(mobilised, std::min(1.0, by_hand.largest / mu), 1e-5) << tilt;
+    EXPECT_NEAR(sliding, by_hand.sliding * frame.contacts.count(), 0.5) << tilt;
+    largest.push_back(by_hand.largest);
+  }
+  EXPECT_GT(largest[0], 0.5) << "forces that only the friction of the deposition allows";
+  const std::vector<ObservableRow> rows = run.observables();
+  EXPECT_NEAR(at(rows[0], Observable::critical_fraction), counted(run.frame(0), 2.0).sliding, 1e-9);
+  EXPECT_TRUE(check_run(run, {}).faults.empty());
+}
+
+TEST(FrictionInForce, of_a_branch_is_in_its_scenario) {
+  const test::TemporaryFolder folder;
+  const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"),
+                                   {{1.0, {0, CommandKind::friction, -1, 0.2}}});
+  std::size_t k = 0;
+  while (degrees(run.frame_tilts()[k]) < 1.4) ++k;
+  io::BranchOrigin origin{"run.h5", static_cast<std::int64_t>(k), "0123456789abcdef",
+                          checkpoint_at_frame(run, k)};
+  Session branch(test::small_tilted_bed(3.0), origin.start);
+  EXPECT_EQ(branch.law().friction, 0.2);
+  EXPECT_TRUE(branch.adopt_friction());
+  EXPECT_FALSE(branch.adopt_friction()) << "only once";
+  EXPECT_EQ(branch.scenario().contact.friction, 0.2);
+  EXPECT_EQ(branch.scenario().deposition.friction, 0.5) << "the bed was deposited with that of the run";
+  EXPECT_EQ(branch.law().friction, 0.2);
+  // The user sets another one for the branch: its first frame still has the forces of the step before.
+  origin.start = start_of(branch.checkpoint(0.0));
+  scenario::Scenario other = branch.scenario();
+  other.contact.friction = 0.9;
+  Session session(other, origin.start);
+  io::RunStore store =
+      io::RunStore::create(folder.path("b.h5"), run_header(session, {"", "", "", 1, origin}), false);
+  session.record_start();
+  while (session.phase() != Phase::done) session.advance();
+  store.commit(session.segment(), session.checkpoint(0.0));
+  store.pack();
+  const io::RunFile read = io::RunFile::open(folder.path("b.h5"));
+  EXPECT_EQ(read.header().friction.grains, 0.9);
+  EXPECT_EQ(read.frame(0).friction.grains, 0.2);
+  EXPECT_EQ(read.frame(1).friction.grains, 0.9);
+  EXPECT_GT(counted(read.frame(read.frame_count() - 1), 0.9).largest, 0.2);
+}
+
+TEST(Departures, are_none_of_a_run_that_follows_its_scenario) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  EXPECT_TRUE(departures(recorded(scenario, folder.path("plain.h5")), scenario).empty());
+  scenario.commands = {{1.05, {}, CommandKind::drop, 4, 0.05, 0.02},
+                       {0.0, {}, CommandKind::push, 7, 0.0, 0.5},
+                       {{}, 0.0754, CommandKind::friction, -1, 0.3, 0.0},
+                       {1.2, {}, CommandKind::drag, 7, 0.05, 0.06},
+                       {1.4, {}, CommandKind::release},
+                       {1.05, {}, CommandKind::tilt_rate, -1, 10.0, 0.0},
+                       {30.0, {}, CommandKind::friction, -1, 0.1, 0.0}};
+  EXPECT_TRUE(departures(recorded(scenario, folder.path("scripted.h5")), scenario).empty());
+}
+
+TEST(Departures, are_commands_that_the_scenario_does_not_have) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  const Command rubs = {0, CommandKind::friction, -1, 0.1};
+  const auto found = departures(recorded(scenario, folder.path("a.h5"), {{0.5, rubs}}), scenario);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].find("friction 0.1 at 0.50 deg"), 0u) << found[0];
+  // The same command as in the scenario, but given earlier as well, or instead.
+  scenario.commands = {{1.0, {}, CommandKind::friction, -1, 0.1, 0.0}};
+  const auto twice = departures(recorded(scenario, folder.path("b.h5"), {{0.5, rubs}}), scenario);
+  ASSERT_EQ(twice.size(), 1u);
+  EXPECT_NE(twice[0].find("at 0.50 deg"), std::string::npos) << twice[0];
+  scenario.commands[0].at = 30.0;
+  EXPECT_EQ(departures(recorded(scenario, folder.path("c.h5"), {{0.5, rubs}}), scenario).size(), 1u);
+  EXPECT_EQ(departures_text({"one", "two", "three"}), "one and 2 more");
+}
+
+TEST(Departures, tell_a_branch) {
+  const test::TemporaryFolder folder;
+  const scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  const io::RunFile run = recorded(scenario, folder.path("run.h5"), {{0.9, {0, CommandKind::tilt_rate, -1, 5.0}}});
+  const io::BranchOrigin origin{"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)};
+  Session session(scenario, origin.start);
+  io::RunStore store =
+      io::RunStore::create(folder.path("b.h5"), run_header(session, {"", "", "", 1, origin}), false);
+  session.record_start();
+  while (session.phase() != Phase::done) session.advance();
+  store.commit(session.segment(), session.checkpoint(0.0));
+  store.pack();
+  const auto found = departures(io::RunFile::open(folder.path("b.h5")), scenario);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("branch at 0.93 deg with a tilt rate of 5 deg/s"), std::string::npos) << found[0];
+}
+
+}  // namespace
+}  // namespace talus::session
