@@ -14,7 +14,7 @@ namespace talus::io {
 
 /// Increases with each change of the table or of the computation; stored analyses of other versions are
 /// recomputed.
-inline constexpr std::int32_t analysis_version = 7;
+inline constexpr std::int32_t analysis_version = 8;
 
 /// Returns the data set of a quantity.
 DataSetField data_set_of(const analysis::Quantity& quantity);

@@ -23,6 +23,13 @@ void for_each_field_of_positions(SomeFrame& frame, Fields<Direction>& fields) {
   fields.scalar("/frames/time", frame.time);
   fields.scalar("/frames/tilt", frame.tilt);
   fields.pairs(grains + "position/value", frame.x, frame.y);
+  std::vector<Index> across(frame.image.size(), 0);  // there is no period across the bed
+  fields.pairs(grains + "image/value", frame.image, across);
+  if constexpr (Direction::reads)
+    if (std::ranges::count(across, 0) != std::ssize(across))
+      fields.direction.reader.refuse(
+          grains + "image/value",
+          "holds a periodic image across the depth of the bed, which is not periodic");
 }
 
 /// Visits the data sets of a frame in the order of the schema, which the hash uses.
@@ -30,12 +37,6 @@ template <typename SomeFrame, typename Direction>
 void for_each_field(SomeFrame& frame, Direction direction) {
   Fields fields{direction};
   for_each_field_of_positions(frame, fields);
-  std::vector<Index> across(frame.image.size(), 0);  // there is no period across the bed
-  fields.pairs(grains + "image/value", frame.image, across);
-  if constexpr (Direction::reads)
-    if (std::ranges::count(across, 0) != std::ssize(across))
-      direction.reader.refuse(grains + "image/value",
-                              "holds a periodic image across the depth of the bed, which is not periodic");
   fields.array(grains + "angle/value", frame.angle);
   fields.pairs(grains + "velocity/value", frame.vx, frame.vy);
   fields.array(grains + "angular_velocity/value", frame.omega);

@@ -59,7 +59,7 @@ class RunFile {
   /// Returns the paths of the data sets that do not match their own hashes, in a packed file with its
   /// analysis, or in the segments of a folder.
   std::vector<std::string> changed_data_sets() const;
-  /// Returns only step, time, tilt, x and y of frame k, which is several times faster than reading all of it.
+  /// Returns only step, time, tilt, x, y and image of frame k, several times faster than reading all of it.
   /// Throws the errors of frame.
   Frame positions(std::size_t k) const;
   std::vector<StepRow> steps() const;

@@ -6,6 +6,7 @@
 #include "analysis/failure/last_rise.h"
 #include "analysis/failure/place.h"
 #include "analysis/quantities.h"
+#include "core/bed_frame.h"
 #include "core/trigonometry.h"
 
 namespace talus::studies {
@@ -21,8 +22,7 @@ double figure(const Figures& figures, std::string_view name) {
 /// Returns the mean displacement of the free grains along the bed between two frames, m.
 double mean_displacement(const Frame& from, const Frame& to, const RunStatics& statics) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(statics.free_count); ++i)
-    sum += to.x[i] - from.x[i] + (to.image[i] - from.image[i]) * statics.length;
+  for (Index i = 0; i < statics.free_count; ++i) sum += displacement({to, statics}, from, i).x;
   return sum / statics.free_count;
 }
 

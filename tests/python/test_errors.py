@@ -45,7 +45,7 @@ def test_another_version_of_the_analysis(copied):
     def change(file):
         file["analysis/version"][()] = 2
 
-    with talus.open(sealed(copied, change)) as run, pytest.raises(talus.Error, match="version 2, .* reads version 7"):
+    with talus.open(sealed(copied, change)) as run, pytest.raises(talus.Error, match="version 2, .* reads version 8"):
         run.analysis
 
 

@@ -14,11 +14,10 @@ namespace {
 
 /// Returns the displacements of all grains between two frames, m, unwrapped along x.
 std::vector<Vector2> displacements(const Frame& before, const BedFrame& bed) {
-  const double period = period_of(bed.statics);
   std::vector<Vector2> moved;
   for (Index i = 0; i < bed.frame.grain_count(); ++i) {
-    const double periods = period > 0.0 ? bed.frame.image[i] - before.image[i] : 0;
-    moved.emplace_back(bed.frame.x[i] - before.x[i] + periods * period, bed.frame.y[i] - before.y[i]);
+    const Vec2 by = displacement(bed, before, i);
+    moved.emplace_back(by.x, by.y);
   }
   return moved;
 }

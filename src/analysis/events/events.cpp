@@ -58,17 +58,11 @@ double quiet_velocity(std::span<const double> velocities, std::span<const Burst>
   return *middle;
 }
 
-Vec2 displacement_of(const Frame& before, const Frame& after, const RunStatics& statics, Index i) {
-  Vec2 moved = {after.x[i] - before.x[i], after.y[i] - before.y[i]};
-  if (statics.periodic) moved.x -= statics.length * std::round(moved.x / statics.length);
-  return moved;
-}
-
 Vec2 mean_displacement(const Frame& before, const Frame& after, const RunStatics& statics) {
   Vec2 sum;
   double mass = 0.0;
   for (Index i = 0; i < statics.free_count; ++i) {
-    const Vec2 moved = displacement_of(before, after, statics, i);
+    const Vec2 moved = displacement({after, statics}, before, i);
     sum.x += statics.mass[i] * moved.x;
     sum.y += statics.mass[i] * moved.y;
     mass += statics.mass[i];
@@ -88,7 +82,7 @@ Movement movement_between(const Frame& before, const Frame& after, const RunStat
   double sum = 0.0, along = 0.0, height = 0.0;
   Vec2 circle;
   for (Index i = 0; i < statics.free_count; ++i) {
-    const Vec2 by = displacement_of(before, after, statics, i);
+    const Vec2 by = displacement({after, statics}, before, i);
     const double distance = std::hypot(by.x, by.y);
     if (!(distance >= least)) continue;
     moved.push_back({before.y[i], distance});

@@ -24,10 +24,6 @@ std::vector<Burst> find_bursts(std::span<const double> velocities, double thresh
 /// NaN if there are none.
 double quiet_velocity(std::span<const double> velocities, std::span<const Burst> bursts);
 
-/// Returns the displacement of free grain i between two frames, m, to its nearest periodic image. A
-/// displacement of half a period or more is therefore underestimated.
-Vec2 displacement_of(const Frame& before, const Frame& after, const RunStatics& statics, Index i);
-
 /// Returns the displacement of the centre of mass of the free grains, m.
 Vec2 mean_displacement(const Frame& before, const Frame& after, const RunStatics& statics);
 

@@ -247,11 +247,26 @@ TEST_F(EventCatalogue, first_moves_are_in_the_order_of_the_frames) {
   EXPECT_TRUE(first_moves(run, 2.5 * diameter).empty());
 }
 
+/// Moves a grain to `place`, D, along a bed with a period of 8 D.
+void put(Frame& frame, std::size_t grain, double place) {
+  frame.image[grain] = static_cast<Index>(std::floor(place / 8.0));
+  frame.x[grain] = (place - 8.0 * frame.image[grain]) * diameter;
+}
+
+TEST_F(EventCatalogue, has_the_work_of_gravity_on_grains_that_go_round_the_bed_several_times) {
+  const analysis::Analysis a = analyse(10.285, {}, [](io::Segment& segment) {
+    for (std::size_t k = 1; k < segment.frames.size(); ++k) put(segment.frames[k], 0, 1.0 + 21.0);
+  });
+  EXPECT_EQ(a.events[0].grains, 1);
+  const double fall = 21.0 * diameter * sine(radians(10.05));
+  EXPECT_NEAR(a.events[0].energy, 0.4 * g * fall, 1e-3 * a.events[0].energy);
+}
+
 TEST_F(EventCatalogue, first_moves_go_round_a_periodic_bed_and_the_farthest_comes_first) {
   analyse(10.285, {}, [](io::Segment& segment) {
     for (std::size_t k = 0; k < segment.frames.size(); ++k) {
-      segment.frames[k].x[0] = (1.0 + 2.0 * static_cast<double>(k)) * diameter;
-      segment.frames[k].x[1] = std::fmod(4.0 + 3.0 * static_cast<double>(k), 8.0) * diameter;
+      put(segment.frames[k], 0, 1.0 + 2.0 * static_cast<double>(k));
+      put(segment.frames[k], 1, 4.0 + 3.0 * static_cast<double>(k));
     }
   });
   const std::vector<FirstMove> moves = first_moves(io::RunFile::open(path_), 5.5 * diameter);
@@ -262,6 +277,14 @@ TEST_F(EventCatalogue, first_moves_go_round_a_periodic_bed_and_the_farthest_come
   const std::vector<FirstMove> near = first_moves(io::RunFile::open(path_), diameter);
   ASSERT_EQ(near.size(), 2u);
   EXPECT_EQ(near[0].grain, 1) << "farther than others in the same frame";
+}
+
+TEST_F(EventCatalogue, first_moves_of_more_than_a_period_between_two_frames_are_found) {
+  analyse(10.285, {}, [](io::Segment& segment) { put(segment.frames[3], 0, 1.0 + 204.0); });
+  const std::vector<FirstMove> moves = first_moves(io::RunFile::open(path_), 200.0 * diameter);
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_EQ(moves[0].grain, 0);
+  EXPECT_NEAR(moves[0].displacement, 204.0 * diameter, 1e-6 * diameter);
 }
 
 }  // namespace

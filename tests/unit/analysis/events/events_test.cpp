@@ -58,15 +58,17 @@ struct TwoFrames {
     statics.gravity = 10.0;
     before.x = after.x = {9.8, 5.0, 1.0, 5.0};
     before.y = after.y = {4.0, 2.0, 3.0, 0.0};
+    before.image = after.image = {0, 0, 0, 0};
   }
 };
 
-TEST(Displacement, is_to_the_nearest_image) {
+TEST(MeanDisplacement, counts_the_periods_that_a_grain_has_passed) {
   TwoFrames pair(true);
   pair.after.x[0] = 0.1;
-  EXPECT_NEAR(displacement_of(pair.before, pair.after, pair.statics, 0).x, 0.3, 1e-12);
-  EXPECT_NEAR(displacement_of(TwoFrames(false).before, pair.after, TwoFrames(false).statics, 0).x, -9.7,
-              1e-12);
+  pair.after.image[0] = 3;  // 0.3 m to the edge, and two periods
+  pair.after.x[2] = 7.0;    // more than half a period, and not across the edge
+  const Vec2 moved = mean_displacement(pair.before, pair.after, pair.statics);
+  EXPECT_NEAR(moved.x, (1.0 * 20.3 + 3.0 * 6.0) / 6.0, 1e-12);
 }
 
 TEST(GravityWork, is_that_on_the_centre_of_mass) {
@@ -95,6 +97,14 @@ TEST(Movement, counts_the_grains_that_moved_and_says_where) {
   EXPECT_EQ(none.grains, 0);
   EXPECT_TRUE(std::isnan(none.depth));
   EXPECT_TRUE(std::isnan(none.centre.x));
+}
+
+TEST(Movement, of_whole_periods_is_movement) {
+  TwoFrames pair(true);
+  pair.after.image[0] = 2;
+  const Movement movement = movement_between(pair.before, pair.after, pair.statics, 19.9, 5.0);
+  EXPECT_EQ(movement.grains, 1);
+  EXPECT_NEAR(movement.centre.x, 9.8, 1e-12);
 }
 
 TEST(Movement, around_the_period_has_its_centre_there) {
