@@ -6,13 +6,10 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/random.h"
 #include "core/types.h"
 
 namespace talus {
 namespace {
-
-constexpr int draws = 1000;
 
 std::vector<double> numbers_among(std::span<const double> values) {
   std::vector<double> numbers;
@@ -26,18 +23,6 @@ double quantile(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(place);
   if (below + 1 == sorted.size()) return sorted[below];
   return sorted[below] + (place - std::floor(place)) * (sorted[below + 1] - sorted[below]);
-}
-
-/// Returns the means of all draws, ascending.
-std::vector<double> means_of_draws(const std::vector<double>& numbers, const Resamples& resamples) {
-  std::vector<double> means;
-  for (auto pick = resamples.drawn.begin(); pick != resamples.drawn.end();) {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < numbers.size(); ++k) sum += numbers[*pick++];
-    means.push_back(sum / static_cast<double>(numbers.size()));
-  }
-  std::ranges::sort(means);
-  return means;
 }
 
 }  // namespace
@@ -63,29 +48,13 @@ Statistics statistics_of(std::span<const double> values) {
   return result;
 }
 
-Resamples resamples_of(int values) {
-  Resamples resamples{values, {}};
-  Random random(static_cast<std::uint64_t>(values));
-  resamples.drawn.reserve(static_cast<std::size_t>(values) * draws);
-  for (int k = 0; k < values * draws; ++k)
-    resamples.drawn.push_back(random.below(static_cast<std::uint32_t>(values)));
-  return resamples;
-}
-
-Summary summary_of(std::span<const double> values, const Resamples& resamples) {
+Summary summary_of(std::span<const double> values) {
   Summary summary{statistics_of(values), not_known, not_known, not_known, not_known, not_known};
+  const double half = summary.statistics.interval();
+  summary.low = summary.statistics.mean - half;
+  summary.high = summary.statistics.mean + half;
   std::vector<double> numbers = numbers_among(values);
   if (numbers.empty()) return summary;
-  if (numbers.size() > 1) {
-    const double half = summary.statistics.interval();
-    summary.low = summary.statistics.mean - half;
-    summary.high = summary.statistics.mean + half;
-  }
-  if (numbers.size() > 1 && static_cast<std::size_t>(resamples.values) == numbers.size()) {
-    const std::vector<double> means = means_of_draws(numbers, resamples);
-    summary.low = quantile(means, 0.025);
-    summary.high = quantile(means, 0.975);
-  }
   std::ranges::sort(numbers);
   summary.lower_quartile = quantile(numbers, 0.25);
   summary.median = quantile(numbers, 0.5);

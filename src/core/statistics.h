@@ -1,7 +1,6 @@
 #pragma once
 /// Statistics of several values of one quantity: mean, spread, and error of the mean.
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -19,29 +18,14 @@ struct Statistics {
 };
 Statistics statistics_of(std::span<const double> values);
 
-/// Quartiles of some values, and a confidence interval of their mean that assumes no distribution.
+/// Statistics of the values that are not NaN, the 95 % confidence interval of their mean, and their
+/// quartiles, which interpolate between the sorted values (type 7 of Hyndman and Fan 1996).
 struct Summary {
   Statistics statistics;
   double lower_quartile = 0.0, median = 0.0, upper_quartile = 0.0;  ///< NaN for count 0
-  double low = 0.0, high = 0.0;  ///< 95 % confidence interval of the mean; NaN for count < 2
+  double low = 0.0, high = 0.0;  ///< mean -+ statistics.interval(); NaN for count < 2
 };
-
-/// Draws of n values out of n with replacement. The draws depend on n alone.
-struct Resamples {
-  int values = 0;                    ///< n
-  std::vector<std::uint32_t> drawn;  ///< n indices for each draw, draw by draw
-};
-Resamples resamples_of(int values);
-
-/// Largest number of values that are resampled. For more values the bootstrap interval hardly differs from
-/// that of Student's t, which is used instead.
-inline constexpr int max_resampled = 200;
-
-/// Returns the summary of the values that are not NaN. `resamples` are those of their number, or empty. With
-/// them the interval is the percentile bootstrap (Efron 1979), from 2.5 % to 97.5 % of the means of all
-/// draws; without them it is that of Student's t. Quantiles interpolate between the sorted values (type 7 of
-/// Hyndman and Fan 1996).
-Summary summary_of(std::span<const double> values, const Resamples& resamples);
+Summary summary_of(std::span<const double> values);
 
 /// Pearson's coefficient of correlation over the pairs without NaN, and their number. The coefficient is NaN
 /// for fewer than three pairs, or if one side does not vary.

@@ -3,30 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 
 namespace talus::ensemble {
 namespace {
 
 constexpr double same_angle = 1e-6;  // deg, far below the spacing of frames
 
-/// Bootstrap resamples by number of values, each made once.
-using ResamplesByCount = std::map<int, Resamples>;
-
-const Resamples& resamples_for(const std::vector<double>& values, ResamplesByCount& known) {
-  const auto count =
-      static_cast<int>(std::ranges::count_if(values, [](double value) { return !std::isnan(value); }));
-  auto found = known.find(count);
-  if (found == known.end())
-    found = known.emplace(count, count <= max_resampled ? resamples_of(count) : Resamples{}).first;
-  return found->second;
-}
-
-void summarise(AveragedQuantity& quantity, std::size_t points, ResamplesByCount& resamples) {
+void summarise(AveragedQuantity& quantity, std::size_t points) {
   for (std::size_t point = 0; point < points; ++point) {
     std::vector<double> values;
     for (std::size_t k = point; k < quantity.values.size(); k += points) values.push_back(quantity.values[k]);
-    quantity.summaries.push_back(summary_of(values, resamples_for(values, resamples)));
+    quantity.summaries.push_back(summary_of(values));
   }
 }
 
@@ -43,15 +30,14 @@ std::vector<AveragedQuantity> all_quantities(const std::vector<MemberResult>& me
   return all;
 }
 
-std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& members,
-                                               ResamplesByCount& resamples) {
+std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& members) {
   auto all = all_quantities<NamedNumber>(
       members,
       [](const MemberResult& member) -> const std::vector<NamedNumber>& { return member.numbers.numbers; });
   for (AveragedQuantity& quantity : all) {
     for (const MemberResult& member : members)
       quantity.values.push_back(number_called(member.numbers, quantity.name));
-    summarise(quantity, 1, resamples);
+    summarise(quantity, 1);
   }
   return all;
 }
@@ -59,8 +45,7 @@ std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& 
 /// Averages the quantities of all members over a grid of angles. `tilt_at(member, angle)` returns the tilt of
 /// a member (deg) at a point of the grid.
 AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::vector<double> angles,
-                               const std::function<double(const MemberResult&, double)>& tilt_at,
-                               ResamplesByCount& resamples) {
+                               const std::function<double(const MemberResult&, double)>& tilt_at) {
   AveragedCurves curves{std::move(angles), {}};
   curves.quantities = all_quantities<NamedSeries>(
       members,
@@ -76,32 +61,28 @@ AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::ve
           quantity.values[m * points + point] =
               interpolated(member.series.theta, series->values, tilt_at(member, curves.angles[point]));
     }
-    summarise(quantity, points, resamples);
+    summarise(quantity, points);
   }
   return curves;
 }
 
 double theta_c_of(const MemberResult& member) { return number_called(member.numbers, "theta_c"); }
 
-AveragedCurves averages_over_tilt(const std::vector<MemberResult>& members, double spacing,
-                                  ResamplesByCount& resamples) {
+AveragedCurves averages_over_tilt(const std::vector<MemberResult>& members, double spacing) {
   double largest = -spacing;
   for (const MemberResult& member : members)
     if (!member.series.theta.empty()) largest = std::max(largest, member.series.theta.back());
-  return averaged_curves(
-      members, grid_up_to(largest, spacing), [](const MemberResult&, double angle) { return angle; },
-      resamples);
+  return averaged_curves(members, grid_up_to(largest, spacing),
+                         [](const MemberResult&, double angle) { return angle; });
 }
 
-AveragedCurves averages_before_failure(const std::vector<MemberResult>& members, double spacing,
-                                       ResamplesByCount& resamples) {
+AveragedCurves averages_before_failure(const std::vector<MemberResult>& members, double spacing) {
   double largest = -1.0;
   for (const MemberResult& member : members)
     if (const double theta_c = theta_c_of(member); !std::isnan(theta_c)) largest = std::max(largest, theta_c);
   if (largest < 0.0) return {};
-  return averaged_curves(
-      members, grid_up_to(largest, spacing),
-      [](const MemberResult& member, double angle) { return theta_c_of(member) - angle; }, resamples);
+  return averaged_curves(members, grid_up_to(largest, spacing),
+                         [](const MemberResult& member, double angle) { return theta_c_of(member) - angle; });
 }
 
 /// Whether a number is the angle of an event, rather than the width of a range or an error.
@@ -144,16 +125,15 @@ double interpolated(const std::vector<double>& tilts, const std::vector<double>&
 }
 
 Averages averages_of(const std::vector<MemberResult>& members, double frame_every) {
-  ResamplesByCount resamples;
   Averages averages;
   for (const MemberResult& member : members) {
     averages.seeds.push_back(member.seed);
     averages.state_hashes.push_back(member.numbers.state_hash);
   }
-  averages.numbers = averaged_numbers(members, resamples);
+  averages.numbers = averaged_numbers(members);
   averages.correlations = correlations_of(averages.numbers);
-  averages.over_tilt = averages_over_tilt(members, frame_every, resamples);
-  averages.before_failure = averages_before_failure(members, frame_every, resamples);
+  averages.over_tilt = averages_over_tilt(members, frame_every);
+  averages.before_failure = averages_before_failure(members, frame_every);
   return averages;
 }
 

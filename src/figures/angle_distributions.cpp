@@ -14,7 +14,7 @@ constexpr std::size_t panels_in_row = 3;
 
 /// Returns a summary: "mean 19.16 ± 0.09, median 19.17, n = 50".
 std::string summary_text(const std::vector<double>& values) {
-  const Summary summary = summary_of(values, {});
+  const Summary summary = summary_of(values);
   const Statistics& found = summary.statistics;
   if (found.count == 0) return "none";
   const std::string mean = found.count > 1 && found.error > 0.0
@@ -68,7 +68,7 @@ void add_histogram(Figure& figure, const RunAngle& angle, std::size_t panel) {
 }  // namespace
 
 HistogramBins bins_for(const std::vector<double>& values) {
-  const Summary summary = summary_of(values, {});
+  const Summary summary = summary_of(values);
   std::vector<double> numbers = values;
   std::erase_if(numbers, [](double value) { return std::isnan(value); });
   const auto [low, high] = std::ranges::minmax(numbers);

@@ -19,5 +19,7 @@ with h5py.File(sys.argv[1]) as file:
     assert np.allclose(summary["mean"], np.nanmean(z["values"], axis=0), rtol=1e-14)
     assert np.allclose(summary["median"], np.nanmedian(z["values"], axis=0), rtol=1e-14)
     assert np.allclose(summary["deviation"], np.nanstd(z["values"], axis=0, ddof=1), rtol=1e-10)
-    assert np.all(summary["low"] <= summary["mean"]) and np.all(summary["mean"] <= summary["high"])
+    student = np.array([np.nan, np.nan, 12.706, 4.303, 3.182])[summary["n"].astype(int)]  # at 95 %, for n values
+    for side, end in (-1, "low"), (1, "high"):
+        assert np.allclose(summary[end], summary["mean"] + side * student * summary["error"], equal_nan=True)
     print(*variant["seed"][:], *grid[:])

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -49,49 +48,45 @@ TEST(PairedDifference, does_not_see_what_seeds_have_in_common) {
 }
 
 TEST(Summary, has_quartiles_between_the_sorted_values) {
-  const Summary found = summary_of(std::vector{4.0, 1.0, none, 2.0, 8.0, 3.0}, {});
+  const Summary found = summary_of(std::vector{4.0, 1.0, none, 2.0, 8.0, 3.0});
   EXPECT_DOUBLE_EQ(found.lower_quartile, 2.0);
   EXPECT_DOUBLE_EQ(found.median, 3.0);
   EXPECT_DOUBLE_EQ(found.upper_quartile, 4.0);
-  EXPECT_DOUBLE_EQ(summary_of(std::vector{1.0, 2.0, 3.0, 6.0}, {}).upper_quartile, 3.75) << "interpolated";
-  EXPECT_DOUBLE_EQ(summary_of(std::vector{7.0}, {}).median, 7.0);
-  EXPECT_TRUE(std::isnan(summary_of(std::vector{7.0}, {}).low));
-  EXPECT_TRUE(std::isnan(summary_of(std::vector{none}, {}).median));
+  EXPECT_DOUBLE_EQ(summary_of(std::vector{1.0, 2.0, 3.0, 6.0}).upper_quartile, 3.75) << "interpolated";
+  EXPECT_DOUBLE_EQ(summary_of(std::vector{7.0}).median, 7.0);
+  EXPECT_TRUE(std::isnan(summary_of(std::vector{7.0}).low));
+  EXPECT_TRUE(std::isnan(summary_of(std::vector{none}).median));
 }
 
-TEST(Summary, has_the_interval_of_students_t_without_resamples) {
-  const Summary found = summary_of(std::vector{1.0, 2.0, 3.0, 6.0}, {});
-  EXPECT_DOUBLE_EQ(found.low, 3.0 - found.statistics.interval());
-  EXPECT_DOUBLE_EQ(found.high, 3.0 + found.statistics.interval());
+TEST(Summary, has_the_interval_of_students_t) {
+  const Summary found = summary_of(std::vector{28.624, none, 31.76});
+  EXPECT_NEAR(found.low, 30.192 - 12.7062 * 1.568, 1e-3) << "10.27, far below both values";
+  EXPECT_NEAR(found.high, 30.192 + 12.7062 * 1.568, 1e-3);
+  const Summary four = summary_of(std::vector{1.0, 2.0, 3.0, 6.0});
+  EXPECT_DOUBLE_EQ(four.low, 3.0 - four.statistics.interval());
+  EXPECT_DOUBLE_EQ(four.high, 3.0 + four.statistics.interval());
 }
 
-TEST(Summary, has_the_interval_of_a_bootstrap_that_covers_the_mean_as_often_as_it_says) {
-  constexpr int count = 30, samples = 400;
-  const Resamples resamples = resamples_of(count);
-  Random random(5);
-  int covered = 0;
-  double width = 0.0;
-  for (int k = 0; k < samples; ++k) {
-    std::vector<double> values;
-    for (int v = 0; v < count; ++v) values.push_back(random.uniform());
-    const Summary found = summary_of(values, resamples);
-    if (found.low <= 0.5 && 0.5 <= found.high) ++covered;
-    // resampling has the deviation of the sample with n in the denominator
-    const double expected = 2 * 1.96 * found.statistics.error * std::sqrt((count - 1.0) / count);
-    width += (found.high - found.low) / expected / samples;
+/// Returns a nearly normal value with mean 0 and variance 1.
+double normal(Random& random) {
+  double sum = -6.0;
+  for (int k = 0; k < 12; ++k) sum += random.uniform();
+  return sum;
+}
+
+TEST(Summary, has_an_interval_that_holds_the_mean_of_few_values_as_often_as_it_says) {
+  constexpr int samples = 4000;
+  for (const std::size_t count : {2u, 3u, 5u, 16u}) {
+    Random random(5);
+    int holding = 0;
+    std::vector<double> values(count);
+    for (int k = 0; k < samples; ++k) {
+      for (double& value : values) value = normal(random);
+      const Summary found = summary_of(values);
+      holding += found.low <= 0.0 && 0.0 <= found.high ? 1 : 0;
+    }
+    EXPECT_NEAR(holding, 0.95 * samples, 0.01 * samples) << count << " values; the deviation is 0.0034";
   }
-  EXPECT_NEAR(width, 1.0, 0.03);
-  // 95 %, slightly less for 30 values, with a noise of 1.1 %
-  EXPECT_GT(covered, 0.91 * samples);
-  EXPECT_LT(covered, 0.985 * samples);
-}
-
-TEST(Summary, draws_with_replacement_and_always_the_same) {
-  const Resamples resamples = resamples_of(3);
-  EXPECT_EQ(resamples.drawn, resamples_of(3).drawn);
-  std::array<int, 3> counts{};
-  for (const std::uint32_t pick : resamples.drawn) ++counts.at(pick);
-  for (const int count : counts) EXPECT_NEAR(count, resamples.drawn.size() / 3.0, 150.0);
 }
 
 TEST(Correlation, is_that_of_hand_made_pairs) {
