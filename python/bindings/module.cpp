@@ -362,7 +362,14 @@ void bind_arrays(py::class_<Driven, Holder>& type) {
   };
   contacts("_pair", &Contacts::a, &Contacts::b);
   contacts("_normal", &Contacts::nx, &Contacts::ny);
-  contacts("_force", &Contacts::fn, &Contacts::ft);
+  type.def_property_readonly("_force", [](const Driven& driven) {
+    const World& world = driven.seen().world();
+    const double threshold = force_threshold(world.grains.mass, world.grains.free_count, world.gravity);
+    std::vector<double> fn = world.contacts.fn, ft = world.contacts.ft;
+    for (std::size_t c = 0; c < fn.size(); ++c)
+      if (fn[c] < threshold) fn[c] = ft[c] = 0.0;
+    return columns(fn, ft);
+  });
   type.def_property_readonly(
       "_gap", [](const Driven& driven) { return py::array(py::cast(driven.seen().world().contacts.gap)); });
   type.def_property_readonly("_shift", [](const Driven& driven) {

@@ -126,13 +126,15 @@ class Frame:
         """(N, 2, 2) internal moments M_ij, J/m, lever arm first, force second; compression positive. The stress of
         grains is the sum of their M divided by an area. x and y are those of the bed, with y away from the floor, so
         the paper's shear has the opposite sign."""
-        return self._read("internal_moment")
+        moment = self._read("internal_moment")
+        moment[self._unloaded & (np.trace(moment, axis1=1, axis2=2) > 0)] = 0
+        return moment
 
     @cached_property
     def gamma(self) -> np.ndarray:
         """(N,) stress ratio q/p of each grain alone (l_min = 0); NaN if it carries no load. The gamma of an analysis is
         that of neighbourhoods: talus.stress_ratio of sums of internal moments."""
-        return self._read("gamma")
+        return np.where(self._unloaded, np.nan, self._read("gamma"))
 
     @property
     def friction(self) -> float:
@@ -151,12 +153,24 @@ class Frame:
         return self.run.free
 
     @cached_property
+    def _carries(self) -> np.ndarray:
+        """(K,) whether each contact in the file carries force. Files of earlier versions have others too."""
+        return self.run.read_frame("contacts/force", self.index)[:, 0] >= self.run.force_threshold
+
+    @cached_property
+    def _unloaded(self) -> np.ndarray:
+        """(N,) grains whose contacts in the file carry no force; False everywhere if all contacts of the frame do."""
+        if self._carries.all():
+            return np.zeros(len(self.radius), bool)
+        return np.isin(np.arange(len(self.radius)), self.contacts.pair, invert=True)
+
+    @cached_property
     def contacts(self) -> Contacts:
-        """The contacts that carry force."""
-        read = {name: self.run.read_frame(f"contacts/{name}", self.index)
-                for name in ("pair", "shift", "normal", "point", "force", "status")}
-        if len(read["pair"]) and self.run.resists_rolling:
-            read["moment"] = self.run.read_frame("contacts/moment", self.index)
+        """The contacts that carry force: at least 1e-9 of the mean weight of a free grain."""
+        names = ["pair", "shift", "normal", "point", "force", "status"]
+        if len(self._carries) and self.run.resists_rolling:
+            names.append("moment")
+        read = {name: self.run.read_frame(f"contacts/{name}", self.index)[self._carries] for name in names}
         a, b = read["pair"].T
         between_grains = b < len(self.position)
         end = read["point"].copy()

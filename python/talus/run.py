@@ -222,6 +222,11 @@ class Run:
         return not self.complete or self.storage.has("contacts/pair")
 
     @cached_property
+    def force_threshold(self) -> float:
+        """Smallest normal force that a contact is considered to carry, N/m: 1e-9 of the mean weight of a free grain."""
+        return 1e-9 * float(self.mass[self.free].mean()) * self.gravity if self.free.any() else np.inf
+
+    @cached_property
     def resists_rolling(self) -> bool:
         """Whether contacts have moments."""
         return self.storage.has("contacts/moment")

@@ -196,7 +196,8 @@ class Grains:
 
 class LiveContacts:
     """Contacts after the last step, including near ones without force: copies, which later steps do not change.
-    `contacts["mobilisation"]` is a quantity of the table in docs/export.md for the contacts that carry force."""
+    `contacts["mobilisation"]` is a quantity of the table in docs/export.md for the contacts that carry force, those with
+    `contacts.force[:, 0] > 0`."""
 
     def __init__(self, simulation: "Simulation") -> None:
         self._core = simulation._core
@@ -222,7 +223,8 @@ class LiveContacts:
 
     @property
     def force(self) -> np.ndarray:
-        """(C, 2) forces on b, (f_n, f_t), N/m: along the normal, compression positive, and along (-n_y, n_x)."""
+        """(C, 2) forces on b, (f_n, f_t), N/m: along the normal, compression positive, and along (-n_y, n_x). Both are 0
+        for a contact that carries no force: less than 1e-9 of the mean weight of a free grain."""
         return self._core._force
 
     @property

@@ -15,6 +15,7 @@
 #include "analysis/texture/texture.h"
 #include "analysis/topology/rigid_clusters.h"
 #include "core/trigonometry.h"
+#include "stress/bed.h"
 
 namespace talus::analysis {
 namespace {
@@ -34,10 +35,8 @@ double correlated_up_to(const RunStatics& statics) {
 std::vector<double> force_edges(int bins) { return logarithmic_edges(force_range[0], force_range[1], bins); }
 
 void exclude_rattlers(int min_contacts, Index free_count, Frame& frame) {
-  std::vector<int> contacts(frame.x.size(), 0);
-  for (Index c = 0; c < frame.contacts.count(); ++c)
-    for (const Index body : {frame.contacts.a[c], frame.contacts.b[c]})
-      if (body >= 0 && body < free_count) ++contacts[static_cast<std::size_t>(body)];
+  const std::vector<Index> contacts =
+      stress::contacts_of_grains(frame.contacts.a, frame.contacts.b, free_count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(free_count); ++i)
     if (contacts[i] < min_contacts) frame.gamma[i] = not_known;
 }

@@ -71,7 +71,7 @@ Numbers pressures(const GrainSource& source) {
 
 Numbers coordination(const GrainSource& source) {
   const FrameContacts& contacts = source.frame.contacts;
-  return copied(stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, source.frame.grain_count()));
+  return copied(stress::contacts_of_grains(contacts.a, contacts.b, source.frame.grain_count()));
 }
 
 Numbers sliding(const GrainSource& source) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,8 +17,8 @@
 
 namespace talus {
 
-/// The contacts of a frame: those that carry force, in the order of their keys, with the conventions of
-/// Contacts.
+/// The contacts of a frame: those that carry force (force_threshold), in the order of their keys, with the
+/// conventions of Contacts.
 struct FrameContacts {
   std::vector<Index> a, b;
   std::vector<std::int8_t> shift;
@@ -71,6 +72,22 @@ struct RunStatics {
 bool is_with_wall(const Frame& frame, Index c);
 /// Returns mu of contact c of a frame.
 double friction_of_contact(const Frame& frame, Index c);
+
+/// Returns the smallest normal force that a contact is considered to carry, N (per metre of thickness): 1e-9
+/// of the mean weight of the free grains, and infinity without any. The force of a contact that opens decays
+/// over many steps, because the solver is under-relaxed, and is below this bound long before it is 0. The
+/// forces that hold a bed are larger.
+double force_threshold(std::span<const double> mass, Index free_count, double gravity);
+double force_threshold(const RunStatics& statics);
+
+/// Removes the contacts of a frame with a normal force below `threshold`, and clears the grains that have no
+/// contact then. Frames of make_frame (session/measure.h) have no such contacts; files of earlier revisions
+/// may.
+void remove_open_contacts(Frame& frame, double threshold);
+
+/// Sets gamma of the grains without contacts to NaN, and their internal moments to 0 unless the trace is
+/// negative, from rotation: anything else is a remainder of contacts that carry no force.
+void clear_unloaded_grains(Frame& frame);
 
 /// Returns the constants of a frame with `count` grains, floor included, of a bed that is being poured: the
 /// free grains with the highest ids have not arrived yet.

@@ -47,7 +47,7 @@ RunContent content_of(const RunFile& run, bool with_frames) {
           run.trials(),
           run.all_frame_tilts().size(),
           run.contact_count(),
-          [&run, whole](std::size_t k) { return whole ? run.frame(k) : run.instant(k); },
+          [&run, whole](std::size_t k) { return whole ? run.stored_frame(k) : run.instant(k); },
           whole};
 }
 

@@ -324,7 +324,13 @@ std::uint64_t RunFile::contact_count() const {
   return count;
 }
 
-Frame RunFile::frame(std::size_t k) const { return state_->read(read_frame, k); }
+Frame RunFile::stored_frame(std::size_t k) const { return state_->read(read_frame, k); }
+
+Frame RunFile::frame(std::size_t k) const {
+  Frame frame = stored_frame(k);
+  remove_open_contacts(frame, force_threshold(header().statics));
+  return frame;
+}
 
 bool RunFile::has_frames() const { return state_->has_frames; }
 

@@ -50,11 +50,14 @@ class RunFile {
   bool has_frames() const;
   /// Returns step, time and tilt of frame k, which are always stored.
   Frame instant(std::size_t k) const;
-  /// Returns frame k with everything stored, k < all_frame_tilts().size(). Values are those of the file
-  /// (single precision if it stores floats). Not safe for several threads at once. Throws
-  /// Error(missing_input) if the file has no frames.
+  /// Returns frame k, k < all_frame_tilts().size(). Values are those of the file (single precision if it
+  /// stores floats); contacts that carry no force, which earlier versions stored, are left out
+  /// (remove_open_contacts). Not safe for several threads at once. Throws Error(missing_input) if the file has
+  /// no frames.
   Frame frame(std::size_t k) const;
-  /// Whether a frame that was read as frame k matches its stored hash.
+  /// Returns frame k with everything stored; otherwise as frame.
+  Frame stored_frame(std::size_t k) const;
+  /// Whether a frame that was read by stored_frame(k) matches its stored hash.
   bool is_as_written(const Frame& frame, std::size_t k) const;
   /// Returns the paths of the data sets that do not match their own hashes, in a packed file with its
   /// analysis, or in the segments of a folder.

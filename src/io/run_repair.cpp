@@ -294,7 +294,7 @@ Salvage salvage_run(const std::string& run) {
 bool is_whole(const std::string& run) try {
   const RunFile file = RunFile::open(run);
   for (std::size_t k = 0; file.has_frames() && k < file.all_frame_tilts().size(); ++k)
-    if (!file.is_as_written(file.frame(k), k)) return false;
+    if (!file.is_as_written(file.stored_frame(k), k)) return false;
   return file.changed_data_sets().empty();
 } catch (const Error& error) {
   if (error.code() != ExitCode::bad_data && error.code() != ExitCode::missing_input) throw;

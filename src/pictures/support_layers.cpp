@@ -22,7 +22,7 @@ MapLayer coordination_layer(const MapFrame& bed, const ScaleChoice& choice) {
   constexpr double most = 6.0;  // maximum for equal disks
   const FrameContacts& contacts = bed.frame.contacts;
   const std::vector<Index> counts =
-      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
+      stress::contacts_of_grains(contacts.a, contacts.b, bed.statics.free_count);
   const Scale scale = chosen({render::ColourMap::viridis, 0.0, most}, choice);
   return scaled_layer(fmt::format("Contacts of grains, z = {:.2f}", stress::coordination_number(counts)),
                       scale, {counts.begin(), counts.end()}, bar_of(scale, "contacts that carry force"));

@@ -1,5 +1,6 @@
 #include "session/measure.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "stress/bed.h"
@@ -21,17 +22,6 @@ ContactStatus status_of(const World& world, const dynamics::ContactLawParameters
                                 friction_of(world, law, world.contacts.b[c]));
 }
 
-double critical_fraction(const World& world, const dynamics::ContactLawParameters& law) {
-  Index carrying = 0;
-  Index critical = 0;
-  for (Index c = 0; c < world.contacts.count(); ++c) {
-    const ContactStatus status = status_of(world, law, c);
-    if (status != ContactStatus::open) ++carrying;
-    if (status == ContactStatus::sliding) ++critical;
-  }
-  return carrying > 0 ? static_cast<double>(critical) / carrying : 0.0;
-}
-
 void append_contact(const World& world, const dynamics::ContactLawParameters& law, Index c,
                     FrameContacts& out) {
   const Contacts& contacts = world.contacts;
@@ -47,6 +37,19 @@ void append_contact(const World& world, const dynamics::ContactLawParameters& la
   out.ft.push_back(contacts.ft[c]);
   out.status.push_back(status_of(world, law, c));
   if (!contacts.moment.empty()) out.moment.push_back(contacts.moment[c]);
+}
+
+FrameContacts carrying_contacts(const World& world, const dynamics::ContactLawParameters& law) {
+  const double threshold = force_threshold(world.grains.mass, world.grains.free_count, world.gravity);
+  FrameContacts carrying;
+  for (Index c = 0; c < world.contacts.count(); ++c)
+    if (world.contacts.fn[c] >= threshold) append_contact(world, law, c, carrying);
+  return carrying;
+}
+
+double critical_fraction(const FrameContacts& carrying) {
+  const auto critical = std::ranges::count(carrying.status, ContactStatus::sliding);
+  return carrying.count() > 0 ? static_cast<double>(critical) / carrying.count() : 0.0;
 }
 
 /// Moves x below the period in single precision, because files store positions in single precision, where a
@@ -67,6 +70,7 @@ ObservableRow measure(const World& world, const RowContext& context) {
   stress::internal_moments(world.grains, world.contacts, moments);
   const Tensor2 sum = stress::sum_of_moments(moments, 0, world.grains.free_count);
   const double volume = stress::bed_volume(world.grains, world.boundary);
+  const FrameContacts carrying = carrying_contacts(world, context.law);
   ObservableRow row{};
   at(row, Observable::step) = static_cast<double>(world.step);
   at(row, Observable::time) = world.time;
@@ -77,8 +81,9 @@ ObservableRow measure(const World& world, const RowContext& context) {
   at(row, Observable::sigma_t_over_n) = -sum.yx / sum.yy;
   at(row, Observable::stress_ratio) = stress::stress_state(sum).ratio;
   at(row, Observable::solid_fraction) = stress::solid_area(world.grains) / volume;
-  at(row, Observable::coordination_number) = stress::coordination_number(world.grains, world.contacts);
-  at(row, Observable::critical_fraction) = critical_fraction(world, context.law);
+  at(row, Observable::coordination_number) = stress::coordination_number(
+      stress::contacts_of_grains(carrying.a, carrying.b, world.grains.free_count));
+  at(row, Observable::critical_fraction) = critical_fraction(carrying);
   at(row, Observable::volume_strain) = volume / context.baseline.volume - 1.0;
   at(row, Observable::centre_of_mass_strain) =
       stress::centre_of_mass_height(world.grains) / context.baseline.centre_of_mass_height - 1.0;
@@ -123,8 +128,8 @@ Frame make_frame(const World& world, const dynamics::ContactLawParameters& law) 
   frame.gamma.reserve(frame.internal_moment.size());
   for (const Tensor2& moment : frame.internal_moment)
     frame.gamma.push_back(stress::stress_state(moment).ratio);
-  for (Index c = 0; c < world.contacts.count(); ++c)
-    if (world.contacts.fn[c] > 0.0) append_contact(world, law, c, frame.contacts);
+  frame.contacts = carrying_contacts(world, law);
+  clear_unloaded_grains(frame);
   return frame;
 }
 

@@ -23,8 +23,6 @@
 namespace talus::session {
 namespace {
 
-constexpr double smallest_force = 1e-9;  // m g
-
 /// Faults found so far.
 struct Findings {
   RunCheck& check;
@@ -152,7 +150,7 @@ double overlap(const BedFrame& bed, std::size_t c) {
 
 void check_contacts(const BedFrame& bed, double overlap_allowed, const std::string& name, Findings& found) {
   const FrameContacts& contacts = bed.frame.contacts;
-  const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
+  const double least = force_threshold(bed.statics);
   double deepest = 0.0, mobilised = 0.0;
   std::size_t pulling = 0;
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
@@ -160,7 +158,7 @@ void check_contacts(const BedFrame& bed, double overlap_allowed, const std::stri
     if (contacts.fn[c] < 0.0) ++pulling;
     // Forces far below the weight of a grain have few significant digits in single precision.
     const double limit =
-        friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + smallest_force * unit;
+        friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + least;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
   RunCheck& check = found.check;
@@ -183,13 +181,13 @@ void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Fi
                                 contacts.moment.size(), contacts.a.size(), scenario::short_text(mu_r)));
     return;
   }
-  const double unit = bed.statics.mass.empty() ? 1.0 : bed.statics.mass.front() * bed.statics.gravity;
+  const double least = force_threshold(bed.statics);
   double mobilised = 0.0;
   for (std::size_t c = 0; c < contacts.moment.size(); ++c) {
     const auto a = static_cast<std::size_t>(contacts.a[c]), b = static_cast<std::size_t>(contacts.b[c]);
     const double length = bed.statics.radius[a] + (b < bed.frame.x.size() ? bed.statics.radius[b] : 0.0);
-    mobilised = std::max(
-        mobilised, std::abs(contacts.moment[c]) / (length * (mu_r * contacts.fn[c] + smallest_force * unit)));
+    mobilised =
+        std::max(mobilised, std::abs(contacts.moment[c]) / (length * (mu_r * contacts.fn[c] + least)));
   }
   if (mobilised > mobilisation_limit)
     found.add(name, fmt::format("a moment is {} mu_r (r_a + r_b) f_n, rolling friction allows 1",
@@ -380,7 +378,7 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
   for (std::size_t k = 0; run.has_frames() && k < run.all_frame_tilts().size(); ++k, ++check.frames) {
     const std::string name = frame_name(k);
     try {
-      Frame frame = run.frame(k);
+      Frame frame = run.stored_frame(k);
       if (!run.is_as_written(frame, k)) found.add_changed(name);
       if (frame.step <= before || frame.step > last_step)
         found.add("/frames/step",

@@ -27,26 +27,21 @@ ContactStatus contact_status(double fn, double ft, double friction, double toler
   return std::fabs(ft) >= (friction - tolerance) * fn ? ContactStatus::sliding : ContactStatus::sticking;
 }
 
-std::vector<Index> loaded_contacts(std::span<const Index> a, std::span<const Index> b,
-                                   std::span<const double> fn, Index free_count) {
-  std::vector<Index> count(static_cast<std::size_t>(free_count), 0);
-  for (std::size_t c = 0; c < fn.size(); ++c)
-    for (const Index body : {a[c], b[c]})
-      if (body < free_count && fn[c] > 0.0) ++count[static_cast<std::size_t>(body)];
-  return count;
+std::vector<Index> contacts_of_grains(std::span<const Index> a, std::span<const Index> b, Index count) {
+  std::vector<Index> contacts(static_cast<std::size_t>(count), 0);
+  for (const auto bodies : {a, b})
+    for (const Index body : bodies)
+      if (body < count) ++contacts[static_cast<std::size_t>(body)];
+  return contacts;
 }
 
-double coordination_number(std::span<const Index> loaded_contacts) {
+double coordination_number(std::span<const Index> contacts_of_grains) {
   Index ends = 0, carrying = 0;
-  for (const Index each : loaded_contacts) {
+  for (const Index each : contacts_of_grains) {
     ends += each;
     carrying += each > 0 ? 1 : 0;
   }
   return carrying > 0 ? static_cast<double>(ends) / carrying : 0.0;
-}
-
-double coordination_number(const Grains& grains, const Contacts& contacts) {
-  return coordination_number(loaded_contacts(contacts.a, contacts.b, contacts.fn, grains.free_count));
 }
 
 }  // namespace talus::stress

@@ -19,14 +19,11 @@ double centre_of_mass_height(const Grains& grains);
 /// Returns the status of a contact with given forces. Sliding means |f_t| = mu f_n within `tolerance` f_n.
 ContactStatus contact_status(double fn, double ft, double friction, double tolerance = 1e-6);
 
-/// Returns the number of force-carrying contacts of each of the first `free_count` grains. A contact between
-/// bodies a[c] and b[c] carries the normal force fn[c].
-std::vector<Index> loaded_contacts(std::span<const Index> a, std::span<const Index> b,
-                                   std::span<const double> fn, Index free_count);
+/// Returns the number of contacts of each of the first `count` grains. Contact c is between the bodies a[c]
+/// and b[c], and carries force, as all contacts of a frame.
+std::vector<Index> contacts_of_grains(std::span<const Index> a, std::span<const Index> b, Index count);
 
-/// Returns the coordination number z: mean number of force-carrying contacts of the grains that have any; 0
-/// if no grain has any.
-double coordination_number(std::span<const Index> loaded_contacts);
-double coordination_number(const Grains& grains, const Contacts& contacts);
+/// Returns the coordination number z: mean number of contacts of the grains that have any; 0 if none has.
+double coordination_number(std::span<const Index> contacts_of_grains);
 
 }  // namespace talus::stress

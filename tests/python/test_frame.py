@@ -1,9 +1,12 @@
 """Grains and contacts of a frame: the arrays of the file, periodic images, end points, and the laws that
 they obey."""
 
+import shutil
+
 import h5py
 import numpy as np
 import pytest
+from resealed import sealed
 
 import talus
 
@@ -157,3 +160,33 @@ def test_network_has_all_contacts(run, walls):
     with talus.open(walls) as other:
         planes = [n for n, kind in other.frames[2].to_networkx().nodes(data="kind") if kind == "plane"]
         assert min(planes) == len(other.id)
+
+
+def test_contacts_that_carry_no_force_are_left_out(analysed, tmp_path):
+    """As in files of earlier revisions, in which a contact that has opened keeps a remainder of its force."""
+    copied, k = tmp_path / "old.h5", 11
+    shutil.copy(analysed, copied)
+    with talus.open(analysed) as run:
+        pair, weight = run.frames[k].contacts.pair, run.mass[run.free].mean() * run.gravity
+        degree = np.bincount(pair[pair < len(run.id)], minlength=len(run.id))
+    grain = int(np.argmax(np.where(run.free, degree, 0)))
+    open_ones = (pair == grain).any(axis=1)
+
+    def let_go(file):
+        rows = file["contacts/offset"][k] + np.flatnonzero(open_ones)
+        for row, force in zip(rows, np.resize([0, 1e-30, 0.99e-9 * weight], len(rows))):
+            file["contacts/force"][row] = force, 0.5 * force
+            file["contacts/status"][row] = 2
+
+    with talus.open(sealed(copied, let_go)) as old:
+        frame = old.frames[k]
+        np.testing.assert_array_equal(frame.contacts.pair, pair[~open_ones])
+        left = np.bincount(frame.contacts.pair[frame.contacts.pair < len(old.id)], minlength=len(old.id))
+        np.testing.assert_array_equal(frame.grains["coordination"], left)
+        np.testing.assert_array_equal(frame.grains["sliding"][grain], 0)
+        of_free = left[frame.free]
+        assert frame["contacts/coordination_number"] == pytest.approx(of_free.sum() / (of_free > 0).sum())
+        assert frame["contacts/critical_share"] == pytest.approx((frame.contacts.status == 2).mean())
+        assert len(frame.contacts["mobilisation"]) == len(frame.contacts)
+        assert np.isnan(frame.gamma[grain]) and np.isnan(talus.stress_ratio(frame.internal_moment)[grain])
+        assert np.isnan(frame.grains["pressure"]).sum() == 0 and frame.grains["pressure"][grain] <= 0

@@ -1,7 +1,11 @@
 """Measures of the contact network, compared with other programs or plain sums for the same frames."""
 
+import h5py
 import numpy as np
 import pytest
+from conftest import run_talus
+
+import talus
 
 
 def persistence(frame):
@@ -72,3 +76,69 @@ def test_critical_contacts_are_below_their_bound(run):
         bound = 2 - 3 * carrying / len(contacts)
         assert analysis["contacts/critical_bound"][k] == pytest.approx(bound, rel=1e-12)
         assert 0 <= analysis["contacts/critical_share_of_bound"][k] <= 1
+
+
+#: A bed in whose state a contact with a gap keeps 1e-46 of the weight of a grain from the first frame to the last.
+REMAINS = "[bed]\nlength = 10\ndepth = 8\n[tilt]\nend_angle = 3\n"
+
+
+def constraints(frame):
+    """Returns the rows of a matrix from motions of the free grains, three each, to relative velocities at their contacts,
+    the tangential ones only of contacts that stick."""
+    contacts, free, rows = frame.contacts, np.append(frame.free, np.zeros(3, bool)), []
+    for c, pair in enumerate(contacts.pair):
+        along = [(contacts.normal[c], 0)] + [(contacts.tangent[c], -1)] * (contacts.status[c] == 1)
+        for direction, turn in along:
+            row = np.zeros(3 * len(free))
+            for body, sign in zip(pair, (-1, 1)):
+                if free[body]:
+                    row[3 * body : 3 * body + 3] = *(sign * direction), turn * frame.radius[body] / frame.run.D
+            rows.append(row)
+    return np.array(rows)
+
+
+def loaded(pair, free):
+    """Returns the number of contacts of each free grain."""
+    return np.bincount(pair[pair < len(free)], minlength=len(free))[free]
+
+
+def test_contacts_that_have_opened_do_not_count(tmp_path):
+    (tmp_path / "bed.toml").write_text(REMAINS)
+    run_talus("run", "bed.toml", "-o", "o.h5", folder=tmp_path)
+    run_talus("analyze", "o.h5", "--set", "gamma_c=0.3", folder=tmp_path)
+    with h5py.File(tmp_path / "o.h5") as file, talus.open(tmp_path / "o.h5") as run:
+        least = 1e-9 * run.mass[run.free].mean() * run.gravity
+        remaining = file["checkpoint/contact_force"][:, 0]
+        assert ((remaining > 0) & (remaining < least)).any(), "nothing was tested"
+        assert file["contacts/force"][:, 0].min() > least
+        rows = run.observables
+        for k, frame in enumerate(run.frames):
+            degree = loaded(frame.contacts.pair, run.free)
+            z, nu = degree.sum() / (degree > 0).sum(), (frame.contacts.status == 2).mean()
+            row = np.flatnonzero(rows["step"] == frame.step)[0]
+            for found in (rows["coordination_number"][row], run.analysis["contacts/coordination_number"][k]):
+                assert found == pytest.approx(z, rel=1e-12)
+            for found in (rows["critical_fraction"][row], run.analysis["contacts/critical_share"][k]):
+                assert found == pytest.approx(nu, rel=1e-12)
+        for k in (0, len(run.frames) - 1):
+            matrix = constraints(run.frames[k])
+            redundant = len(matrix) - np.linalg.matrix_rank(matrix, tol=1e-6)
+            grains = (loaded(run.frames[k].contacts.pair, run.free) > 0).sum()
+            assert run.analysis["rigid/redundant"][k] == pytest.approx(redundant / grains)
+
+
+def test_contacts_of_a_simulation_that_have_opened_have_no_force(tmp_path):
+    pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
+    (tmp_path / "bed.toml").write_text(REMAINS)
+    sim = talus.Simulation(tmp_path / "bed.toml")
+    sim.deposit()
+    sim.tilt_to(0.5)
+    carries = sim.contacts.force[:, 0] > 0
+    assert sim.contacts.force[carries, 0].min() > 1e-9 * sim.grains.mass.mean() * 9.81
+    assert len(sim.contacts["mobilisation"]) == carries.sum() < len(sim.contacts)
+    free = np.arange(len(sim.grains)) < sim.grains.free_count
+    degree = loaded(sim.contacts.pair[carries], free)
+    np.testing.assert_array_equal(sim.grains["coordination"][free], degree)
+    assert sim["coordination_number"] == sim["contacts/coordination_number"] == degree.sum() / (degree > 0).sum()
+    sliding = sim.contacts["mobilisation"] > 1 - 1e-6
+    assert sim["critical_fraction"] == sim["contacts/critical_share"] == pytest.approx(sliding.mean())

@@ -2,6 +2,7 @@
 export."""
 
 import csv
+import json
 import re
 
 import numpy as np
@@ -101,3 +102,32 @@ def test_export_is_read_back_as_a_bed(near_end, tmp_path):
     (tmp_path / "bed.csv").write_text("\n".join(rows))
     (tmp_path / "bed.toml").write_text(BED.format(length=length, table=tmp_path / "bed.csv"))
     run_talus("run", tmp_path / "bed.toml", "-o", tmp_path / "again.h5")
+
+
+@pytest.fixture(scope="module")
+def rolling_disk(tmp_path_factory):
+    """Returns a run of one disk that rolls down a smooth floor at 5 deg, several periods between two frames."""
+    folder = tmp_path_factory.mktemp("disk")
+    (folder / "one.csv").write_text("x,y,radius\n5,0.5,0.5\n")
+    (folder / "disk.toml").write_text(BED.format(length=10, table="one.csv").replace("0.001", "5"))
+    run_talus("run", "disk.toml", "-o", "disk.h5", folder=folder)
+    run_talus("analyze", "disk.h5", folder=folder)
+    return folder / "disk.h5"
+
+
+def test_a_disk_that_rolls_round_the_bed_releases_the_work_of_gravity(rolling_disk):
+    with talus.open(rolling_disk) as run:
+        disk = [frame.unwrapped[0] for frame in run.frames]
+        steps = np.diff(disk, axis=0)
+        assert np.abs(steps[:, 0]).max() > 2 * run.length, "nothing was tested"
+        tilt = 0.5 * (run.tilt[1:] + run.tilt[:-1])
+        work = run.mass[0] * run.gravity * (np.sin(tilt) * steps[:, 0] - np.cos(tilt) * steps[:, 1])
+        energy = run.analysis["events/energy"]
+        begin = np.searchsorted(run.tilt, run.analysis["events/frame_tilt"][-1, 0])
+        assert energy[-1] == pytest.approx(work[begin:].sum(), rel=1e-4)
+        assert energy[-1] > 0.2, "J/m"
+        assert run.analysis["events/grains"][-1] == 1
+        moved = np.hypot(*(np.array(disk) - disk[0]).T) / run.D
+    for distance in (5, 20, 50, 200):
+        (found,) = json.loads(run_talus("events", rolling_disk, "--displacement", distance, "--json"))
+        assert [grain["frame"] for grain in found["grains"]] == [np.argmax(moved >= distance)]

@@ -66,7 +66,7 @@ double mobilisation_of(const BedFrame& bed, Index c) {
 void measure_coordination(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
   const std::vector<Index> degree =
-      stress::loaded_contacts(contacts.a, contacts.b, contacts.fn, bed.statics.free_count);
+      stress::contacts_of_grains(contacts.a, contacts.b, bed.statics.free_count);
   const Index ends = std::accumulate(degree.begin(), degree.end(), Index{0});
   const Backbone backbone = find_backbone(bed, degree);
   Index backbone_ends = 0, in_backbone = 0;

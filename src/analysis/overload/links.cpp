@@ -11,8 +11,7 @@ std::vector<Link> force_links(const BedFrame& bed) {
   const FrameContacts& contacts = bed.frame.contacts;
   std::vector<Link> links;
   for (Index c = 0; c < contacts.count(); ++c)
-    if (contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count &&
-        contacts.fn[c] > 0.0)
+    if (contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count)
       links.push_back({contacts.a[c], contacts.b[c], contacts.shift[c]});
   return links;
 }

@@ -30,6 +30,7 @@ FrameContacts frame_contacts(Random& random, std::size_t count) {
     c.status.push_back(static_cast<ContactStatus>(i % 3));
   }
   for (auto* field : {&c.nx, &c.ny, &c.px, &c.py, &c.fn, &c.ft}) *field = numbers(random, count, -1.0, 1.0);
+  for (double& fn : c.fn) fn = 0.5 + std::abs(fn);
   return c;
 }
 

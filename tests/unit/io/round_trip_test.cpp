@@ -63,6 +63,7 @@ void expect_positions(const Frame& read, const Frame& whole) {
   EXPECT_EQ(read.tilt, whole.tilt);
   EXPECT_EQ(read.x, whole.x);
   EXPECT_EQ(read.y, whole.y);
+  EXPECT_EQ(read.image, whole.image);
   EXPECT_TRUE(read.gamma.empty() && read.contacts.a.empty()) << "more was read than requested";
 }
 
@@ -173,6 +174,29 @@ TEST(RoundTrip, of_a_packed_file) {
   EXPECT_TRUE(run.complete());
   expect_example_run(run);
   EXPECT_FALSE(std::filesystem::exists(folder.path("run.h5.run")));
+}
+
+TEST(RoundTrip, of_a_frame_with_contacts_that_carry_no_force_leaves_them_out) {
+  const example::TemporaryFolder folder;
+  const RunHeader header = example::header();
+  double weight = 0.0;  // mean of the free grains
+  for (Index i = 0; i < header.statics.free_count; ++i)
+    weight += header.statics.mass[i] * header.statics.gravity / header.statics.free_count;
+  Segment segment = example::segment(1);
+  ASSERT_EQ(segment.frames.front().contacts.count(), 3) << "of the grains 0 and 3, 1 and 4, 2 and 5";
+  segment.frames.front().contacts.fn = {1.01e-9 * weight, 0.99e-9 * weight, 0.0};
+  RunStore store = RunStore::create(folder.path("run.h5"), header, false);
+  store.commit(segment, example::checkpoint(0));
+  store.pack();
+  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const Frame frame = run.frame(0), stored = run.stored_frame(0);
+  EXPECT_EQ(frame.contacts.a, std::vector<Index>{0});
+  EXPECT_EQ(frame.contacts.b, std::vector<Index>{3});
+  expect_rounded(frame.contacts.px, {segment.frames.front().contacts.px[0]}, "px");
+  for (const std::size_t i : {0u, 3u}) EXPECT_EQ(frame.gamma[i], stored.gamma[i]);
+  for (const std::size_t i : {1u, 2u, 4u, 5u}) EXPECT_TRUE(std::isnan(frame.gamma[i])) << i;
+  expect_same_contacts(stored.contacts, segment.frames.front().contacts);
+  EXPECT_TRUE(run.is_as_written(stored, 0));
 }
 
 /// Returns frames and rows of observables, one of each at each of these tilts.

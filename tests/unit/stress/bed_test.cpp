@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "core/trigonometry.h"
 #include "unit/stress/beds.h"
@@ -39,19 +40,13 @@ TEST(ContactStatus, sliding_is_judged_within_the_tolerance) {
   EXPECT_EQ(contact_status(2.0, 0.95, 0.5, 0.03), ContactStatus::sliding);
 }
 
-// Grains 0, 1, 2 are free, 3 is a rattler, 4 is glued, 5 is a plane. Ends with force at free grains: 0-1 has
-// two, 1-4 and 2-5 have one each; 0-2 carries nothing.
-TEST(CoordinationNumber, counts_each_force_for_each_free_grain_it_touches) {
-  World world = empty_bed(10.0, true);
-  for (int k = 0; k < 4; ++k) add_grain(world, k, 1.0);
-  add_grain(world, 1.0, 0.0, r, true);
-  Contacts contacts;
-  contacts.resize(4);
-  contacts.a = {0, 0, 1, 2};
-  contacts.b = {1, 2, 4, 5};
-  contacts.fn = {1.0, 0.0, 2.0, 3.0};
-  EXPECT_DOUBLE_EQ(coordination_number(world.grains, contacts), 4.0 / 3.0);
-  EXPECT_EQ(coordination_number(world.grains, {}), 0.0);
+// Grains 0, 1, 2 are free, 3 is a rattler, 4 is glued, 5 is a plane. Ends at free grains: 0-1 has two, 1-4
+// and 2-5 have one each.
+TEST(CoordinationNumber, counts_each_contact_for_each_free_grain_it_touches) {
+  const std::vector<Index> a = {0, 1, 2}, b = {1, 4, 5};
+  EXPECT_EQ(contacts_of_grains(a, b, 4), (std::vector<Index>{1, 2, 1, 0}));
+  EXPECT_DOUBLE_EQ(coordination_number(contacts_of_grains(a, b, 4)), 4.0 / 3.0);
+  EXPECT_EQ(coordination_number(contacts_of_grains({}, {}, 4)), 0.0);
 }
 
 }  // namespace

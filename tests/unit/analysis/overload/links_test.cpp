@@ -22,11 +22,9 @@ TEST(ForceLinks, join_free_grains_that_press_on_each_other) {
   Packing packing = test::empty_packing(10.0, true);
   const Index a = test::add_grain(packing, 0.25, 0.5);
   const Index b = test::add_grain(packing, 9.25, 0.5);
-  const Index c = test::add_grain(packing, 8.25, 0.5);
   const Index floor = test::add_floor_grain(packing, 0.25, -0.5);
   test::add_contact(packing, a, b, 1.0, 0.0, -1);
   test::add_contact(packing, a, floor, 1.0);
-  test::add_contact(packing, b, c, 0.0);
   const std::vector<Link> links = force_links(packing);
   ASSERT_EQ(links.size(), 1u);
   EXPECT_EQ(links[0].a, a);
