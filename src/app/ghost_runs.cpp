@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "ensemble/averages_reader.h"
 #include "io/run_file.h"
+#include "session/run_identity.h"
 #include "view/frame_values.h"
 
 namespace talus::app {
@@ -43,6 +44,20 @@ view::GhostRun ghost_of(const runs::RunView& run) {
   return ghost;
 }
 
+/// Throws if something was done to one of the runs that was not done to the others, which have no mean then.
+void refuse_other_departures(const std::vector<runs::RunView>& runs) {
+  const auto departures = [](const runs::RunView& run) {
+    return run.file ? session::departures(*run.file, run.scenario) : std::vector<std::string>();
+  };
+  for (const runs::RunView& run : runs)
+    if (const auto here = departures(run), first = departures(runs.front()); here != first)
+      throw Error(
+          ExitCode::bad_data,
+          fmt::format("{} and {} are not runs of one kind: {} was done to only one of them; give one, or "
+                      "runs of one ensemble",
+                      runs.front().path, run.path, session::departures_text(here.empty() ? first : here)));
+}
+
 std::string name_of(const std::string& path) {
   const fs::path given = fs::path(path).lexically_normal();
   const std::string last = given.filename().string();
@@ -56,9 +71,10 @@ view::Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis mi
   if (missing == MissingAnalysis::refused)
     for (const std::string& path : paths) refuse_unanalysed(path);
   view::Ghost ghost;
-  for (const runs::RunView& run :
-       read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs)
-    ghost.runs.push_back(ghost_of(run));
+  const std::vector<runs::RunView> runs =
+      read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs;
+  refuse_other_departures(runs);
+  for (const runs::RunView& run : runs) ghost.runs.push_back(ghost_of(run));
   ghost.name = name_of(paths.front());
   if (paths.size() > 1) ghost.name += fmt::format(" and {} more", paths.size() - 1);
   return ghost;
