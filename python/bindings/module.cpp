@@ -280,8 +280,10 @@ void bind_stepping(py::class_<Driven, Holder>& type) {
   steps("_finish", &Simulation::finish);
   steps("_tilt_to", &Simulation::tilt_to);
   steps("_tilt_by", &Simulation::tilt_by);
-  steps("_run", &Simulation::run);
   steps("_step", &Simulation::step);
+  type.def("_steps_in", [](Driven& driven, double seconds) {
+    return driven.use([&](Simulation& simulation) { return simulation.steps_in(seconds); });
+  });
 }
 
 void bind_commands(py::class_<Driven, Holder>& type) {
@@ -314,6 +316,8 @@ void bind_state(py::class_<Driven, Holder>& type) {
   type.def_property_readonly("tilt", [](const Driven& driven) { return driven.seen().tilt(); });
   type.def_property_readonly("_tilt_rate", [](const Driven& driven) { return driven.seen().tilt_rate(); });
   type.def_property_readonly("_friction", [](const Driven& driven) { return driven.seen().friction(); });
+  type.def_property_readonly(
+      "_time_step", [](const Driven& driven) { return scenario::time_step(driven.seen().scenario()); });
   type.def_property_readonly("time", [](const Driven& driven) { return driven.seen().world().time; });
   type.def_property_readonly("step_count", [](const Driven& driven) { return driven.seen().world().step; });
   type.def_property_readonly("phase", [](const Driven& driven) { return name_of(driven.seen().phase()); });

@@ -196,23 +196,25 @@ class Run:
 
     @cached_property
     def frames_of_tilt(self) -> int:
-        """Number of frames up to the first occurrence of the largest tilt, or, with a programme of the tilt
-        (tilt.program), up to its last step. These are the frames of the analysis; later ones belong to the flow after
-        failure (tilt.after_failure)."""
-        if not len(self.tilt):
-            return 0
-        if (last := self._last_tilt_step) is not None:
-            return int(np.searchsorted(self.storage.read("frames/step"), last, side="right"))
-        return int(np.argmax(self.tilt)) + 1
+        """Number of frames up to the last step of the tilt, whatever its course. These are the frames of the analysis;
+        later ones, if any, belong to the flow after failure (tilt.after_failure). The first frame always counts."""
+        steps = self.storage.read("frames/step")
+        return max(min(1, len(steps)), int(np.searchsorted(steps, self._last_tilt_step, side="right")))
 
     @cached_property
-    def _last_tilt_step(self) -> int | None:
-        """Step number at the end of the tilt; None for a run without a programme."""
-        return int(self.storage.read("checkpoint/integers/last_tilt_step")) if self.has_program else None
+    def _last_tilt_step(self) -> int:
+        """Step number before the flow after failure, whose steps are the last of the run; if it has none, 2^62."""
+        if self.storage.has("checkpoint/step"):
+            last = int(self.storage.read("checkpoint/step"))
+            names = self.storage.names("checkpoint/integers")
+            flow = int(self.storage.read("checkpoint/integers/flow_steps")) if "flow_steps" in names else 0
+            return last - flow if 0 < flow <= last else 2**62
+        flow_steps = self.steps["step"][self.steps["phase"] == 3]  # a repaired run that has lost its last state
+        return int(flow_steps[0]) - 1 if len(flow_steps) else 2**62
 
     @cached_property
     def has_program(self) -> bool:
-        """Whether the tilt follows a programme, in which it may fall, be held, and change sign."""
+        """Whether the scenario has a programme (tilt.program), in which the tilt may fall, be held, and change sign."""
         return "last_tilt_step" in self.storage.names("checkpoint/integers")
 
     @cached_property
@@ -365,6 +367,9 @@ class Run:
             raise Error(f"{self.path}: its analysis has version {version}, this package reads version {ANALYSIS}; repeat "
                         f"it with: talus analyze {self.path}")
         rows = len(self["analysis/packing/volume"])
+        if rows < self.frames_of_tilt and rows == int(np.argmax(self.tilt)) + 1:
+            raise Error(f"{self.path}: its analysis, of an earlier version, ends with the first highest tilt; repeat it "
+                        f"with: talus analyze {self.path}")
         if rows != self.frames_of_tilt:
             raise refuse(self.path, "analysis", f"has rows for {rows} frames, the tilt has {self.frames_of_tilt}")
         return Table(self, "analysis")

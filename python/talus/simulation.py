@@ -50,18 +50,10 @@ def _number(value: Any, what: str) -> float:
     raise WrongType(f"{what} = {short(value)}: expected a number")
 
 
-def _seconds(value: Any, what: str) -> float:
-    """Returns a time. Raises WrongType for other values."""
-    seconds = _number(value, what)
-    if np.isnan(seconds):
-        raise WrongType(f"{what} = {short(value)}: expected a number of seconds")
-    return seconds
-
-
 def _whole(value: Any, what: str) -> int:
-    """Returns a whole number, at most 2^62. Raises WrongType for other values."""
+    """Returns a whole number, at most 2^62 in magnitude. Raises WrongType for other values."""
     try:
-        return max(-1, min(operator.index(value), 2**62))
+        return max(-(2**62), min(operator.index(value), 2**62))
     except Exception:
         raise WrongType(f"{what} = {short(value)}: expected a whole number") from None
 
@@ -304,30 +296,32 @@ class Simulation:
         self._steps(self._core._deposit)
 
     def tilt_to(self, angle: float) -> None:
-        """Steps until the tilt is at least `angle` (deg), or the run is over."""
+        """Steps until the tilt passes `angle` (deg) from either side, or the run is over. If the tilt leads away from
+        the angle, it is turned first: `tilt_rate` changes its sign, which is a recorded command. A programme
+        (tilt.program) is followed. Raises Error if the tilt never gets there: it is held, or its programme does not."""
         self._steps(self._core._tilt_to, _number(angle, "tilt_to: angle"))
 
     def tilt_by(self, angle: float) -> None:
-        """Steps until the tilt has grown by `angle` (deg), or the run is over."""
+        """Steps until the tilt has grown by `angle` (deg), or fallen if it is negative, like tilt_to."""
         self._steps(self._core._tilt_by, _number(angle, "tilt_by: angle"))
 
     def run(self, seconds: float | None = None, *, until: Callable[[], bool] | None = None, every: float | None = None) -> None:
         """Steps for `seconds` of simulated time, or by default to the end of the run, but not beyond the moment at
         which `until()` is true. `until()` is called before the first step and every `every` seconds of simulated time,
-        by default after each step."""
+        by default after each step. Times are rounded to steps, and the rest is carried over to the next call. Raises
+        Error for a time below 0 or below half a step."""
+        count = None if seconds is None else self._core._steps_in(_number(seconds, "run: seconds"))
         if until is None:
-            if seconds is None:
-                self._steps(self._core._finish)
-            else:
-                self._steps(self._core._run, _number(seconds, "run: seconds"))
+            self._steps(self._core._finish) if count is None else self._steps(self._core._step, count)
             return
-        end = np.inf if seconds is None else self.time + _seconds(seconds, "run: seconds")
-        pause = 0.0 if every is None else _seconds(every, "run: every")
-        while not until() and not self.done and self.time < end * (1 - 1e-12):
-            begin = self.time
-            self._steps(self._core._step, 1)  # at least one step, even if `every` is shorter
-            if pause > 0 and not self.done:
-                self._steps(self._core._run, min(begin + pause, end) - self.time)
+        pause = 0.0 if every is None else _number(every, "run: every") / self._core._time_step
+        if not 0 <= pause < np.inf:
+            raise WrongValue(f"run: every = {short(every)}: expected 0 s or more")
+        due: float = self.step_count
+        last = 2**62 if count is None else self.step_count + count
+        while not until() and not self.done and self.step_count < last:
+            due = max(due + pause, self.step_count + 1)  # at least one step, even if `every` is shorter
+            self._steps(self._core._step, min(round(due), last) - self.step_count)
 
     # Commands.
 
@@ -381,7 +375,8 @@ class Simulation:
 
     @property
     def tilt_rate(self) -> float:
-        """Rate of the tilt, deg/s; setting it is a command, and 0 holds the tilt."""
+        """Rate of the tilt, deg/s, negative if it falls. Setting it is a command, which also ends a programme; 0 holds
+        the tilt."""
         return self._core._tilt_rate
 
     @tilt_rate.setter

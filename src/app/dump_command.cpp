@@ -11,6 +11,7 @@
 #include "app/output_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "problems/problem_file.h"
@@ -26,7 +27,7 @@ struct DumpArguments {
 };
 
 std::string step_text(const problems::StepProblem& step, std::int64_t number) {
-  return fmt::format("step {} at {:.3f} deg", number, degrees(step.scales.tilt));
+  return fmt::format("step {} at {} deg", number, degrees_text(step.scales.tilt, 3));
 }
 
 void dump(const DumpArguments& arguments) {

@@ -88,7 +88,7 @@ std::vector<std::size_t> shown_events(const std::vector<analysis::EventRecord>& 
 
 std::string events_heading(const runs::RunView& run) {
   const analysis::Analysis& analysis = run.analysis;
-  const auto tilt = [](double angle) { return fmt::format("{:.2f} deg", degrees(angle)); };
+  const auto tilt = [](double angle) { return degrees_text(angle, 2) + " deg"; };
   const std::size_t count = analysis.events.size();
   return fmt::format(
       "{}  ({})\n{} event{} up to {}; {}\n", run.path, run.kept, count, count == 1 ? "" : "s",

@@ -11,6 +11,7 @@
 #include "app/json.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "base/text_table.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
@@ -122,8 +123,9 @@ std::string spreads_text(const problems::FrameForces& forces) {
 }
 
 void print_frame(const problems::FrameForces& forces, std::size_t k, const problems::ForceSearch& search) {
-  print("frame %zu at %.3f deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n", k,
-        degrees(forces.tilt), forces.contacts, forces.admissible(), search.solutions, search.tolerance);
+  print("frame %zu at %s deg, %d contacts: %d of %d other sets of forces are admissible (eta %.1e)\n", k,
+        degrees_text(forces.tilt, 3).c_str(), forces.contacts, forces.admissible(), search.solutions,
+        search.tolerance);
   print_text(fmt::format("{}\n{}", sets_text(forces), spreads_text(forces)));
 }
 

@@ -14,6 +14,7 @@
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "scenario/scenario.h"
@@ -39,7 +40,7 @@ struct RunInfo {
   bool has_frames = true;       ///< false: only times and tilts of the frames are kept
   double tilt_first = none;     ///< rad, tilt of the first frame
   double tilt_last = none;
-  bool has_program = false;
+  std::string course;  ///< of a tilt that does not only grow: "by a programme" or "by commands"
   double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
   double tilt = 0.0;                               ///< rad, tilt of the last state
   std::size_t steps = 0;
@@ -125,7 +126,7 @@ RunInfo read_info(const std::string& path) {
     info.tilt_lowest = std::ranges::min(run.frame_tilts());
     info.tilt_highest = std::ranges::max(run.frame_tilts());
   }
-  info.has_program = run.has_program();
+  if (run.goes_by_time()) info.course = run.has_program() ? "by a programme" : "by commands";
   info.tilt = run.checkpoint().world.tilt;
   count_steps(run.steps(), info);
   info.commands = session::given_commands(run.commands());
@@ -201,14 +202,14 @@ void print_json(const RunInfo& info) {
 /// Prints a line; `value` may come from the file.
 void print_line(const char* name, const std::string& value) { print("%-20s%s\n", name, value.c_str()); }
 
-std::string in_degrees(double angle) { return fmt::format("{:.3f} deg", degrees(angle)); }
+std::string in_degrees(double angle) { return degrees_text(angle, 3) + " deg"; }
 
 std::string short_number(double value) { return std::isnan(value) ? "none" : fmt::format("{:.4g}", value); }
 
 std::string tilts_text(const RunInfo& info) {
-  if (info.has_program)
-    return fmt::format(", tilt between {} and {} by a programme, last {}", in_degrees(info.tilt_lowest),
-                       in_degrees(info.tilt_highest), in_degrees(info.tilt_last));
+  if (!info.course.empty())
+    return fmt::format(", tilt between {} and {} {}, last {}", in_degrees(info.tilt_lowest),
+                       in_degrees(info.tilt_highest), info.course, in_degrees(info.tilt_last));
   return fmt::format(", tilt {} to {}", in_degrees(info.tilt_first), in_degrees(info.tilt_last));
 }
 

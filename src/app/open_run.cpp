@@ -1,6 +1,7 @@
 #include "app/open_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/core.h>
 
@@ -10,6 +11,7 @@
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/output_file.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
@@ -149,10 +151,10 @@ OpenRun start_branch(const RunRequest& request) {
   require_rate_in_force(request, session);
   settle_friction(request, parent, session, origin.start, text);
   scenario = session.scenario();
-  if (const auto end = scenario.tilt.end_angle; end && degrees(session.world().tilt) >= *end)
+  if (const auto end = scenario.tilt.end_angle; end && std::abs(degrees(session.world().tilt)) >= *end)
     throw Error(ExitCode::bad_data,
-                fmt::format("the branch of {} begins at {:.2f} deg; expected a tilt.end_angle beyond it",
-                            request.branch, degrees(session.world().tilt)));
+                fmt::format("the branch of {} begins at {} deg; expected a tilt.end_angle beyond it",
+                            request.branch, degrees_text(session.world().tilt, 2)));
   session::check_branch_start(origin, scenario, request.branch);
   output_target(request.output, output_of_run(request.branch, request.overwrite));
   io::RunHeader header = session::run_header(

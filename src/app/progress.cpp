@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "app/terminal.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "session/estimate.h"
 
@@ -59,6 +60,7 @@ std::optional<double> share_of(const session::Session& session, RunPace& pace) {
     return static_cast<double>(session.world().step) / *pace.deposition_steps;
   }
   if (session.phase() == session::Phase::flow) return std::nullopt;
+  if (!session.follows_program() && session.tilt_rate() < 0.0) return std::nullopt;
   if (!session.follows_program())
     return degrees(session.world().tilt) / scenario.tilt.end_angle.value_or(session::assumed_repose);
   if (!pace.program_steps) pace.program_steps = static_cast<double>(session::expected_tilt_steps(scenario));
@@ -127,9 +129,10 @@ Progress count_progress(const std::string& label, std::size_t done, std::size_t 
 
 Progress run_progress(const RunDisplay& shown, double elapsed, std::optional<double> remaining) {
   const bool deposition = shown.phase == session::Phase::deposition;
-  Progress progress{deposition                            ? fmt::format("deposition {:.3f} s", shown.time)
-                    : shown.phase == session::Phase::flow ? fmt::format("flow at {:.3f} deg", shown.tilt)
-                                                          : fmt::format("tilt {:.3f} deg", shown.tilt),
+  Progress progress{deposition ? fmt::format("deposition {:.3f} s", shown.time)
+                    : shown.phase == session::Phase::flow
+                        ? fmt::format("flow at {} deg", fixed_text(shown.tilt, 3))
+                        : fmt::format("tilt {} deg", fixed_text(shown.tilt, 3)),
                     shown.share, elapsed, remaining};
   if (shown.repose_assumed && shown.share && *shown.share <= 1.0)
     progress.more.emplace_back(fmt::format("if it fails at {:.0f} deg", *shown.repose_assumed), 6);

@@ -106,22 +106,24 @@ RunRequest request_of(const RunArguments& arguments) {
 }
 
 void print_rest(const session::Session& session) {
-  const double tilt = degrees(session.world().tilt);
+  const std::string tilt = degrees_text(session.world().tilt, 3);
   if (const std::optional<double> theta_r = session.angle_at_rest())
-    print("Its flow stopped at a tilt of %.3f deg: angle at rest theta_r = %.3f deg.\n", tilt,
+    print("Its flow stopped at a tilt of %s deg: angle at rest theta_r = %.3f deg.\n", tilt.c_str(),
           degrees(*theta_r));
   else
-    print("Its flow had not stopped when the run ended, at a tilt of %.3f deg: no angle at rest.\n", tilt);
+    print("Its flow had not stopped when the run ended, at a tilt of %s deg: no angle at rest.\n",
+          tilt.c_str());
 }
 
 /// Warns of commands of the scenario that a complete run did not reach.
 void warn_of_waiting_commands(const session::Session& session) {
   const scenario::Scenario& scenario = session.scenario();
   for (const std::size_t k : session::waiting_commands(scenario, session.schedule()))
-    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended earlier, at %.3f deg\n",
+    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended earlier, at %s deg\n",
                 scenario::command_section(k).c_str(),
                 session::command_text(scenario::command_of(scenario.commands[k])).c_str(),
-                scenario::moment_text(scenario.commands[k]).c_str(), degrees(session.world().tilt));
+                scenario::moment_text(scenario.commands[k]).c_str(),
+                degrees_text(session.world().tilt, 3).c_str());
 }
 
 void print_end(const RunArguments& arguments, const session::Session& session) {
@@ -139,7 +141,7 @@ void print_end(const RunArguments& arguments, const session::Session& session) {
     print("The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
           beyond_repose(*theta_c, session.world().tilt).c_str());
   else
-    print("The slope is stable at %.3f deg.\n", degrees(session.world().tilt));
+    print("The slope is stable at %s deg.\n", degrees_text(session.world().tilt, 3).c_str());
   if (theta_c && session.scenario().tilt.after_failure != scenario::AfterFailure::stop) print_rest(session);
   if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
   print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
@@ -163,11 +165,23 @@ std::optional<pictures::LiveMaps> prepare_maps(const RunArguments& arguments, co
       [](const std::string& failure) { print_error("talus: warning: %s\n", failure.c_str()); });
 }
 
+/// Whether the tilt of a scenario does not only grow.
+bool goes_by_time(const scenario::Scenario& scenario) {
+  return !scenario.tilt.program.empty() ||
+         std::ranges::any_of(scenario.commands, [](const scenario::ScriptedCommand& command) {
+           return command.kind == CommandKind::tilt_rate && command.x <= 0.0;
+         });
+}
+
 void begin_maps(pictures::LiveMaps& maps, const OpenRun& open, const RunArguments& arguments) {
-  const scenario::Scenario::Tilt& tilt = open.session.scenario().tilt;
-  maps.begin(open.header, arguments.output, tilt.step, !tilt.program.empty());
+  const scenario::Scenario& scenario = open.session.scenario();
+  const bool now = open.session.tilt_rate() <= 0.0;
+  std::optional<io::RunFile> file;
   if (io::run_presence(arguments.output) == io::RunPresence::folder)
-    maps.add_frames(io::RunFile::open(arguments.output));
+    file.emplace(io::RunFile::open(arguments.output));
+  maps.begin(open.header, arguments.output, scenario.tilt.step,
+             now || goes_by_time(scenario) || (file && file->goes_by_time()));
+  if (file) maps.add_frames(*file);
 }
 
 /// Reports maps that could not be drawn last, because the run itself is complete.
@@ -188,7 +202,8 @@ void draw_missing_maps(const RunArguments& arguments, const io::RunFile& file,
                        const scenario::Scenario& scenario) {
   std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request_of(arguments), true);
   if (!maps) return;
-  maps->begin(file.header(), arguments.output, scenario.tilt.step, !scenario.tilt.program.empty());
+  maps->begin(file.header(), arguments.output, scenario.tilt.step,
+              goes_by_time(scenario) || file.goes_by_time());
   maps->add_frames(file);
 }
 
@@ -216,7 +231,7 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
     return std::ranges::none_of(
         commands,
         [&](const scenario::ScriptedCommand& later) {  // the tilt is held, so no angle is reached
-          return later.kind == CommandKind::tilt_rate && later.x > 0.0 && later.time &&
+          return later.kind == CommandKind::tilt_rate && later.x != 0.0 && later.time &&
                  (!hold.time || *later.time > *hold.time);
         });
   });
@@ -229,7 +244,7 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
 
 [[noreturn]] void end_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
   throw Error(ExitCode::stopped,
-              fmt::format("stopped at {:.3f} deg{}; talus run --resume {} continues", degrees(world.tilt),
+              fmt::format("stopped at {} deg{}; talus run --resume {} continues", degrees_text(world.tilt, 3),
                           by_signal ? "" : " for --max-wall", arguments.output));
 }
 

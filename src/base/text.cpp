@@ -1,8 +1,20 @@
 #include "base/text.h"
 
+#include <numbers>
+
 #include "base/visible_text.h"
 
 namespace talus {
+
+std::string fixed_text(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  return text.starts_with('-') && text.find_first_of("123456789n") == std::string::npos ? text.substr(1)
+                                                                                        : text;
+}
+
+std::string degrees_text(double angle, int decimals) {
+  return fixed_text(angle * (180.0 / std::numbers::pi), decimals);
+}
 
 std::string xml_text(std::string_view text) {
   std::string result;

@@ -19,6 +19,11 @@ std::string joined(const Items& items, std::string_view between, const TextOf& t
   return text;
 }
 
+/// Returns a number with this many decimals. One that rounds to zero has no sign: "0.00", not "-0.00".
+std::string fixed_text(double value, int decimals);
+/// Returns an angle (rad) in degrees in this form, without a unit.
+std::string degrees_text(double angle, int decimals);
+
 /// Returns a CSV field in quotes (RFC 4180), for texts that may contain commas.
 std::string csv_quoted(const std::string& text);
 

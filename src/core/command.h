@@ -15,7 +15,7 @@ enum class CommandKind : std::int8_t {
   drop = 1,       ///< lifts a number `grain` of grains from the free surface, those farthest from x (m) along
                   ///< the bed, and lets them fall at x from y (m) above the free surface there
   friction = 2,   ///< sets the friction between grains, and between grains and floor, to x
-  tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s; the time step does not change
+  tilt_rate = 3,  ///< sets the rate of the tilt to x, deg/s (< 0: down); the time step stays
   drag = 4,       ///< attaches a spring that pulls the centre of the free grain `grain` to (x, y), m
   release = 5,    ///< ends the drag
 };

@@ -50,7 +50,7 @@ std::span<const FigureRecipe> figure_catalogue() {
       {"dynamic-angle", "Angle at rest against theta_c and theta_d", values, Subject::further,
        "a run with tilt.after_failure whose flow has stopped", dynamic_angle_figure},
       {"cycles", "Cycles of the tilt, and what accumulates over them", frames, Subject::further,
-       "a run with a tilt programme (tilt.program)", cycles_figure},
+       "a run whose tilt falls at least once before failure", cycles_figure},
       {"angle-distributions", "Distribution of theta_c, theta_d and theta_r over the runs", values,
        Subject::further, "at least two runs of an ensemble that have such an angle", angle_distributions},
       {"angle-correlations", "Correlation of theta_c, theta_d and theta_r over the runs", values,

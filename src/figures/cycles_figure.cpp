@@ -111,18 +111,18 @@ Table ends_of_cycles(const RunChoice& runs) {
   return table;
 }
 
-RunChoice runs_with_program(const RunGroup& group) {
+/// Returns the runs whose tilt returns at least once before failure.
+RunChoice runs_with_returns(const RunGroup& group) {
   RunChoice runs = with_files(all_runs(group));
-  std::erase_if(runs, [](const runs::RunView* run) {
-    return !run->file->has_program() || run->analysis.frames.size() < 2;
-  });
+  std::erase_if(runs,
+                [](const runs::RunView* run) { return std::ranges::is_sorted(run->file->frame_tilts()); });
   return runs;
 }
 
 std::string caption_of(const RunGroup& group, const RunChoice& runs) {
   const runs::RunView& first = *runs.front();
   std::string text = fmt::format(
-      "A bed whose tilt follows a programme: {}, seed {}. (a) Tilt over time. Over the tilt, with a "
+      "A bed whose tilt goes up and down: {}, seed {}. (a) Tilt over time. Over the tilt, with a "
       "different colour for each cycle: (b) volume strain since the start of the tilt, (c) coordination "
       "number z, (d) share of the contacts with fully mobilised friction nu, (e) {}, (f) amplitude of the "
       "anisotropy of the contacts. ",
@@ -162,7 +162,7 @@ std::vector<TiltCycle> cycles_of(std::span<const double> tilts) {
 
 std::optional<Figure> cycles_figure(std::span<const RunGroup> groups) {
   for (const RunGroup& group : groups) {
-    const RunChoice runs = runs_with_program(group);
+    const RunChoice runs = runs_with_returns(group);
     if (runs.empty()) continue;
     Figure figure;
     figure.name = "cycles";

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fmt/core.h>
 
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 #include "gui/input.h"
@@ -88,9 +89,9 @@ void next_colours(Gui& gui, ImWchar) {
 void change_reference(Gui& gui, ImWchar) {
   std::optional<double>& since = gui.model.state.since;
   since = since ? std::nullopt : std::optional(gui.model.frame().tilt);
-  show_message(
-      gui, since ? fmt::format("Maps of motion and strain show the change since {:.2f}°.", degrees(*since))
-                 : std::string("Maps of motion and strain show the change per degree of tilt."));
+  show_message(gui, since ? fmt::format("Maps of motion and strain show the change since {}°.",
+                                        degrees_text(*since, 2))
+                          : std::string("Maps of motion and strain show the change per degree of tilt."));
 }
 
 void move_by_key(Gui& gui, ImWchar key) {
@@ -185,7 +186,7 @@ void show_change_since_here(Gui& gui) {
   second_view.shown = true;
   second_view.minus = gui.model.frame().tilt;
   gui.model.state.message =
-      fmt::format("The second view shows the change since {:.2f}°.", degrees(*second_view.minus));
+      fmt::format("The second view shows the change since {}°.", degrees_text(*second_view.minus, 2));
 }
 
 /// All keys in the order of the list. A test compares docs/view.md with it.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "gui/actions.h"
 #include "gui/panels.h"
 
@@ -28,9 +30,9 @@ void draw_action_panel(Gui& gui) {
   if (const auto friction = named_slider_when_done(gui, "friction", "friction μ", status.friction, 0.0, 1.5,
                                                    "%.2f", "between grains, and with the floor"))
     send(gui, {0, CommandKind::friction, -1, *friction, 0.0});
-  if (const auto rate = named_slider_when_done(gui, "tilt rate", "tilt rate", status.tilt_rate, 0.0, 10.0,
-                                               "%.2f°/s", "0 holds the tilt"))
-    send(gui, {0, CommandKind::tilt_rate, -1, *rate, 0.0});
+  if (const auto rate = named_slider_when_done(gui, "tilt rate", "tilt rate", status.tilt_rate, -10.0, 10.0,
+                                               "%.2f°/s", "below 0: downwards; 0 holds the tilt"))
+    send(gui, {0, CommandKind::tilt_rate, -1, std::abs(*rate) < 0.1 ? 0.0 : *rate, 0.0});
   ImGui::Separator();
   ImGui::TextWrapped("To drag a grain on the map, hold ctrl.");
   ImGui::BeginDisabled(status.commands_given == 0);

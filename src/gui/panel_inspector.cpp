@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 
@@ -129,7 +130,7 @@ void draw_frame_values(Gui& gui) {
   ImGui::Separator();
   const double tilt = degrees(gui.model.frame().tilt);
   const double place = *gui.model.plot_marks().shown;
-  fact("θ", fmt::format("{:.3f}°", tilt));
+  fact("θ", fixed_text(tilt, 3) + "°");
   for (const view::Plot& plot : gui.model.plots())
     for (const view::PlotSeries& series : plot.series) {
       if (!series.quantity || series.law) continue;

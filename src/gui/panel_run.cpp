@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 #include "gui/panels.h"
@@ -14,7 +15,7 @@ namespace {
 /// Shows the state of a live run in lines that keep their places while it runs.
 void draw_status(const Palette& colours, const view::LiveStatus& status, bool theta_c_known, double theta_c) {
   fact("phase", status.done ? "ended" : status.depositing ? "deposition" : "tilt");
-  fact("θ", fmt::format("{:.3f}°", degrees(status.tilt)));
+  fact("θ", degrees_text(status.tilt, 3) + "°");
   fact("step", std::to_string(status.step));
   fact("time", fmt::format("{:.3f} s", status.time));
   fact("speed",
@@ -31,7 +32,8 @@ void draw_status(const Palette& colours, const view::LiveStatus& status, bool th
 void draw_branch_origin(Gui& gui) {
   const auto line = gui.model.branch_line();
   if (!line) return;
-  ImGui::TextWrapped("branch at frame %zu, %.2f°", line->frame, degrees(line->tilts[line->frame]));
+  ImGui::TextWrapped("branch at frame %zu, %s°", line->frame,
+                     degrees_text(line->tilts[line->frame], 2).c_str());
   if (named_button(gui, "return to the run", "return to the run",
                    "opens the run from which this branch began")) {
     gui.requests.open_path = line->run;
@@ -52,7 +54,8 @@ void draw_live(Gui& gui, view::LiveRun& live) {
     if (named_button(gui, name, label, "steps: right arrow; with shift 10, with ctrl 100"))
       advance(gui, count);
   }
-  if (named_button(gui, "run to", "Run to", "compute until the tilt is reached, then pause: g"))
+  if (named_button(gui, "run to", "Run to",
+                   "compute until the tilt is reached, from below or from above, then pause: g"))
     run_to_tilt(gui);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(5.0f * gui.em);
@@ -141,7 +144,7 @@ void draw_replay(Gui& gui) {
   if (named_slider(gui, "speed", "speed", speed, 0.1, 20.0, "%.1f°/s", "speed of the replay: < and >", true))
     model.set_speed(speed);
   ImGui::Separator();
-  fact("θ", fmt::format("{:.3f}°", degrees(model.frame().tilt)));
+  fact("θ", degrees_text(model.frame().tilt, 3) + "°");
   const bool failed = model.theta_c_known();
   fact("θ_c", failed ? fmt::format("{:.2f}°", degrees(model.theta_c())) : "–");
   fact("θ_c − θ",

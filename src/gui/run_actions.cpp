@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Returns the reason why a run that has ended does nothing.
 std::string ended_text(const view::ViewModel& model, const view::LiveStatus& status) {
-  return fmt::format("The run has ended, at {:.2f}°; r restarts {}{}.", degrees(status.tilt),
+  return fmt::format("The run has ended, at {}°; r restarts {}{}.", degrees_text(status.tilt, 2),
                      model.branch_line() ? "the branch" : "it",
                      status.commands_given > 0 ? ", U undoes the last command" : "");
 }
@@ -27,8 +28,11 @@ void advance_frames(Gui& gui, int count) {
   model.go_to(static_cast<std::size_t>(to));
 }
 
-/// Returns the next multiple of 5 deg above a tilt (deg), as a target to run to.
-double next_round_tilt(double tilt) { return 5.0 * (std::floor(tilt / 5.0 + 1e-6) + 1.0); }
+/// Returns the next multiple of 5 deg in the direction of the tilt, deg, as a target to run to.
+double next_round_tilt(const view::LiveStatus& status) {
+  const double side = status.tilt_rate < 0.0 ? -1.0 : 1.0;
+  return side * 5.0 * (std::floor(side * degrees(status.tilt) / 5.0 + 1e-6) + 1.0);
+}
 
 }  // namespace
 
@@ -80,9 +84,9 @@ void deposit(Gui& gui) {
   } else {
     model.state.message = status.done ? ended_text(model, status)
                                       : fmt::format(
-                                            "The bed is deposited and tilted by {:.2f}°; space "
+                                            "The bed is deposited and tilted by {}°; space "
                                             "continues, r restarts the run.",
-                                            degrees(status.tilt));
+                                            degrees_text(status.tilt, 2));
   }
 }
 
@@ -94,23 +98,27 @@ void run_to_tilt(Gui& gui) {
   const double tilt = degrees(status.tilt), wanted = model.state.run_to_tilt;
   if (status.done) {
     model.state.message = ended_text(model, status);
-  } else if (tilt >= wanted - 1e-6) {
-    model.state.run_to_tilt = next_round_tilt(tilt);
-    model.state.message =
-        fmt::format("The tilt is already {:.2f}°, beyond {:.2f}°; the target is now {:.2f}°.", tilt, wanted,
-                    model.state.run_to_tilt);
+  } else if (std::abs(tilt - wanted) < 1e-6 && !status.depositing) {
+    model.state.run_to_tilt = next_round_tilt(status);
+    model.state.message = fmt::format("The tilt is already {}°; the target is now {}°.", fixed_text(tilt, 2),
+                                      fixed_text(model.state.run_to_tilt, 2));
   } else {
-    live->run_to(radians(wanted));
-    model.state.message = fmt::format("Computing until the tilt is {:.2f}°.", wanted);
+    try {
+      live->run_to(radians(wanted));
+      model.state.message = fmt::format("Computing until the tilt is {}°.", fixed_text(wanted, 2));
+    } catch (const Error& error) {
+      model.state.message = error.what();
+    }
   }
 }
 
 void offer_tilt_ahead(view::ViewModel& model) {
   if (!model.is_live() || ImGui::IsAnyItemActive()) return;
   const view::LiveStatus status = model.live()->status();
-  const double ahead = model.state.run_to_tilt - degrees(status.tilt);
+  const double ahead =
+      (model.state.run_to_tilt - degrees(status.tilt)) * (status.tilt_rate < 0.0 ? -1.0 : 1.0);
   const bool passed = status.running ? ahead < 1e-6 : std::abs(ahead) < 1e-6;
-  if (passed) model.state.run_to_tilt = next_round_tilt(degrees(status.tilt));
+  if (passed) model.state.run_to_tilt = next_round_tilt(status);
 }
 
 void send(Gui& gui, const Command& command) {
@@ -188,10 +196,12 @@ void branch_here(Gui& gui) {
   try {
     model.play(false);
     model.branch();
-    model.state.run_to_tilt = std::max(model.state.run_to_tilt, next_round_tilt(degrees(model.frame().tilt)));
+    const view::LiveStatus status = model.live()->status();
+    const double next = next_round_tilt(status);
+    model.state.run_to_tilt = status.tilt_rate < 0.0 ? next : std::max(model.state.run_to_tilt, next);
     model.state.message = fmt::format(
-        "A branch begins at {:.2f}°: push, drop or drag grains (ctrl), change friction or tilt, and play.",
-        degrees(model.frame().tilt));
+        "A branch begins at {}°: push, drop or drag grains (ctrl), change friction or tilt, and play.",
+        degrees_text(model.frame().tilt, 2));
   } catch (const Error& error) {
     model.state.message = error.what();
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/panels.h"
 #include "pictures/texts.h"
@@ -140,11 +141,11 @@ void show_values(const Gui& gui, const Track& track, const std::vector<double>& 
   ImGui::BeginTooltip();
   if (!event_near(gui, track, x)) {
     const std::size_t k = std::min(frame, tilts.size() - 1);
-    rich_text(fmt::format("{}, {:.2f}°", frame_counter(k, tilts.size()), degrees(tilts[k])));
+    rich_text(fmt::format("{}, {}°", frame_counter(k, tilts.size()), degrees_text(tilts[k], 2)));
   }
   for (const view::TimelineEvent& event : gui.model.events())
     if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em) {
-      const std::string text = fmt::format("{:.2f}°: {}", degrees(event.tilt), event.what);
+      const std::string text = fmt::format("{}°: {}", degrees_text(event.tilt, 2), event.what);
       if (event.kind == view::TimelineEvent::Kind::bookmark)
         ImGui::TextUnformatted(text.c_str());
       else
@@ -174,7 +175,7 @@ void draw_bookmark_note(Gui& gui) {
     ImGui::OpenPopup("bookmark note");
   }
   if (!ImGui::BeginPopup("bookmark note")) return;
-  rich_text(fmt::format("Bookmark at {:.2f}°", degrees(model.frame().tilt)));
+  rich_text(fmt::format("Bookmark at {}°", degrees_text(model.frame().tilt, 2)));
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(20.0f * gui.em);
   named_text(gui, "note", "", model.state.bookmark_note, "note on this frame; may be empty");
@@ -230,7 +231,8 @@ std::optional<std::size_t> parent_frame_near(const Track& track, const view::Bra
 bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
   const std::optional<std::size_t> frame = parent_frame_near(track, run);
   if (!frame || !ImGui::IsItemHovered()) return false;
-  ImGui::SetTooltip("%s, %.2f°: a click returns to it", run.run.c_str(), degrees(run.tilts[*frame]));
+  ImGui::SetTooltip("%s, %s°: a click returns to it", run.run.c_str(),
+                    degrees_text(run.tilts[*frame], 2).c_str());
   if (ImGui::IsItemActivated()) {
     gui.requests.open_path = run.run;
     gui.requests.open_frame = frame;
@@ -290,7 +292,7 @@ void draw_time_line(Gui& gui) {
   list.AddRectFilled({begin, track.low.y}, {now, track.high.y}, packed(gui.colours.tint));
   list.AddRect({begin, track.low.y}, {end, track.high.y}, packed(gui.colours.line));
   if (left) draw_left_run(list, track, *left, gui);
-  if (gui.model.has_program())
+  if (gui.model.goes_by_time())
     draw_turns(list, track, tilts, em, packed(gui.colours.ink));
   else if (left)
     draw_angles_of_branch(list, track, *left, tilts, em, packed(gui.colours.ink));

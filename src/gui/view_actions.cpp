@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
 
@@ -56,7 +57,7 @@ void go_to_landmark(Gui& gui, view::Landmark landmark) {
   }
   if (!model.has(landmark)) return show_message(gui, absence_of(model, landmark, is_running));
   model.go_to(landmark);
-  show_message(gui, fmt::format("{}, at {:.2f}°.", name_of(landmark), degrees(model.frame().tilt)));
+  show_message(gui, fmt::format("{}, at {}°.", name_of(landmark), degrees_text(model.frame().tilt, 2)));
 }
 
 void zoom_about(Gui& gui, double factor, double x, double y) {

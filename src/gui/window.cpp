@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
 #include "gui/screen.h"
@@ -223,7 +224,7 @@ void update(WindowState& state, view::ViewModel& model) {
 /// Sets the title, such as "bed.h5, 12.25° – Talus".
 void set_title(WindowState& state, const view::ViewModel& model) {
   const std::string file = std::filesystem::path(model.path()).filename().string();
-  const std::string title = fmt::format("{}, {:.2f}° – Talus", file, degrees(model.frame().tilt));
+  const std::string title = fmt::format("{}, {}° – Talus", file, degrees_text(model.frame().tilt, 2));
   if (title == state.title) return;
   state.title = title;
   glfwSetWindowTitle(state.window.get(), title.c_str());

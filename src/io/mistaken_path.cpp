@@ -7,6 +7,7 @@
 
 #include "base/errors.h"
 #include "base/paths.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "io/seal.h"
@@ -99,9 +100,9 @@ void refuse_no_scenario(const std::string& path) {
   const RunPresence presence = run_presence(run);
   if (presence == RunPresence::folder)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is not a scenario but an incomplete run, now at {:.3f} deg; resume "
+                fmt::format("{} is not a scenario but an incomplete run, now at {} deg; resume "
                             "it with: talus run --resume {}",
-                            path, degrees(RunFile::open(run).checkpoint().world.tilt), run));
+                            path, degrees_text(RunFile::open(run).checkpoint().world.tilt, 3), run));
   if (presence == RunPresence::packed && begins_as_run(run))
     throw Error(ExitCode::bad_data,
                 fmt::format("{} is not a scenario but a complete run; talus info {} shows what it holds, and "

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
+#include <functional>
+#include <limits>
 #include <optional>
 
 #include "base/errors.h"
 #include "io/durable_file.h"
-#include "io/frames_of_tilt.h"
 #include "io/manifest.h"
 #include "io/mistaken_path.h"
 #include "io/run_records.h"
@@ -83,6 +84,10 @@ std::optional<Friction> friction_of_last_step(const Checkpoint& state) {
   return grains && walls ? std::optional(Friction{*grains, *walls}) : std::nullopt;
 }
 
+/// Last step before the flow of a run that has none.
+constexpr std::int64_t no_flow = std::numeric_limits<std::int64_t>::max();
+
+
 }  // namespace
 
 /// An open run. A packed file is one segment that is always open; of a folder, the segment used last is open.
@@ -96,8 +101,8 @@ struct RunFile::State {
   std::vector<Command> commands;
   std::vector<std::int64_t> all_steps;
   bool has_frames = true;
-  std::vector<double> tilts;                   ///< tilts of the frames that belong to the tilt
-  std::optional<std::int64_t> last_tilt_step;  ///< set with a programme
+  std::vector<double> tilts;        ///< tilts of the frames that belong to the tilt
+  std::int64_t last_tilt_step = 0;  ///< frames and rows of later steps belong to the flow
   std::size_t open_segment = 0;
   std::optional<hdf5::Reader> reader;
   bool packed_since =
@@ -214,9 +219,29 @@ struct RunFile::State {
       append(all_steps, from.read<std::int64_t>("/frames/step"));
       append(commands, read_commands(from));
     }
-    last_tilt_step = find_value(checkpoint.integers, last_tilt_step_name);
-    tilts = all_tilts;
-    tilts.resize(frames_of_tilt(all_tilts, all_steps, last_tilt_step));
+    last_tilt_step = checkpoint.world.grains.count() > 0 ? step_before_flow() : step_before_recorded_flow();
+    // A branch that begins in a flow shows its start.
+    if (!all_steps.empty()) last_tilt_step = std::max(last_tilt_step, all_steps.front());
+    const auto count = std::ranges::upper_bound(all_steps, last_tilt_step) - all_steps.begin();
+    tilts.assign(all_tilts.begin(), all_tilts.begin() + count);
+  }
+
+  /// Returns the last step before the flow after failure, whose steps are the last of a run that follows it.
+  std::int64_t step_before_flow() const {
+    const std::int64_t last = checkpoint.world.step;
+    const std::int64_t flow_steps = find_value(checkpoint.integers, flow_steps_name).value_or(0);
+    return flow_steps > 0 && flow_steps <= last ? last - flow_steps : no_flow;
+  }
+
+  /// Returns the same for a repaired run that has lost its last state, from the phases of its steps.
+  std::int64_t step_before_recorded_flow() {
+    constexpr double flow = 3.0;
+    const std::vector<StepRow> steps =
+        rows<StepRow>(read_steps, [](const StepRow&, std::int64_t) { return true; });
+    const auto first =
+        std::ranges::find(steps, flow, [](const StepRow& row) { return at(row, StepField::phase); });
+    if (first == steps.end()) return no_flow;
+    return static_cast<std::int64_t>(at(*first, StepField::step)) - 1;
   }
 };
 
@@ -313,7 +338,13 @@ bool RunFile::complete() const { return state_->folder.empty(); }
 const std::vector<double>& RunFile::frame_tilts() const { return state_->tilts; }
 const std::vector<double>& RunFile::all_frame_tilts() const { return state_->all_tilts; }
 const std::vector<double>& RunFile::all_frame_times() const { return state_->all_times; }
-bool RunFile::has_program() const { return state_->last_tilt_step.has_value(); }
+bool RunFile::has_program() const {
+  return find_value(state_->checkpoint.integers, last_tilt_step_name).has_value();
+}
+bool RunFile::goes_by_time() const {
+  return has_program() ||
+         std::ranges::adjacent_find(frame_tilts(), std::greater_equal()) != frame_tilts().end();
+}
 const Checkpoint& RunFile::checkpoint() const { return state_->checkpoint; }
 
 std::string RunFile::lost() const { return find_value(state_->header.provenance, lost_fact).value_or(""); }
@@ -359,14 +390,7 @@ Frame RunFile::positions(std::size_t k) const { return state_->read(read_positio
 
 std::vector<ObservableRow> RunFile::observables() const {
   std::vector<ObservableRow> rows = all_observables();
-  if (state_->last_tilt_step) {
-    std::erase_if(rows,
-                  [&](const ObservableRow& row) { return !is_known_row(row, *state_->last_tilt_step); });
-    return rows;
-  }
-  const auto highest =
-      std::ranges::max_element(rows, {}, [](const ObservableRow& row) { return at(row, Observable::tilt); });
-  if (highest != rows.end()) rows.erase(std::next(highest), rows.end());
+  std::erase_if(rows, [&](const ObservableRow& row) { return !is_known_row(row, state_->last_tilt_step); });
   return rows;
 }
 

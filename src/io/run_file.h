@@ -32,13 +32,16 @@ class RunFile {
 
   const RunHeader& header() const;
   bool complete() const;  ///< false for the folder of an interrupted or running run
-  /// Whether the tilt followed a programme (tilt.program) and thus may decrease, be held, and change sign.
+  /// Whether the scenario has a programme (tilt.program).
   bool has_program() const;
-  /// Return the frames or rows of the tilt: up to the first one with the highest tilt or, with a programme,
-  /// up to its last step. Those of the flow after failure (tilt.after_failure) follow them; only functions
-  /// with the prefix all_ include these.
+  /// Whether the tilt does not only grow from frame to frame, because of a programme or of commands: then it
+  /// may be held, decrease and change sign, and time, not the tilt, tells the frames apart.
+  bool goes_by_time() const;
+  /// Return the frames or rows of the tilt, whatever its course: those up to its last step. Only if the slope
+  /// has failed and the run follows the flow after failure (tilt.after_failure) are there others, of that
+  /// flow; only functions with the prefix all_ include these. The first frame always belongs to the tilt.
   std::size_t frame_count() const { return frame_tilts().size(); }
-  const std::vector<double>& frame_tilts() const;  ///< rad; ascending without a programme
+  const std::vector<double>& frame_tilts() const;  ///< rad; ascending unless goes_by_time
   std::vector<ObservableRow> observables() const;
 
   const std::vector<double>& all_frame_tilts() const;  ///< rad

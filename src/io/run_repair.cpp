@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "base/paths.h"
+#include "base/text.h"
 #include "base/text_stream.h"
 #include "core/trigonometry.h"
 #include "io/child_process.h"
@@ -208,7 +209,7 @@ class Salvager {
                                   : fmt::format("{}frames {} to {}", prefix_, first, first + count - 1);
     try {
       const double tilt = reader.read<double>("/frames/tilt", {}, hdf5::Rows{first, 1})[0];
-      line += fmt::format(", {} {:.3f} deg", count == 1 ? "at" : "from", degrees(tilt));
+      line += fmt::format(", {} {} deg", count == 1 ? "at" : "from", degrees_text(tilt, 3));
     } catch (const Error&) {  // the tilt is lost too
     }
     salvage_.lost.push_back(line);

@@ -52,8 +52,8 @@ std::vector<DataSetField> frame_fields() {
       {"/frames/time", float64, "T", "s",
        "simulated time; also linked as `time` next to each `value` of /particles/grains"},
       {"/frames/tilt", float64, "T", "rad",
-       "angle of the bed to the horizontal, theta; ascending up to failure, what comes after the first "
-       "highest value is the flow that follows it; with a programme see checkpoint/integers/last_tilt_step"},
+       "angle of the bed to the horizontal, theta; the last checkpoint/integers/flow_steps steps, if any, are the "
+       "flow that follows failure"},
       {"/particles/grains/position/value", float32, "T N 2", "m",
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
        "a periodic bed; y away from the floor"},
@@ -96,7 +96,7 @@ std::vector<DataSetField> command_fields() {
        "else of no meaning"},
       {"/commands/x", float64, "K", "by kind",
        "push: velocity added along the bed, m/s; drop: where along the bed, m; friction: the coefficient "
-       "between grains, and between grains and floor, from then on; tilt rate: deg/s, as in the scenario, "
+       "between grains, and between grains and floor, from then on; tilt rate: deg/s, below 0: downwards, "
        "from then on; drag: where along the bed the spring is held from then on, m"},
       {"/commands/y", float64, "K", "by kind",
        "push: velocity added away from the floor, m/s; drop: height above the free surface, m; drag: where "

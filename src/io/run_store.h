@@ -63,6 +63,7 @@ struct Segment {
 /// The integer that a run with a programme of the tilt has: the number of steps when the last step of the
 /// tilt was taken. The tilt need not be highest there.
 inline constexpr const char* last_tilt_step_name = "last_tilt_step";
+inline constexpr const char* flow_steps_name = "flow_steps";
 
 /// Values from an analysis with other parameters than the stored one: a row for each threshold, a column for
 /// each quantity.

@@ -149,7 +149,7 @@ MeasuredFrame measured_frame(const std::string& path, std::size_t k,
   const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
   if (std::isfinite(theta_c)) input.theta_c = theta_c;
   input.begin = run.frame(0);
-  for (const ObservableRow& row : run.observables())
+  for (const ObservableRow& row : run.all_observables())
     if (at(row, Observable::time) <= run.all_frame_times()[k]) input.row = row;
   return MeasuredFrame(std::move(input));
 }

@@ -11,6 +11,7 @@
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "library/simulation_state.h"
@@ -18,27 +19,16 @@
 #include "runs/run_view.h"
 #include "session/estimate.h"
 #include "session/measure.h"
+#include "session/tilt_goal.h"
 
 namespace talus {
 namespace {
 
-constexpr double reached_within = 1e-9;  // tolerance, rad; a tilt is a sum of steps, up to rounding
 constexpr std::chrono::milliseconds interrupt_interval(50);
 
 void require_finite(double value, const char* what) {
   if (!std::isfinite(value))
     throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
-}
-
-/// Whether a command holds the tilt, and no command of the scenario will change its rate at a later time.
-bool is_held(const session::Session& session) {
-  if (session.phase() != session::Phase::tilt || !session.schedule().course || session.tilt_rate() > 0.0)
-    return false;
-  return std::ranges::none_of(
-      session::waiting_commands(session.scenario(), session.schedule()), [&](std::size_t k) {
-        const scenario::ScriptedCommand& command = session.scenario().commands[k];
-        return command.time && command.kind == CommandKind::tilt_rate && command.x > 0.0;
-      });
 }
 
 }  // namespace
@@ -123,6 +113,7 @@ Simulation::Simulation(const Simulation& other)
   state_->parameters = other.state_->parameters;
   state_->begin = other.state_->begin;
   state_->is_new = other.state_->is_new;
+  state_->owed_steps = other.state_->owed_steps;
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -146,8 +137,8 @@ bool Simulation::advance_until(const std::function<bool(const session::Session&)
   State& state = *state_;
   state.require_own();
   if (done())
-    throw Error(ExitCode::usage,
-                fmt::format("the run is over, at a tilt of {:.3f} deg: it has no further step", tilt()));
+    throw Error(ExitCode::usage, fmt::format("the run is over, at a tilt of {} deg: it has no further step",
+                                             fixed_text(tilt(), 3)));
   auto asked = std::chrono::steady_clock::now();
   while (!done() && !reached(state.session)) {
     state.advance();
@@ -174,25 +165,39 @@ bool Simulation::deposit() {
 
 bool Simulation::tilt_to(double degrees) {
   require_finite(degrees, "a tilt of");
-  const double goal = radians(degrees) - reached_within;
-  return advance_until([goal](const session::Session& session) {
-    if (session.world().tilt >= goal) return true;
-    if (is_held(session))
-      throw Error(ExitCode::usage, "the tilt is held or lowered (tilt_rate) and never reaches this angle");
+  if (!deposit()) return false;
+  const session::TiltGoal goal = session::tilt_goal(radians(degrees), state_->session);
+  if (const std::optional<Command> turn = session::turning_command(goal, state_->session)) apply(*turn);
+  session::require_reachable(goal, state_->session);
+  return advance_until([&goal](const session::Session& session) {
+    if (is_passed(goal, session)) return true;
+    // A failure ends the run, at once or after its flow; a programme was checked as a whole.
+    if (session.phase() == session::Phase::tilt && !session.follows_program())
+      require_reachable(goal, session);
     return false;
   });
 }
 
 bool Simulation::tilt_by(double degrees) {
   require_finite(degrees, "a tilt by");
-  return tilt_to(tilt() + degrees);
+  return deposit() && tilt_to(tilt() + degrees);
 }
 
-bool Simulation::run(double seconds) {
-  require_finite(seconds, "a time of");
-  const double end = world().time + seconds, half = 0.5 * scenario::time_step(scenario());
-  return advance_until([=](const session::Session& session) { return session.world().time >= end - half; });
+std::int64_t Simulation::steps_in(double seconds) {
+  constexpr double most = 1e15;
+  const double h = scenario::time_step(scenario()), owed = state_->owed_steps + seconds / h;
+  if (!(seconds >= 0.0 && std::isfinite(seconds)))
+    throw Error(ExitCode::usage, fmt::format("a time of {} s: expected 0 s or more", seconds));
+  const double steps = std::round(std::min(owed, most));
+  if (steps < 1.0 && seconds < 0.5 * h)
+    throw Error(ExitCode::usage,
+                fmt::format("a time of {:g} s takes no step: expected at least half a step, {:g} s", seconds,
+                            0.5 * h));
+  state_->owed_steps = owed < most ? owed - steps : 0.0;
+  return static_cast<std::int64_t>(steps);
 }
+
+bool Simulation::run(double seconds) { return step(steps_in(seconds)); }
 
 bool Simulation::run_until(const std::function<bool()>& holds) {
   return advance_until([&holds](const session::Session&) { return holds(); });

@@ -46,17 +46,23 @@ class Simulation {
   ~Simulation();
 
   // The following functions step until the goal is reached or the run is over (done), and return false if
-  // they were interrupted before. They throw Error(usage) if the run was over already or if the tilt is held
-  // and never reaches the goal, and Error(bad_data) if the bed does not come to rest or a guard is broken
-  // (Session::advance); steps computed before the error are kept. Functions that depend on the tilt first
-  // complete the deposition.
+  // they were interrupted before. They throw Error(usage) if the run was over already, if the course of the
+  // tilt never reaches the goal (session::require_reachable), or for a time below 0, and Error(bad_data) if
+  // the bed does not come to rest or a guard is broken (Session::advance); steps computed before the error
+  // are kept. Functions that depend on the tilt first complete the deposition.
 
   /// Takes `count` steps.
   bool step(std::int64_t count = 1);
-  bool deposit();                                      ///< until the bed is at rest and the tilt begins
-  bool tilt_to(double degrees);                        ///< until the tilt is at least this
-  bool tilt_by(double degrees);                        ///< until the tilt has increased by this
-  bool run(double seconds);                            ///< for a duration of simulated time
+  bool deposit();  ///< until the bed is at rest and the tilt begins
+  /// Steps until the tilt passes this angle, from below or from above. A tilt that leads away from the angle
+  /// is turned first, by a command that sets its rate with the other sign; a programme is followed.
+  bool tilt_to(double degrees);
+  bool tilt_by(double degrees);  ///< tilt_to, relative to the present tilt
+  /// Steps for a duration of simulated time, steps_in(seconds).
+  bool run(double seconds);
+  /// Returns the number of steps in a duration. The rest, at most half a step, is carried over to the next
+  /// call. Throws Error(usage) for less than half a step, unless what was carried over completes one.
+  std::int64_t steps_in(double seconds);
   bool run_until(const std::function<bool()>& holds);  ///< evaluated after each step
   bool finish();                                       ///< until the end of the run; a held tilt has none
 
@@ -79,7 +85,7 @@ class Simulation {
   void release();
   /// Sets the coefficient of friction between grains.
   void set_friction(double friction);
-  void set_tilt_rate(double degrees_per_second);  ///< 0 holds the tilt
+  void set_tilt_rate(double degrees_per_second);  ///< negative: downwards; 0 holds the tilt
 
   // State.
 

@@ -23,6 +23,7 @@ struct Simulation::State {
   std::function<bool()> interrupts;
   analysis::AnalysisParameters parameters;
   bool is_new = true;            ///< neither stepped nor changed
+  double owed_steps = 0.0;       ///< fraction of a step that Simulation::steps_in carries over
   std::optional<Frame> begin{};  ///< frame at the start of the tilt, if the simulation reached it
 
   std::optional<MeasuredFrame> measured{};  ///< measurements of the state after the last step, if requested

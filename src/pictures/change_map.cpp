@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/contacts/contact_changes.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/motion.h"
 
@@ -25,7 +26,7 @@ bool has_numeric_change(MapKind kind) {
 
 /// Returns the part of a title that names both tilts, "12.00° minus 5.00°".
 std::string between(const MapFrame& bed, const Frame& before) {
-  return fmt::format("{:.2f}° minus {:.2f}°", degrees(bed.frame.tilt), degrees(before.tilt));
+  return fmt::format("{}° minus {}°", degrees_text(bed.frame.tilt, 2), degrees_text(before.tilt, 2));
 }
 
 std::string lowercase_first(std::string text) {

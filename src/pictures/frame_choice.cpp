@@ -10,6 +10,7 @@
 #include "analysis/failure/last_rise.h"
 #include "base/errors.h"
 #include "base/nearest_word.h"
+#include "base/text.h"
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
 
@@ -67,9 +68,9 @@ std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& 
   if (!frame)
     throw Error(ExitCode::bad_data,
                 fmt::format("--at {}: the run has no frame there; its {} frames run "
-                            "from {:.2f} to {:.2f} deg, every {:.3g} deg",
-                            entry, tilts.size(), degrees(std::ranges::min(tilts)),
-                            degrees(std::ranges::max(tilts)), degrees(frame_spacing(tilts))));
+                            "from {} to {} deg, every {:.3g} deg",
+                            entry, tilts.size(), degrees_text(std::ranges::min(tilts), 2),
+                            degrees_text(std::ranges::max(tilts), 2), degrees(frame_spacing(tilts))));
   return *frame;
 }
 
@@ -180,7 +181,8 @@ std::size_t frame_at_repose(const std::vector<double>& tilts, double theta_c) {
 }
 
 std::string angle_name(double tilt, int decimals) {
-  return fmt::format("{:0{}.{}f}", degrees(tilt), 4 + decimals, decimals);
+  const bool is_zero = degrees_text(tilt, decimals) == fixed_text(0.0, decimals);
+  return fmt::format("{:0{}.{}f}", is_zero ? 0.0 : degrees(tilt), 4 + decimals, decimals);
 }
 
 int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) {

@@ -67,9 +67,9 @@ LiveMaps::~LiveMaps() {
   tasks_.finish();
 }
 
-void LiveMaps::begin(const io::RunHeader& header, const std::string& path, double step, bool has_program) {
+void LiveMaps::begin(const io::RunHeader& header, const std::string& path, double step, bool goes_by_time) {
   series_.run = header;
-  series_.has_program = has_program;
+  series_.goes_by_time = goes_by_time;
   series_.path = path;
   decimals_ = std::max(2, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
 }

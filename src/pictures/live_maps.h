@@ -31,7 +31,7 @@ class LiveMaps {
 
   /// Sets the run to be drawn. `path` is its file; `step` is its step of tilt, deg, which determines how
   /// names distinguish frames.
-  void begin(const io::RunHeader& header, const std::string& path, double step, bool has_program);
+  void begin(const io::RunHeader& header, const std::string& path, double step, bool goes_by_time);
 
   /// Adds the frames that an earlier process has stored: colours continue from them, and missing pictures are
   /// drawn. Throws Error(cannot_create) if a picture of another run or with other settings has the same name.

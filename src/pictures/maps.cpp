@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/layers.h"
@@ -165,7 +166,7 @@ MapLayer make_layer(const MapFrame& bed, const MapSettings& settings, const MapE
 }
 
 std::string caption_of(const Frame& frame, const MapSettings& settings) {
-  std::string caption = fmt::format("θ = {:.2f}°", degrees(frame.tilt));
+  std::string caption = fmt::format("θ = {}°", degrees_text(frame.tilt, 2));
   if (std::isfinite(settings.theta_c) && settings.theta_c > 0.0) {
     caption += fmt::format(", θ_c = {:.2f}°", degrees(settings.theta_c));
     if (settings.theta_c_assumed) caption += " (assumed)";

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/core.h>
 
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/layers.h"
 #include "pictures/texts.h"
@@ -42,7 +43,7 @@ MotionSpan motion_span(const MapFrame& bed) {
   const bool moved = bed.reference != nullptr && bed.reference->step != bed.frame.step;
   if (bed.per_degree && (tilted > 0.0 || !moved))
     return {true, tilted > 0.0 ? tilted : 1.0, " per degree of tilt", " per degree"};
-  return {false, 1.0, fmt::format(" since {:.2f}°", degrees(begin)), ""};
+  return {false, 1.0, fmt::format(" since {}°", degrees_text(begin, 2)), ""};
 }
 
 void LogHistogram::add(double value) {

@@ -22,14 +22,14 @@ namespace {
 constexpr std::size_t pictures_waiting = 2;
 
 /// Returns "gamma_012.00.png" for frame k of the tilt, and "gamma_flow_002.3500s.png" for one of the flow
-/// after failure, with the time since the last frame of the tilt. A run with a programme, which reaches an
+/// after failure, with the time since the last frame of the tilt. A run that goes by time, and may reach an
 /// angle several times, has "gamma_00042_012.00.png", with the number of the frame. Names sort by time.
 std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t map, int decimals,
                          const std::string& ending) {
   const FrameInstant &instant = series.seen_frames.instants[k],
                      &highest = series.seen_frames.instants[series.seen_frames.highest];
   const std::string name = layers_name(series.plan.maps[map].layers);
-  if (series.has_program) return fmt::format("{}_{:05}_{}.{}", name, k, angle_name(instant.tilt, 2), ending);
+  if (series.goes_by_time) return fmt::format("{}_{:05}_{}.{}", name, k, angle_name(instant.tilt, 2), ending);
   if (k <= series.seen_frames.highest)
     return fmt::format("{}_{}.{}", name, angle_name(instant.tilt, decimals), ending);
   return fmt::format("{}_flow_{:08.4f}s.{}", name, instant.time - highest.time, ending);
@@ -51,7 +51,7 @@ std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice,
                                        const std::string& ending, bool overwrite) {
   fit_to_frames(run, choice);
   const PictureSeries& series = run.series;
-  const int decimals = series.has_program ? 2 : angle_decimals(run.file.frame_tilts(), choice);
+  const int decimals = series.goes_by_time ? 2 : angle_decimals(run.file.frame_tilts(), choice);
   std::vector<PictureFile> files;
   for (const std::size_t k : choice)
     for (std::size_t map = 0; map < series.plan.maps.size(); ++map) {

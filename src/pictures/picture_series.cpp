@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "pictures/motion.h"
@@ -36,15 +37,15 @@ std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std
   const double spacing =
       tilts.size() > 1 ? (highest - lowest) / static_cast<double>(tilts.size() - 1) : radians(1.0);
   if (*since > highest + 0.5 * spacing)
-    throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {:.2f} deg",
-                                                degrees(*since), degrees(highest)));
+    throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {} deg",
+                                                degrees(*since), degrees_text(highest, 2)));
   const std::optional<std::size_t> first = frame_near(tilts, *since);  // the first time at that tilt
   return first ? first : nearest_frame(tilts, *since);
 }
 
 /// Returns the position of a frame or row on the axis of a trace, once the first frame was added.
 double place_of(const PictureSeries& series, double tilt, double time) {
-  return series.has_program ? time - series.seen_frames.instants.front().time : tilt;
+  return series.goes_by_time ? time - series.seen_frames.instants.front().time : tilt;
 }
 
 void add_frames(PictureSeries& series, const io::RunFile& file, const CountDone& progress) {
@@ -92,10 +93,11 @@ MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
   return asked;
 }
 
-/// Adds an instant. Only a run with a programme knows its last frame of the tilt.
+/// Adds an instant. The last frame of the tilt is not known yet; without a flow it is the last one, which in
+/// a run that goes by time makes no difference.
 void add_instant(PictureSeries& series, const Frame& frame) {
   SeenFrames& seen_frames = series.seen_frames;
-  if (seen_frames.instants.empty() || series.has_program ||
+  if (seen_frames.instants.empty() || series.goes_by_time ||
       frame.tilt > seen_frames.instants[seen_frames.highest].tilt)
     seen_frames.highest = seen_frames.instants.size();
   if (seen_frames.instants.empty())
@@ -155,7 +157,7 @@ render::FrameView picture(const PictureSeries& series, std::size_t k, const Fram
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
                                      settings, place_of(series, frame.tilt, frame.time),
-                                     series.has_program ? TraceAxis::time : TraceAxis::tilt));
+                                     series.goes_by_time ? TraceAxis::time : TraceAxis::tilt));
   return view;
 }
 
@@ -165,7 +167,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   series.path = path;
   series.asked = series.plan = plan;
   series.run = run.file.header();
-  series.has_program = run.file.has_program();
+  series.goes_by_time = run.file.goes_by_time();
   if (run.file.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
   measure_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));

@@ -23,7 +23,7 @@ struct FrameInstant {
 
 /// The data of a trace.
 struct TraceCurve {
-  /// rad, or s since the first frame with a programme of the tilt; values in the unit of the observables
+  /// rad, or s since the first frame if the run goes by time; values in the unit of the observables
   std::vector<double> places, values;
 };
 
@@ -41,8 +41,8 @@ struct SeenFrames {
 struct PictureSeries {
   std::string path;  ///< path of the run
   io::RunHeader run;
-  bool has_program = false;  ///< the tilt goes up and down: frames are identified by number and time
-  MapPlan asked;             ///< plan before theta_c of the run was known
+  bool goes_by_time = false;  ///< frames are identified by number and time (RunFile::goes_by_time)
+  MapPlan asked;              ///< plan before theta_c of the run was known
   MapPlan plan;      ///< plan with theta_c set: NaN only if neither the run nor the user has given one
   MapExtent extent;  ///< part of the bed shown, the same in all pictures
   std::optional<std::size_t> since;  ///< frame from which displacements are measured; none: the preceding one

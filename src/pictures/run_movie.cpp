@@ -24,10 +24,10 @@ double fastest_rate(const std::vector<FrameInstant>& instants) {
 }
 
 /// Returns the movie clock of each frame, rad: its tilt and, after failure, the tilt that would have been
-/// reached had it continued to rise. With a programme, it is the tilt that would have been reached had it
-/// always risen at its fastest.
+/// reached had it continued to rise. If the run goes by time, it is the tilt that would have been reached had
+/// it always risen at its fastest.
 std::vector<double> clock_tilts(const PictureSeries& series) {
-  if (series.has_program) {
+  if (series.goes_by_time) {
     std::vector<double> clock;
     const double rate = fastest_rate(series.seen_frames.instants);
     for (const FrameInstant& instant : series.seen_frames.instants)

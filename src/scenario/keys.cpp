@@ -145,7 +145,7 @@ Keys tilt_keys() {
           {{"rate", "deg/s", from_to(1e-4, 100.0), "how fast the bed is tilted"}, &P::rate},
           {{"step", "deg", from_to(1e-8, 1.0), "tilt in one time step h = step / rate"}, &P::step},
           {{"end_angle", "deg", above_to_or(0.0, 60.0, "repose"),
-            "tilt at which the run ends; \"repose\": when the slope has failed"},
+            "tilt, on either side, at which the run ends; \"repose\": when the slope has failed"},
            &P::end_angle},
           {{"program", "",
             PhraseList{"phrases", 1000, "none", program_phrase_forms(),

@@ -71,7 +71,7 @@ std::vector<CommandKey> command_keys(const std::string& section) {
        &C::grain},
       {{"x", "", any,
         "push: velocity added along the bed, m/s; drop: position along the bed, m; friction: the "
-        "coefficient; tilt_rate: deg/s; drag: position of the spring along the bed, m"},
+        "coefficient; tilt_rate: deg/s, below 0: downwards; drag: position of the spring along the bed, m"},
        &C::x},
       {{"y", "", any,
         "push: velocity added away from the floor, m/s; drop: height above the free surface, m; drag: height "
@@ -132,7 +132,9 @@ std::string command_fault(const Command& command, const Scenario& scenario, Inde
     case CommandKind::friction:
       return range_fault("coefficient", command.x, largest_friction, "");
     case CommandKind::tilt_rate:
-      return range_fault("rate", command.x, fastest_tilt, " deg/s");
+      if (std::abs(command.x) <= fastest_tilt) return {};  // false for NaN
+      return differs(fmt::format("rate {:.4g} deg/s", command.x),
+                     fmt::format("-{0:g} ... {0:g} deg/s; 0 holds the tilt", fastest_tilt));
     case CommandKind::drag:
       return grain_fault(command, free_count);
     case CommandKind::release:

@@ -39,8 +39,8 @@ std::string moment_text(const ScriptedCommand& command);
 
 /// Describes why a command cannot be applied to a bed of this scenario with `free_count` free grains, and
 /// what was expected: "grain 900, expected a free grain, 0 ... 799"; empty if it can. Speeds are below 100
-/// sqrt(g D), counts 1 ... 1000, heights 0 ... 100 D, friction coefficients 0 ... 10, and rates 0 (the tilt
-/// is held) ... 100 deg/s. Between walls, x of a drop must lie on the bed.
+/// sqrt(g D), counts 1 ... 1000, heights 0 ... 100 D, friction coefficients 0 ... 10, and rates -100 ... 100
+/// deg/s (0: the tilt is held). Between walls, x of a drop must lie on the bed.
 std::string command_fault(const Command& command, const Scenario& scenario, Index free_count);
 
 }  // namespace talus::scenario

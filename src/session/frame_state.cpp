@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "dynamics/failure.h"
 #include "scenario/tilt_program.h"
@@ -42,7 +43,8 @@ class RunCourse {
   const scenario::Scenario& scenario() const { return scenario_; }
   bool follows_failure() const { return scenario_.tilt.after_failure != scenario::AfterFailure::stop; }
 
-  Schedule commanded(std::int64_t step) const {
+  /// Returns the settings at a step. `turns`, if given, receives the tilts at which commands set the rate.
+  Schedule commanded(std::int64_t step, std::vector<double>* turns = nullptr) const {
     const scenario::TiltProgram program(scenario_);
     Schedule schedule = before_commands();
     for (const Command& command : run_.commands()) {
@@ -51,6 +53,7 @@ class RunCourse {
       if (command.kind == CommandKind::tilt_rate)
         schedule.course =
             TiltCourse{radians(command.x), scheduled_tilt(scenario_, program, schedule), schedule.tilt_steps};
+      if (turns != nullptr && command.kind == CommandKind::tilt_rate) turns->push_back(schedule.course->from);
       if (command.kind == CommandKind::drag) schedule.drag = Drag{command.grain, command.x, command.y};
       if (command.kind == CommandKind::release) schedule.drag.reset();
     }
@@ -81,8 +84,8 @@ class RunCourse {
   }
 
   /// Sets how far the commands of the scenario had advanced before the last step: commands due at the state
-  /// after it are still to be carried out. There is a row wherever the tilt turns, and between two rows it is
-  /// monotone.
+  /// after it are still to be carried out. There is a row wherever a programme turns, and between two rows
+  /// and the commands that set the rate the tilt is monotone.
   void follow_script(std::int64_t step, Schedule& schedule) const {
     const std::int64_t steps = schedule.tilt_steps + schedule.flow_steps - 1;
     if (steps < 0) return;
@@ -93,6 +96,9 @@ class RunCourse {
     };
     for (const ObservableRow& row : rows_)
       if (at(row, Observable::step) < static_cast<double>(step)) reach(at(row, Observable::tilt));
+    std::vector<double> turns;
+    commanded(step, &turns);
+    for (const double tilt : turns) reach(tilt);
     Schedule before = schedule;
     if (--before.tilt_steps >= 0 && schedule.phase == Phase::tilt)
       reach(scheduled_tilt(scenario_, scenario::TiltProgram(scenario_), before));
@@ -163,11 +169,19 @@ class RunCourse {
 
   /// Returns the progress, by the rows, of the flow that failed the slope at or after this step.
   dynamics::SurfaceFlow flow_at(std::int64_t step, const World& world, Phase phase) const {
-    if (!end_.flow.failed || std::abs(world.tilt) < end_.flow.onset_tilt) return {};
+    if (!end_.flow.failed) return {};
     if (phase == Phase::flow) return end_.flow;
     auto row = row_at(step);
     if (row == rows_.end()) return {};
     const double now = at(*row, Observable::surface_displacement);
+    if (follows_failure() || !scenario_.tilt.end_angle) {  // the last row of the tilt is that of the failure
+      const auto last = row_at(run_.checkpoint().world.step - end_.flow_steps);
+      dynamics::SurfaceFlow flow = end_.flow;
+      flow.displacement -= std::abs(at(*last, Observable::surface_displacement) - now);
+      flow.failed = row == last;
+      return flow.displacement > 0.0 ? flow : dynamics::SurfaceFlow{};
+    }
+    if (std::abs(world.tilt) < end_.flow.onset_tilt) return {};
     while (row != rows_.begin() && std::abs(at(*row, Observable::tilt)) > end_.flow.onset_tilt) --row;
     dynamics::SurfaceFlow flow{.flowing = true, .onset_tilt = end_.flow.onset_tilt};
     flow.displacement = std::abs(now - at(*row, Observable::surface_displacement));
@@ -261,8 +275,8 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
   schedule.last.wall_friction = run.friction_of_frame(k).walls;
   if (schedule.phase == Phase::done)
     throw Error(ExitCode::usage,
-                fmt::format("the run ends with its frame at {:.3f} deg: a branch starts from an earlier one",
-                            degrees(checkpoint.world.tilt)));
+                fmt::format("the run ends with its frame at {} deg: a branch starts from an earlier one",
+                            degrees_text(checkpoint.world.tilt, 3)));
   const scenario::Scenario& next = branch != nullptr ? *branch : course.scenario();
   if (!next.commands.empty()) course.follow_script(checkpoint.world.step, schedule);
   store_schedule(schedule, next.tilt.after_failure != scenario::AfterFailure::stop, checkpoint);

@@ -100,7 +100,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
   all.push_back({reals, "last_friction", &s.last.friction, where_known});
   all.push_back({reals, "last_wall_friction", &s.last.wall_friction, where_known});
   if (follows) {
-    all.push_back({integers, "flow_steps", &s.flow_steps});
+    all.push_back({integers, io::flow_steps_name, &s.flow_steps});
     all.push_back({integers, "unconverged_flow", &s.record.unconverged_flow});
     all.push_back({results, "theta_r", &s.angle_at_rest});
     all.push_back({results, "unconverged_steps_flow", count(s.record.unconverged_flow), as_result});

@@ -176,7 +176,7 @@ void Session::apply(Command command) {
       if (schedule_.phase == Phase::flow)
         throw Error(ExitCode::usage,
                     "tilt_rate: the slope has failed, so its tilt follows tilt.after_failure");
-      schedule_.course = TiltCourse{radians(command.x), scheduled_tilt(), schedule_.tilt_steps};
+      schedule_.course = TiltCourse{radians(command.x) + 0.0, scheduled_tilt(), schedule_.tilt_steps};
       break;
     case CommandKind::drag:
       schedule_.drag = Drag{command.grain, command.x, command.y};
@@ -300,7 +300,7 @@ double Session::scheduled_tilt() const {
 
 bool Session::tilt_is_over() const {
   if (follows_program()) return schedule_.flow.failed || schedule_.tilt_steps >= program_.steps();
-  const double tilt = degrees(world_.tilt);
+  const double tilt = std::abs(degrees(world_.tilt));
   return scenario_.tilt.end_angle ? tilt >= *scenario_.tilt.end_angle - 0.5 * scenario_.tilt.step
                                   : schedule_.flow.failed || tilt >= steepest_tilt;
 }

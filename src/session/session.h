@@ -47,10 +47,11 @@ class Session {
 
   /// Applies a command before the next step, and records it with the number of steps taken. Friction applies
   /// from then on, including the rest of a deposition; a rate of the tilt set in a deposition is the initial
-  /// rate of the tilt. A rate of the tilt also ends a programme (tilt.program): from then on the tilt changes
-  /// at that rate until the slope fails, or is held at rate 0. A drag lasts until the next one, or until it
-  /// is released. Throws Error(usage), with nothing changed, if check_command or drop_grains rejects it, if
-  /// the run is done, for a rate of the tilt after failure, and for a release without a drag.
+  /// rate of the tilt. A rate of the tilt, which may be negative, also ends a programme (tilt.program): from
+  /// then on the tilt changes at that rate until the run ends, or is held at rate 0. A drag lasts until the
+  /// next one, or until it is released. Throws Error(usage), with nothing changed, if check_command or
+  /// drop_grains rejects it, if the run is done, for a rate of the tilt after failure, and for a release
+  /// without a drag.
   void apply(Command command);
 
   /// Sets whether the commands of the scenario are carried out, as they are by default; a replay applies the
@@ -166,7 +167,7 @@ double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltPr
 /// Returns the constants of the run, for all grains, including those that have not arrived yet.
 RunStatics run_statics(const scenario::Scenario& scenario, const World& world);
 
-/// Tilt at which a run ends if the slope has not failed, deg.
+/// Magnitude of the tilt at which a run ends if the slope has not failed, deg.
 inline constexpr double steepest_tilt = 60.0;
 
 }  // namespace talus::session

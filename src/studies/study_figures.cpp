@@ -120,7 +120,7 @@ const std::vector<StudyField>& study_fields() {
 
 RunReach reach(const io::RunFile& run) {
   const double theta_c = degrees(figure(run.checkpoint().results, "theta_c"));
-  if (!run.has_program()) return {theta_c, degrees(run.checkpoint().world.tilt)};
+  if (!run.goes_by_time()) return {theta_c, degrees(run.checkpoint().world.tilt)};
   const std::vector<double> tilts =
       analysis::magnitudes(run.frame_tilts(), analysis::last_rise(run.frame_tilts()));
   return {theta_c, tilts.empty() ? 0.0 : degrees(tilts.back())};

@@ -89,7 +89,7 @@ void Replay::set_speed(double degrees_per_second) { speed_ = std::max(degrees_pe
 
 double Replay::seconds_shown(std::size_t k) const {
   const std::vector<double>& tilts = frames_->file().frame_tilts();
-  if (frames_->file().has_program()) {  // in proportion to time, also while the tilt is held
+  if (frames_->file().goes_by_time()) {  // in proportion to time, also while the tilt is held
     const std::vector<double>& times = frames_->file().all_frame_times();
     double fastest = 0.0;  // rad/s
     for (std::size_t j = 1; j < tilts.size(); ++j)

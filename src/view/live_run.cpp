@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "session/measure.h"
 #include "session/recorder.h"
 #include "session/run_header.h"
+#include "session/tilt_goal.h"
 #include "view/live_history.h"
 
 namespace talus::view {
@@ -26,18 +28,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::duration<double> frame_interval(1.0 / 30.0);
 constexpr std::chrono::duration<double> speed_interval(0.5);
-constexpr double reached_within =
-    1e-9;  // rad: tolerance, because a tilt is a sum of steps with rounding errors
 
 /// Point at which the run pauses.
 struct Goal {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
-  double tilt = std::numeric_limits<double>::infinity();  ///< rad
+  std::optional<session::TiltGoal> tilt{};
   bool end_of_deposition = false;
 };
 
 bool is_reached(const Goal& goal, const session::Session& session) {
-  return session.world().step >= goal.step || session.world().tilt >= goal.tilt - reached_within ||
+  return session.world().step >= goal.step || (goal.tilt && session::is_passed(*goal.tilt, session)) ||
          (goal.end_of_deposition && session.phase() != session::Phase::deposition);
 }
 
@@ -113,6 +113,7 @@ struct LiveRun::State {
 
   void work(const std::stop_token& stop);
   bool should_step();
+  void refuse_unreachable();
   void execute_request();
   void apply(const Command& command);
   void back(const std::string& output);
@@ -173,7 +174,23 @@ void LiveRun::State::work(const std::stop_token& stop) {
   end();
 }
 
+/// Pauses with an error if a command has led the tilt away from the goal.
+void LiveRun::State::refuse_unreachable() {
+  if (session.phase() != session::Phase::tilt || session.follows_program()) return;
+  std::optional<session::TiltGoal> asked_for;
+  {
+    const std::lock_guard lock(mutex);
+    if (goal) asked_for = goal->tilt;
+  }
+  try {
+    if (asked_for) session::require_reachable(*asked_for, session);
+  } catch (const Error& error) {
+    fail(error);
+  }
+}
+
 bool LiveRun::State::should_step() {
+  refuse_unreachable();
   const std::lock_guard lock(mutex);
   if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
     goal.reset();
@@ -293,8 +310,8 @@ void LiveRun::State::take_step() {
 /// Waits until the next step is due or a request arrives.
 void LiveRun::State::wait_for_pace(const std::stop_token& stop) {
   std::unique_lock lock(mutex);
-  const bool tilts = status.tilt_rate > 0.0 && !status.depositing;
-  const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / status.tilt_rate : pace.seconds;
+  const bool tilts = status.tilt_rate != 0.0 && !status.depositing;
+  const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / std::abs(status.tilt_rate) : pace.seconds;
   if (!(seconds > 0.0)) return;
   const std::chrono::duration<double> step(scenario::time_step(session.scenario()) / seconds);
   // Lost time is not made up, so that the run does not rush after a slow step.
@@ -428,7 +445,14 @@ void LiveRun::set_pace(const LivePace& pace) {
 
 void LiveRun::step(std::int64_t count) { state_->play_to({.step = status().step + count}); }
 
-void LiveRun::run_to(double tilt) { state_->play_to({.tilt = tilt}); }
+void LiveRun::run_to(double tilt) {
+  state_->submit_request([state = state_.get(), tilt] {
+    const session::TiltGoal next = session::tilt_goal(tilt, state->session);
+    if (const auto turn = session::turning_command(next, state->session)) state->apply(*turn);
+    session::require_reachable(next, state->session);
+    state->play_to({.tilt = next});
+  });
+}
 
 void LiveRun::finish_deposition() { state_->play_to({.end_of_deposition = true}); }
 

@@ -64,8 +64,10 @@ class LiveRun {
 
   void play();
   void pause();
-  void step(std::int64_t count);        ///< runs this many steps, then pauses
-  void run_to(double tilt);             ///< rad: runs until the tilt is reached, then pauses
+  void step(std::int64_t count);  ///< runs this many steps, then pauses
+  /// Runs until the tilt (rad) is passed, then pauses; turns a tilt that leads away from it by a command
+  /// first. Throws Error(usage) if its course never gets there (session::require_reachable).
+  void run_to(double tilt);
   void finish_deposition();             ///< runs until the tilt begins, then pauses
   void set_pace(const LivePace& pace);  ///< takes effect at the next step
   /// Pauses, and returns once the solver rests. The solver then accesses no file until it is asked to

@@ -141,7 +141,7 @@ void ViewModel::open_second_run(const std::string& path) {
   }
   linked_ = {};
   state.second_view.shown = true;
-  state.second_view.clock = has_program() && other_->has_program() ? PlotAxis::time : PlotAxis::tilt;
+  state.second_view.clock = goes_by_time() && other_->goes_by_time() ? PlotAxis::time : PlotAxis::tilt;
   follow_second_run(0.0);
 }
 

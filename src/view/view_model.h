@@ -136,7 +136,7 @@ class ViewModel {
   std::size_t frame_index() const;  ///< for a live run that is followed, the count
   const std::vector<double>& frame_tilts() const { return frames_->instants().tilts; }
   /// Returns whether the tilt follows a programme, in which it may fall and be held.
-  bool has_program() const { return pictures_.has_program; }
+  bool goes_by_time() const { return pictures_.goes_by_time; }
   std::span<const TimelineEvent> events() const { return events_; }
   /// Returns the bookmark of the frame shown or, in a live run that is followed, of the frame recorded last.
   /// Null if there is none.

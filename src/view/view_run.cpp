@@ -4,10 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <functional>
 #include <utility>
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "runs/event_catalogue.h"
@@ -64,7 +66,7 @@ void ViewModel::open_replay() {
   replay_.emplace(run_file_);
   const io::RunFile& file = run_file_->file();
   pictures_.run = file.header();
-  pictures_.has_program = file.has_program();
+  pictures_.goes_by_time = file.goes_by_time();
   all_statics_ = statics();
   theta_c_ = find_value(file.checkpoint().results, "theta_c");
   if (theta_c_ && !std::isfinite(*theta_c_)) theta_c_.reset();  // the run has not failed
@@ -104,7 +106,7 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   output_ = next_output;
   end_series();
   pictures_.seen_frames = {};
-  pictures_.has_program = !scenario_.tilt.program.empty();
+  pictures_.goes_by_time = !scenario_.tilt.program.empty();
   live_ = std::move(next);
   pictures_.run.statics = all_statics_ = live_->statics();
   pictures_.run.seed = scenario_.seed;
@@ -197,6 +199,9 @@ bool ViewModel::poll_live_run() {
   const std::size_t before = frame_count();
   recorded_->add(live_->recorded_frames(before));
   series_->set_counts(frame_count(), frame_count());
+  if (frame_count() != before && !theta_c_ &&
+      std::ranges::adjacent_find(frame_tilts(), std::greater_equal()) != frame_tilts().end())
+    pictures_.goes_by_time = true;  // a command holds or turns the tilt
   const std::vector<ObservableRow> more = live_->observables(rows_.size());
   rows_.insert(rows_.end(), more.begin(), more.end());
   if (!more.empty()) plot_rows();
@@ -220,7 +225,7 @@ std::string ViewModel::take_end() {
   if (!status.theta_c && !status.done) return {};
   ended_ = true;
   if (status.theta_c) return fmt::format("The slope failed at {:.2f}°.", degrees(*status.theta_c));
-  return fmt::format("The run ended at {:.2f}°; the slope has not failed.", degrees(status.tilt));
+  return fmt::format("The run ended at {}°; the slope has not failed.", degrees_text(status.tilt, 2));
 }
 
 bool ViewModel::follow_frames(const pictures::OverloadRule& rule) {

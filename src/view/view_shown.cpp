@@ -199,7 +199,7 @@ std::string ViewModel::render_command() {
   shown.since = view.since();
   shown.mean_diameter = mean_diameter();
   const RunInstants& run_instants = frames_->instants();
-  if (has_program() && frame_count() > 0) shown.frame = std::min(frame_index(), frame_count() - 1);
+  if (goes_by_time() && frame_count() > 0) shown.frame = std::min(frame_index(), frame_count() - 1);
   if (replay_ && frame_index() >= run_instants.tilt_count) {
     shown.in_flow = true;
     shown.tilt = run_instants.tilts[run_instants.tilt_count - 1];

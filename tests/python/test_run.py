@@ -3,6 +3,7 @@
 import math
 import re
 
+import h5py
 import numpy as np
 import pytest
 from conftest import ROOT, json_of, run_talus
@@ -156,3 +157,48 @@ def test_the_last_rise_of_tilts():
     assert last_rise(np.array([0.0, 2, 0, 0, 1, 1, 0])) == (2, 6)
     assert last_rise(np.array([0.0, -2, -1, 1, 2])) == (2, 5)
     assert last_rise(np.array([3.0, 2, 1])) == (0, 3)
+
+
+def held(sim):
+    sim.tilt_to(3)
+    sim.tilt_rate = 0
+    sim.run(0.1)
+
+
+def turned(sim):
+    sim.tilt_to(4)
+    sim.tilt_to(-2)
+    sim.tilt_to(1)
+
+
+@pytest.mark.parametrize("ends", [False, True], ids=["left", "complete"])
+@pytest.mark.parametrize("drive", [held, turned])
+def test_all_tables_have_all_frames_of_a_run_that_commands_hold_or_turn(tmp_path, drive, ends):
+    pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
+    path = tmp_path / "driven.h5"
+    sim = talus.Simulation({"bed": {"length": 10, "depth": 4}, "deposition": {"rest_velocity": 0.1},
+                            "tilt": {"rate": 40, "step": 0.1, "end_angle": 5}, "output": {"frame_every": 0.5, "observable_every": 0.5}})
+    sim.record(path)
+    drive(sim)
+    if ends:
+        sim.tilt_rate = 40
+        sim.run()
+    del sim
+    files = [path] if ends else sorted((tmp_path / "driven.h5.run").glob("segment*"))
+    steps = np.concatenate([h5py.File(file)["frames/step"][()] for file in files])
+    count = len(steps)
+    assert count > 10 and np.any(np.diff(np.concatenate([h5py.File(file)["frames/tilt"][()] for file in files])) <= 0)
+    info = json_of("info", path)
+    assert (info["frames"], info["frames_after_failure"]) == (count, 0)
+    with talus.open(path) as run:
+        assert len(run.frames) == run.frames_of_tilt == count and run.complete == ends
+        np.testing.assert_array_equal(run.step, steps)
+    assert len(json_of("analyze", path)[0]["packing/volume"]) == count
+    run_talus("export", path, "--to", "csv", "-o", tmp_path / "csv")
+    assert len((tmp_path / "csv/frames.csv").read_text().splitlines()) == 1 + count
+    run_talus("render", path, "--map", "pressure", "--width", "80", "-o", tmp_path / "maps")
+    names = sorted(file.name for file in (tmp_path / "maps").glob("*.png"))
+    assert len(names) == count and not any("flow" in name or "-00.00" in name for name in names)
+    if ends:
+        with talus.open(path) as run:
+            assert len(run.analysis["packing/volume"]) == count

@@ -50,7 +50,7 @@ def test_chunks_have_the_bits_of_a_run(reference, tmp_path):
         if trial % 2:
             sim.record(tmp_path / f"{trial}.h5")
         while not sim.done:
-            [lambda: sim.step(int(rng.integers(1, 60))), lambda: sim.run(rng.uniform(0, 0.1)), lambda: sim.tilt_by(rng.uniform(0, 3)),
+            [lambda: sim.step(int(rng.integers(1, 60))), lambda: sim.run(rng.uniform(0.00125, 0.1)), lambda: sim.tilt_by(rng.uniform(0, 3)),
              lambda: sim.grains["lc"], lambda: sim.draw("gamma", width=200) if trial == 0 else None][rng.integers(5)]()
         assert sim.state_hash == state_of(reference.path)
         assert sim.theta_c == pytest.approx(np.degrees(reference.results["theta_c"]), abs=1e-9)
@@ -307,3 +307,66 @@ x = 40
     by_hand.run()
     run = talus.open(tmp_path / "run.h5")
     assert chunks.state_hash == by_hand.state_hash == state_of(run.path) == state_of(tmp_path / "chunks.h5")
+
+
+def test_a_cyclic_tilt_with_feedback_is_replayed_without_python(tmp_path):
+    """The tilt turns when the share of sliding contacts passes 0.1, and at each goal on the other side."""
+    sim = bed(**{"bed.length": 10, "bed.depth": 4})
+    sim.record(tmp_path / "cycles.h5")
+    turns = []
+    for cycle in range(2):
+        sim.tilt_to(0)
+        sim.tilt_rate = 40
+        sim.run(until=lambda: sim["sliding_contacts"] > 0.1 * sim["contacts"] or sim.tilt > 6, every=0.005)
+        turns.append(sim.tilt)
+        sim.tilt_to(-3)
+        turns.append(sim.tilt)
+        sim.tilt_by(1.5)
+        turns.append(sim.tilt)
+    assert not sim.done and np.allclose(turns[1::3], -3) and np.allclose(turns[2::3], -1.5) and min(turns[::3]) > 0
+    sim.commit()
+    run_talus("replay", tmp_path / "cycles.h5", "-o", tmp_path / "again.h5")
+    assert state_of(tmp_path / "again.h5") == sim.state_hash == state_of(tmp_path / "cycles.h5")
+    del sim
+    resumed = talus.resume(tmp_path / "cycles.h5")
+    resumed.tilt_to(1)
+    assert resumed.tilt == pytest.approx(1)
+
+
+def test_goals_that_are_never_reached_are_errors():
+    sim = bed(**{"bed.length": 10, "bed.depth": 4})
+    for seconds in (-1, 0, 0.0004, float("nan"), float("inf")):
+        with pytest.raises(talus.Error):
+            sim.run(seconds)
+        with pytest.raises(talus.Error):
+            sim.run(seconds, until=lambda: True)
+    with pytest.raises(talus.Error, match=r"step\(-3\)"):
+        sim.step(-3)
+    with pytest.raises(talus.Error, match="every"):
+        sim.run(1, until=lambda: False, every=-0.1)
+    assert sim.step_count == 0
+    sim.deposit()
+    sim.tilt_rate = 0
+    for goal in (lambda: sim.tilt_to(2), lambda: sim.tilt_by(-1), sim.run):
+        with pytest.raises(talus.Error, match="held"):
+            goal()
+    with pytest.raises(talus.Error, match="-100 ... 100"):
+        sim.tilt_rate = -101
+    program = bed(**{"bed.length": 10, "bed.depth": 4, "tilt.program": ["to 2", "to -2"]})
+    with pytest.raises(talus.Error, match="programme"):
+        program.tilt_to(3)
+    program.tilt_to(-1)
+    assert program.tilt == pytest.approx(-1)
+
+
+def test_times_of_a_condition_carry_over_fractions_of_steps():
+    sim = bed(**{"bed.length": 10, "bed.depth": 4})  # steps of 2.5 ms
+    sim.deposit()
+    begin, calls = sim.step_count, []
+    for _ in range(4):
+        sim.run(0.02, until=lambda: calls.append(sim.step_count - begin), every=0.006)
+    assert sim.step_count - begin == 32
+    assert calls == [0, 2, 5, 7, 8, 8, 10, 13, 15, 16, 16, 18, 21, 23, 24, 24, 26, 29, 31, 32]
+    for _ in range(10):
+        sim.run(0.006)
+    assert sim.step_count - begin == 56

@@ -68,11 +68,13 @@ bool PageRun::shows(pictures::MapKind kind) const {
 
 PageRun begin_page(const io::RunFile& file, const analysis::Analysis& analysis,
                    std::vector<std::size_t> frames) {
-  if (file.has_program())
+  if (file.has_program() || !std::ranges::is_sorted(file.frame_tilts()))
     throw Error(
         ExitCode::bad_data,
-        "the tilt of this run follows a programme (tilt.program), but a page shows runs whose tilt only "
-        "grows; open it with talus view, or export it to another format");
+        fmt::format("the tilt of this run {}, but a page shows runs whose tilt does not fall; open it "
+                    "with talus view, or export it to another format",
+                    file.has_program() ? "follows a programme (tilt.program)"
+                                       : "was turned by a command (tilt_rate)"));
   const analysis::AnalysisParameters parameters = runs::from_facts(analysis.parameters);
   PageRun run{file, analysis, std::move(frames), parameters, settings_of(analysis, parameters), {}};
   run.extent = pictures::bed_extent(run.statics());

@@ -22,7 +22,7 @@ namespace {
 std::string end_text(const PageRun& run) {
   const double theta_c = run.analysis.theta_c;
   if (std::isfinite(theta_c)) return fmt::format("until the slope failed at θ_c = {:.2f}°", degrees(theta_c));
-  return fmt::format("to {:.2f}°; the slope has not failed", degrees(run.file.frame_tilts().back()));
+  return fmt::format("to {}°; the slope has not failed", degrees_text(run.file.frame_tilts().back(), 2));
 }
 
 /// Returns the title, such as "A granular slope, tilted until it fails".

@@ -199,26 +199,38 @@ TEST(RoundTrip, of_a_frame_with_contacts_that_carry_no_force_leaves_them_out) {
   EXPECT_TRUE(run.is_as_written(stored, 0));
 }
 
-/// Returns frames and rows of observables, one of each at each of these tilts.
-Segment segment_at(const std::vector<double>& tilts) {
+/// Returns frames and rows of observables, one of each at each of these tilts, in the steps from `step` on.
+Segment segment_at(std::int64_t step, const std::vector<double>& tilts) {
   Segment segment;
   Frame frame = example::segment(1).frames.front();
   for (const double tilt : tilts) {
     frame.tilt = tilt;
+    frame.step = step++;
     segment.frames.push_back(frame);
     segment.observables.emplace_back();
+    at(segment.observables.back(), Observable::step) = static_cast<double>(frame.step);
     at(segment.observables.back(), Observable::tilt) = tilt;
   }
   return segment;
 }
 
+/// Returns the last state after these steps, the last of which belong to a flow after failure.
+Checkpoint checkpoint_in_flow(int k, std::int64_t step, std::int64_t flow_steps) {
+  Checkpoint checkpoint = example::checkpoint(k);
+  checkpoint.world.step = step;
+  checkpoint.integers.emplace_back("flow_steps", flow_steps);
+  return checkpoint;
+}
+
 TEST(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
-  for (const double after : {0.3, 0.2}) {  // held at the highest tilt, or lowered
+  for (const double after : {0.3, 0.2, 0.4}) {  // held at the tilt of the failure, lowered, or beyond it
     const example::TemporaryFolder folder;
     RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
-    store.commit(segment_at({0.1, 0.2}), example::checkpoint(0));
-    store.commit(segment_at({0.3, after}), example::checkpoint(1));
-    store.commit(segment_at({after}), example::checkpoint(2));
+    store.commit(segment_at(1, {0.1, 0.2}), checkpoint_in_flow(0, 2, 0));
+    EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 2u);
+    store.commit(segment_at(3, {0.3, after}), checkpoint_in_flow(1, 4, 1));
+    EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 3u);
+    store.commit(segment_at(5, {after}), checkpoint_in_flow(2, 5, 2));
     store.pack();
     const RunFile run = RunFile::open(folder.path("run.h5"));
     EXPECT_EQ(run.frame_tilts(), (std::vector{0.1, 0.2, 0.3}));
@@ -227,6 +239,22 @@ TEST(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
     EXPECT_EQ(run.all_frame_tilts(), (std::vector{0.1, 0.2, 0.3, after, after}));
     EXPECT_EQ(run.all_observables().size(), 5u);
     EXPECT_EQ(run.frame(4).tilt, after);
+  }
+}
+
+/// Without a flow after failure, a tilt that is held or falls is a tilt.
+TEST(RoundTrip, of_a_tilt_that_is_held_and_falls) {
+  const example::TemporaryFolder folder;
+  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+  store.commit(segment_at(1, {0.1, 0.3, 0.3}), example::checkpoint(0));
+  store.commit(segment_at(4, {0.2, -0.1}), example::checkpoint(1));
+  for (const bool packed : {false, true}) {
+    if (packed) store.pack();
+    const RunFile run = RunFile::open(folder.path("run.h5"));
+    EXPECT_EQ(run.frame_tilts(), (std::vector{0.1, 0.3, 0.3, 0.2, -0.1}));
+    EXPECT_EQ(run.observables().size(), 5u);
+    EXPECT_TRUE(run.goes_by_time());
+    EXPECT_FALSE(run.has_program());
   }
 }
 

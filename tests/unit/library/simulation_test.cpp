@@ -69,7 +69,7 @@ TEST_P(SimulationOfChance, has_the_same_bits) {
     if (choice < 1.0)
       sim.step(1 + static_cast<std::int64_t>(random.uniform(0.0, 40.0)));
     else if (choice < 2.0)
-      sim.run(random.uniform(0.0, 0.02));
+      sim.run(random.uniform(0.0005, 0.02));
     else if (choice < 3.0)
       sim.tilt_by(random.uniform(0.0, 0.3));
     else if (choice < 4.0)
@@ -291,6 +291,87 @@ TEST(Simulation, stops_at_its_goals) {
   EXPECT_EQ(sim.tilt_rate(), 0.0);
 }
 
+TEST(Simulation, passes_goals_of_the_tilt_from_either_side_and_turns_for_them) {
+  const test::TemporaryFolder folder;
+  Simulation sim(test::small_tilted_bed(5.0));  // 0.02 deg per step
+  sim.record(folder.path("run.h5"));
+  sim.tilt_to(0.0);
+  EXPECT_EQ(sim.phase(), session::Phase::tilt) << "the deposition is completed";
+  const std::int64_t begin = sim.world().step;
+  sim.tilt_to(2.0);
+  sim.tilt_to(0.5);
+  EXPECT_NEAR(sim.tilt(), 0.5, 1e-9);
+  EXPECT_NEAR(sim.tilt_rate(), -20.0, 1e-12);
+  EXPECT_EQ(sim.world().step - begin, 100 + 75);
+  sim.tilt_by(-1.0);
+  EXPECT_NEAR(sim.tilt(), -0.5, 1e-9);
+  EXPECT_EQ(sim.world().step - begin, 100 + 75 + 50) << "already on its way: no further command";
+  sim.tilt_by(0.0);
+  sim.tilt_to(sim.tilt());
+  EXPECT_EQ(sim.world().step - begin, 225);
+  sim.tilt_by(0.25);
+  EXPECT_NEAR(sim.tilt(), -0.24, 1e-9) << "the first step beyond it";
+  sim.finish();
+  EXPECT_NEAR(sim.tilt(), 5.0, 1e-9);
+  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
+  const std::vector<Command> commands = run.commands();
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_EQ(commands[0], (Command{begin + 100, CommandKind::tilt_rate, -1, -20.0, 0.0}));
+  EXPECT_EQ(commands[1], (Command{begin + 225, CommandKind::tilt_rate, -1, 20.0, 0.0}));
+  EXPECT_EQ(replayed(run), sim.state_hash());
+}
+
+TEST(Simulation, follows_a_programme_past_goals_from_either_side) {
+  scenario::Scenario scenario = test::small_tilted_bed(5.0);
+  scenario.tilt.end_angle.reset();
+  scenario.tilt.program = {"to 2", "to -2", "to 1"};
+  Simulation sim(scenario);
+  sim.deposit();
+  const std::int64_t begin = sim.world().step;
+  sim.tilt_by(-1.0);
+  EXPECT_NEAR(sim.tilt(), -1.0, 1e-9);
+  EXPECT_EQ(sim.world().step - begin, 100 + 150);
+  EXPECT_EQ(test::exit_code_of([&] { sim.tilt_to(1.5); }), ExitCode::usage) << "it ends at 1 deg";
+  EXPECT_EQ(sim.world().step - begin, 250);
+  sim.tilt_to(0.5);
+  EXPECT_EQ(sim.world().step - begin, 300 + 125);
+  sim.set_tilt_rate(20.0);  // ends the programme
+  sim.tilt_to(1.5);
+  EXPECT_NEAR(sim.tilt(), 1.5, 1e-9);
+}
+
+TEST(Simulation, refuses_a_goal_to_which_the_flow_after_failure_does_not_lead) {
+  scenario::Scenario scenario = test::small_tilted_bed(5.0);
+  scenario.contact.friction = 0.05;
+  scenario.tilt.end_angle.reset();
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
+  scenario.tilt.lowering_rate = 100.0;
+  Simulation sim(scenario);
+  sim.run_until([&] { return sim.phase() == session::Phase::flow; });
+  const double failed_at = sim.tilt();
+  EXPECT_EQ(test::exit_code_of([&] { sim.tilt_by(1.0); }), ExitCode::usage);
+  EXPECT_EQ(test::exit_code_of([&] { sim.tilt_to(-1.0); }), ExitCode::usage);
+  sim.tilt_by(-0.5);
+  EXPECT_TRUE(sim.done() || std::abs(sim.tilt() - (failed_at - 0.5)) < 0.1 + 1e-9) << "0.1 deg per step";
+}
+
+TEST(Simulation, carries_over_the_fractions_of_steps) {
+  Simulation sim(test::small_tilted_bed(20.0));  // steps of 1 ms
+  sim.deposit();
+  const std::int64_t begin = sim.world().step;
+  for (int k = 0; k < 60; ++k) sim.run(0.0033);
+  EXPECT_EQ(sim.world().step - begin, 198);
+  for (int k = 0; k < 10; ++k) sim.run(0.0006);
+  EXPECT_EQ(sim.world().step - begin, 204);
+  sim.run(0.0012);
+  Simulation copy = sim;
+  for (int k = 0; k < 4; ++k) copy.run(0.0012);
+  EXPECT_EQ(copy.world().step - begin, 210);
+  for (const double seconds : {-1.0, 0.0, 0.0002, not_a_number, std::numeric_limits<double>::infinity()})
+    EXPECT_EQ(test::exit_code_of([&] { sim.run(seconds); }), ExitCode::usage) << seconds;
+  EXPECT_EQ(sim.world().step - begin, 205);
+}
+
 TEST(Simulation, is_interrupted_between_two_steps) {
   scenario::Scenario slow = test::small_tilted_bed(3.0);
   slow.bed.length = 40.0;
@@ -392,7 +473,9 @@ TEST(Simulation, refuses_what_cannot_be) {
   EXPECT_EQ(refused([&] { sim.draw("gama"); }), ExitCode::usage);
   sim.deposit();
   sim.set_tilt_rate(0.0);
-  EXPECT_EQ(refused([&] { sim.tilt_by(1.0); }), ExitCode::usage) << "it never reaches that tilt";
+  for (const double angle : {1.0, -1.0})
+    EXPECT_EQ(refused([&] { sim.tilt_by(angle); }), ExitCode::usage) << "it never reaches that tilt";
+  EXPECT_EQ(refused([&] { sim.finish(); }), ExitCode::usage) << "a held tilt has no end";
   sim.set_tilt_rate(20.0);
   sim.record(folder.path("run.h5"));
   EXPECT_EQ(refused([&] { sim.record(folder.path("other.h5")); }), ExitCode::usage);

@@ -182,7 +182,8 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
         {0, CommandKind::friction, -1, -0.1, 0.0},
         {0, CommandKind::friction, -1, 10.1, 0.0},
         {0, CommandKind::friction, -1, nan, 0.0},
-        {0, CommandKind::tilt_rate, -1, -0.1, 0.0},
+        {0, CommandKind::tilt_rate, -1, -100.1, 0.0},
+        {0, CommandKind::tilt_rate, -1, nan, 0.0},
         {0, CommandKind::tilt_rate, -1, 101.0, 0.0},
         {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
     if (boundary == scenario::BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
@@ -294,6 +295,51 @@ TEST(TiltRate, is_that_of_the_next_steps_whose_length_stays) {
   session.advance();
   EXPECT_NEAR(degrees(session.world().tilt), 0.041, 1e-12);
   EXPECT_NEAR(session.world().time - time, 0.021, 1e-12);
+}
+
+TEST(TiltRate, below_0_leads_down_through_0_by_the_same_law) {
+  Session session = tilting(small_bed());
+  for (int k = 0; k < 10; ++k) session.advance();
+  session.apply({0, CommandKind::tilt_rate, -1, -3.0, 0.0});
+  EXPECT_NEAR(degrees(session.tilt_rate()), -3.0, 1e-12);
+  for (int k = 1; k <= 10; ++k) {
+    session.advance();
+    EXPECT_NEAR(degrees(session.world().tilt), 0.010 - 0.003 * k, 1e-12);
+  }
+  session.apply({0, CommandKind::tilt_rate, -1, -0.0, 0.0});
+  EXPECT_FALSE(std::signbit(session.tilt_rate()));
+  EXPECT_EQ(command_text({0, CommandKind::tilt_rate, -1, -3.0, 0.0}), "tilt rate -3 deg/s");
+}
+
+TEST(TiltRate, below_0_ends_at_the_same_angle_on_the_other_side) {
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  Session session = tilting(scenario);
+  for (int k = 0; k < 50; ++k) session.advance();
+  session.apply({0, CommandKind::tilt_rate, -1, -20.0, 0.0});
+  for (int k = 0; k < 149; ++k) session.advance();
+  EXPECT_EQ(session.phase(), Phase::tilt) << "at -1.98 deg";
+  session.advance();
+  EXPECT_EQ(session.phase(), Phase::done);
+  EXPECT_NEAR(degrees(session.world().tilt), -2.0, 1e-9);
+}
+
+/// A slope with little friction fails on the side to which it is tilted; the flow lowers it from there.
+TEST(TiltRate, below_0_fails_the_slope_on_the_other_side) {
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  scenario.contact.friction = 0.05;
+  scenario.tilt.end_angle.reset();
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
+  scenario.tilt.lowering_rate = 50.0;
+  Session session = tilting(scenario);
+  session.apply({0, CommandKind::tilt_rate, -1, -50.0, 0.0});
+  while (session.phase() == Phase::tilt) session.advance();
+  ASSERT_EQ(session.phase(), Phase::flow);
+  const double failed_at = session.world().tilt;
+  ASSERT_TRUE(session.angle_of_repose().has_value());
+  EXPECT_LT(failed_at, -*session.angle_of_repose()) << "theta_c is where the flow began";
+  EXPECT_GT(*session.angle_of_repose(), 0.0);
+  session.advance();
+  EXPECT_NEAR(session.world().tilt, failed_at + radians(50.0 * scenario::time_step(scenario)), 1e-12);
 }
 
 TEST(TiltRate, of_a_deposition_is_that_with_which_the_tilt_begins) {

@@ -203,8 +203,13 @@ TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
   status = paused(run);
   EXPECT_NEAR(degrees(status.tilt), 1.0, 1e-9);
   EXPECT_FALSE(status.done);
-  run.run_to(radians(0.5));
-  EXPECT_EQ(paused(run).step, status.step) << "this tilt is already reached";
+  run.run_to(radians(0.9));
+  status = paused(run);
+  EXPECT_NEAR(degrees(status.tilt), 0.9, 1e-9) << "from above, once the tilt is turned";
+  EXPECT_LT(status.tilt_rate, 0.0);
+  run.apply({0, CommandKind::tilt_rate, -1, 0.0});
+  EXPECT_THROW(run.run_to(radians(0.5)), Error) << "the tilt is held";
+  EXPECT_EQ(paused(run).step, status.step);
 }
 
 /// A frame taken from a running run equals that of a plain run after the same number of steps.

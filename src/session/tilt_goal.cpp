@@ -1,0 +1,98 @@
+#include "session/tilt_goal.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/core.h>
+#include <string>
+
+#include "base/errors.h"
+#include "base/text.h"
+#include "core/trigonometry.h"
+
+namespace talus::session {
+namespace {
+
+constexpr double reached_within = 1e-9;  // rad, because a tilt is a sum of steps with rounding errors
+
+bool is_beyond(const TiltGoal& goal, double tilt) {
+  return goal.rises ? tilt >= goal.tilt - reached_within : tilt <= goal.tilt + reached_within;
+}
+
+/// Whether the tilt moves away from the goal.
+bool leads_away(const TiltGoal& goal, double rate) { return goal.rises ? rate < 0.0 : rate > 0.0; }
+
+/// Whether a command of the scenario that sets the rate of the tilt is still to come. While the tilt is held,
+/// no angle is reached.
+bool rate_will_change(const Session& session, bool held) {
+  const scenario::Scenario& scenario = session.scenario();
+  return std::ranges::any_of(waiting_commands(scenario, session.schedule()), [&](std::size_t k) {
+    const scenario::ScriptedCommand& command = scenario.commands[k];
+    return command.kind == CommandKind::tilt_rate && (!held || (command.time && command.x != 0.0));
+  });
+}
+
+bool program_passes(const TiltGoal& goal, const Session& session) {
+  return std::ranges::any_of(session.program().segments(), [&](const scenario::TiltSegment& segment) {
+    return segment.end() > session.schedule().tilt_steps && is_beyond(goal, radians(segment.to));
+  });
+}
+
+/// Returns the rate, deg/s, that a command set; the conversion of angles may have changed its last digits.
+double as_given(double rate) {
+  const std::string text = fmt::format("{:.15g}", degrees(rate));
+  double given = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), given);
+  return given;
+}
+
+[[noreturn]] void refuse(const TiltGoal& goal, const std::string& fault) {
+  throw Error(ExitCode::usage,
+              fmt::format("the tilt never reaches {} deg: {}", degrees_text(goal.tilt, 3), fault));
+}
+
+}  // namespace
+
+TiltGoal tilt_goal(double tilt, const Session& session) { return {tilt, session.world().tilt <= tilt}; }
+
+bool is_passed(const TiltGoal& goal, const Session& session) {
+  return session.phase() != Phase::deposition && is_beyond(goal, session.world().tilt);
+}
+
+std::optional<Command> turning_command(const TiltGoal& goal, const Session& session) {
+  const bool tilts = session.phase() == Phase::deposition || session.phase() == Phase::tilt;
+  if (!tilts || session.follows_program() || is_passed(goal, session) ||
+      !leads_away(goal, session.tilt_rate()))
+    return std::nullopt;
+  return Command{0, CommandKind::tilt_rate, -1, -as_given(session.tilt_rate())};
+}
+
+bool is_held(const Session& session) {
+  return session.phase() == Phase::tilt && !session.follows_program() && session.tilt_rate() == 0.0 &&
+         !rate_will_change(session, true);
+}
+
+void require_reachable(const TiltGoal& goal, const Session& session) {
+  const Phase phase = session.phase();
+  if (phase == Phase::deposition || phase == Phase::done || is_passed(goal, session)) return;
+  if (phase == Phase::flow) {
+    const bool lowered = session.scenario().tilt.after_failure == scenario::AfterFailure::lower;
+    if (!lowered || !is_beyond(goal, 0.0))
+      refuse(goal, fmt::format("the slope has failed, and its tilt is {} (tilt.after_failure)",
+                               lowered ? "lowered" : "held"));
+    return;
+  }
+  const double rate = session.tilt_rate();
+  if (session.follows_program()) {
+    if (!program_passes(goal, session) && !rate_will_change(session, false))
+      refuse(goal,
+             fmt::format("its programme (tilt.program) does not get there from {} deg; a tilt_rate ends "
+                         "the programme",
+                         degrees_text(session.world().tilt, 3)));
+  } else if (rate == 0.0) {
+    if (is_held(session)) refuse(goal, "it is held; set its rate first (tilt_rate)");
+  } else if (leads_away(goal, rate) && !rate_will_change(session, false)) {
+    refuse(goal, fmt::format("it changes by {:.4g} deg/s (tilt_rate), away from it", degrees(rate)));
+  }
+}
+
+}  // namespace talus::session
