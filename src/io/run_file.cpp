@@ -87,7 +87,6 @@ std::optional<Friction> friction_of_last_step(const Checkpoint& state) {
 /// Last step before the flow of a run that has none.
 constexpr std::int64_t no_flow = std::numeric_limits<std::int64_t>::max();
 
-
 }  // namespace
 
 /// An open run. A packed file is one segment that is always open; of a folder, the segment used last is open.
