@@ -255,12 +255,17 @@ class Run:
         deposited = self.scenario["deposition"].get("friction", "contact") if k == 0 and self.tilt[k] == 0 else "contact"
         return self.friction if deposited == "contact" else float(deposited)
 
+    @property
+    def commands(self) -> Table:
+        """The commands given to the run after it began, one a row: "step", after which each was given, "kind" (0 push,
+        1 drop, 2 friction, 3 tilt rate, 4 drag, 5 release), "grain", "x" and "y" (docs/file_format.md). Empty if there
+        were none."""
+        return Table(self, "commands")
+
     @cached_property
     def _commands(self) -> dict[str, np.ndarray]:
         """The commands given to the run, by the names of their data sets."""
-        names = ("step", "kind", "grain", "x", "y")
-        known = self.storage.names("commands")
-        return {name: self["commands/" + name] if name in known else np.array([]) for name in names}
+        return {name: self.commands.get(name, np.array([])) for name in ("step", "kind", "grain", "x", "y")}
 
     @cached_property
     def departures(self) -> int:

@@ -51,6 +51,7 @@ def test_forces_are_judged_by_the_friction_in_force(tmp_path):
     with talus.open(path) as run:
         expected = [0.7 if k == 0 else 0.5 if np.degrees(tilt) < 2 + 1e-6 else 0.2 for k, tilt in enumerate(run.tilt)]
         assert [frame.friction for frame in run.frames] == expected
+        assert run.commands["x"].tolist() == [0.2] and run.commands["kind"].tolist() == [2] and run.departures == 1
         sliding = 0
         for frame, mu in zip(run.frames, expected):
             force = frame.contacts.force
