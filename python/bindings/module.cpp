@@ -5,8 +5,12 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <signal.h>
 #include <stdlib.h>
+#include <time.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -16,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "analysis/frame_quantities.h"
 #include "base/errors.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
@@ -54,6 +59,90 @@ class Count {
 
  private:
   std::atomic<int>& of_;
+};
+
+// Python tells only the main thread of signals. Simulations in other threads learn of Ctrl-C from its time.
+
+using Nanoseconds = std::int64_t;
+constexpr Nanoseconds one_second = 1'000'000'000;
+std::atomic<Nanoseconds> interrupted_at = 0;  ///< time of the last SIGINT
+struct sigaction next_action;                 ///< handler of SIGINT that Python or another program has set
+
+Nanoseconds now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * one_second + time.tv_nsec;
+}
+
+void note_interrupt(int number, siginfo_t* info, void* context) {
+  interrupted_at = now();
+  if ((next_action.sa_flags & SA_SIGINFO) != 0)
+    next_action.sa_sigaction(number, info, context);
+  else
+    next_action.sa_handler(number);
+}
+
+/// Has the handler of SIGINT note the time as well. Handlers of Python are unaffected; one that is set later
+/// replaces this, until the next call. Call while holding the interpreter.
+void watch_interrupts() {
+  struct sigaction action {};
+  if (::sigaction(SIGINT, nullptr, &action) != 0 || action.sa_sigaction == &note_interrupt) return;
+  if (action.sa_handler == SIG_DFL || action.sa_handler == SIG_IGN) return;
+  next_action = action;
+  action.sa_flags |= SA_SIGINFO;
+  action.sa_sigaction = &note_interrupt;
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+/// Simulations that a thread other than the main one steps.
+struct Attention {
+  Nanoseconds since = 0;  ///< interrupts from this time on are meant for it
+  Nanoseconds left = 0;   ///< end of its last call
+  Nanoseconds asked = 0;  ///< time at which the state of the main thread was last looked at
+};
+thread_local Attention attention;
+
+bool is_main_thread() { return ::gettid() == ::getpid(); }
+
+/// Throws KeyboardInterrupt if the main thread has been interrupted while this thread was busy with
+/// simulations, or waits for this thread because of an interrupt. Call while holding the interpreter, in
+/// another thread than the main one.
+void raise_if_interrupted() {
+  constexpr Nanoseconds pause = one_second / 20;
+  watch_interrupts();
+  const Nanoseconds time = now(), at = interrupted_at;
+  const py::module_ interrupts = py::module_::import("talus.interrupts");
+  bool ends = false;
+  if (at >= attention.since) {
+    attention.since = at + 1;
+    ends = interrupts.attr("are_raised")().cast<bool>();
+  }
+  if (!ends && time - attention.asked >= pause) {
+    attention.asked = time;
+    ends = interrupts.attr("end_the_main_thread")().cast<bool>();
+  }
+  if (!ends) return;
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
+}
+
+/// A call that steps, in a thread other than the main one. A thread whose last call ended less than a second
+/// ago is still busy with simulations.
+class AttentiveCall {
+ public:
+  AttentiveCall() {
+    if (is_main_) return;
+    if (now() - attention.left > one_second) attention.since = now();
+    raise_if_interrupted();
+  }
+  ~AttentiveCall() {
+    if (!is_main_) attention.left = now();
+  }
+  AttentiveCall(const AttentiveCall&) = delete;
+  AttentiveCall& operator=(const AttentiveCall&) = delete;
+
+ private:
+  const bool is_main_ = is_main_thread();
 };
 
 /// A simulation and its current user. While a thread steps it, no other thread may use it, and callbacks of
@@ -100,6 +189,7 @@ class Driven {
       if (interpreter_ends) return true;
       const py::gil_scoped_acquire hold;
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (!is_main_thread()) raise_if_interrupted();
       if (!tick.is_none()) tick();
       return false;
     });
@@ -116,6 +206,22 @@ class Driven {
   template <typename Work>
   auto use(Work&& work) {
     return use(py::none(), std::forward<Work>(work));
+  }
+
+  /// Runs `work`, which steps the simulation, as `use` does. An exception of a signal or of `tick` leaves the
+  /// recorded data committed.
+  template <typename Work>
+  auto step(const py::object& tick, Work&& work) {
+    const AttentiveCall call;
+    try {
+      return use(tick, std::forward<Work>(work));
+    } catch (py::error_already_set&) {
+      try {
+        use([](Simulation& simulation) { simulation.commit(); });
+      } catch (const std::exception&) {  // earlier commits are intact
+      }
+      throw;
+    }
   }
 
  private:
@@ -169,15 +275,38 @@ py::array columns(const std::vector<Number>& first, const std::vector<Number>& s
   return array;
 }
 
-/// Returns rows of one number, of two numbers, or of a tensor.
-py::array rows(const std::vector<double>& values, std::size_t count) {
-  const std::size_t width = count == 0 ? 1 : values.size() / count;
-  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(count)};
+/// Values of a quantity, row by row.
+struct Values {
+  const analysis::FrameQuantity* quantity = nullptr;
+  std::vector<double> numbers{};
+};
+
+Values grain_values(MeasuredFrame& frame, const std::string& name) {
+  return {&frame.grain_quantity(name), frame.grain_values(name)};
+}
+
+Values contact_values(MeasuredFrame& frame, const std::string& name) {
+  return {&frame.contact_quantity(name), frame.contact_values(name)};
+}
+
+template <typename Number>
+py::array array_of(const std::vector<double>& numbers, const std::vector<py::ssize_t>& shape) {
+  py::array_t<Number> array(shape);
+  std::transform(numbers.begin(), numbers.end(), array.mutable_data(),
+                 [](double number) { return static_cast<Number>(number); });
+  return array;
+}
+
+/// Returns rows of one number, of two numbers, or of a tensor; ids and counts as integers.
+py::array rows(const Values& values) {
+  const std::size_t width = analysis::components(*values.quantity);
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(values.numbers.size() / width)};
   if (width == 2) shape.push_back(2);
   if (width == 4) shape.insert(shape.end(), {2, 2});
-  py::array_t<double> array(shape);
-  std::copy(values.begin(), values.end(), array.mutable_data());
-  return array;
+  if (values.quantity->flag) return array_of<bool>(values.numbers, shape);
+  if (values.quantity->number == analysis::FieldNumber::integer)
+    return array_of<std::int64_t>(values.numbers, shape);
+  return array_of<double>(values.numbers, shape);
 }
 
 /// Returns an array (height, width, 4), sRGB and alpha.
@@ -215,17 +344,20 @@ const char* name_of(session::Phase phase) {
   return "done";
 }
 
-/// Translates errors of Talus to talus.Error, with the exit code of the command line.
+/// Translates errors of Talus to talus.Error, and to the built-in exception that Python expects for its exit
+/// code.
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {
-    const py::object type = py::module_::import("talus.errors").attr("Error");
     const char* const text = error.what();  // may quote a file name with arbitrary bytes
-    const py::object raised = type(py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(text, static_cast<py::ssize_t>(std::strlen(text)), "backslashreplace")));
-    raised.attr("exit_code") = static_cast<int>(error.code());
-    PyErr_SetObject(type.ptr(), raised.ptr());
+    const py::object raised =
+        py::module_::import("talus.errors")
+            .attr("error_of_code")(
+                static_cast<int>(error.code()),
+                py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+                    text, static_cast<py::ssize_t>(std::strlen(text)), "backslashreplace")));
+    PyErr_SetObject(py::type::of(raised).ptr(), raised.ptr());
   }
 }
 
@@ -265,15 +397,15 @@ void bind_stepping(py::class_<Driven, Holder>& type) {
     using Goal = decltype(method);
     if constexpr (std::is_same_v<Goal, bool (Simulation::*)()>)
       type.def(name, [method](Driven& driven, const py::object& tick) {
-        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(); });
+        return driven.step(tick, [&](Simulation& simulation) { return (simulation.*method)(); });
       });
     else if constexpr (std::is_same_v<Goal, bool (Simulation::*)(double)>)
       type.def(name, [method](Driven& driven, double goal, const py::object& tick) {
-        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
+        return driven.step(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
       });
     else
       type.def(name, [method](Driven& driven, std::int64_t goal, const py::object& tick) {
-        return driven.use(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
+        return driven.step(tick, [&](Simulation& simulation) { return (simulation.*method)(goal); });
       });
   };
   steps("_deposit", &Simulation::deposit);
@@ -382,21 +514,32 @@ void bind_arrays(py::class_<Driven, Holder>& type) {
   });
 }
 
-void bind_measures(py::class_<Driven, Holder>& type) {
-  type.def("_quantity", [](Driven& driven, const std::string& name) {
-    return driven.use([&](Simulation& simulation) { return simulation.quantity(name); });
+/// Binds the measurements of a simulation or a frame; `apply(self, work)` calls `work(MeasuredFrame&)`.
+template <typename Type, typename Apply>
+void bind_measurements(Type& type, const Apply& apply) {
+  using Self = typename Type::type;
+  type.def("_quantity", [apply](Self& self, const std::string& name) {
+    return apply(self, [&](MeasuredFrame& frame) { return frame.quantity(name); });
   });
-  type.def("_grain_values", [](Driven& driven, const std::string& name) {
-    const auto values = driven.use([&](Simulation& simulation) { return simulation.grain_values(name); });
-    return rows(values, static_cast<std::size_t>(driven.seen().world().grains.count()));
+  type.def("_grain_values", [apply](Self& self, const std::string& name) {
+    return rows(apply(self, [&](MeasuredFrame& frame) { return grain_values(frame, name); }));
   });
-  type.def("_contact_values", [](Driven& driven, const std::string& name) {
-    std::size_t count = 0;
-    const auto values = driven.use([&](Simulation& simulation) {
-      count = static_cast<std::size_t>(simulation.frame().contacts.count());
-      return simulation.contact_values(name);
+  type.def("_contact_values", [apply](Self& self, const std::string& name) {
+    return rows(apply(self, [&](MeasuredFrame& frame) { return contact_values(frame, name); }));
+  });
+  const auto names = [&](const char* called, std::vector<std::string> (MeasuredFrame::*method)() const) {
+    type.def_property_readonly(called, [apply, method](Self& self) {
+      return apply(self, [&](MeasuredFrame& frame) { return (frame.*method)(); });
     });
-    return rows(values, count);
+  };
+  names("_quantities", &MeasuredFrame::quantities);
+  names("_grain_quantities", &MeasuredFrame::grain_quantities);
+  names("_contact_quantities", &MeasuredFrame::contact_quantities);
+}
+
+void bind_measures(py::class_<Driven, Holder>& type) {
+  bind_measurements(type, [](Driven& driven, const auto& work) {
+    return driven.use([&](Simulation& simulation) { return work(simulation.measured()); });
   });
   type.def("_set_analysis", [](Driven& driven, const std::vector<std::string>& settings) {
     driven.use([&](Simulation& simulation) { simulation.set_analysis(settings); });
@@ -424,23 +567,13 @@ void bind_options(py::module_& module) {
 
 /// Binds frames of files, which have the same measures as simulations.
 void bind_frames(py::module_& module) {
-  py::class_<MeasuredFrame>(module, "MeasuredFrame")
-      .def(py::init([](const std::string& path, std::size_t k) {
-        require_files();
-        return measured_frame(path, k);
-      }))
-      .def("_quantity", [](MeasuredFrame& frame, const std::string& name) { return frame.quantity(name); })
-      .def("_grain_values",
-           [](MeasuredFrame& frame, const std::string& name) {
-             return rows(frame.grain_values(name),
-                         static_cast<std::size_t>(frame.input().frame.grain_count()));
-           })
-      .def("_contact_values",
-           [](const MeasuredFrame& frame, const std::string& name) {
-             return rows(frame.contact_values(name),
-                         static_cast<std::size_t>(frame.input().frame.contacts.count()));
-           })
-      .def("_draw",
+  py::class_<MeasuredFrame> type(module, "MeasuredFrame");
+  type.def(py::init([](const std::string& path, std::size_t k, const std::vector<std::string>& settings) {
+    require_files();
+    return measured_frame(path, k, settings);
+  }));
+  bind_measurements(type, [](MeasuredFrame& frame, const auto& work) { return work(frame); });
+  type.def("_draw",
            [](const MeasuredFrame& frame, const std::string& map, const pictures::MapOptions& options) {
              return drawn([&] { return frame.draw(map, options); });
            });
@@ -454,9 +587,10 @@ PYBIND11_MODULE(_core, module) {
   survive_forks();
   py::register_exception_translator(translate);
   py::class_<Driven, Holder> type(module, "Simulation");
-  type.def(py::init([](const std::string& path, const std::vector<std::string>& settings) {
+  type.def(py::init([](const std::string& path, const std::vector<std::string>& settings,
+                       const std::string& tables) {
     std::string text;
-    const scenario::Scenario scenario = path.empty() ? scenario::parse_scenario("", "settings", settings)
+    const scenario::Scenario scenario = path.empty() ? scenario::parse_scenario(tables, "scenario", settings)
                                                      : scenario::read_scenario(path, settings, &text);
     return std::make_shared<Driven>(Simulation(scenario, text));
   }));
@@ -486,5 +620,6 @@ PYBIND11_MODULE(_core, module) {
   bind_frames(module);
   module.def("_png", &png_of);
   module.def("_end_steps", &end_steps);
+  module.def("_require_files", &require_files);
   module.attr("version") = version_text();
 }

@@ -3,6 +3,7 @@ table of run files are read, if they are in the file itself and no larger than i
 
 import os
 import stat
+import sys
 from math import prod
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -29,6 +30,13 @@ TYPES = {"float32": h5py.h5t.IEEE_F32LE, "float64": h5py.h5t.IEEE_F64LE, "int8":
          "int32": h5py.h5t.STD_I32LE, "int64": h5py.h5t.STD_I64LE, "uint64": h5py.h5t.STD_U64LE}
 #: Identity of a file whose bytes were checked: device, inode, size and time of the last change.
 Identity = tuple[int, int, int, int]
+
+
+def require_files() -> None:
+    """Raises Error in a process that was forked while another thread was in a simulation, where HDF5 would wait for ever."""
+    extension = sys.modules.get("talus._core")
+    if extension is not None:
+        extension._require_files()
 
 
 def open_regular(path: Path) -> BinaryIO:

@@ -5,7 +5,6 @@ from typing import Any
 
 import numpy as np
 
-from talus.errors import check_text
 from talus.optional import need
 
 
@@ -31,7 +30,14 @@ class Contacts:
 
     def __getitem__(self, name: str) -> np.ndarray:
         """Returns a quantity of the table in docs/export.md, `contacts["mobilisation"]`, in SI units."""
-        return self.frame._measured._contact_values(check_text(name, "quantity"))
+        from talus.frame import named
+
+        return named(self.frame._measured._contact_values, name, lambda: self.quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the quantities of contacts: `contacts[name]`."""
+        return self.frame._measured._contact_quantities
 
     def __len__(self) -> int:
         return len(self.pair)

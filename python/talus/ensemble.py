@@ -12,13 +12,14 @@ from typing import Any, NamedTuple, NoReturn
 import numpy as np
 
 from talus.checked_file import read_text, text_hash
-from talus.errors import Error, WrongType, check_text, short
+from talus.errors import Closed, Error, MissingFile, MissingName, WrongType, WrongValue, check_text, short, suggestion
 from talus.manifest import is_sealed
 from talus.optional import need
 from talus.places import numbers_at_places
 from talus.run import Run, as_path
 from talus.run import open as open_run
 from talus.schema import DATA_SETS
+from talus.storage import unreadable
 from talus.table import numbered
 from talus.units import Units, check_units
 
@@ -132,7 +133,7 @@ def numbers_of(run: Run) -> tuple[dict[str, float], dict[str, str]]:
     return numbers, units
 
 
-class Ensemble:
+class Ensemble(Closed):
     """Members of an ensemble at the time of opening.
 
         ensemble = talus.open_ensemble("runs/friction")
@@ -158,11 +159,12 @@ class Ensemble:
         self.members = [read_member(variant, seed, folder / variant / f"seed-{seed}.h5", scenario_of, origin.get("bed", ""))
                         for seed in self.seeds for variant, origin in zip(self.variants, self._origins)]
         self._refuse_copies()
+        self._is_closed = True
 
     def _read_manifest(self) -> None:
         path = self.folder / "ensemble.manifest"
         if not path.is_file():
-            raise Error(f"{self.folder}: no ensemble here; start one with: talus ensemble SCENARIO --seeds 1-50 -o "
+            raise MissingFile(f"{self.folder}: no ensemble here; start one with: talus ensemble SCENARIO --seeds 1-50 -o "
                         f"{self.folder}")
         try:
             text = read_text(path)
@@ -231,7 +233,8 @@ class Ensemble:
                             "undo the change, or start another ensemble with it")
             return tomllib.loads(text)
         except (OSError, ValueError, RecursionError) as error:
-            raise Error(f"{path}: cannot be read: {error}") from error
+            kind = MissingFile if isinstance(error, FileNotFoundError) else Error
+            raise kind(f"{path}: cannot be read: {error}") from error
 
     def done(self, variant: str | None = None) -> list[Member]:
         """Returns the members with complete runs, of all variants or of one."""
@@ -245,7 +248,7 @@ class Ensemble:
         members = self.done(self._variant(variant))
         known = dict.fromkeys(name for member in members for name in member.numbers)
         if members and name not in known:
-            raise Error(f"{self.folder}: members have no number {name}; they have {', '.join(known)}")
+            raise MissingName(f"{self.folder}: members have no number {name}{suggestion(name, known)}")
         return np.array([member.numbers.get(name, np.nan) for member in members])
 
     def mean(self, name: str, variant: str | None = None) -> Mean:
@@ -258,7 +261,12 @@ class Ensemble:
         for member in self.done():
             if name in member.units:
                 return member.units[name]
-        raise Error(f"{self.folder}: members have no number {name}")
+        raise MissingName(f"{self.folder}: members have no number {name}{suggestion(name, self.quantities)}")
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the numbers of finished members: `ensemble.numbers(name)`."""
+        return list(dict.fromkeys(name for member in self.done() for name in member.numbers))
 
     def measure(self, function: Callable[[Run], Any], variant: str | None = None, units: Units = "SI") -> np.ndarray:
         """Applies a function to the run of each finished member of a variant and returns the results by seed; they must
@@ -273,7 +281,7 @@ class Ensemble:
         try:
             return np.array(values)
         except ValueError:
-            raise Error(f"{self.folder}: the function gives arrays of several shapes; expected one") from None
+            raise WrongValue(f"{self.folder}: the function gives arrays of several shapes; expected one") from None
 
     def to_pandas(self) -> Any:
         """Returns a DataFrame like `members.csv`: one row for each finished member, with variant, seed, state_hash,
@@ -287,7 +295,7 @@ class Ensemble:
             return self.variants[0]
         if not isinstance(variant, str) or variant not in self.variants:
             named = "name a variant" if variant is None else f"has no variant {short(variant)}"
-            raise Error(f"{self.folder}: {named}; it has {', '.join(self.variants) or 'none'}")
+            raise MissingName(f"{self.folder}: {named}; it has {', '.join(self.variants) or 'none'}")
         return variant
 
 
@@ -347,5 +355,7 @@ def open_ensemble(folder: str | Path) -> Ensemble:
     path = as_path(folder)
     try:
         return Ensemble(Path(os.path.abspath(path)))  # another process may be in another folder
+    except Error:
+        raise
     except OSError as error:
-        raise Error(f"{short(str(path))}: cannot be opened: {error}") from None
+        raise unreadable(short(str(path)), error) from None

@@ -1,29 +1,51 @@
 """Frame of a run: its grains and its contacts."""
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from talus.contacts import Contacts
-from talus.errors import check_text
+from talus.errors import Closed, MissingAttribute, MissingName, WrongValue, check_text, suggestion
 from talus.optional import need
 
 if TYPE_CHECKING:
     from talus.run import Run
 
 
-class FrameGrains:
+FRAME_ARRAYS = ("position", "velocity", "angle", "angular_velocity", "radius", "free")
+
+
+def named(measure: Any, name: Any, known: Callable[[], list[str]]) -> Any:
+    """Returns measure(name). Raises MissingName if `name` is not one of the `known` names."""
+    try:
+        return measure(check_text(name, "quantity"))
+    except WrongValue as error:
+        if name in known():
+            raise
+        text = str(error)
+        raise MissingName(text if "did you mean" in text else f"{text}; `quantities` lists the names") from None
+
+
+class FrameGrains(Closed):
     """Grains of a frame, with the same names as those of a Simulation."""
 
     def __init__(self, frame: "Frame") -> None:
         self._frame = frame
+        self._is_closed = True
 
     def __len__(self) -> int:
         return len(self._frame.radius)
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._frame._measured._grain_values(check_text(name, "quantity"))
+        measured = self._frame._measured
+        return named(measured._grain_values, name, lambda: measured._grain_quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the quantities of grains: `grains[name]`."""
+        return self._frame._measured._grain_quantities
 
     @property
     def free_count(self) -> int:
@@ -31,27 +53,30 @@ class FrameGrains:
         return int(self._frame.free.sum())
 
     def __getattr__(self, name: str) -> Any:
-        if name in ("position", "velocity", "angle", "angular_velocity", "radius", "free"):
+        if name in FRAME_ARRAYS:
             return getattr(self._frame, name)
         if name == "mass":
             return self._frame.run.mass
-        raise AttributeError(name)
+        known = [each for each in dir(self) if not each.startswith("_")] + [*FRAME_ARRAYS, "mass"]
+        raise MissingAttribute(f"grains have no attribute {name!r}{suggestion(name, known)}")
 
 
-class Frame:
+class Frame(Closed):
     """Grains of a run at one tilt, as arrays of N rows, free grains first and grains of the floor after them, in the
     frame of the bed: x along it, downslope when the tilt is positive, y away from the floor. Data are read on access
-    and kept. Lengths and angles are in the units of the run; everything else is in SI units, per metre of thickness."""
+    and kept. Lengths and angles are in the units of the run, the tilt in degrees; everything else is in SI units, per
+    metre of thickness."""
 
     def __init__(self, run: "Run", index: int) -> None:
         self.run = run
         self.index = index = run.frame_index(index)  #: counted from 0
         self.step = int(run.step[index])  #: steps since the start of the run
         self.time = float(run.time[index])  #: s
-        self.tilt = float(run.tilt[index])  #: angle of the bed to the horizontal
+        self.tilt = float(run.tilt[index])  #: angle of the bed to the horizontal, deg
+        self._is_closed = True
 
     def __repr__(self) -> str:
-        return f"<frame {self.index} of {self.run.path}: tilt {self.tilt:.4g} {self.run.unit('frames/tilt')}>"
+        return f"<frame {self.index} of {self.run.path}: tilt {self.tilt:.4g} deg>"
 
     def __reduce__(self) -> Any:
         return Frame, (self.run, self.index)
@@ -66,13 +91,28 @@ class Frame:
 
     @cached_property
     def _measured(self) -> Any:
+        return self._measure([])
+
+    def _measure(self, settings: list[str]) -> Any:
         from talus.simulation import _extension, _path
 
-        return _extension().MeasuredFrame(_path(self.run.path), self.index)
+        return _extension().MeasuredFrame(_path(self.run.storage.absolute), self.index, settings)
 
     def __getitem__(self, name: str) -> float:
-        """Returns a scalar of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable."""
-        return self._measured._quantity(check_text(name, "quantity"))
+        """Returns a scalar of the frame: a quantity of docs/analysis.md, "overloaded/fraction", or an observable; "tilt"
+        in degrees."""
+        return named(self._measured._quantity, name, lambda: self.quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the scalars of the frame: `frame[name]`."""
+        return self._measured._quantities
+
+    def analyse_with(self, **parameters: Any) -> None:
+        """Sets parameters of the analysis for measurements of this frame, like Simulation.analyse_with."""
+        from talus.simulation import _settings
+
+        self.__dict__["_measured"] = self._measure(_settings(parameters))
 
     @property
     def grains(self) -> "FrameGrains":
@@ -194,7 +234,7 @@ class Frame:
         Nodes are ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are
         contacts, with their row in `contacts` as `contact`, and `f_n`, `f_t` (N/m), `sliding` and `shift`. Raises
         ImportError without networkx."""
-        graph = need("networkx", "to_networkx()").MultiGraph(tilt=self.tilt)
+        graph = need("networkx", "to_networkx()").MultiGraph(tilt=self.tilt)  # deg
         for i in range(len(self.position)):
             x, y = self.position[i].tolist()
             graph.add_node(i, kind="free" if self.free[i] else "floor", x=x, y=y, radius=float(self.radius[i]),

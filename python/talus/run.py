@@ -12,12 +12,12 @@ import numpy as np
 
 from talus.checked_file import Identity, field_of
 from talus.checks import check_between, check_frame_values, check_series, check_statics, refuse
-from talus.errors import Error, MissingIndex, WrongType, WrongValue, check_text, short
+from talus.errors import Closed, Error, MissingIndex, MissingName, WrongType, WrongValue, check_text, short, suggestion
 from talus.frame import Frame
 from talus.schema import ANALYSIS, DATA_SETS, SCHEMA
-from talus.storage import Storage, find_run, manifest_text
+from talus.storage import Storage, find_run, manifest_text, unreadable
 from talus.table import Table
-from talus.units import Units, check_units, unit_in, values_in
+from talus.units import Units, check_units, rounded_degrees, unit_in, values_in
 
 #: Number of the kind of a command that sets the friction, in /commands/kind.
 FRICTION = 2
@@ -41,11 +41,12 @@ def is_by_frame(name: str) -> bool:
     return field is not None and field[1].startswith(("T N", "M"))
 
 
-class Frames(Sequence[Frame]):
+class Frames(Closed, Sequence[Frame]):
     """All frames of a run in order: `run.frames[3]`, `run.frames[-1]`, `len(run.frames)`, `for frame in ...`."""
 
     def __init__(self, run: "Run") -> None:
         self._run = run
+        self._is_closed = True
 
     def __len__(self) -> int:
         return len(self._run.tilt)
@@ -67,9 +68,10 @@ class Frames(Sequence[Frame]):
                              f"{short(stop)}") from None
 
 
-class Run:
+class Run(Closed):
     """A run. Arrays are those of the file (docs/file_format.md), floats as float64; lengths and angles are in the units
-    in which it was opened, everything else is in SI units, per metre of thickness.
+    in which it was opened, everything else is in SI units, per metre of thickness. `tilt` and `theta_c` are in degrees in
+    any units, as those of frames and simulations.
 
         with talus.open("runs/demo.h5", units="D") as run:
             frame = run.frame_at("repose")
@@ -94,16 +96,17 @@ class Run:
         self.periodic = bool(storage.read("parameters/periodic"))
         self.length: float  #: L, the period or the distance between the walls
         self.depth: float  #: H, nominal
-        self.length, self.depth = map(float, self["particles/grains/box/edges"])
-        self.id: np.ndarray = self["particles/grains/id"]  #: (N,) index of a grain in every array
-        self.radius: np.ndarray = self["particles/grains/radius"]  #: (N,)
-        self.mass: np.ndarray = self["particles/grains/mass"]  #: (N,) kg/m
-        self.free: np.ndarray = self["particles/grains/species"] == 0  #: (N,) False: fixed to the floor
-        self.step: np.ndarray = self["frames/step"]  #: (frames,) steps since the start
-        self.time: np.ndarray = self["frames/time"]  #: (frames,) s
-        self.tilt: np.ndarray = self["frames/tilt"]  #: (frames,) angle of the bed to the horizontal
+        self.length, self.depth = map(float, self._values("particles/grains/box/edges"))
+        self.id: np.ndarray = self._values("particles/grains/id")  #: (N,) index of a grain in every array
+        self.radius: np.ndarray = self._values("particles/grains/radius")  #: (N,)
+        self.mass: np.ndarray = self._values("particles/grains/mass")  #: (N,) kg/m
+        self.free: np.ndarray = self._values("particles/grains/species") == 0  #: (N,) False: fixed to the floor
+        self.step: np.ndarray = self._values("frames/step")  #: (frames,) steps since the start
+        self.time: np.ndarray = self._values("frames/time")  #: (frames,) s
+        self.tilt: np.ndarray = rounded_degrees(self.storage.read("frames/tilt"))  #: (frames,) angle of the bed, deg
         #: Results of the run: theta_c (NaN if the slope has not failed), theta_r, residual_max, ...
-        self.results: dict[str, float] = {name: self["results/" + name] for name in storage.names("results")}
+        self.results: dict[str, float] = {name: self._values("results/" + name) for name in storage.names("results")}
+        self._is_closed = True
 
     def _check_statics(self) -> None:
         read = self.storage.read
@@ -136,7 +139,9 @@ class Run:
     def __getitem__(self, name: str) -> Any:
         """Returns all values of a data set of the file, in the units of the run, e.g. `run["steps/iterations"]`: an
         array, a number or a text. Raises Error if there is no such data set."""
-        name = self._known(name)
+        return self._values(self._existing(name))
+
+    def _values(self, name: str) -> Any:
         values = self.storage.read(name)
         check_series(self.path, name, values)
         return self._converted(name, values)
@@ -148,6 +153,19 @@ class Run:
             return "frames/" + name.rpartition("/")[2]
         return name
 
+    def _existing(self, name: Any) -> str:
+        """Returns the path of a data set in the storage. Raises MissingName if there is none."""
+        known = self._known(name)
+        if not self.storage.has(known):
+            raise MissingName(f"{self.path}: has no data set {known}{suggestion(known, self.quantities)}")
+        return known
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of all data sets of the run: `run[name]`."""
+        groups = dict.fromkeys(name.partition("/")[0] for name in DATA_SETS if "/" in name)
+        return [f"{group}/{name}" for group in groups for name in self.storage.names(group)]
+
     def _converted(self, name: str, values: Any) -> Any:
         if isinstance(values, np.ndarray) and values.dtype.kind == "f":
             values = values.astype(np.float64, copy=False)
@@ -156,26 +174,23 @@ class Run:
 
     def unit(self, name: str) -> str:
         """Returns the unit of `run[name]`; "1" for a plain number."""
-        name = self._known(name)
-        self.storage.check(name)
+        name = self._existing(name)
         return unit_in(self.units, self.storage.unit(name))
 
     def meaning(self, name: str) -> str:
         """Returns the definition of a data set, a sentence; empty if the file has none (a folder, /results)."""
-        name = self._known(name)
-        self.storage.check(name)
-        return self.storage.meaning(name)
+        return self.storage.meaning(self._existing(name))
 
     @property
     def theta_c(self) -> float:
-        """Angle of repose, the tilt at which the slope failed; NaN if it has not."""
-        return self["results/theta_c"]
+        """Angle of repose, the tilt at which the slope failed, deg; NaN if it has not."""
+        return float(rounded_degrees(self.storage.read("results/theta_c")))
 
     @cached_property
     def scenario(self) -> dict[str, Any]:
         """The scenario with every key, in the units of the scenario (docs/scenario.md): `run.scenario["tilt"]["rate"]`."""
         try:
-            return tomllib.loads(self["parameters/scenario_resolved"])
+            return tomllib.loads(self._values("parameters/scenario_resolved"))
         except (ValueError, RecursionError) as error:
             raise refuse(self.path, "parameters/scenario_resolved", f"is not a scenario: {error}") from None
 
@@ -183,11 +198,11 @@ class Run:
     def provenance(self) -> dict[str, Any]:
         """Origin of the run: seed, version, git_hash, command, ..."""
         names = [name for name in self.storage.names("provenance") if not name.startswith("timing/")]
-        return {name: self["provenance/" + name] for name in names}
+        return {name: self._values("provenance/" + name) for name in names}
 
     @property
     def seed(self) -> int:
-        return self["provenance/seed"]
+        return self._values("provenance/seed")
 
     @property
     def frames(self) -> Frames:
@@ -298,11 +313,11 @@ class Run:
         degrees = as_angle(angle)
         tilts = np.degrees(self.storage.read("frames/tilt")[: self.frames_of_tilt])
         if not len(tilts):
-            raise Error(f"{self.path}: has no frame yet")
+            raise MissingIndex(f"{self.path}: has no frame yet")
         if degrees is None:
             theta_c = np.degrees(float(self.storage.read("results/theta_c")))
             if np.isnan(theta_c):
-                raise Error(f"{self.path}: the angle of repose is unknown, because the slope has not failed")
+                raise MissingIndex(f"{self.path}: the angle of repose is unknown, because the slope has not failed")
             first, end = last_rise(tilts)
             rise = np.abs(tilts[first:end])
             return self.frames[first + max(int(np.searchsorted(rise, theta_c + 1e-7, side="right")) - 1, 0)]
@@ -310,7 +325,7 @@ class Run:
         distance = np.abs(tilts - degrees)
         near = np.flatnonzero(distance <= 0.5 * spacing + 1e-7)
         if not len(near):
-            raise Error(f"{self.path}: no frame at {short(angle)} deg; its {len(tilts)} frames go from {tilts.min():.2f} to "
+            raise MissingIndex(f"{self.path}: no frame at {short(angle)} deg; its {len(tilts)} frames go from {tilts.min():.2f} to "
                         f"{tilts.max():.2f} deg, every {spacing:.3g} deg")
         last = int(near[0])
         while last + 1 < len(tilts) and distance[last + 1] <= distance[last]:
@@ -322,7 +337,7 @@ class Run:
         or no such data set by frame, or if the values are impossible."""
         name = self._known(name)
         if not is_by_frame(name):
-            raise Error(f"{self.path}: {name} is not a data set by frame")
+            raise MissingName(f"{self.path}: {name} is not a data set by frame")
         if not self.has_frames:
             raise Error(f"{self.path}: has no frames: it was kept for its analysis alone (--keep analysis); compute it "
                         "again with talus run to get them")
@@ -367,14 +382,11 @@ class Run:
         if "version" not in self.storage.names("analysis"):
             raise Error(f"{self.path}: holds no analysis; " + (f"create it with: talus analyze {self.path}" if self.complete
                         else "an analysis is stored only once the run is complete"))
-        version = self["analysis/version"]
+        version = self._values("analysis/version")
         if version != ANALYSIS:
             raise Error(f"{self.path}: its analysis has version {version}, this package reads version {ANALYSIS}; repeat "
                         f"it with: talus analyze {self.path}")
-        rows = len(self["analysis/packing/volume"])
-        if rows < self.frames_of_tilt and rows == int(np.argmax(self.tilt)) + 1:
-            raise Error(f"{self.path}: its analysis, of an earlier version, ends with the first highest tilt; repeat it "
-                        f"with: talus analyze {self.path}")
+        rows = len(self._values("analysis/packing/volume"))
         if rows != self.frames_of_tilt:
             raise refuse(self.path, "analysis", f"has rows for {rows} frames, the tilt has {self.frames_of_tilt}")
         return Table(self, "analysis")
@@ -429,8 +441,10 @@ def open(path: str | Path, units: Units = "SI") -> Run:
     for attempts_left in reversed(range(20)):
         try:
             place = find_run(path)
+        except Error:
+            raise
         except (OSError, ValueError) as error:
-            raise Error(f"{short(str(path))}: cannot be opened: {error}") from None
+            raise unreadable(short(str(path)), error) from None
         manifest = "" if place.is_file() else manifest_text(place)
         try:
             return Run(Storage(place, manifest), units)

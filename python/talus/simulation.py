@@ -1,16 +1,20 @@
 """Run that a script drives: stepped, steered, measured, drawn, recorded and copied."""
 
 import atexit
+import copy
 import operator
 import os
+import re
 import sys
+import tomllib
 from collections.abc import Callable, Mapping
 from datetime import date, datetime, time
 from typing import Any
 
 import numpy as np
 
-from talus.errors import MissingPackage, WrongType, WrongValue, check_text, short
+from talus.errors import Closed, MissingPackage, WrongType, WrongValue, check_flag, check_text, short
+from talus.frame import named
 
 try:
     from talus import _core
@@ -58,8 +62,20 @@ def _whole(value: Any, what: str) -> int:
         raise WrongType(f"{what} = {short(value)}: expected a whole number") from None
 
 
+def _threads(value: Any) -> int:
+    """Returns a number of threads. Raises WrongType and WrongValue for other values."""
+    threads = _whole(value, "threads")
+    if not 1 <= threads <= 256:
+        raise WrongValue(f"threads = {short(value)}: expected 1 to 256")
+    return threads
+
+
 def _toml(value: Any, key: str) -> str:
     """Returns a Python value in TOML syntax. Raises WrongType if TOML has no such value."""
+    if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value):
+        value = value.item()
+    if isinstance(value, os.PathLike):
+        value = os.fsdecode(value)
     if isinstance(value, bool | np.bool_):
         return "true" if value else "false"
     if isinstance(value, int | np.integer):
@@ -71,9 +87,13 @@ def _toml(value: Any, key: str) -> str:
         return f'"{escaped}"'
     if isinstance(value, datetime | date | time):
         return value.isoformat()
-    if isinstance(value, list | tuple | np.ndarray):
+    if isinstance(value, list | tuple) or isinstance(value, np.ndarray) and value.ndim > 0:
         return "[" + ", ".join(_toml(one, key) for one in value) + "]"
-    raise WrongType(f"{key} = {short(value)}: expected a number, a string, True or False, or a list of these")
+    raise WrongType(f"{key} = {short(value)}: expected a number, a string, a path, True or False, or a list of these")
+
+
+def _is_list_of_tables(value: Any) -> bool:
+    return isinstance(value, list | tuple) and len(value) > 0 and all(isinstance(each, Mapping) for each in value)
 
 
 def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
@@ -83,6 +103,20 @@ def _values(keys: Mapping[str, Any], before: str = "") -> dict[str, str]:
         name = before + check_text(key, "key")
         found |= _values(value, name + ".") if isinstance(value, Mapping) else {name: _toml(value, name)}
     return found
+
+
+def _tables(keys: Mapping[str, Any]) -> tuple[str, dict[str, Any]]:
+    """Returns lists of tables, the commands of a scenario, as TOML; and the other keys."""
+    text, others = "", {}
+    for key, value in keys.items():
+        if not _is_list_of_tables(value):
+            others[key] = value
+            continue
+        for number, table in enumerate(value, 1):
+            text += f"[[{_toml(key, key)}]]\n"
+            for name, entry in table.items():
+                text += f"{_toml(check_text(name, 'key'), key)} = {_toml(entry, f'{key}.{number}.{name}')}\n"
+    return text, others
 
 
 def _settings(*mappings: Mapping[str, Any]) -> list[str]:
@@ -111,6 +145,7 @@ class Image(np.ndarray):
 
 def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
     """Draws a map of a simulation or frame of the extension."""
+    check_text(map, "map")
     chosen = _extension().MapOptions()
     for name, value in {"width": width, **options}.items():
         try:
@@ -119,14 +154,19 @@ def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
             raise WrongType(f"draw has no option {short(name)}") from None
         except TypeError:
             raise WrongType(f"draw: {name} = {short(value)}: expected a value of another type") from None
-    return core._draw(check_text(map, "map"), chosen).view(Image)
+    try:
+        return core._draw(map, chosen).view(Image)
+    except WrongValue as error:  # names options as the command line does
+        raise WrongValue(re.sub("--([a-z-]*[a-z])", lambda found: found[1].replace("-", "_"), str(error))) from None
 
 
-class Grains:
+class Grains(Closed):
     """Grains of a simulation: read-only views of its memory, without a copy. Rows are ids: free grains first, then
     those of the floor. A view follows the steps of its simulation; while a bed is poured, a later view has more rows,
     and rows of the floor move in an earlier view. `grains["gamma"]` is the current value of a quantity of the table in
     docs/export.md, in SI units."""
+
+    __slots__ = ("_core",)
 
     def __init__(self, simulation: "Simulation") -> None:
         self._core = simulation._core
@@ -138,7 +178,12 @@ class Grains:
         return f"<{len(self)} grains, {self.free_count} of them free>"
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._core._grain_values(check_text(name, "quantity"))
+        return named(self._core._grain_values, name, lambda: self.quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the quantities of grains: `grains[name]`."""
+        return self._core._grain_quantities
 
     @property
     def free_count(self) -> int:
@@ -186,10 +231,12 @@ class Grains:
         return self._core._image
 
 
-class LiveContacts:
+class LiveContacts(Closed):
     """Contacts after the last step, including near ones without force: copies, which later steps do not change.
     `contacts["mobilisation"]` is a quantity of the table in docs/export.md for the contacts that carry force, those with
     `contacts.force[:, 0] > 0`."""
+
+    __slots__ = ("_core",)
 
     def __init__(self, simulation: "Simulation") -> None:
         self._core = simulation._core
@@ -201,7 +248,12 @@ class LiveContacts:
         return f"<{len(self)} contacts>"
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return self._core._contact_values(check_text(name, "quantity"))
+        return named(self._core._contact_values, name, lambda: self.quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the quantities of contacts: `contacts[name]`."""
+        return self._core._contact_quantities
 
     @property
     def pair(self) -> np.ndarray:
@@ -230,7 +282,7 @@ class LiveContacts:
         return self._core._shift
 
 
-class Simulation:
+class Simulation(Closed):
     """A bed that is stepped by a script, bit-identical to `talus run` with the same scenario and commands.
 
         sim = talus.Simulation("paper-pbc.toml", seed=7, **{"bed.length": 60})
@@ -242,23 +294,34 @@ class Simulation:
 
     `scenario` is a file, or a mapping of keys; further keys change it, as with `--set`. SI units; tilts in deg. One thread
     uses a simulation at a time; several simulations can run in parallel threads. Errors are talus.Error, with the exit code
-    of the command line as `exit_code`."""
+    of the command line as `exit_code`. A derived class may have attributes of its own, which copies share."""
+
+    __slots__ = ("__weakref__", "_core", "_progress")
 
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
-        core = _extension()
+        core, threads = _extension(), _threads(threads)
         if scenario is None or isinstance(scenario, Mapping):
-            self._begin(core.Simulation(b"", _settings(scenario or {}, settings)), progress)
+            tables, keys = _tables({**(scenario or {}), **settings})
+            self._begin(core.Simulation(b"", _settings(keys), tables), progress)
         else:
-            self._begin(core.Simulation(_path(scenario), _settings(settings)), progress)
+            self._begin(core.Simulation(_path(scenario), _settings(settings), ""), progress)
         if threads != 1:
             self._core._use_threads(threads)
 
     def _begin(self, core: Any, progress: bool | None) -> None:
         self._core = core
         self._progress = progress
-        self.grains = Grains(self)  #: views of the grains
-        self.contacts = LiveContacts(self)  #: the contacts
+
+    @property
+    def grains(self) -> Grains:
+        """Views of the grains."""
+        return Grains(self)
+
+    @property
+    def contacts(self) -> LiveContacts:
+        """The contacts."""
+        return LiveContacts(self)
 
     def __repr__(self) -> str:
         return f"<simulation of {len(self.grains)} grains, {self.phase}: tilt {self.tilt:.4g} deg, step {self.step_count}>"
@@ -451,17 +514,22 @@ class Simulation:
         return self._core.gravity
 
     @property
-    def scenario(self) -> str:
-        """The scenario with every key, as TOML."""
-        return self._core.scenario
+    def scenario(self) -> dict[str, Any]:
+        """The scenario with every key, in the units of the scenario, as `Run.scenario`."""
+        return tomllib.loads(self._core.scenario)
 
     # Measures.
 
     def __getitem__(self, name: str) -> float:
         """Returns a scalar of the current state: a quantity of a frame (docs/analysis.md), "overloaded/fraction", or at
         the second threshold "overloaded/fraction[1]"; or an observable (docs/file_format.md), "kinetic_energy". SI
-        units."""
-        return self._core._quantity(check_text(name, "quantity"))
+        units, but "tilt" in degrees."""
+        return named(self._core._quantity, name, lambda: self.quantities)
+
+    @property
+    def quantities(self) -> list[str]:
+        """Names of the scalars of the state: `sim[name]`."""
+        return self._core._quantities
 
     def analyse_with(self, **parameters: Any) -> None:
         """Sets parameters of the analysis, as with `talus analyze --set`: l_min=0, gamma_c=0.3."""
@@ -480,11 +548,11 @@ class Simulation:
     def record(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Records the run from now on, for `talus replay`: as an ordinary run before the first step, and later as a
         branch that starts from the current state."""
-        self._core._record(_path(path), overwrite)
+        self._core._record(_path(path), check_flag(overwrite, "overwrite"))
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the current state as a separate run, which resume continues."""
-        self._core._save(_path(path), overwrite)
+        self._core._save(_path(path), check_flag(overwrite, "overwrite"))
 
     @property
     def recorded(self) -> bool:
@@ -496,20 +564,25 @@ class Simulation:
         self._core.commit()
 
     def copy(self) -> "Simulation":
-        """Returns an independent simulation with the same state, which is not recorded."""
-        other = object.__new__(Simulation)
+        """Returns an independent simulation of the same class with the same state, which is not recorded."""
+        other = object.__new__(type(self))
         other._begin(self._core._copy(), self._progress)
+        if hasattr(self, "__dict__"):
+            vars(other).update(vars(self))
         return other
 
     __copy__ = copy
 
     def __deepcopy__(self, memo: Any) -> "Simulation":
-        return self.copy()
+        other = memo[id(self)] = self.copy()
+        if hasattr(self, "__dict__"):
+            vars(other).update(copy.deepcopy(vars(self), memo))
+        return other
 
 
 def resume(path: str | os.PathLike[str], *, threads: int = 1, progress: bool | None = None) -> Simulation:
     """Resumes a recorded run that was stopped, from its last commit, as a Simulation that continues in the same file."""
-    simulation = object.__new__(Simulation)
+    threads, simulation = _threads(threads), object.__new__(Simulation)
     simulation._begin(_extension().Simulation._resume(_path(path)), progress)
     if threads != 1:
         simulation._core._use_threads(threads)

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from talus.checked_file import CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text
-from talus.errors import Error
+from talus.checked_file import (CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text,
+                                require_files)
+from talus.errors import Error, FailedFile, MissingFile, MissingName
 from talus.manifest import NAME, StoredFile, parse_manifest, replaces_packed
 from talus.trial_walk import require_walkable
 
@@ -31,9 +32,9 @@ def find_run(path: Path) -> Path:
     if (path / "ensemble.manifest").exists():
         raise Error(f"{path}: is the folder of an ensemble; open it with talus.open_ensemble")
     if folder_of_run.is_dir() or path.name.endswith(".run") and path.is_dir():
-        raise Error(f"{folder_of_run if folder_of_run.is_dir() else path}: nothing is committed there yet; wait for the first "
+        raise MissingFile(f"{folder_of_run if folder_of_run.is_dir() else path}: nothing is committed there yet; wait for the first "
                     "checkpoint, or repeat the command of the run")
-    raise Error(f"{path}: no such run; expected a run file, or a folder {folder_of_run}")
+    raise MissingFile(f"{path}: no such run; expected a run file, or a folder {folder_of_run}")
 
 
 def manifest_text(folder: Path) -> str:
@@ -70,7 +71,7 @@ class Storage:
             self._stored = {file.path: file for file in (files.header, files.checkpoint, *files.segments)}
             for path in self._stored:
                 if not os.path.isfile(path):  # raises no OSError if the whole path is too long
-                    raise Error(f"{path}: is missing, although the manifest names it")
+                    raise MissingFile(f"{path}: is missing, although the manifest names it")
             self.header, self.state = files.header.path, files.checkpoint.path
             self.parts = [segment.path for segment in files.segments]
         with self._file(self.header) as file:
@@ -108,7 +109,7 @@ class Storage:
         """Returns the values of a data set for frame k: a row of it, or the contacts of the frame. 0 <= k <
         sum(frames)."""
         if field_of(name) is None:
-            raise Error(f"{self.place}: has no data set {name}")
+            raise MissingName(f"{self.place}: has no data set {name}")
         part = 0
         while k >= self.frames[part]:
             k -= self.frames[part]
@@ -183,8 +184,17 @@ class Storage:
     @contextmanager
     def _file(self, path: Path) -> Iterator[CheckedFile]:
         """Yields the file at `path`; failures to read it are raised as Error."""
+        require_files()
         with reported_as_damage(path):
             yield self._opened(path)
+
+
+def unreadable(path: Path | str, error: Exception) -> Error:
+    """Returns the error for a file or folder that cannot be opened."""
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+    failed = FailedFile(f"{path}: cannot be opened: {reason}")
+    failed.exit_code = MissingFile.exit_code
+    return failed
 
 
 @contextmanager
@@ -195,10 +205,10 @@ def reported_as_damage(path: Path) -> Iterator[None]:
     except Error:
         raise
     except FileNotFoundError:
-        raise Error(f"{path}: no longer exists: the run has continued or was completed since it was opened; "
+        raise MissingFile(f"{path}: no longer exists: the run has continued or was completed since it was opened; "
                     "open it again") from None
     except PermissionError as error:
-        raise Error(f"{path}: cannot be opened: {error.strerror}") from None
+        raise unreadable(path, error) from None
     except MemoryError:
         raise Error(f"{path}: out of memory while it was read; if enough memory is available, the file is malformed") from None
     except Exception as error:

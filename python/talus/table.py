@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from talus.errors import Error, MissingName, check_text
+from talus.errors import Closed, Error, MissingName, check_text, suggestion
 from talus.optional import need
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 OF_THE_RUN = ("threshold", "theta_d/", "correlation/distance", "lc/end_ratio", "events/")
 
 
-class Table(Mapping[str, Any]):
+class Table(Closed, Mapping[str, Any]):
     """The data sets of a group of the run file, by name: `run.observables["tilt"]`,
     `run.analysis["overloaded/fraction"]`. Values are arrays, in the units of the run, or plain numbers and texts; they
     are read on access. NaN means "no value"."""
@@ -23,11 +23,11 @@ class Table(Mapping[str, Any]):
         self._run = run
         self._group = group
         self._names = run.storage.names(group)
+        self._is_closed = True
 
     def __getitem__(self, name: str) -> Any:
         if check_text(name, "the data set") not in self._names:
-            raise MissingName(f"{name}: no such data set in /{self._group} of {self._run.path}; "
-                           f"it has {', '.join(self._names)}")
+            raise MissingName(f"{name}: no such data set in /{self._group} of {self._run.path}{suggestion(name, self._names)}")
         return self._run[f"{self._group}/{name}"]
 
     def __iter__(self) -> Iterator[str]:
@@ -59,7 +59,7 @@ class Table(Mapping[str, Any]):
         rows = None
         if self._group == "analysis":
             rows = self._run.frames_of_tilt
-            columns["tilt"] = self._run.tilt[:rows]
+            columns["tilt"] = self._run["frames/tilt"][:rows]
         for name in self._names:
             values = self[name]
             shape = getattr(values, "shape", ())

@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from talus.errors import Error, short
+from talus.errors import WrongValue, short
 
 #: "SI": as in the file, lengths in m and angles in rad. "D": lengths in mean diameters and angles in degrees, as in
 #: scenarios and in the tables of Talus. All other units (m^2, m/s, Pa, N/m, J/m, 1/rad) are the same in both.
@@ -12,9 +12,14 @@ Units = Literal["SI", "D"]
 
 
 def check_units(units: str) -> None:
-    """Raises Error if `units` is neither "SI" nor "D"."""
+    """Raises WrongValue if `units` is neither "SI" nor "D"."""
     if not isinstance(units, str) or units not in ("SI", "D"):
-        raise Error(f'units={short(units)}: expected "SI" (m, rad) or "D" (mean diameters, deg)')
+        raise WrongValue(f'units={short(units)}: expected "SI" (m, rad) or "D" (mean diameters, deg)')
+
+
+def rounded_degrees(radians: Any) -> Any:
+    """Returns angles in degrees without the rounding errors of sums of steps: multiples of 1e-9, never -0."""
+    return np.round(np.degrees(radians), 9) + 0.0
 
 
 def unit_in(units: Units, unit: str) -> str:

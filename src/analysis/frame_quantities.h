@@ -100,6 +100,10 @@ BedUnit bed_unit(std::string_view unit, const RunStatics& statics);
 /// Returns the names of the components in tables, such as "velocity_x" and "velocity_y".
 std::vector<std::string> component_names(const FrameQuantity& quantity);
 
+/// Returns the ending of the name of a quantity at a threshold: "_2" for the factor 2, "_1_5" for 1.5. OVITO
+/// reads a dot in a name as the start of a component.
+std::string threshold_ending(double factor);
+
 /// A scalar quantity of grains, or one component of a vector or tensor quantity.
 struct GrainNumber {
   std::string name;

@@ -376,7 +376,7 @@ constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
      }},
     {"strong", FieldShape::scalar, FieldNumber::integer, "1",
      "1 if f_n is above its mean over the contacts of the frame, else 0",
-     [](const GrainSource& source, std::size_t) { return strong(source); }},
+     [](const GrainSource& source, std::size_t) { return strong(source); }, FrameNeed::nothing, true},
 });
 
 }  // namespace
@@ -402,6 +402,12 @@ std::vector<std::string> component_names(const FrameQuantity& quantity) {
   if (names.size() > 1 && !quantity.name.empty())
     for (std::string& name : names) name = fmt::format("{}_{}", quantity.name, name);
   return names;
+}
+
+std::string threshold_ending(double factor) {
+  std::string text = fmt::format("_{}", factor);
+  std::ranges::replace(text, '.', '_');
+  return text;
 }
 
 const std::vector<GrainNumber>& grain_numbers() {

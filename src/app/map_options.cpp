@@ -10,6 +10,8 @@
 namespace talus::app {
 namespace {
 
+CLI::Validator in_range(pictures::OptionRange range) { return app::in_range(range.low, range.high); }
+
 std::string list_of_traces() { return joined(pictures::trace_kinds(), ", ", pictures::trace_name); }
 
 std::string list_of_colours() { return joined(render::colour_maps(), ", ", render::colour_map_name); }
@@ -27,16 +29,16 @@ void add_live_options(CLI::App& command, pictures::MapOptions& options) {
   command
       .add_option("--width", options.width, "Width of the picture in pixels; the height follows from the bed")
       ->capture_default_str()
-      ->check(in_range(render::smallest_width, render::largest_side));
+      ->check(app::in_range(render::smallest_width, render::largest_side));
   command
       .add_option("--theta-c", options.theta_c,
                   "Angle of repose in degrees, for Gamma_c = sin(theta_c) [that of the run]")
-      ->check(in_range(2.0, 89.0));
+      ->check(in_range(pictures::theta_c_range));
   command
       .add_option("--l-min", options.l_min,
                   "For maps gamma, overloaded and clusters, and their traces: diameter of the neighbourhood "
                   "of a grain, in mean diameters: 3 includes its first neighbours, 0 is the grain alone [3]")
-      ->check(in_range(0.0, 100.0));
+      ->check(in_range(pictures::l_min_range));
   command.add_option("--colours", options.colours,
                      fmt::format("Colours of the bar: {}; _r reverses them, as in gray_r [default of each "
                                  "map]; of clusters: {} [muted]; separate the two by a comma",
@@ -53,17 +55,17 @@ void add_scale_options(CLI::App& command, pictures::MapOptions& options) {
           "--threshold", options.threshold,
           "Grains are overloaded if gamma is at least this multiple of Gamma_c; the paper states 1 and draws "
           "2 [1]")
-      ->check(in_range(0.01, 100.0));
+      ->check(in_range(pictures::threshold_range));
   command
       .add_option("--length", options.length,
                   "For maps coarse, density, stress, shear_rate and temperature: diameter of the region "
                   "averaged over around a grain, in mean diameters [10]")
-      ->check(in_range(1.0, 1000.0));
+      ->check(in_range(pictures::length_range));
   command
       .add_option("--since", options.since,
                   "For maps displacement, rotation, nonaffine, shear, dilation and vorticity: motion since "
                   "this angle in degrees [since the preceding frame, per degree of tilt]")
-      ->check(in_range(0.0, 90.0));
+      ->check(in_range(pictures::since_range));
   command.add_option("--joined", options.joined,
                      "Overloaded grains form a cluster through contacts that carry a force, or as neighbours "
                      "closer than 1.1 times the sum of their radii [contacts]");
@@ -92,7 +94,7 @@ void add_frame_options(CLI::App& command, pictures::MapOptions& options) {
       .add_option("--printed", options.printed,
                   "Printed width of the picture in cm, e.g. 8.6 for a column; its letters are 8 points high "
                   "in print, unless --for is given, and the file states its resolution [from --for]")
-      ->check(in_range(4.0, 200.0));
+      ->check(in_range(pictures::printed_range));
   command
       .add_option("--for", options.purpose,
                   "Purpose that sets the size of letters: paper (8 points, 17.8 cm wide), slide (16 points, "

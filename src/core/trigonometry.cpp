@@ -20,6 +20,11 @@ double alternating_series(double square, int first) {
 
 }  // namespace
 
+double rounded_degrees(double radians) {
+  constexpr double per_degree = 1e9;
+  return std::nearbyint(degrees(radians) * per_degree) / per_degree + 0.0;
+}
+
 double sine(double angle) { return angle * alternating_series(angle * angle, 2); }
 
 double cosine(double angle) { return alternating_series(angle * angle, 1); }

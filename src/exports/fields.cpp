@@ -1,7 +1,6 @@
 #include "exports/fields.h"
 
 #include <algorithm>
-#include <fmt/core.h>
 
 #include "base/text.h"
 
@@ -25,14 +24,6 @@ ForeignNames foreign_names(const analysis::FrameQuantity& field) {
   return found == std::end(other_names) ? ForeignNames{} : *found;
 }
 
-/// Returns the suffix of a factor: "_2" for 2, "_1_5" for 1.5. OVITO reads a dot in a name as the start of a
-/// component.
-std::string ending_of(double factor) {
-  std::string text = fmt::format("_{}", factor);
-  std::ranges::replace(text, '.', '_');
-  return text;
-}
-
 std::vector<FieldColumn> columns(std::span<const analysis::FrameQuantity> fields,
                                  const analysis::GrainSource& frame) {
   std::vector<FieldColumn> found;
@@ -42,7 +33,7 @@ std::vector<FieldColumn> columns(std::span<const analysis::FrameQuantity> fields
     const bool by_threshold = field.need == analysis::FrameNeed::threshold;
     if (!by_threshold) found.push_back({field, "", field.values(frame, 0)});
     for (std::size_t f = 0; by_threshold && f < frame.thresholds.size(); ++f)
-      found.push_back({field, ending_of(frame.factors[f]), field.values(frame, f)});
+      found.push_back({field, analysis::threshold_ending(frame.factors[f]), field.values(frame, f)});
   }
   return found;
 }

@@ -77,11 +77,6 @@ void check_frame_count(const hdf5::Reader& reader, std::size_t rows, std::size_t
                   fmt::format("(a group) has rows for {} frames, the tilt has {}", rows, frames));
 }
 
-/// Returns the number of frames that earlier versions analysed in a run without a programme.
-std::size_t frames_up_to_highest(const std::vector<double>& tilts) {
-  return static_cast<std::size_t>(std::ranges::max_element(tilts) - tilts.begin()) + 1;
-}
-
 /// Returns the packed file at `path` without an analysis.
 std::vector<std::byte> bare_bytes(const std::string& path, const std::string& state_hash, bool keep_frames) {
   verify_seal(path);
@@ -113,9 +108,7 @@ std::optional<analysis::Analysis> read_analysis(const RunFile& run,
     analysis.parameters.emplace_back(name,
                                      reader.read_text(fmt::format("{}/parameters/{}", analysis_group, name)));
   const std::vector<double>& tilts = run.frame_tilts();
-  const std::size_t rows = reader.row_count(analysis_group + "/packing/volume");
-  if (rows < tilts.size() && rows == frames_up_to_highest(tilts)) return std::nullopt;
-  check_frame_count(reader, rows, tilts.size());
+  check_frame_count(reader, reader.row_count(analysis_group + "/packing/volume"), tilts.size());
   reader.row_count("/particles/grains/id");  // establishes the number of grains
   make_records(reader, tilts, analysis);
   for (const analysis::Quantity& quantity : table)

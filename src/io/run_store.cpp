@@ -308,7 +308,10 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
 
 RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint& checkpoint) {
   const std::string folder = run_folder(path);
-  if (run_presence(path) != RunPresence::folder)
+  const RunPresence presence = run_presence(path);
+  if (presence == RunPresence::packed && is_run(path))
+    throw Error(ExitCode::usage, path + ": the run is complete: it has no further step to resume");
+  if (presence != RunPresence::folder)
     throw Error(ExitCode::missing_input, folder + ": no interrupted run there");
   auto state = std::make_unique<State>(path);
   if (run_presence(path) != RunPresence::folder)

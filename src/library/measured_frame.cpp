@@ -40,30 +40,48 @@ std::pair<std::string_view, std::size_t> split(std::string_view name) {
   return {name.substr(0, bracket), number};
 }
 
-std::vector<std::string> names_of_numbers() {
+using Table = std::span<const analysis::FrameQuantity>;
+
+/// Returns the names of the quantities of a table, those by threshold also at each of these thresholds.
+std::vector<std::string> names_of(Table table, const std::vector<double>& factors) {
   std::vector<std::string> names;
-  for (const analysis::Quantity& quantity : analysis::quantities())
-    if (analysis::is_number_of_frame(quantity)) names.push_back(quantity.name);
-  for (const SeriesField& field : observable_fields) names.emplace_back(field.name);
+  for (const analysis::FrameQuantity& quantity : table) {
+    if (quantity.name.empty()) continue;  // the centre, which has its own array
+    names.emplace_back(quantity.name);
+    if (quantity.need != analysis::FrameNeed::threshold) continue;
+    for (const double factor : factors)
+      names.push_back(std::string(quantity.name) + analysis::threshold_ending(factor));
+  }
   return names;
 }
 
-std::vector<double> values_of(std::span<const analysis::FrameQuantity> table, std::string_view name,
-                              const char* what, const analysis::GrainSource& source) {
-  const auto found = std::ranges::find(table, name, &analysis::FrameQuantity::name);
-  if (found != table.end() && !name.empty()) {
-    std::vector<double> values = found->values(source, 0);
-    const bool is_known = found->need != analysis::FrameNeed::earlier_frame ||
-                          (source.earlier && source.earlier->grain_count() == source.frame.grain_count());
-    if (!is_known) std::ranges::fill(values, not_known);
-    return values;
+/// A quantity of a table, and the number of its threshold.
+struct Entry {
+  const analysis::FrameQuantity& quantity;
+  std::size_t threshold = 0;
+};
+
+Entry find_entry(Table table, std::string_view name, const char* what, const std::vector<double>& factors) {
+  const auto [plain, number] = split(name);
+  for (const analysis::FrameQuantity& quantity : table) {
+    if (quantity.name.empty()) continue;
+    const bool by_threshold = quantity.need == analysis::FrameNeed::threshold;
+    if (quantity.name == name || (quantity.name == plain && by_threshold && number < factors.size()))
+      return {quantity, number};
+    for (std::size_t k = 0; by_threshold && k < factors.size(); ++k)
+      if (name == std::string(quantity.name) + analysis::threshold_ending(factors[k])) return {quantity, k};
   }
-  std::vector<std::string> names;
-  for (const analysis::FrameQuantity& quantity : table) names.emplace_back(quantity.name);
-  refuse(name, what, names);
+  refuse(name, what, names_of(table, factors));
 }
 
+constexpr const char* of_grains = "quantity of grains";
+constexpr const char* of_contacts = "quantity of contacts";
+
 }  // namespace
+
+MeasuredFrame::MeasuredFrame(FrameInput input) : input_(std::move(input)) {
+  runs::from_facts(runs::as_facts(input_.parameters));
+}
 
 double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(pictures::assumed_theta_c)); }
 
@@ -84,8 +102,6 @@ const analysis::FrameRecord& MeasuredFrame::record() {
     found.centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
     found.solid_fraction = at(*input_.row, Observable::solid_fraction);
   }
-  factors_.clear();
-  for (const analysis::RunThreshold& threshold : analysis.thresholds) factors_.push_back(threshold.factor);
   record_ = std::move(found);
   return *record_;
 }
@@ -100,24 +116,71 @@ double MeasuredFrame::quantity(std::string_view name) {
                   fmt::format("'{}': the frame has {} of it, counted from 0", visible_word(name), count));
     }
   const auto* const field = std::ranges::find(observable_fields, name, &SeriesField::name);
-  if (field == observable_fields.end()) refuse(name, "number of a frame", names_of_numbers());
-  return input_.row ? (*input_.row)[static_cast<std::size_t>(field - observable_fields.begin())] : not_known;
+  if (field == observable_fields.end()) refuse(name, "number of a frame", quantities());
+  switch (const auto number = static_cast<Observable>(field - observable_fields.begin()); number) {
+    case Observable::step:
+      return static_cast<double>(input_.frame.step);
+    case Observable::time:
+      return input_.frame.time;
+    case Observable::tilt:
+      return rounded_degrees(input_.frame.tilt);
+    default:
+      return input_.row ? at(*input_.row, number) : not_known;
+  }
 }
 
 std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
-  const analysis::FrameRecord& known = record();
-  analysis::GrainSource source = {
-      bed(), 0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors_, known.thresholds};
+  const std::vector<double>& factors = input_.parameters.threshold_factors;
+  const auto [quantity, threshold] = find_entry(analysis::grain_quantities(), name, of_grains, factors);
+  analysis::GrainSource source = {bed(), 0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors};
+  if (quantity.need == analysis::FrameNeed::threshold) source.thresholds = record().thresholds;
   source.earlier = source.first;
   source.length = std::min(default_length * input_.statics.mean_diameter, input_.statics.length);
-  return values_of(analysis::grain_quantities(), name, "quantity of grains", source);
+  std::vector<double> values = quantity.values(source, threshold);
+  const bool is_known = quantity.need != analysis::FrameNeed::earlier_frame ||
+                        (source.earlier && source.earlier->grain_count() == source.frame.grain_count());
+  if (!is_known) std::ranges::fill(values, not_known);
+  return values;
 }
 
 std::vector<double> MeasuredFrame::contact_values(std::string_view name) const {
-  return values_of(analysis::contact_quantities(), name, "quantity of contacts", {bed()});
+  return contact_quantity(name).values({bed()}, 0);
+}
+
+std::vector<std::string> MeasuredFrame::quantities() const {
+  std::vector<std::string> names;
+  for (const analysis::Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_number_of_frame(quantity)) continue;
+    names.push_back(quantity.name);
+    for (std::size_t k = 1;
+         analysis::needs_threshold(quantity) && k < input_.parameters.threshold_factors.size(); ++k)
+      names.push_back(fmt::format("{}[{}]", quantity.name, k));
+  }
+  for (const SeriesField& field : observable_fields) names.emplace_back(field.name);
+  return names;
+}
+
+std::vector<std::string> MeasuredFrame::grain_quantities() const {
+  return names_of(analysis::grain_quantities(), input_.parameters.threshold_factors);
+}
+
+std::vector<std::string> MeasuredFrame::contact_quantities() const {
+  return names_of(analysis::contact_quantities(), {});
+}
+
+const analysis::FrameQuantity& MeasuredFrame::grain_quantity(std::string_view name) const {
+  return find_entry(analysis::grain_quantities(), name, of_grains, input_.parameters.threshold_factors)
+      .quantity;
+}
+
+const analysis::FrameQuantity& MeasuredFrame::contact_quantity(std::string_view name) const {
+  return find_entry(analysis::contact_quantities(), name, of_contacts, {}).quantity;
 }
 
 render::Image MeasuredFrame::draw(const std::string& map, pictures::MapOptions options) const {
+  if (!options.crop.empty() || !options.traces.empty() || options.since)
+    throw Error(ExitCode::usage,
+                "draw: crop, traces and since apply only to talus render, panel and animate");
   options.maps = {map};
   const pictures::MapPlan plan = pictures::plan_maps(options);
   pictures::MapSettings settings = plan.maps.at(0);

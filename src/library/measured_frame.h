@@ -15,6 +15,10 @@
 #include "pictures/map_options.h"
 #include "render/image.h"
 
+namespace talus::analysis {
+struct FrameQuantity;
+}
+
 namespace talus {
 
 /// Input of the measurements.
@@ -27,25 +31,37 @@ struct FrameInput {
   std::optional<ObservableRow> row{};  ///< observables at the same time, or the last ones before it
 };
 
-/// Measures a frame on demand. Names are those of the tables of quantities; any other name throws
-/// Error(usage) with a suggestion.
+/// Measures a frame on demand. `Error(bad_data)` is thrown at once if a parameter of the analysis is
+/// impossible. A name of a quantity may end with its threshold: "cluster[1]" and "cluster_2" are at the
+/// second threshold, 2 Gamma_c, and "cluster" is at the first. Names are those of the tables of quantities;
+/// any other name throws Error(usage) with a suggestion.
 class MeasuredFrame {
  public:
-  explicit MeasuredFrame(FrameInput input) : input_(std::move(input)) {}
+  explicit MeasuredFrame(FrameInput input);
 
   const FrameInput& input() const { return input_; }
   BedFrame bed() const { return {input_.frame, input_.statics}; }
 
   /// Returns a quantity of the frame or an observable, in SI units: "overloaded/fraction", "lc/mean[1]" at
-  /// the second threshold, "kinetic_energy". If the slope has not failed and no gamma_c is given, Gamma_c is
-  /// that of assumed_theta_c.
+  /// the second threshold, "kinetic_energy"; "tilt" in deg. If the slope has not failed and no gamma_c is
+  /// given, Gamma_c is that of assumed_theta_c.
   double quantity(std::string_view name);
-  /// Return a quantity of grains or of contacts, row by row, in SI units, at the first threshold.
+  /// Return a quantity of grains or of contacts, row by row, in SI units.
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name) const;
 
+  /// Return all names of quantities of the frame, of grains and of contacts.
+  std::vector<std::string> quantities() const;
+  std::vector<std::string> grain_quantities() const;
+  std::vector<std::string> contact_quantities() const;
+  /// Return the entry of a quantity in its table (analysis/frame_quantities.h), with its number of components
+  /// and its type.
+  const analysis::FrameQuantity& grain_quantity(std::string_view name) const;
+  const analysis::FrameQuantity& contact_quantity(std::string_view name) const;
+
   /// Draws a map by name as `talus render --map` does. Unless it is given, theta_c is that of the run or the
-  /// assumed one. Throws Error(usage) and Error(unavailable).
+  /// assumed one. Throws Error(usage) if an option is out of the range that it has on the command line, or
+  /// has no effect here, and Error(unavailable).
   render::Image draw(const std::string& map, pictures::MapOptions options) const;
 
  private:
@@ -56,7 +72,6 @@ class MeasuredFrame {
   FrameInput input_;
   std::optional<Frame> judged_{};
   std::optional<analysis::FrameRecord> record_{};
-  std::vector<double> factors_{};
 };
 
 /// Returns frame k of a run file, measured with these parameters of the analysis ("l_min=0"). Throws as

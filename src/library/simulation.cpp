@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <fmt/core.h>
@@ -11,6 +12,8 @@
 
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/output_file.h"
+#include "base/paths.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
@@ -91,9 +94,10 @@ Simulation::Simulation(const scenario::Scenario& scenario, std::string text) {
   state_->origin.scenario_text = text.empty() ? scenario::resolved_toml(scenario) : std::move(text);
 }
 
-Simulation Simulation::resume(const std::string& path) {
+Simulation Simulation::resume(const std::string& name) {
   io::RunHeader header;
   io::Checkpoint checkpoint;
+  const std::string path = absolute_path(name);  // remains valid if the process changes its folder
   io::RunStore store = io::RunStore::resume(path, header, checkpoint);
   const scenario::Scenario scenario = runs::stored_scenario(header, path + ":/parameters");
   session::refuse_unfinished_replay(header, checkpoint.world, path);
@@ -253,8 +257,13 @@ const scenario::Scenario& Simulation::scenario() const { return state_->session.
 const World& Simulation::world() const { return state_->session.world(); }
 session::Phase Simulation::phase() const { return state_->session.phase(); }
 bool Simulation::done() const { return phase() == session::Phase::done; }
-double Simulation::tilt() const { return degrees(world().tilt); }
-double Simulation::tilt_rate() const { return degrees(state_->session.tilt_rate()); }
+double Simulation::tilt() const { return rounded_degrees(world().tilt); }
+double Simulation::tilt_rate() const {
+  const std::string text = fmt::format("{:.12g}", degrees(state_->session.tilt_rate()));
+  double rate = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), rate);
+  return rate;
+}
 double Simulation::friction() const { return state_->session.law().friction; }
 std::optional<double> Simulation::residual() const { return state_->session.schedule().last.residual; }
 std::optional<bool> Simulation::converged() const {
@@ -264,7 +273,7 @@ std::optional<bool> Simulation::converged() const {
 std::string Simulation::state_hash() const { return hash_text(talus::state_hash(world())); }
 std::optional<double> Simulation::theta_c() const {
   const std::optional<double> angle = state_->session.angle_of_repose();
-  return angle ? std::optional(degrees(*angle)) : std::nullopt;
+  return angle ? std::optional(rounded_degrees(*angle)) : std::nullopt;
 }
 const RunStatics& Simulation::statics() const { return state_->statics; }
 
@@ -273,6 +282,7 @@ void Simulation::set_analysis(const std::vector<std::string>& settings) {
   state_->measured.reset();
 }
 
+MeasuredFrame& Simulation::measured() { return state_->measure(); }
 double Simulation::quantity(std::string_view name) { return state_->measure().quantity(name); }
 const Frame& Simulation::frame() { return state_->measure().input().frame; }
 std::vector<double> Simulation::grain_values(std::string_view name) {
@@ -285,7 +295,7 @@ render::Image Simulation::draw(const std::string& map, pictures::MapOptions opti
   return state_->measure().draw(map, std::move(options));
 }
 
-void Simulation::record(const std::string& path, bool overwrite) {
+void Simulation::record(const std::string& name, bool overwrite) {
   State& state = *state_;
   state.require_own();
   if (state.recorder) throw Error(ExitCode::usage, "the simulation is being recorded already");
@@ -301,6 +311,8 @@ void Simulation::record(const std::string& path, bool overwrite) {
   if (!state.is_new)
     origin.branch =
         io::BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)), state.session.checkpoint(0.0)};
+  const std::string path = absolute_path(name);  // remains valid if the process changes its folder
+  prepare_folder_of(path);
   state.session.clear_segment();
   state.store.emplace(io::RunStore::create(
       path, session::run_header(state.session, session::with_bed(origin, state.session)), overwrite));

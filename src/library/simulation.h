@@ -25,6 +25,8 @@ class Session;
 
 namespace talus {
 
+class MeasuredFrame;
+
 /// A simulation must be used by one thread at a time; different simulations may run in different threads. A
 /// forked child may inspect and copy a simulation of its parent; stepping, changing or recording it throws
 /// Error(usage).
@@ -35,8 +37,8 @@ class Simulation {
   /// available memory is insufficient.
   explicit Simulation(const scenario::Scenario& scenario, std::string text = {});
 
-  /// Resumes a recorded run at its last commit, in the same file. Throws Error(missing_input),
-  /// Error(bad_data), and Error(cannot_create) if another process is writing to it.
+  /// Resumes a recorded run at its last commit, in the same file. Throws Error(missing_input), Error(usage)
+  /// if the run is complete, Error(bad_data), and Error(cannot_create) if another process is writing to it.
   static Simulation resume(const std::string& path);
 
   /// Copies the state. The copy is independent and is not recorded.
@@ -93,20 +95,22 @@ class Simulation {
   const World& world() const;  ///< grains and contacts after the last step; the reference remains valid
   session::Phase phase() const;
   bool done() const;
-  double tilt() const;       ///< deg
-  double tilt_rate() const;  ///< deg/s
+  double tilt() const;       ///< deg, rounded to 1e-9
+  double tilt_rate() const;  ///< deg/s, rounded to twelve digits
   double friction() const;   ///< coefficient between grains
   /// Return eta of the last step (docs/solver.md) and whether it reached its tolerance; empty before the
   /// first step, and after the resumption of a run that an earlier version wrote.
   std::optional<double> residual() const;
   std::optional<bool> converged() const;
   std::string state_hash() const;
-  std::optional<double> theta_c() const;  ///< deg; empty if the slope has not failed
+  std::optional<double> theta_c() const;  ///< deg, rounded to 1e-9; empty if the slope has not failed
 
   // Measurements of the present state, as in MeasuredFrame.
 
   /// Sets parameters of the analysis, as `talus analyze --set` does: "l_min=0", "gamma_c=0.3".
   void set_analysis(const std::vector<std::string>& settings);
+  /// Returns the present state as a frame that is measured; it is valid until the next step or command.
+  MeasuredFrame& measured();
   /// Return measured quantities as the functions of MeasuredFrame do.
   double quantity(std::string_view name);
   std::vector<double> grain_values(std::string_view name);
@@ -119,8 +123,8 @@ class Simulation {
   // Recording.
 
   /// Starts recording the simulation as a run: before the first step as an ordinary run, after the deposition
-  /// as one that branches off from the present state. Throws Error(cannot_create), and Error(usage) if it is
-  /// being recorded already.
+  /// as one that branches off from the present state. Creates the folder of the run if missing. Throws
+  /// Error(cannot_create), and Error(usage) if it is being recorded already.
   void record(const std::string& path, bool overwrite = false);
   bool recorded() const;
   /// Writes the present state as a separate run that can be resumed. Throws as record does.

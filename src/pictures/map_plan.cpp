@@ -12,14 +12,32 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 #include "core/trigonometry.h"
+#include "render/layout.h"
 
 namespace talus::pictures {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::usage, message); }
 
+void check_range(const char* option, std::optional<double> value, OptionRange range) {
+  if (value && !(*value >= range.low && *value <= range.high))
+    refuse(
+        fmt::format("{}: expected a number from {} to {}, found {}", option, range.low, range.high, *value));
+}
+
+void check_numbers(const MapOptions& options) {
+  check_range("--width", options.width, {render::smallest_width, render::largest_side});
+  check_range("--theta-c", options.theta_c, theta_c_range);
+  check_range("--l-min", options.l_min, l_min_range);
+  check_range("--threshold", options.threshold, threshold_range);
+  check_range("--length", options.length, length_range);
+  check_range("--since", options.since, since_range);
+  check_range("--printed", options.printed, printed_range);
+}
+
 std::optional<Crop> parse_crop(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
+  if (values.size() != 4) refuse("--crop: expected four numbers X0,Y0,X1,Y1");
   const Crop crop{values[0], values[1], values[2], values[3]};
   for (double value : values)
     if (!std::isfinite(value)) refuse("--crop: expected four finite numbers X0,Y0,X1,Y1");
@@ -62,6 +80,7 @@ MapSettings common_settings(const MapOptions& options) {
                        did_you_mean(*options.joined, {"contacts", "neighbours"})));
   settings.joined_by_neighbours = options.joined == "neighbours";
   if (!options.range.empty()) {
+    if (options.range.size() != 2) refuse("--range: expected LOW,HIGH with LOW < HIGH");
     settings.range_low = options.range[0];
     settings.range_high = options.range[1];
     if (!std::isfinite(options.range[0]) || !(options.range[0] < options.range[1]) ||
@@ -151,6 +170,7 @@ void choose_colours(std::string_view words, MapPlan& plan) {
 }  // namespace
 
 MapPlan plan_maps(const MapOptions& options) {
+  check_numbers(options);
   MapPlan plan;
   const MapSettings common = common_settings(options);
   std::set<std::string> names;

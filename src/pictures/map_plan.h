@@ -12,6 +12,17 @@
 
 namespace talus::pictures {
 
+/// Ranges of the numbers of MapOptions, ends included.
+struct OptionRange {
+  double low, high;
+};
+inline constexpr OptionRange theta_c_range = {2.0, 89.0};      // deg
+inline constexpr OptionRange l_min_range = {0.0, 100.0};       // D
+inline constexpr OptionRange threshold_range = {0.01, 100.0};  // multiples of Gamma_c
+inline constexpr OptionRange length_range = {1.0, 1000.0};     // D
+inline constexpr OptionRange since_range = {0.0, 90.0};        // deg
+inline constexpr OptionRange printed_range = {4.0, 200.0};     // cm
+
 /// A region of the bed in D; the origin is the left end of the bed on the floor.
 struct Crop {
   double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
@@ -29,8 +40,8 @@ struct MapPlan {
   double page_width() const { return maps.empty() ? 0.0 : maps[0].printed / 100.0; }
 };
 
-/// Makes a plan. Throws Error(usage) if an option names something that does not exist, or two exclude each
-/// other.
+/// Makes a plan. Throws Error(usage) if an option names something that does not exist or is out of its range,
+/// or two exclude each other.
 MapPlan plan_maps(const MapOptions& options);
 
 /// Whether any layer of any map has the property.

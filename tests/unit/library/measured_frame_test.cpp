@@ -4,7 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "analysis/frame_quantities.h"
 #include "analysis/quantities.h"
@@ -13,6 +19,7 @@
 #include "io/run_file.h"
 #include "library/simulation.h"
 #include "runs/run_view.h"
+#include "support/exit_code.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -70,7 +77,74 @@ TEST(MeasuredFrame, is_judged_by_the_parameters_that_were_set) {
   const double assumed = sim.quantity("overloaded/fraction");
   sim.set_analysis({"gamma_c=0.01"});
   EXPECT_GT(sim.quantity("overloaded/fraction"), assumed);
-  EXPECT_EQ(sim.quantity("tilt"), sim.world().tilt);
+}
+
+TEST(MeasuredFrame, has_the_tilt_of_the_simulation_in_degrees) {
+  Simulation sim(test::small_tilted_bed(10.0));
+  sim.tilt_to(3.0);
+  EXPECT_EQ(sim.tilt(), 3.0) << "150 steps of 0.02 deg, without their rounding errors";
+  EXPECT_EQ(sim.quantity("tilt"), 3.0);
+  EXPECT_EQ(sim.tilt_rate(), 20.0);
+  EXPECT_NEAR(sim.world().tilt, 3.0 * std::numbers::pi / 180.0, 1e-12);
+}
+
+/// The grains at each threshold are counted from their gamma and Gamma_c = 0.1.
+TEST(MeasuredFrame, has_its_quantities_at_every_threshold) {
+  Simulation sim(test::small_tilted_bed(10.0));
+  sim.set_analysis({"gamma_c=0.1", "threshold_factors=[1, 1.5, 4]"});
+  sim.tilt_to(5.0);
+  const std::vector<double> gamma = sim.grain_values("gamma_neighbourhood");
+  const auto names = sim.measured().grain_quantities();
+  for (const auto& [ending, factor] : {std::pair{"", 1.0},
+                                       {"[0]", 1.0},
+                                       {"_1", 1.0},
+                                       {"[1]", 1.5},
+                                       {"_1_5", 1.5},
+                                       {"[2]", 4.0},
+                                       {"_4", 4.0}}) {
+    const std::string name = std::string("overloaded") + ending;
+    const std::vector<double> overloaded = sim.grain_values(name);
+    for (Index i = 0; i < sim.world().grains.free_count; ++i)
+      EXPECT_EQ(overloaded[i] == 1.0, gamma[i] >= factor * 0.1) << name << " of grain " << i;
+    EXPECT_EQ(std::ranges::count(names, name), name.ends_with(']') ? 0 : 1) << name;
+  }
+  for (const std::string& name : names) EXPECT_NO_THROW(sim.grain_values(name)) << name;
+  for (const std::string& name : sim.measured().contact_quantities())
+    EXPECT_NO_THROW(sim.contact_values(name));
+  for (const std::string& name : sim.measured().quantities()) EXPECT_NO_THROW(sim.quantity(name)) << name;
+  for (const char* name : {"overloaded_2", "overloaded[3]", "radius[0]x", "radius_1"})
+    EXPECT_EQ(test::exit_code_of([&] { sim.grain_values(name); }), ExitCode::usage) << name;
+  EXPECT_TRUE(sim.measured().grain_quantity("overloaded_4").flag);
+}
+
+/// The ranges are those of talus render; without them l_min = inf takes for ever.
+TEST(MeasuredFrame, draws_within_the_ranges_of_the_options) {
+  Simulation sim(test::small_tilted_bed(10.0));
+  sim.step(3);
+  using pictures::MapOptions;
+  constexpr double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  const auto code = [&sim](const char* map, auto member, auto value) {
+    MapOptions options;
+    options.*member = value;
+    return test::exit_code_of([&] { sim.draw(map, options); });
+  };
+  for (const double wrong : {infinite, -infinite, nan, -1.0, 1e300}) {
+    for (const auto member :
+         {&MapOptions::l_min, &MapOptions::threshold, &MapOptions::theta_c, &MapOptions::printed})
+      EXPECT_EQ(code("gamma", member, wrong), ExitCode::usage) << wrong;
+    EXPECT_EQ(code("coarse", &MapOptions::length, wrong), ExitCode::usage) << wrong;
+    EXPECT_EQ(code("displacement", &MapOptions::since, wrong), ExitCode::usage) << wrong;
+  }
+  for (const int wrong : {-3, 0, 199, 16385})
+    EXPECT_EQ(code("gamma", &MapOptions::width, wrong), ExitCode::usage) << wrong;
+  using Numbers = std::vector<double>;
+  EXPECT_EQ(code("gamma", &MapOptions::range, Numbers{0.5}), ExitCode::usage);
+  EXPECT_EQ(code("gamma", &MapOptions::crop, Numbers{0.0, 1.0}), ExitCode::usage);
+  EXPECT_EQ(code("gamma", &MapOptions::crop, Numbers{0.0, 0.0, 1.0, 1.0}), ExitCode::usage)
+      << "no effect here";
+  FrameInput input = sim.measured().input();
+  input.parameters.l_min = infinite;
+  EXPECT_EQ(test::exit_code_of([&] { MeasuredFrame{input}; }), ExitCode::bad_data);
 }
 
 }  // namespace

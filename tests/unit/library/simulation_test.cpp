@@ -10,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -194,6 +195,32 @@ TEST(Simulation, that_is_resumed_or_branched_off_knows_its_last_step) {
     EXPECT_EQ(at(first_row(folder.path("again")), Observable::largest_overlap), overlap) << name;
   }
   EXPECT_EQ(at(first_row(folder.path("branch.h5")), Observable::largest_overlap), overlap);
+}
+
+/// Paths are those of the folder in which a recording began, whatever the folder of the process is later.
+TEST(Simulation, goes_on_in_its_file_when_the_process_changes_its_folder) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path(""));
+  std::filesystem::create_directory("other");
+  Simulation sim(test::small_tilted_bed(1.0));
+  sim.record("deep/down/run.h5");
+  sim.deposit();
+  sim.save("deep/saved.h5");
+  Simulation saved = Simulation::resume("deep/saved.h5");
+  std::filesystem::current_path("other");
+  EXPECT_NO_THROW(sim.finish());
+  EXPECT_NO_THROW(saved.finish());
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(io::RunFile::open(folder.path("deep/down/run.h5")).complete());
+  EXPECT_TRUE(io::RunFile::open(folder.path("deep/saved.h5")).complete());
+  try {
+    Simulation::resume(folder.path("deep/saved.h5"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("is complete"), std::string::npos);
+  }
 }
 
 TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {
