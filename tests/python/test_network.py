@@ -87,7 +87,7 @@ def constraints(frame):
     the tangential ones only of contacts that stick."""
     contacts, free, rows = frame.contacts, np.append(frame.free, np.zeros(3, bool)), []
     for c, pair in enumerate(contacts.pair):
-        along = [(contacts.normal[c], 0)] + [(contacts.tangent[c], -1)] * (contacts.status[c] == 1)
+        along = [(contacts.normal[c], 0)] + [(contacts.tangent[c], -1)] * int(contacts.status[c] == 1)
         for direction, turn in along:
             row = np.zeros(3 * len(free))
             for body, sign in zip(pair, (-1, 1)):
