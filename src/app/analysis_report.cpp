@@ -8,6 +8,7 @@
 
 #include "analysis/failure/last_rise.h"
 #include "app/event_report.h"
+#include "base/text.h"
 #include "base/text_table.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::size_t table_rows = 11;
 
-std::string degree_text(double angle) { return fmt::format("{:.2f}", degrees(angle)); }
+std::string degree_text(double angle) { return degrees_text(angle, 2); }
 
 /// Returns frames spaced evenly over the run, including the first and the last.
 std::vector<std::size_t> shown_frames(std::size_t count) {

@@ -40,7 +40,7 @@ struct RunInfo {
   bool has_frames = true;       ///< false: only times and tilts of the frames are kept
   double tilt_first = none;     ///< rad, tilt of the first frame
   double tilt_last = none;
-  std::string course;  ///< of a tilt that does not only grow: "by a programme" or "by commands"
+  std::string course;  ///< "by a programme" or "by commands"; empty: the tilt only grows
   double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
   double tilt = 0.0;                               ///< rad, tilt of the last state
   std::size_t steps = 0;

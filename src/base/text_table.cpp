@@ -65,7 +65,10 @@ std::string group_line(const TextTable& table, const std::vector<std::size_t>& w
 }  // namespace
 
 std::string number_cell(std::string_view format, double value) {
-  return std::isnan(value) ? "-" : fmt::format(fmt::runtime(format), value);
+  if (std::isnan(value)) return "-";
+  const std::string text = fmt::format(fmt::runtime(format), value);
+  const std::string zero = fmt::format(fmt::runtime(format), 0.0);
+  return text.starts_with('-') && text.substr(1) == zero.substr(zero.starts_with('+') ? 1 : 0) ? zero : text;
 }
 
 std::string aligned_text(const TextTable& table, std::size_t indent) {

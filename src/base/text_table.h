@@ -30,7 +30,7 @@ struct TextTable {
   std::vector<std::vector<TextCell>> rows;
 };
 
-/// Formats a number with a format of libfmt, such as "{:.3f}"; "-" for NaN.
+/// Formats a number with a format of libfmt, such as "{:.3f}"; "-" for NaN, no minus for 0.
 std::string number_cell(std::string_view format, double value);
 
 /// Returns aligned text: columns as wide as their widest cell, two blanks apart, after `indent` blanks, with

@@ -35,7 +35,7 @@ class RunFile {
   /// Whether the scenario has a programme (tilt.program).
   bool has_program() const;
   /// Whether the tilt does not only grow from frame to frame, because of a programme or of commands: then it
-  /// may be held, decrease and change sign, and time, not the tilt, tells the frames apart.
+  /// may be held, decrease and change sign, and only their times distinguish frames.
   bool goes_by_time() const;
   /// Return the frames or rows of the tilt, whatever its course: those up to its last step. Only if the slope
   /// has failed and the run follows the flow after failure (tilt.after_failure) are there others, of that

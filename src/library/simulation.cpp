@@ -170,14 +170,14 @@ bool Simulation::deposit() {
 bool Simulation::tilt_to(double degrees) {
   require_finite(degrees, "a tilt of");
   if (!deposit()) return false;
-  const session::TiltGoal goal = session::tilt_goal(radians(degrees), state_->session);
-  if (const std::optional<Command> turn = session::turning_command(goal, state_->session)) apply(*turn);
-  session::require_reachable(goal, state_->session);
+  const session::TiltGoal goal =
+      session::aim(radians(degrees), state_->session, [this](const Command& turn) { apply(turn); });
   return advance_until([&goal](const session::Session& session) {
     if (is_passed(goal, session)) return true;
     // A failure ends the run, at once or after its flow; a programme was checked as a whole.
-    if (session.phase() == session::Phase::tilt && !session.follows_program())
-      require_reachable(goal, session);
+    if (session.phase() != session::Phase::tilt || session.follows_program()) return false;
+    if (const std::string reason = why_never(goal, session); !reason.empty())
+      throw Error(ExitCode::usage, reason);
     return false;
   });
 }

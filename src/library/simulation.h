@@ -49,7 +49,7 @@ class Simulation {
 
   // The following functions step until the goal is reached or the run is over (done), and return false if
   // they were interrupted before. They throw Error(usage) if the run was over already, if the course of the
-  // tilt never reaches the goal (session::require_reachable), or for a time below 0, and Error(bad_data) if
+  // tilt never reaches the goal (session::why_never), or for a time below 0, and Error(bad_data) if
   // the bed does not come to rest or a guard is broken (Session::advance); steps computed before the error
   // are kept. Functions that depend on the tilt first complete the deposition.
 

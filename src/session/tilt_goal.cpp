@@ -45,25 +45,21 @@ double as_given(double rate) {
   return given;
 }
 
-[[noreturn]] void refuse(const TiltGoal& goal, const std::string& fault) {
-  throw Error(ExitCode::usage,
-              fmt::format("the tilt never reaches {} deg: {}", degrees_text(goal.tilt, 3), fault));
+std::string never_text(const TiltGoal& goal, const std::string& reason) {
+  return fmt::format("the tilt never reaches {} deg: {}", degrees_text(goal.tilt, 3), reason);
+}
+
+/// Whether the tilt can be turned and leads away from the goal.
+bool needs_turn(const TiltGoal& goal, const Session& session) {
+  const bool tilts = session.phase() == Phase::deposition || session.phase() == Phase::tilt;
+  return tilts && !session.follows_program() && !is_passed(goal, session) &&
+         leads_away(goal, session.tilt_rate());
 }
 
 }  // namespace
 
-TiltGoal tilt_goal(double tilt, const Session& session) { return {tilt, session.world().tilt <= tilt}; }
-
 bool is_passed(const TiltGoal& goal, const Session& session) {
   return session.phase() != Phase::deposition && is_beyond(goal, session.world().tilt);
-}
-
-std::optional<Command> turning_command(const TiltGoal& goal, const Session& session) {
-  const bool tilts = session.phase() == Phase::deposition || session.phase() == Phase::tilt;
-  if (!tilts || session.follows_program() || is_passed(goal, session) ||
-      !leads_away(goal, session.tilt_rate()))
-    return std::nullopt;
-  return Command{0, CommandKind::tilt_rate, -1, -as_given(session.tilt_rate())};
 }
 
 bool is_held(const Session& session) {
@@ -71,28 +67,34 @@ bool is_held(const Session& session) {
          !rate_will_change(session, true);
 }
 
-void require_reachable(const TiltGoal& goal, const Session& session) {
+std::string why_never(const TiltGoal& goal, const Session& session) {
   const Phase phase = session.phase();
-  if (phase == Phase::deposition || phase == Phase::done || is_passed(goal, session)) return;
+  if (phase == Phase::deposition || phase == Phase::done || is_passed(goal, session)) return {};
   if (phase == Phase::flow) {
     const bool lowered = session.scenario().tilt.after_failure == scenario::AfterFailure::lower;
-    if (!lowered || !is_beyond(goal, 0.0))
-      refuse(goal, fmt::format("the slope has failed, and its tilt is {} (tilt.after_failure)",
-                               lowered ? "lowered" : "held"));
-    return;
+    if (lowered && is_beyond(goal, 0.0)) return {};
+    return never_text(goal, fmt::format("the slope has failed, and its tilt is {} (tilt.after_failure)",
+                                        lowered ? "lowered" : "held"));
   }
   const double rate = session.tilt_rate();
   if (session.follows_program()) {
-    if (!program_passes(goal, session) && !rate_will_change(session, false))
-      refuse(goal,
-             fmt::format("its programme (tilt.program) does not get there from {} deg; a tilt_rate ends "
-                         "the programme",
-                         degrees_text(session.world().tilt, 3)));
-  } else if (rate == 0.0) {
-    if (is_held(session)) refuse(goal, "it is held; set its rate first (tilt_rate)");
-  } else if (leads_away(goal, rate) && !rate_will_change(session, false)) {
-    refuse(goal, fmt::format("it changes by {:.4g} deg/s (tilt_rate), away from it", degrees(rate)));
+    if (program_passes(goal, session) || rate_will_change(session, false)) return {};
+    return never_text(goal,
+                      fmt::format("its programme (tilt.program) does not get there from {} deg; setting "
+                                  "tilt_rate ends the programme",
+                                  degrees_text(session.world().tilt, 3)));
   }
+  if (is_held(session)) return never_text(goal, "it is held; set its rate first (tilt_rate)");
+  if (!leads_away(goal, rate) || rate_will_change(session, false)) return {};
+  return never_text(goal, fmt::format("it changes by {:.4g} deg/s (tilt_rate), away from it", degrees(rate)));
+}
+
+TiltGoal aim(double tilt, const Session& session, const std::function<void(const Command&)>& apply) {
+  const TiltGoal goal{tilt, session.world().tilt <= tilt};
+  if (needs_turn(goal, session)) apply({0, CommandKind::tilt_rate, -1, -as_given(session.tilt_rate())});
+  if (const std::string reason = why_never(goal, session); !reason.empty())
+    throw Error(ExitCode::usage, reason);
+  return goal;
 }
 
 }  // namespace talus::session

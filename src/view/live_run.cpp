@@ -26,8 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::duration<double> frame_interval(1.0 / 30.0);
-constexpr std::chrono::duration<double> speed_interval(0.5);
+constexpr std::chrono::duration<double> frame_interval(1.0 / 30.0), speed_interval(0.5);
 
 /// Point at which the run pauses.
 struct Goal {
@@ -37,7 +36,8 @@ struct Goal {
 };
 
 bool is_reached(const Goal& goal, const session::Session& session) {
-  return session.world().step >= goal.step || (goal.tilt && session::is_passed(*goal.tilt, session)) ||
+  return session.world().step >= goal.step ||
+         (goal.tilt && (is_passed(*goal.tilt, session) || !why_never(*goal.tilt, session).empty())) ||
          (goal.end_of_deposition && session.phase() != session::Phase::deposition);
 }
 
@@ -62,11 +62,6 @@ bool begins(const Command& command, const std::optional<session::Drag>& drag) {
 
 /// Returns the number of solver threads, which leaves one core to the window.
 int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
-
-std::string one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
-}
 
 }  // namespace
 
@@ -113,7 +108,6 @@ struct LiveRun::State {
 
   void work(const std::stop_token& stop);
   bool should_step();
-  void refuse_unreachable();
   void execute_request();
   void apply(const Command& command);
   void back(const std::string& output);
@@ -174,23 +168,7 @@ void LiveRun::State::work(const std::stop_token& stop) {
   end();
 }
 
-/// Pauses with an error if a command has led the tilt away from the goal.
-void LiveRun::State::refuse_unreachable() {
-  if (session.phase() != session::Phase::tilt || session.follows_program()) return;
-  std::optional<session::TiltGoal> asked_for;
-  {
-    const std::lock_guard lock(mutex);
-    if (goal) asked_for = goal->tilt;
-  }
-  try {
-    if (asked_for) session::require_reachable(*asked_for, session);
-  } catch (const Error& error) {
-    fail(error);
-  }
-}
-
 bool LiveRun::State::should_step() {
-  refuse_unreachable();
   const std::lock_guard lock(mutex);
   if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
     goal.reset();
@@ -408,7 +386,8 @@ void LiveRun::State::end() {
 
 void LiveRun::State::fail(const std::exception& error) {
   const std::lock_guard lock(mutex);
-  status.error = one_line(error.what());
+  status.error = error.what();
+  std::ranges::replace(status.error, '\n', ' ');
   const auto* known = dynamic_cast<const Error*>(&error);
   status.error_code = known ? known->code() : ExitCode::internal;
   goal.reset();
@@ -447,10 +426,7 @@ void LiveRun::step(std::int64_t count) { state_->play_to({.step = status().step 
 
 void LiveRun::run_to(double tilt) {
   state_->submit_request([state = state_.get(), tilt] {
-    const session::TiltGoal next = session::tilt_goal(tilt, state->session);
-    if (const auto turn = session::turning_command(next, state->session)) state->apply(*turn);
-    session::require_reachable(next, state->session);
-    state->play_to({.tilt = next});
+    state->play_to({.tilt = aim(tilt, state->session, std::bind_front(&State::apply, state))});
   });
 }
 

@@ -66,7 +66,7 @@ class LiveRun {
   void pause();
   void step(std::int64_t count);  ///< runs this many steps, then pauses
   /// Runs until the tilt (rad) is passed, then pauses; turns a tilt that leads away from it by a command
-  /// first. Throws Error(usage) if its course never gets there (session::require_reachable).
+  /// first. Throws Error(usage) if its course never gets there (session::why_never).
   void run_to(double tilt);
   void finish_deposition();             ///< runs until the tilt begins, then pauses
   void set_pace(const LivePace& pace);  ///< takes effect at the next step

@@ -196,7 +196,7 @@ def test_all_tables_have_all_frames_of_a_run_that_commands_hold_or_turn(tmp_path
     assert len(json_of("analyze", path)[0]["packing/volume"]) == count
     run_talus("export", path, "--to", "csv", "-o", tmp_path / "csv")
     assert len((tmp_path / "csv/frames.csv").read_text().splitlines()) == 1 + count
-    run_talus("render", path, "--map", "pressure", "--width", "80", "-o", tmp_path / "maps")
+    run_talus("render", path, "--map", "pressure", "--every", "0.001", "--width", "200", "-o", tmp_path / "maps")
     names = sorted(file.name for file in (tmp_path / "maps").glob("*.png"))
     assert len(names) == count and not any("flow" in name or "-00.00" in name for name in names)
     if ends:

@@ -310,14 +310,14 @@ x = 40
 
 
 def test_a_cyclic_tilt_with_feedback_is_replayed_without_python(tmp_path):
-    """The tilt turns when the share of sliding contacts passes 0.1, and at each goal on the other side."""
+    """The tilt turns when the share of sliding contacts passes 0.3, and at each goal on the other side."""
     sim = bed(**{"bed.length": 10, "bed.depth": 4})
     sim.record(tmp_path / "cycles.h5")
     turns = []
     for cycle in range(2):
         sim.tilt_to(0)
         sim.tilt_rate = 40
-        sim.run(until=lambda: sim["sliding_contacts"] > 0.1 * sim["contacts"] or sim.tilt > 6, every=0.005)
+        sim.run(until=lambda: sim["contacts/critical_share"] > 0.3 or sim.tilt > 6, every=0.005)
         turns.append(sim.tilt)
         sim.tilt_to(-3)
         turns.append(sim.tilt)

@@ -39,6 +39,9 @@ TEST(TextTable, is_markdown_with_its_columns_one_below_the_other) {
 
 TEST(TextTable, has_numbers_by_their_format_and_a_dash_for_none) {
   EXPECT_EQ(number_cell("{:+.2f}", 1.5), "+1.50");
+  EXPECT_EQ(number_cell("{:+.2f}", -0.001), "+0.00");
+  EXPECT_EQ(number_cell("{:.2f}", -0.001), "0.00");
+  EXPECT_EQ(number_cell("{:.2f}", -10.0), "-10.00");
   EXPECT_EQ(number_cell("{:.2f}", std::nan("")), "-");
 }
 

@@ -28,6 +28,10 @@ runs::RunView run_with(const std::string& path, double rest, std::uint64_t seed)
                          row_at(10.5, 19.8, 0.06), row_at(11.0, 19.6, 0.061), row_at(11.0, 19.6, 0.061)};
   io::Checkpoint checkpoint = example::checkpoint(0);
   checkpoint.results = {{"theta_c", radians(19.9)}, {"theta_r", radians(rest)}};
+  for (std::size_t k = 0; k < segment.observables.size(); ++k)
+    at(segment.observables[k], Observable::step) = static_cast<double>(k);
+  checkpoint.world.step = 5;
+  checkpoint.integers = {{"flow_steps", 3}};
   store.commit(segment, checkpoint);
   runs::RunView run = runs::view_of_run(path, io::RunFile::open(path), {});
   run.scenario.seed = seed;

@@ -72,10 +72,14 @@ std::string example_run(const test::TemporaryFolder& folder, const Variation& va
   io::Segment segment;
   segment.frames = {frame_at(0.0, {{2, 12}}), frame_at(1.0, {{2, 12}, {15, 30}}),
                     frame_at(2.0, {{2, 12}, {15, 30}}), frame_at(1.5, {{2, 12}}, 0.25)};
-  for (const Frame& frame : segment.frames) {
-    at(segment.observables.emplace_back(), Observable::tilt) = frame.tilt;
-    at(segment.observables.back(), Observable::stress_ratio) = variation.stress_ratio;
+  for (Frame& frame : segment.frames) {
+    frame.step = checkpoint.world.step++;
+    ObservableRow& row = segment.observables.emplace_back();
+    at(row, Observable::step) = static_cast<double>(frame.step);
+    at(row, Observable::tilt) = frame.tilt;
+    at(row, Observable::stress_ratio) = variation.stress_ratio;
   }
+  checkpoint.integers = {{"flow_steps", 2}};  // the last of which follow the last frame
   store.commit(segment, checkpoint);
   return folder.path("run.h5");
 }

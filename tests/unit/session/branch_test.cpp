@@ -266,9 +266,12 @@ TEST(Branch, goes_on_in_the_flow_after_failure) {
   const io::RunFile run = recorded(scenario, folder.path("run.h5"));
   const std::size_t k = run.frame_count();
   ASSERT_LT(k + 1, run.all_frame_tilts().size()) << "a frame of the flow";
-  const Schedule schedule = stored_schedule(checkpoint_at_frame(run, k), true, "the frame");
-  EXPECT_EQ(schedule.phase, Phase::flow);
-  EXPECT_TRUE(schedule.flow.failed);
+  for (std::size_t j = k; j + 1 < run.all_frame_tilts().size(); ++j) {
+    const Schedule schedule = stored_schedule(checkpoint_at_frame(run, j), true, "the frame");
+    EXPECT_EQ(schedule.phase, Phase::flow);
+    EXPECT_TRUE(schedule.flow.failed)
+        << "also where it was lowered below theta_c, at " << run.all_frame_tilts()[j];
+  }
   const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), k);
   expect_whole(branch);
   EXPECT_EQ(find_value(branch.checkpoint().results, "theta_c"),
@@ -276,6 +279,38 @@ TEST(Branch, goes_on_in_the_flow_after_failure) {
   Session again = session_at_start(branch.header(), "branch.h5");
   replay(again, nullptr, {}, to_the_end, {});
   EXPECT_EQ(state_hash(again.world()), state_hash(branch.checkpoint().world));
+}
+
+/// The tilt is turned back while the flow that fails the slope has begun.
+TEST(Branch, has_the_flow_in_progress_whatever_the_course_of_the_tilt) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(3.0);
+  scenario.contact.friction = 0.02;
+  scenario.tilt.end_angle.reset();
+  scenario.output.frame_every = scenario.output.observable_every = 0.1;
+  Session steep(scenario);
+  while (steep.phase() != Phase::done && !(steep.schedule().flow.displacement > 0.005)) steep.advance();
+  ASSERT_EQ(steep.phase(), Phase::tilt);
+  const std::vector<Command> commands = {{steep.world().step, CommandKind::tilt_rate, -1, -5.0}};
+  const io::RunFile run = recorded(scenario, folder.path("run.h5"), commands);
+  ASSERT_TRUE(std::isfinite(find_value(run.checkpoint().results, "theta_c").value_or(not_known)));
+  Session session(scenario);
+  int flowing = 0;
+  for (std::size_t k = 0; k + 1 < run.frame_count(); ++k) {
+    while (session.world().step < run.frame(k).step) {
+      if (session.world().step == commands[0].step) session.apply(commands[0]);
+      session.advance();
+    }
+    const dynamics::SurfaceFlow found = stored_schedule(checkpoint_at_frame(run, k), false, "the frame").flow;
+    const dynamics::SurfaceFlow expected = session.schedule().flow;
+    if (expected.onset_tilt != *session::angle_of_repose(stored_schedule(run.checkpoint(), false, "the run")))
+      continue;  // a burst that stops
+    ++flowing;
+    EXPECT_TRUE(found.flowing);
+    EXPECT_EQ(found.onset_tilt, expected.onset_tilt);
+    EXPECT_NEAR(found.displacement, expected.displacement, 1e-12);
+  }
+  EXPECT_GT(flowing, 3);
 }
 
 constexpr double diameter = 0.01, step_length = 1e-3;

@@ -74,6 +74,10 @@ void write_run(const std::string& path, double theta_c, std::vector<Frame> frame
     add_disk(checkpoint.world.grains, {static_cast<double>(i), 0.0}, 0.5, 1.0,
              i >= static_cast<std::size_t>(header.statics.free_count));
   checkpoint.results = {{"theta_c", radians(theta_c)}};
+  constexpr std::int64_t last_of_tilt = 25000;
+  checkpoint.world.step = segment.frames.empty() ? 0 : segment.frames.back().step;
+  if (checkpoint.world.step > last_of_tilt)
+    checkpoint.integers = {{"flow_steps", checkpoint.world.step - last_of_tilt}};
   io::RunStore store = io::RunStore::create(path, header, true);
   store.commit(segment, checkpoint);
   store.pack();
