@@ -140,7 +140,7 @@ void reset(Gui& gui) {
   if (!model.is_live()) return refuse_in_replay(gui, "There is nothing to reset");
   if (!model.may_discard()) return;
   try {
-    model.restart(static_cast<std::uint64_t>(std::max(model.state.seed, 0)));
+    model.restart(static_cast<std::uint64_t>(std::max<std::int64_t>(model.state.seed, 0)));
     model.state.message = model.branch_line() ? "The branch has been restarted."
                                               : fmt::format("A new run, seed {}.", model.seed());
   } catch (const Error& error) {

@@ -133,6 +133,13 @@ bool named_number(Gui& gui, const char* name, const char* label, int& value, con
   return changed;
 }
 
+bool named_number(Gui& gui, const char* name, const char* label, std::int64_t& value, const char* tip) {
+  begin_row(label, tip);
+  const bool changed = ImGui::InputScalar(hidden(name).c_str(), ImGuiDataType_S64, &value);
+  finish_widget(gui, name, tip);
+  return changed;
+}
+
 bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip) {
   begin_row(label, tip);
   const bool changed = ImGui::InputText(hidden(name).c_str(), &value);

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,8 @@ bool named_slider(Gui& gui, const char* name, const char* label, double& value, 
 bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
                   const char* tip = nullptr);
 bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip = nullptr);
+bool named_number(Gui& gui, const char* name, const char* label, std::int64_t& value,
+                  const char* tip = nullptr);
 bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip = nullptr);
 /// Draws a slider that shows `current` and returns a value only when it is released.
 std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,

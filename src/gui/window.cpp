@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
+#include <string_view>
 #include <utility>
 
 #include "base/errors.h"
@@ -36,6 +38,9 @@ class WindowContext final : public render::Context {
   Function function(const char* name) const override { return glfwGetProcAddress(name); }
 };
 
+constexpr const char* without_display =
+    "talus view --screenshot, talus render and talus export --to html draw without one";
+
 /// Initialises GLFW, and terminates it at the end of its life.
 class Glfw {
  public:
@@ -44,9 +49,8 @@ class Glfw {
     const char* reason = nullptr;
     glfwGetError(&reason);
     throw Error(ExitCode::unavailable,
-                fmt::format("no window: {}; talus view needs a display (is DISPLAY set?); talus render and "
-                            "talus view --screenshot draw without one",
-                            reason ? reason : "GLFW cannot be initialised"));
+                fmt::format("no window: {}; talus view needs a display (is DISPLAY set?); {}",
+                            reason ? reason : "GLFW cannot be initialised", without_display));
   }
   ~Glfw() { glfwTerminate(); }
   Glfw(const Glfw&) = delete;
@@ -57,6 +61,21 @@ struct WindowDeleter {
   void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
 };
 using WindowHandle = std::unique_ptr<GLFWwindow, WindowDeleter>;
+
+/// Returns what to do if no window has OpenGL, for the reason that GLFW gives.
+std::string opengl_advice(std::string_view reason) {
+  if (const std::string variables = render::driver_variables(); !variables.empty())
+    return "the environment configures its driver, try without " + visible_word(variables, 200);
+  // GLFW: "GLX: Failed to load GLX", "EGL: Library not found"
+  if (reason.find("Failed to load") != std::string_view::npos ||
+      reason.find("Library not found") != std::string_view::npos)
+    return "apt-get install libgl1 libgl1-mesa-dri";
+  const char* const display = std::getenv("DISPLAY");
+  return fmt::format(
+      "the display {} does not offer it, as is common over ssh -X and VNC, and no package mends that: use a "
+      "display of this machine; {}",
+      visible_word(display ? display : "", 200), without_display);
+}
 
 WindowHandle make_window(int width, int height) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -71,12 +90,9 @@ WindowHandle make_window(int width, int height) {
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);
-    const std::string variables = render::driver_variables();
+    if (reason == nullptr) reason = "unknown";
     throw Error(ExitCode::unavailable,
-                fmt::format("no window with OpenGL 3.3: {}; {}", reason ? reason : "unknown",
-                            variables.empty() ? "apt-get install libgl1 libgl1-mesa-dri"
-                                              : "the environment configures its driver, try without " +
-                                                    visible_word(variables, 200)));
+                fmt::format("no window with OpenGL 3.3: {}; {}", reason, opengl_advice(reason)));
   }
   glfwMakeContextCurrent(window.get());
   glfwSwapInterval(1);

@@ -110,6 +110,7 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   live_ = std::move(next);
   pictures_.run.statics = all_statics_ = live_->statics();
   pictures_.run.seed = scenario_.seed;
+  state.seed = static_cast<std::int64_t>(scenario_.seed);  // at most 2^63 - 1
   theta_c_.reset();
   rows_.clear();
   std::vector<Plot> kept = empty_plots();

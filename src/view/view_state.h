@@ -2,6 +2,7 @@
 /// State of the interactive view: plain data that widgets change and drawing reads.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -98,9 +99,9 @@ struct ViewState {
   double drop_height = 5.0;   ///< D
   double run_to_tilt = 10.0;  ///< deg
   int drop_count = 5;
-  int pace = 0;        ///< index in live_paces
-  int seed = 1;        ///< seed of the next reset
-  std::string folder;  ///< folder shown in the list of files; empty: the working directory at start
+  int pace = 0;           ///< index in live_paces
+  std::int64_t seed = 1;  ///< seed of the next reset; that of the run when it begins
+  std::string folder;     ///< folder shown in the list of files; empty: the working directory at start
   std::string picture_path = "talus.png";
   std::string run_path = "talus.h5";  ///< path in which an unrecorded run is saved
 };

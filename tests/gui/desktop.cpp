@@ -21,7 +21,7 @@ void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 constexpr int longest_pauses = 200;  // ten seconds
 
 /// Starts Xvfb on a free display and returns its name in `display`.
-pid_t start_server(std::string& display) {
+pid_t start_server(std::string& display, bool has_opengl) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();
@@ -32,7 +32,7 @@ pid_t start_server(std::string& display) {
     dup2(nothing, STDERR_FILENO);
     // Without -noreset, Xvfb resets when its only client leaves, and rejects connections meanwhile.
     execlp("Xvfb", "Xvfb", "-displayfd", "3", "-screen", "0", "1500x1000x24", "-nolisten", "tcp", "-noreset",
-           nullptr);
+           has_opengl ? nullptr : "-extension", "GLX", nullptr);
     _exit(127);
   }
   close(ends[1]);
@@ -71,9 +71,9 @@ std::string missing_for_desktop() {
   return {};
 }
 
-Desktop::Desktop() {
+Desktop::Desktop(bool has_opengl) {
   std::string display;
-  server_ = start_server(display);
+  server_ = start_server(display, has_opengl);
   if (display == ":") throw std::runtime_error("Xvfb does not start");
   setenv("DISPLAY", display.c_str(), 1);
 }

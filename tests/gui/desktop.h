@@ -18,7 +18,7 @@ std::string missing_for_desktop();
 /// the window under the mouse receives the keys.
 class Desktop {
  public:
-  Desktop();
+  explicit Desktop(bool has_opengl = true);
   ~Desktop();
   Desktop(const Desktop&) = delete;
   Desktop& operator=(const Desktop&) = delete;

@@ -395,7 +395,15 @@ TEST_F(Live, plays_pauses_and_begins_anew) {
   EXPECT_EQ(status().step, step) << "it is unsaved, so the user is asked first";
   EXPECT_NE(model_.state.message.find("not saved"), std::string::npos);
   gui_.click("reset");
-  EXPECT_TRUE(wait_until([&] { return status().step == 0; }));
+  EXPECT_TRUE(wait_until([&] { return status().step == 0 && model_.seed() == 18; }));
+}
+
+TEST_F(Live, begins_anew_with_a_seed_that_is_typed) {
+  gui_.click("seed");
+  gui_.key('a', true);
+  gui_.type("9007199254740993");
+  gui_.click("reset");
+  EXPECT_EQ(model_.seed(), 9007199254740993u);
 }
 
 TEST_F(Live, is_saved_by_a_key_and_goes_on_there) {

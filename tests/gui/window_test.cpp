@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <set>
@@ -104,6 +105,20 @@ TEST(View, without_a_window_by_a_variable_of_the_environment_says_so) {
     EXPECT_NE(outcome.err.find(variable.substr(0, variable.find('='))), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.find("apt-get"), std::string::npos) << outcome.err;
   }
+}
+
+TEST(View, names_a_display_that_has_no_opengl) {
+  if (const std::string missing = missing_for_desktop(); !missing.empty()) GTEST_SKIP() << missing;
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const Desktop desktop(false);
+  const Outcome outcome = run_talus({"view", "bed.toml"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 69);
+  for (const std::string part :
+       {std::string("the display ") + std::getenv("DISPLAY"), std::string("talus view --screenshot"),
+        std::string("talus render"), std::string("talus export --to html")})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("apt-get"), std::string::npos) << outcome.err;
 }
 
 TEST(View, refuses_a_beginning_that_is_none) {

@@ -185,6 +185,17 @@ TEST_F(ViewOfScenario, is_given_up_unsaved_only_when_asked_twice) {
   EXPECT_EQ(model_->recording().output, folder_.path("saved.h5"));
 }
 
+TEST_F(ViewOfScenario, offers_the_seed_of_its_run_for_the_next_one) {
+  EXPECT_EQ(model_->state.seed, 1) << "the default";
+  model_->restart(5);
+  EXPECT_EQ(model_->state.seed, 5);
+  std::ofstream(folder_.path("seeded.toml")) << "seed = 7\n[bed]\nlength = 10\ndepth = 3\n";
+  EXPECT_EQ(ViewModel::open(folder_.path("seeded.toml"), {}, "", false, "").state.seed, 7);
+  const ViewModel large =
+      ViewModel::open(folder_.path("seeded.toml"), {"seed=9007199254740993"}, "", false, "");
+  EXPECT_EQ(large.state.seed, 9007199254740993);
+}
+
 TEST_F(ViewOfScenario, begins_anew_with_another_seed) {
   const double before = model_->frame().x[0];
   model_->live()->step(3);
