@@ -1,13 +1,13 @@
 #include "render/movie.h"
 
-#include <signal.h>
+#include <poll.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <fmt/core.h>
+#include <utility>
 #include <vector>
 
 #include "base/child_program.h"
@@ -98,34 +98,35 @@ std::string size_text(int width, int height, int channels) {
 }  // namespace
 
 Movie::Movie(const std::string& path, int width, int height, int channels, double fps)
-    : path_(path), width_(width), height_(height), channels_(channels), file_(path), made_(path) {
+    : path_(path),
+      width_(width),
+      height_(height),
+      channels_(channels),
+      file_(path),
+      made_(path),
+      messages_(1024) {
   const std::vector<std::string> arguments =
       ffmpeg_arguments(path, made_.path(), width, height, channels, fps);
   // A socket pair rather than a pipe, because MSG_NOSIGNAL then suppresses SIGPIPE.
   std::array<int, 2> ends{};
-  messages_ = std::tmpfile();
-  if (!messages_ || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-    const int error = errno;
-    if (messages_) std::fclose(messages_);
-    throw system_error(ExitCode::io_error, "open a pipe for", path_, error);
-  }
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw system_error(ExitCode::io_error, "open a pipe for", path_, errno);
   pipe_ = ends[0];
   try {
-    ffmpeg_ = start(arguments, ends[1], fileno(messages_));
+    ffmpeg_ = start(arguments, ends[1], messages_.end());
   } catch (...) {
     for (int end : ends) close(end);
-    std::fclose(messages_);
     throw;
   }
   close(ends[1]);
+  messages_.close_end();
 }
 
 Movie::~Movie() {
   if (ffmpeg_ > 0) {
-    kill(ffmpeg_, SIGKILL);
+    kill_program(ffmpeg_);
     close_and_wait();
   }
-  std::fclose(messages_);
 }
 
 void Movie::add(const Image& image) {
@@ -135,8 +136,14 @@ void Movie::add(const Image& image) {
                                                 size_text(width_, height_, channels_)));
   const std::uint8_t* data = image.pixels.data();
   for (std::size_t left = image.pixels.size(); left > 0;) {
-    const ssize_t sent = send(pipe_, data, left, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
+    const ssize_t sent = send(pipe_, data, left, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) {
+      messages_.read();  // a program whose messages are not read stops
+      pollfd ready = {pipe_, POLLOUT, 0};
+      constexpr int milliseconds = 100;
+      poll(&ready, 1, milliseconds);
+      continue;
+    }
     if (sent < 0) fail();
     data += sent;
     left -= static_cast<std::size_t>(sent);
@@ -151,19 +158,14 @@ void Movie::finish() {
 
 int Movie::close_and_wait() {
   close(pipe_);
-  int status = 0;
-  while (waitpid(ffmpeg_, &status, 0) < 0 && errno == EINTR) {
-  }
-  ffmpeg_ = -1;
+  const int status = wait_for_program(std::exchange(ffmpeg_, -1), [this] { messages_.read(); });
+  messages_.read();
   return status;
 }
 
 void Movie::fail() {
   if (ffmpeg_ > 0) close_and_wait();
-  std::rewind(messages_);
-  std::array<char, 1024> text{};
-  const std::size_t size = std::fread(text.data(), 1, text.size(), messages_);
-  std::string said(text.data(), size);
+  std::string said = messages_.text();
   while (!said.empty() && said.back() == '\n') said.pop_back();
   throw Error(ExitCode::io_error, fmt::format("{}: ffmpeg gave up{}", path_,
                                               said.empty() ? "; is the file size limited?" : ": " + said));

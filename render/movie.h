@@ -3,9 +3,9 @@
 
 #include <sys/types.h>
 
-#include <cstdio>
 #include <string>
 
+#include "base/child_program.h"
 #include "base/output_file.h"
 #include "render/image.h"
 
@@ -36,7 +36,7 @@ class Movie {
   int width_, height_, channels_;
   OutputFile file_;
   MemoryFile made_;
-  std::FILE* messages_ = nullptr;
+  ProgramText messages_;
   int pipe_ = -1;
   pid_t ffmpeg_ = -1;
 };

@@ -3,9 +3,14 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdint>
+#include <ctime>
 #include <string_view>
 
+#include "base/child_program.h"
 #include "base/errors.h"
+#include "base/output_file.h"
 
 namespace talus::app {
 namespace {
@@ -24,10 +29,29 @@ void set_alarm(int microseconds) {
 /// Starts the timer, long enough for a command that checks stop_request() to clean up.
 void arm() { set_alarm(300'000); }
 
-/// Handles the first signal as a request to stop; the second ends the process at once (every file is complete
-/// at any time).
-void handle_stop(int) {
-  if (stop_requested != 0) _exit(static_cast<int>(ExitCode::stopped));
+/// Monotonic time of the first signal, ns; 0 before it.
+std::atomic<std::int64_t> first_signal = 0;
+
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// Whether a signal after the first ends the process at once, as every file is complete at any time.
+bool ends_at_once(const siginfo_t& signal, std::int64_t since_first) {
+  if (const auto request = passed_on(signal)) return *request == StopRequest::at_once;
+  return static_cast<double>(since_first) >= 1e9 * repeats_end;
+}
+
+/// Handles the first signal as a request to stop.
+void handle_stop(int, siginfo_t* signal, void*) {
+  const std::int64_t time = now();
+  std::int64_t first = 0;
+  if (!first_signal.compare_exchange_strong(first, time)) {
+    if (ends_at_once(*signal, time - first)) _exit(static_cast<int>(ExitCode::stopped));
+    return;
+  }
   stop_requested = 1;
   if (commits_first == 0) arm();
 }
@@ -35,6 +59,7 @@ void handle_stop(int) {
 void handle_alarm(int) {
   constexpr std::string_view text = "Stopped; unfinished results are not kept.\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  remove_unfinished_files();
   _exit(static_cast<int>(ExitCode::stopped));
 }
 
@@ -47,6 +72,13 @@ void catch_signal(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
+void catch_stop(int signal) {
+  struct sigaction action = {};
+  action.sa_sigaction = handle_stop;
+  action.sa_flags = SA_RESTART | SA_SIGINFO;
+  sigaction(signal, &action, nullptr);
+}
+
 bool is_ignored(int signal) {
   struct sigaction action = {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -56,8 +88,8 @@ bool is_ignored(int signal) {
 
 void end_on_signals() {
   catch_signal(SIGALRM, handle_alarm);
-  for (const int signal : {SIGINT, SIGTERM}) catch_signal(signal, handle_stop);
-  if (!is_ignored(SIGHUP)) catch_signal(SIGHUP, handle_stop);
+  for (const int signal : {SIGINT, SIGTERM}) catch_stop(signal);
+  if (!is_ignored(SIGHUP)) catch_stop(SIGHUP);
 }
 
 const volatile std::sig_atomic_t* stop_request() { return &stop_requested; }

@@ -6,7 +6,9 @@
 namespace talus::app {
 
 /// Installs the handlers: the first signal asks the command to stop, and ends the program a third of a second
-/// later in any case; the second ends it at once. Both end with ExitCode::stopped.
+/// later in any case; another, at least a second after the first, ends it at once. Both end with
+/// ExitCode::stopped. Signals within a second are repetitions: a batch system sends its signal to a whole
+/// tree of processes, some of which also pass it on.
 void end_on_signals();
 
 /// Returns the flag that the first signal sets.
@@ -17,7 +19,7 @@ bool asked_to_stop();
 void stop_if_asked();
 
 /// Scope in which the first signal only sets stop_request(), so that computed data can be committed, however
-/// long that takes. The second signal still ends the program at once.
+/// long that takes. A later signal still ends the program at once.
 class CommitOnSignals {
  public:
   CommitOnSignals();

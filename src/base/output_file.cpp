@@ -5,13 +5,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/locked_file.h"
+#include "base/paths.h"
 
 namespace talus {
 namespace {
@@ -64,7 +71,48 @@ std::string write_protection(const std::string& target, const struct stat& file)
   return fmt::format("is write-protected (mode {:04o})", file.st_mode & 07777);
 }
 
+/// Names that output_target has found free for outputs of this process that must not replace a file, each
+/// with advice for the case that one has appeared.
+std::mutex free_names_mutex;
+std::map<std::string, std::string> free_names;  // guarded by free_names_mutex
+
+std::optional<std::string> advice_if_kept_free(const std::string& path) {
+  const std::scoped_lock lock(free_names_mutex);
+  const auto name = free_names.find(absolute_path(path));
+  return name == free_names.end() ? std::nullopt : std::optional(name->second);
+}
+
+/// Renames a file where no file has the new name; returns false, with the reason in errno, if it cannot.
+bool rename_to_free(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  if (errno != EINVAL && errno != ENOSYS) return false;  // network file systems do not know the flag
+  return ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0;
+}
+
+/// Gives a complete file its final name; returns false, with the reason in errno, if the system refuses.
+bool take_name(const std::string& from, const std::string& target, const std::string& path) {
+  const std::optional<std::string> advice = advice_if_kept_free(path);
+  if (!advice) return std::rename(from.c_str(), target.c_str()) == 0;
+  if (rename_to_free(from, target)) {
+    allow_replacing(path);  // by the next output of this process
+    return true;
+  }
+  if (errno == EEXIST)
+    refuse(path, " was created by another process in the meantime, and is kept; " + *advice);
+  return false;
+}
+
 }  // namespace
+
+void keep_free(const std::string& path, const std::string& advice) {
+  const std::scoped_lock lock(free_names_mutex);
+  free_names.insert_or_assign(absolute_path(path), advice);
+}
+
+void allow_replacing(const std::string& path) {
+  const std::scoped_lock lock(free_names_mutex);
+  free_names.erase(absolute_path(path));
+}
 
 std::string output_target(const std::string& path, const OutputRule& rule) {
   if (path.empty()) throw Error(ExitCode::usage, "the output has an empty name; give one with -o");
@@ -72,6 +120,7 @@ std::string output_target(const std::string& path, const OutputRule& rule) {
   if (::lstat(path.c_str(), &file) != 0) {
     if (errno != ENOENT && errno != ENOTDIR) throw creation_error("create", path, errno);
     if (path.back() == '/') refuse(path, " names a folder; choose a file as the output with -o");
+    if (!rule.overwrite) keep_free(path);
     return path;
   }
   std::string target = S_ISLNK(file.st_mode) ? end_of_link(path) : path;
@@ -124,15 +173,44 @@ void inherit(const Descriptor& file, const std::string& target, const std::strin
     throw system_error(ExitCode::io_error, "keep the mode of", path, errno);
 }
 
+/// Names of temporary files, for a signal handler. One that it has taken is null.
+constexpr std::size_t most_listed = 256;
+std::array<std::atomic<const char*>, most_listed> unfinished;
+
+/// Returns whether there was room for the name, which must outlive its entry.
+bool list(const char* name) {
+  for (std::atomic<const char*>& entry : unfinished) {
+    const char* none = nullptr;
+    if (entry.compare_exchange_strong(none, name)) return true;
+  }
+  return false;
+}
+
+/// Removes a listed name. If a signal handler has taken it, the process is about to end.
+void unlist(const char* name) {
+  for (std::atomic<const char*>& entry : unfinished) {
+    const char* same = name;
+    if (entry.compare_exchange_strong(same, nullptr)) return;
+  }
+  for (;;) ::pause();
+}
+
 }  // namespace
+
+void remove_unfinished_files() {
+  for (std::atomic<const char*>& entry : unfinished)
+    if (const char* const name = entry.exchange(nullptr)) ::unlink(name);
+}
 
 OutputFile::OutputFile(const std::string& path)
     : path_(path),
       target_(output_target(path)),
       temporary_path_(target_ + temporary_ending),
-      file_(create(temporary_path_, path_)) {}
+      file_(create(temporary_path_, path_)),
+      is_listed_(list(temporary_path_.c_str())) {}
 
 OutputFile::~OutputFile() {
+  if (is_listed_) unlist(temporary_path_.c_str());
   if (!committed_ && is_named(temporary_path_, file_)) ::unlink(temporary_path_.c_str());
 }
 
@@ -162,9 +240,9 @@ void OutputFile::commit() {
   if (!is_named(temporary_path_, file_))
     refuse(path_, ": its temporary file " + temporary_path_ +
                       " was removed or replaced while it was written; nothing was changed");
-  if (std::rename(temporary_path_.c_str(), target_.c_str()) != 0)
-    throw creation_error("create", path_, errno);
+  if (!take_name(temporary_path_, target_, path_)) throw creation_error("create", path_, errno);
   committed_ = true;
+  if (std::exchange(is_listed_, false)) unlist(temporary_path_.c_str());
 }
 
 namespace {
@@ -219,7 +297,7 @@ void publish_file(const std::string& made, const std::string& path) {
   if (file.get() < 0) throw system_error(ExitCode::io_error, "open", made, errno);
   inherit(file, target, path);
   sync(file, path);
-  if (std::rename(made.c_str(), target.c_str()) == 0) return;
+  if (take_name(made, target, path)) return;
   if (errno != EXDEV) throw creation_error("create", path, errno);
   OutputFile other(path);
   copy(file, made, other);

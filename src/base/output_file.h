@@ -21,7 +21,8 @@ struct OutputRule {
 /// No other function decides what may be replaced. Throws Error(cannot_create) if `path` exists and is not a
 /// regular file (a folder, a device, a FIFO, a socket, a broken link), is write-protected, or may not be
 /// overwritten. Throws Error(usage) if it may be overwritten but is one of the inputs, or a file in one of
-/// them, under any name.
+/// them, under any name. If nothing may be overwritten and nothing is there, the process remembers this: the
+/// output then replaces no file that another process has created under this name meanwhile.
 std::string output_target(const std::string& path, const OutputRule& rule = {});
 
 /// Returns why an existing file cannot be replaced: it is write-protected, or no file can be created in its
@@ -51,7 +52,8 @@ class OutputFile {
   /// Throws Error(io_error).
   void flush();
   /// Gives the file its final name. It inherits the mode and, as far as the system permits, the owner of a
-  /// file that it replaces. Throws Error(io_error) and Error(cannot_create).
+  /// file that it replaces. Throws Error(io_error) and Error(cannot_create), the latter also if a file has
+  /// appeared under a name that output_target has found free.
   void commit();
 
  private:
@@ -61,7 +63,12 @@ class OutputFile {
   Descriptor file_;
   std::uint64_t written_ = 0;  ///< number of bytes passed to write()
   bool committed_ = false;
+  bool is_listed_ = false;  ///< for remove_unfinished_files
 };
+
+/// Removes the temporary files of all OutputFile of this process; safe in a signal handler, which must end
+/// the process afterwards.
+void remove_unfinished_files();
 
 /// A file in memory for another program to write. Some programs report success even if a disk is full; in
 /// memory, success means that the output is complete. It is then copied to an OutputFile.
@@ -84,6 +91,13 @@ class MemoryFile {
 /// Gives a complete file `made` by another program the name `path`, as OutputFile::commit does, even on
 /// another file system. Throws the errors of OutputFile.
 void publish_file(const std::string& made, const std::string& path);
+
+/// Declares that an output of this process called `path` must not replace a file, as output_target does for
+/// one that must not be overwritten and is not there. `advice` ends the message if a file has appeared.
+void keep_free(const std::string& path,
+               const std::string& advice = "give --overwrite to replace it, or another -o");
+/// Revokes keep_free.
+void allow_replacing(const std::string& path);
 
 /// Returns the folder that contains `path`; "." for a bare name.
 std::string parent_folder(const std::string& path);

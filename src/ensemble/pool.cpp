@@ -3,12 +3,16 @@
 #include <fcntl.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
 #include <fmt/core.h>
 #include <map>
+#include <optional>
 #include <system_error>
 
 #include "base/child_program.h"
@@ -35,10 +39,12 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  /// Returns the next signal, or -1 after half a second without one.
-  int wait() const {
+  /// Returns the next signal, whose number is 0 after half a second without one.
+  siginfo_t wait() const {
     constexpr timespec half_a_second = {0, 500'000'000};
-    return sigtimedwait(&held_, nullptr, &half_a_second);
+    siginfo_t signal{};
+    if (sigtimedwait(&held_, &signal, &half_a_second) < 0) signal.si_signo = 0;
+    return signal;
   }
 
  private:
@@ -85,6 +91,26 @@ void collect(std::map<pid_t, const Job*>& running, std::vector<FailedJob>& faile
   }
 }
 
+bool asks_to_stop(const siginfo_t& signal) {
+  return signal.si_signo == SIGINT || signal.si_signo == SIGTERM || signal.si_signo == SIGHUP;
+}
+
+/// Returns the exit code for a process that ended with `code`. A signal from outside, such as that of the
+/// system where memory runs out, is no defect of the program.
+ExitCode exit_code_after(int code) {
+  if (code <= 128) return static_cast<ExitCode>(code);
+  constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGTRAP, SIGSYS};
+  const bool crashed = std::ranges::find(crashes, code - 128) != crashes.end();
+  return crashed ? ExitCode::internal : ExitCode::stopped;
+}
+
+/// Describes the end of a process that a signal from outside has ended; empty for any other.
+std::string killed_text(int code) {
+  if (code <= 128 || exit_code_after(code) == ExitCode::internal) return "";
+  return fmt::format(", killed by signal {}{}", code - 128,
+                     code == 128 + SIGKILL ? ", as by the system where memory runs out" : "");
+}
+
 }  // namespace
 
 std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string& work,
@@ -97,19 +123,23 @@ std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string&
   std::map<pid_t, const Job*> running;
   std::vector<FailedJob> failed;
   for (const Job& job : jobs) running.emplace(start(job), &job);
-  bool stopped = false, given_up = false;
-  const auto end_all = [&] {
-    for (const auto& [process, job] : running) kill(process, SIGTERM);
+  bool given_up = false;
+  using Clock = std::chrono::steady_clock;
+  std::optional<Clock::time_point> stopped;
+  const auto end_all = [&](StopRequest request) {
+    for (const auto& [process, job] : running) pass_on_stop(process, request);
   };
   while (!running.empty()) {
     if (!stopped && !given_up && !should_continue()) {
       given_up = true;
-      end_all();
+      end_all(StopRequest::once);
     }
-    const int signal = signals.wait();
-    if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) {
-      stopped = true;
-      end_all();
+    if (const siginfo_t signal = signals.wait(); asks_to_stop(signal)) {
+      const bool repeats =
+          stopped && std::chrono::duration<double>(Clock::now() - *stopped).count() >= repeats_end;
+      const StopRequest own = repeats ? StopRequest::at_once : StopRequest::once;
+      end_all(passed_on(signal).value_or(own));
+      if (!stopped) stopped = Clock::now();
     }
     collect(running, failed);
   }
@@ -122,9 +152,9 @@ void refuse(const std::vector<FailedJob>& failed, const std::string& consequence
   std::string text = fmt::format("{}{} ended with an error, {}; see", failed.size(),
                                  failed.size() == 1 ? " run" : " runs", consequence);
   for (const auto& [log, exit_code, message] : failed)
-    text += fmt::format("\n  {} (exit code {}){}{}", log, exit_code, message.empty() ? "" : ": ", message);
-  const int code = failed.front().exit_code;
-  throw Error(code > 128 ? ExitCode::internal : static_cast<ExitCode>(code), text);
+    text += fmt::format("\n  {} (exit code {}{}){}{}", log, exit_code, killed_text(exit_code),
+                        message.empty() ? "" : ": ", message);
+  throw Error(exit_code_after(failed.front().exit_code), text);
 }
 
 std::string path_word(const std::string& path) { return path.starts_with('-') ? "./" + path : path; }

@@ -23,15 +23,15 @@ struct FailedJob {
 
 /// Runs all jobs in parallel and returns those that ended with an error. `should_continue` is called at the
 /// beginning and about twice a second: if it returns false, the jobs are ended without an error, as on a
-/// signal, with exit code 75. SIGINT, SIGTERM and SIGHUP are passed to the processes as SIGTERM; once all
-/// have ended, Error(stopped) is thrown, in which `work` names the interrupted work ("the ensemble").
+/// signal, with exit code 75. SIGINT, SIGTERM and SIGHUP are passed on to the processes (pass_on_stop); once
+/// all have ended, Error(stopped) is thrown, in which `work` names the interrupted work ("the ensemble").
 /// Processes do not outlive this one: if it is killed, they receive SIGTERM. Throws Error(io_error) if no
 /// process can be created, and Error(cannot_create) if a folder or a log cannot.
 std::vector<FailedJob> run_jobs(const std::vector<Job>& jobs, const std::string& work,
                                 const std::function<bool()>& should_continue);
 
-/// Throws an Error that lists the failed jobs, with the exit code of the first. `consequence` is, for
-/// example, "left out of the tables".
+/// Throws an Error that lists the failed jobs, with the exit code of the first: stopped if it was killed
+/// from outside, internal if it crashed. `consequence` is, for example, "left out of the tables".
 [[noreturn]] void refuse(const std::vector<FailedJob>& failed, const std::string& consequence);
 
 /// Returns a path as a command-line argument; a leading "-" would be read as an option.

@@ -65,7 +65,7 @@ cd -- {} || exit 66
 exec >>"workers/slurm-${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID.log" 2>&1
 
 # USR1 signals that the time is nearly over. TERM signals that the job is cancelled, preempted or requeued; this script
-# must then not requeue it.
+# must then not requeue it. The worker may have received TERM itself: it takes repetitions within a second for one.
 signalled=''
 cancelled=''
 trap 'signalled=yes; kill -TERM "$worker"' USR1

@@ -336,6 +336,52 @@ TEST_F(MapCommands, a_stopped_job_is_taken_up_where_it_was) {
       << rest.out;
 }
 
+bool is_alive(const std::string& process) {
+  const std::string status = text_of("/proc/" + process + "/stat");
+  return !status.empty() && status.find(") Z ") == std::string::npos;
+}
+
+/// Adds a folder to PATH during its lifetime.
+class ProgramsFirst {
+ public:
+  explicit ProgramsFirst(const std::string& folder) { setenv("PATH", (folder + ":" + before_).c_str(), 1); }
+  ~ProgramsFirst() { setenv("PATH", before_.c_str(), 1); }
+  ProgramsFirst(const ProgramsFirst&) = delete;
+  ProgramsFirst& operator=(const ProgramsFirst&) = delete;
+
+ private:
+  std::string before_ = std::getenv("PATH");
+};
+
+// An ffmpeg that neither reads nor ends, and has started a program that writes messages without end.
+TEST_F(MapCommands, a_movie_that_is_ended_leaves_no_process_and_a_stopped_one_no_file) {
+  make_run();
+  const std::string started = folder_.path("started");
+  fs::create_directory(folder_.path("tools"));
+  write_file(folder_, "tools/ffmpeg",
+             "#!/bin/sh\n(while :; do echo noise noise noise; done) >&2 &\necho $! > '" + started +
+                 "'\nexec sleep 60\n");
+  fs::permissions(folder_.path("tools/ffmpeg"), fs::perms::owner_all);
+  const ProgramsFirst tools(folder_.path("tools"));
+  for (const int signal : {SIGINT, SIGKILL}) {
+    fs::remove(started);
+    const pid_t process =
+        start_talus({"animate", "bed.h5", "--map", "pressure", "-o", "m.mp4"}, folder_.path());
+    while (!has_ended(process) && !text_of(started).ends_with('\n'))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::string messenger = text_of(started);
+    messenger.pop_back();
+    EXPECT_TRUE(is_alive(messenger));
+    kill(process, signal);
+    EXPECT_EQ(wait_for(process), signal == SIGINT ? 75 : -1);
+    for (int wait = 0; wait < 1000 && is_alive(messenger); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    EXPECT_FALSE(is_alive(messenger)) << "after signal " << signal;
+    EXPECT_EQ(fs::exists(folder_.path("m.mp4.talus.part")), signal == SIGKILL);
+    EXPECT_FALSE(fs::exists(folder_.path("m.mp4")));
+  }
+}
+
 TEST_F(MapCommands, frames_are_taken_by_their_numbers) {
   make_run();
   ASSERT_EQ(talus({"render", "bed.h5", "--map", "pressure", "--frames", "0,2-3", "-o", "maps"}).exit_code, 0);

@@ -170,6 +170,11 @@ int fsync(int file) { return strikes("fsync") ? -1 : static_cast<int>(syscall(SY
 int rename(const char* from, const char* to) noexcept {
   return strikes("rename", to) ? -1 : static_cast<int>(syscall(SYS_rename, from, to));
 }
+int renameat2(int from_folder, const char* from, int to_folder, const char* to, unsigned flags) noexcept {
+  return strikes("rename", to)
+             ? -1
+             : static_cast<int>(syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+}
 int unlink(const char* path) noexcept {
   return strikes("unlink", path) ? -1 : talus::faults::unlink_kept(path);
 }

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -67,6 +69,57 @@ TEST(OutputFile, is_written_by_one_at_a_time) {
 /// Returns the exit code with which an output is rejected, or `done` if it is accepted.
 ExitCode code_of(const std::string& path, const OutputRule& rule = {}) {
   return test::exit_code_of([&] { output_target(path, rule); });
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The name is looked at when a command begins, and the file appears when it ends.
+TEST(OutputFile, replaces_nothing_that_has_appeared_under_its_name) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("map.png"), made = folder.path("made");
+  const OutputRule rule{.overwrite = false};
+  EXPECT_EQ(output_target(path, rule), path);
+  {
+    OutputFile file(path);
+    file.write(text);
+    std::ofstream(path) << "precious";
+    EXPECT_EQ(test::exit_code_of([&] { file.commit(); }), ExitCode::cannot_create);
+  }
+  std::ofstream(made) << "made";
+  EXPECT_EQ(test::exit_code_of([&] { publish_file(made, path); }), ExitCode::cannot_create);
+  EXPECT_EQ(content_of(path), "precious");
+  EXPECT_EQ(content_of(made), "made");
+  fs::remove(path);
+  for (const char* ours : {"1", "2"}) {  // a process may replace what it has written itself
+    std::ofstream(made) << ours;
+    publish_file(made, path);
+    EXPECT_EQ(content_of(path), ours);
+  }
+  keep_free(path);
+  allow_replacing(path);
+  std::ofstream(made) << "3";
+  publish_file(made, path);
+  EXPECT_EQ(content_of(path), "3");
+}
+
+TEST(OutputFile, leaves_nothing_where_a_signal_ends_the_process) {
+  const test::TemporaryFolder folder;
+  OutputFile whole(folder.path("whole.png"));
+  whole.write(text);
+  whole.commit();
+  const pid_t child = fork();
+  if (child == 0) {
+    const OutputFile first(folder.path("first.png")), second(folder.path("second.png"));
+    remove_unfinished_files();
+    _exit(fs::exists(first.temporary_path()) || fs::exists(second.temporary_path()) ? 1 : 0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(OutputTarget, is_a_file_or_what_a_link_leads_to) {

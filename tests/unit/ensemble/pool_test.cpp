@@ -7,8 +7,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <thread>
 
+#include "base/child_program.h"
 #include "base/errors.h"
 #include "io/durable_file.h"
 #include "support/exit_code.h"
@@ -56,6 +58,26 @@ TEST(Pool, passes_a_signal_on_and_says_that_it_was_stopped) {
   EXPECT_EQ(asked, 1);
 }
 
+// A batch system sends its signal to a whole tree of processes, and the parent passes it on: the job must not
+// take that for a second signal, which ends it at once.
+TEST(Pool, passes_a_signal_on_as_one_that_its_jobs_may_have_had_already) {
+  const test::TemporaryFolder folder;
+  sigset_t held;
+  sigemptyset(&held);
+  sigaddset(&held, SIGTERM);
+  sigprocmask(SIG_BLOCK, &held, nullptr);
+  const auto request_of = [&](const std::function<void()>& send) {
+    send();
+    siginfo_t signal{};
+    sigwaitinfo(&held, &signal);
+    return passed_on(signal);
+  };
+  EXPECT_EQ(request_of([] { pass_on_stop(getpid(), StopRequest::once); }), StopRequest::once);
+  EXPECT_EQ(request_of([] { pass_on_stop(getpid(), StopRequest::at_once); }), StopRequest::at_once);
+  EXPECT_EQ(request_of([] { kill(getpid(), SIGTERM); }), std::nullopt);
+  sigprocmask(SIG_UNBLOCK, &held, nullptr);
+}
+
 // Other code may reap a child, or the parent may have ignored SIGCHLD.
 TEST(Pool, does_not_wait_for_a_job_that_nobody_can_tell_the_end_of) {
   const test::TemporaryFolder folder;
@@ -73,13 +95,16 @@ TEST(Refusal, has_the_exit_code_of_the_first_and_names_all_logs) {
     EXPECT_EQ(error.code(), ExitCode::bad_data);
     EXPECT_STREQ(error.what(),
                  "2 runs ended with an error, left out; see\n"
-                 "  a.log (exit code 65): what it said\n  b.log (exit code 137)");
+                 "  a.log (exit code 65): what it said\n"
+                 "  b.log (exit code 137, killed by signal 9, as by the system where memory runs out)");
   }
-  EXPECT_EQ(test::exit_code_of([] {
-              refuse({{"b.log", 137}}, "");
-            }),
-            ExitCode::internal)
-      << "ended by a signal";
+  const auto code_after = [](int signal) {
+    return test::exit_code_of([signal] { refuse({{"b.log", 128 + signal}}, ""); });
+  };
+  EXPECT_EQ(code_after(SIGKILL), ExitCode::stopped) << "no defect of the program: the command is repeated";
+  EXPECT_EQ(code_after(SIGTERM), ExitCode::stopped);
+  EXPECT_EQ(code_after(SIGSEGV), ExitCode::internal);
+  EXPECT_EQ(code_after(SIGABRT), ExitCode::internal);
 }
 
 }  // namespace
