@@ -12,6 +12,7 @@
 #include "base/paths.h"
 #include "contact/detection.h"
 #include "dynamics/push_apart.h"
+#include "io/bounds.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "session/bed_table.h"
@@ -33,6 +34,7 @@ struct FileGrains {
   std::vector<Vec2> centres;       ///< m
   std::vector<double> radii;       ///< m
   std::string remark{};
+  std::string box{};  ///< end of a message about a place, on a box of a dump that was not shifted
 
   bool is_table() const { return !lines.empty(); }
 
@@ -126,30 +128,53 @@ std::string table_text(const std::string& path) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Throws if the periodic box of a dump does not have the period of the plan.
-void check_period(const BedFile& file, const BedTable& table, const dynamics::BedPlan& plan) {
-  constexpr double same = 1e-4;
-  if (!plan.periodic || !table.period || std::fabs(*table.period - plan.length) <= same * plan.length) return;
-  refuse(file.path, fmt::format("its periodic box is {:.6g} D long: expected bed.length = {:.6g} D; check "
-                                "deposition.file_unit and deposition.file_scale",
-                                *table.period / plan.mean_diameter, plan.length / plan.mean_diameter));
+constexpr double same_box = 1e-4;  // relative tolerance for the length of a box
+
+bool has_length(const TableBox& box, double length) {
+  return std::fabs(box.high - box.low - length) <= same_box * length;
+}
+
+/// Throws if the box of a dump contradicts the boundary of the plan.
+void check_box(const BedFile& file, const TableBox& box, const dynamics::BedPlan& plan) {
+  if (box.ends != BoxEnds::unknown && plan.periodic != (box.ends == BoxEnds::periodic))
+    refuse(file.path,
+           fmt::format("its box is {} along x: expected bed.boundary = {}",
+                       plan.periodic ? "not periodic" : "periodic",
+                       plan.periodic ? "\"walls\", or a box with the flags pp (pbc=\"T ...\")"
+                                     : "\"periodic\", or a box with the flags ff (pbc=\"F ...\")"));
+  if (plan.periodic && !has_length(box, plan.length))
+    refuse(file.path,
+           fmt::format("its periodic box is {:.6g} D long: expected bed.length = {:.6g} D; check "
+                       "deposition.file_unit and deposition.file_scale",
+                       (box.high - box.low) / plan.mean_diameter, plan.length / plan.mean_diameter));
+}
+
+/// Describes the box of a dump that is not the room between the walls, for a message about a grain.
+std::string box_text(const TableBox& box, const dynamics::BedPlan& plan) {
+  return fmt::format(
+      "; the box of the file is from {:.6g} to {:.6g} D along x: one of bed.length = {:.6g} D "
+      "would be shifted to begin at 0",
+      box.low / plan.mean_diameter, box.high / plan.mean_diameter, plan.length / plan.mean_diameter);
 }
 
 FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
   BedTable table = parse_bed_table(table_text(file.path), file.path,
                                    {file.unit, plan.mean_diameter, file.scale}, file.frame);
-  check_period(file, table, plan);
+  if (table.box) check_box(file, *table.box, plan);
   const std::size_t floor_grains = std::erase_if(table.grains, [&](const TableGrain& grain) {
     return std::fabs(grain.y + grain.radius) <= 1e-3 * plan.mean_diameter;
   });
   FileGrains grains{file.path, 0, {}, {}, {}, std::move(table.remark)};
+  const bool is_room = table.box && has_length(*table.box, plan.length);
+  const double begin = is_room ? table.box->low : 0.0;
+  if (table.box && !is_room) grains.box = box_text(*table.box, plan);
   if (floor_grains > 0)
     grains.remark += fmt::format("{}{} grains with their tops at y = 0 left out as the floor",
                                  grains.remark.empty() ? "" : "; ", floor_grains);
   for (const TableGrain& grain : table.grains) {
     // Coordinates of a dump may be unwrapped, and x may equal the period in single precision.
-    const double turns = table.period && plan.periodic ? std::floor(grain.x / plan.length) : 0.0;
-    const double x = grain.x - turns * plan.length;
+    const double turns = is_room && plan.periodic ? std::floor((grain.x - begin) / plan.length) : 0.0;
+    const double x = grain.x - begin - turns * plan.length;
     grains.lines.push_back(grain.line);
     grains.centres.push_back({turns != 0.0 && x >= plan.length ? 0.0 : x, grain.y});
     grains.radii.push_back(grain.radius);
@@ -183,6 +208,23 @@ void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
                "(grains.mean_diameter){}",
                mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
                grains.is_table() ? meant_unit(mean, plan) : ""));
+}
+
+/// Throws for the first grain that no run can store.
+void check_bounds(const FileGrains& grains, double depth, const dynamics::BedPlan& plan) {
+  const double d = plan.mean_diameter, farthest = io::farthest_place(plan.length, depth, d);
+  for (std::size_t i = 0; i < grains.centres.size(); ++i) {
+    const auto grain = static_cast<Index>(i);
+    if (const double radius = grains.radii[i];
+        !(radius >= io::smallest_radius * d && radius <= io::largest_radius * d))
+      grains.refuse(grain, fmt::format("has a radius of {:.6g} D: expected {:.6g} to {:.6g} D", radius / d,
+                                       io::smallest_radius, io::largest_radius));
+    const auto [x, y] = grains.centres[i];
+    if (!(std::fabs(x) <= farthest && std::fabs(y) <= farthest))
+      grains.refuse(grain, fmt::format("is at x = {:.6g} D, y = {:.6g} D: expected at most {:.6g} D from the "
+                                       "origin, ten thousand times bed.length + bed.depth{}",
+                                       x / d, y / d, farthest / d, grains.box));
+  }
 }
 
 void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
@@ -222,10 +264,11 @@ void check_overlaps(const FileGrains& grains, bool relax, const dynamics::BedPla
   const bool of_two = contacts.b[c] < world.grains.free_count;
   grains.refuse(
       of_two ? std::max(contacts.a[c], contacts.b[c]) : contacts.a[c],
-      fmt::format("overlaps with {} by {:.6g} D: expected at most {:.6g} D{}",
+      fmt::format("overlaps with {} by {:.6g} D: expected at most {:.6g} D{}{}",
                   body_name(grains, world, of_two ? std::min(contacts.a[c], contacts.b[c]) : contacts.b[c]),
                   -*deepest / plan.mean_diameter, most,
-                  is_soft ? "; deposition.relax = true pushes overlaps of up to 0.1 D apart" : ""));
+                  is_soft ? "; deposition.relax = true pushes overlaps of up to 0.1 D apart" : "",
+                  of_two ? "" : grains.box));
 }
 
 }  // namespace
@@ -233,6 +276,7 @@ void check_overlaps(const FileGrains& grains, bool relax, const dynamics::BedPla
 World bed_of_file(const BedFile& file, const dynamics::BedPlan& plan, std::string* remark) {
   FileGrains grains = io::is_run(file.path) ? read_run(file, plan) : read_table(file, plan);
   check_sizes(grains, plan);
+  check_bounds(grains, file.depth, plan);
   check_places(grains, plan);
   World world = dynamics::empty_bed(plan);
   for (std::size_t i = 0; i < grains.centres.size(); ++i)

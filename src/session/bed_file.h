@@ -21,6 +21,7 @@ struct BedFile {
   scenario::LengthUnit unit = scenario::LengthUnit::mean_diameter;
   double scale = 1.0;
   bool relax = false;  ///< whether overlaps are pushed apart (dynamics/push_apart.h)
+  double depth = 1.0;  ///< nominal depth of the bed, m
 };
 
 /// Returns the bed of a plan with the grains of a file, at rest and without contact forces: those of a frame
@@ -28,7 +29,7 @@ struct BedFile {
 /// another floor and are left out. Floor and walls are those of the plan. `remark` receives notes on what was
 /// left out and how far grains were moved. Throws Error(missing_input) if the file does not exist, and
 /// Error(bad_data) with the position if it cannot be read or does not fit the plan: another period, boundary
-/// or mean diameter, overlaps, or grains outside.
+/// or mean diameter, overlaps, grains outside, or grains that no run can store (io/bounds.h).
 World bed_of_file(const BedFile& file, const dynamics::BedPlan& plan, std::string* remark = nullptr);
 
 }  // namespace talus::session

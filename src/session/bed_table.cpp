@@ -1,6 +1,7 @@
 #include "session/bed_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
@@ -152,56 +153,141 @@ void finish(BedTable& table, const TablePlace& file, const TableRows& rows) {
   if (!rows.columns.ignored.empty()) add_remark(table, "ignored: " + joined(rows.columns.ignored, ", "));
 }
 
-/// Keeps only the rows of the requested frame in a table with a column `frame`.
-void take_frame(BedTable& table, const TableColumns& columns, const std::string& name, int frame) {
+/// A row that cannot be read.
+struct BadRow {
+  std::size_t grain = 0;  ///< index of a grain in its place, which only has its line and its frame
+  std::string message;
+};
+
+/// Keeps only the rows of the requested frame in a table with a column `frame`: frames count in the order of
+/// its values, whatever the order of the rows. Throws for a bad row of this frame.
+void take_frame(BedTable& table, const std::vector<BadRow>& bad, const TableColumns& columns,
+                const std::string& name, int frame) {
   if (!columns.frame && frame > 0)
     throw Error(ExitCode::bad_data, name + ": a table has no frames: expected deposition.frame = 0");
+  if (!columns.frame || table.grains.empty()) return;
   std::vector<double> frames;
-  for (const TableGrain& grain : table.grains)
-    if (frames.empty() || grain.frame != frames.back()) frames.push_back(grain.frame);
-  if (!columns.frame || frames.empty()) return;
+  for (const TableGrain& grain : table.grains) frames.push_back(grain.frame);
+  std::ranges::sort(frames);
+  frames.erase(std::ranges::unique(frames).begin(), frames.end());
   const double taken = frames[chosen_frame(name, frame, frames.size())];
+  for (const BadRow& row : bad)
+    if (table.grains[row.grain].frame == taken) throw LocatedError(ExitCode::bad_data, row.message);
   std::erase_if(table.grains, [&](const TableGrain& grain) { return grain.frame != taken; });
   if (frames.size() > 1) add_remark(table, frame_text(frame, frames.size(), ""));
+}
+
+/// Reads a row of a table with frames, in which a bad row concerns only its frame: that of the row before, if
+/// its own cannot be read.
+TableGrain grain_of_frame(const TablePlace& place, const TableRows& rows, const std::vector<TableCell>& cells,
+                          BedTable& table, std::vector<BadRow>& bad) {
+  try {
+    return grain_of(place, rows, cells);
+  } catch (const LocatedError& error) {
+    const std::size_t at = rows.columns.frame->at;
+    const std::optional<double> own = at < cells.size() ? number_in(cells[at].text) : std::nullopt;
+    const bool is_first = table.grains.empty();
+    if (is_first && !(own && std::isfinite(*own))) throw;
+    bad.push_back({table.grains.size(), error.what()});
+    TableGrain grain;
+    grain.line = place.line;
+    grain.frame = own && std::isfinite(*own) ? *own : table.grains.back().frame;
+    return grain;
+  }
+}
+
+[[noreturn]] void refuse_cut_off(const std::string& name, int frame, std::size_t count,
+                                 const DumpFrame& taken) {
+  throw Error(
+      ExitCode::bad_data,
+      fmt::format("{}: {} is cut off: expected a line such as ITEM: ATOMS id x y radius, or the second "
+                  "line of extended XYZ; an earlier deposition.frame may be whole",
+                  name, frame_text(frame, count, taken.label)));
+}
+
+struct UnitStyle {
+  std::string_view name;
+  scenario::LengthUnit unit;
+  std::string_view length;  ///< its unit of length
+  bool is_known = true;     ///< whether `unit` is that
+};
+constexpr std::array unit_styles = {
+    UnitStyle{"si", scenario::LengthUnit::metre, "m"},
+    UnitStyle{"cgs", scenario::LengthUnit::centimetre, "cm"},
+    UnitStyle{"micro", scenario::LengthUnit::micrometre, "um"},
+    UnitStyle{"lj", scenario::LengthUnit::mean_diameter, "sigma, taken as D"},
+    UnitStyle{"real", {}, "angstrom, file_scale = 1e-4 in um", false},
+    UnitStyle{"metal", {}, "angstrom, file_scale = 1e-4 in um", false},
+    UnitStyle{"electron", {}, "bohr, file_scale = 5.29177e-5 in um", false},
+    UnitStyle{"nano", {}, "nm, file_scale = 1e-3 in um", false},
+};
+
+/// Returns the unit of lengths of a dump: that of the scenario, or of ITEM: UNITS if the scenario has the
+/// default. Throws if the dump names units that have no equivalent here.
+scenario::LengthUnit unit_of_dump(const std::string& name, const std::string& units,
+                                  scenario::LengthUnit of_scenario) {
+  if (of_scenario != scenario::LengthUnit::mean_diameter || units.empty()) return of_scenario;
+  const auto style = std::ranges::find(unit_styles, units, &UnitStyle::name);
+  if (style != unit_styles.end() && style->is_known) return style->unit;
+  throw Error(ExitCode::bad_data,
+              fmt::format("{}: ITEM: UNITS names {}{}: expected si, cgs, micro or lj (D); set "
+                          "deposition.file_unit and deposition.file_scale for others",
+                          name, units,
+                          style != unit_styles.end() ? fmt::format(" (lengths in {})", style->length) : ""));
+}
+
+/// Adds the grains in the rows of a frame.
+void add_rows(BedTable& table, const DumpFrame& frame, const TableRows& rows, TablePlace& place) {
+  std::string_view rest = frame.rows;
+  const bool is_torn = !rest.ends_with('\n') && !rest.ends_with('\r');
+  for (std::size_t k = 0; k < frame.found; ++k) {
+    const std::vector<TableCell> cells = cells_of(take_row(rest, place.line), false);
+    if (rest.empty() && frame.found < frame.count) break;
+    if (cells.empty())
+      place.refuse(1, fmt::format("the line is empty: expected grain {} of {}", k + 1, frame.count));
+    if (rest.empty() && is_torn && cells.size() < rows.columns.count)
+      place.refuse(1, "the line ends too early: the file is cut off; expected an earlier deposition.frame");
+    table.grains.push_back(grain_of(place, rows, cells));
+  }
+  if (frame.found < frame.count)
+    place.refuse(
+        1, fmt::format("the frame ends after {} of its {} grains: {}; expected the rest, or {} "
+                       "deposition.frame",
+                       frame.found, frame.count, rest.empty() ? "the file is cut off" : "the rest is missing",
+                       rest.empty() ? "an earlier" : "another"));
+}
+
+void refuse_repeated_ids(const BedTable& table, const std::string& name) {
+  const auto twice = std::ranges::adjacent_find(table.grains, {}, &TableGrain::id);
+  if (twice != table.grains.end())
+    TablePlace{name, std::next(twice)->line}.refuse(
+        1, fmt::format("grain {} is also in line {}: expected each id once", scenario::short_text(twice->id),
+                       twice->line));
 }
 
 BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& name, LengthRule lengths,
                        int frame) {
   const DumpFrame& taken = frames[chosen_frame(name, frame, frames.size())];
-  if (lengths.unit == scenario::LengthUnit::mean_diameter) lengths.unit = taken.unit.value_or(lengths.unit);
-  if (taken.names_line == 0)
-    throw Error(ExitCode::bad_data,
-                fmt::format("{}: {} is cut off: expected a line such as ITEM: ATOMS id x y radius", name,
-                            frame_text(frame, frames.size(), taken.label)));
+  const auto throw_fault = [&] { throw LocatedError(ExitCode::bad_data, taken.fault); };
+  if (!taken.fault.empty() && (taken.names_line == 0 || taken.fault_line <= taken.names_line)) throw_fault();
+  if (taken.names_line == 0 || (taken.found < taken.count && taken.rows.empty()))
+    refuse_cut_off(name, frame, frames.size(), taken);
+  lengths.unit = unit_of_dump(name, taken.units, lengths.unit);
   TablePlace place{name, taken.names_line};
   TableRows rows{lengths, named_columns(place, taken.names, lengths.unit), &taken};
   BedTable table;
-  std::string_view rest = taken.rows;
-  for (std::size_t k = 0; k < taken.found; ++k) {
-    ++place.line;
-    const std::vector<TableCell> cells = cells_of(take_line(rest), false);
-    if (cells.empty())
-      place.refuse(1, fmt::format("the line is empty: expected grain {} of {}", k + 1, taken.count));
-    table.grains.push_back(grain_of(place, rows, cells));
-  }
-  if (taken.found < taken.count)
-    place.refuse(1, fmt::format("the frame ends after {} of its {} grains: the file is cut off; expected the "
-                                "rest, or an earlier deposition.frame",
-                                taken.found, taken.count));
+  add_rows(table, taken, rows, place);
+  if (!taken.fault.empty()) throw_fault();
   std::ranges::stable_sort(table.grains, {}, &TableGrain::id);
-  const auto twice = std::ranges::adjacent_find(table.grains, {}, &TableGrain::id);
-  if (rows.columns.id && twice != table.grains.end())
-    TablePlace{name, std::next(twice)->line}.refuse(
-        1, fmt::format("grain {} is also in line {}: expected each id once", scenario::short_text(twice->id),
-                       twice->line));
+  if (rows.columns.id) refuse_repeated_ids(table, name);
   if (frames.size() > 1) add_remark(table, frame_text(frame, frames.size(), taken.label));
+  if (taken.units == "lj") add_remark(table, "its units lj taken as mean diameters D");
   finish(table, place, rows);
-  if (!taken.has_box || !taken.periodic) return table;
+  if (!taken.has_box) return table;
   const auto metres = [&](double length) {
     return lengths.scale * in_metres(length, lengths.unit, lengths.mean_diameter);
   };
-  table.period = metres(taken.high[0] - taken.low[0]);
-  for (TableGrain& grain : table.grains) grain.x -= metres(taken.low[0]);
+  table.box = {metres(taken.low[0]), metres(taken.high[0]), taken.ends};
   return table;
 }
 
@@ -232,6 +318,7 @@ BedTable parse_bed_table(const std::string& text, const std::string& name, const
   TablePlace place{name, 0};
   std::vector<std::pair<TablePlace, std::string>> comments;
   std::optional<TableRows> rows;
+  std::vector<BadRow> bad;
   while (!rest.empty()) {
     ++place.line;
     const std::string_view line = take_line(rest);
@@ -244,11 +331,13 @@ BedTable parse_bed_table(const std::string& text, const std::string& name, const
       if (!rows)
         rows.emplace(
             TableRows{lengths, columns_of_comments(comments, lengths.unit, cells_of(line, false).size())});
-      table.grains.push_back(grain_of(place, *rows, cells_of(line, rows->columns.tabs)));
+      const std::vector<TableCell> cells = cells_of(line, rows->columns.tabs);
+      table.grains.push_back(rows->columns.frame ? grain_of_frame(place, *rows, cells, table, bad)
+                                                 : grain_of(place, *rows, cells));
     }
   }
   if (!rows) return table;
-  take_frame(table, rows->columns, name, frame);
+  take_frame(table, bad, rows->columns, name, frame);
   finish(table, place, *rows);
   return table;
 }

@@ -20,9 +20,18 @@ struct TableGrain {
   double frame = 0.0;       ///< value of the column `frame`
 };
 
+/// Whether a box is periodic along x; not known if the file does not say so.
+enum class BoxEnds { unknown, periodic, fixed };
+
+/// Extent of the box of a dump along x.
+struct TableBox {
+  double low = 0.0, high = 0.0;  ///< m
+  BoxEnds ends = BoxEnds::unknown;
+};
+
 struct BedTable {
   std::vector<TableGrain> grains;  ///< sorted by id in a dump, otherwise in file order
-  std::optional<double> period;    ///< m, length of a box periodic along x; x then starts at 0
+  std::optional<TableBox> box;     ///< box of a dump
   /// Choices made while reading: "frame 0 of 3; x and z are the plane; ignored: type, vx".
   std::string remark;
 };
@@ -41,7 +50,8 @@ double in_metres(double length, scenario::LengthUnit unit, double mean_diameter)
 /// extended XYZ, or of a table. A table has one grain per line: x, y and radius, or the columns named by the
 /// first line (or by the last comment before the grains, if it names them all, including "#format x_y_z_r" of
 /// YADE), in any order: x, y or z, and radius or diameter. A name may state the unit of its column, "x [mm]";
-/// a column `frame` divides the table into frames, and columns of other names are skipped. Values are
+/// a column `frame` divides the table into frames, in the order of its values, and columns of other names are
+/// skipped. What is damaged in another frame than the requested one has no effect. Values are
 /// separated by semicolons, commas or white space, and may be quoted; a # starts a comment. Columns without a
 /// unit use that of `lengths`. With x, y and z, y is the height if z is the same for all grains, and z if y
 /// is. `name` denotes the file in messages. Throws LocatedError(bad_data) with the first position that cannot

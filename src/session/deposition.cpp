@@ -45,9 +45,9 @@ World initial_bed(const scenario::Scenario& scenario, std::string* remark) {
     return dynamics::make_geometric_bed(
         plan, {.critical_angle = radians(deposition.critical_angle), .sites = deposition.sites});
   if (deposition.method == scenario::DepositionMethod::file)
-    return bed_of_file(
-        {deposition.file, deposition.frame, deposition.file_unit, deposition.file_scale, deposition.relax},
-        plan, remark);
+    return bed_of_file({deposition.file, deposition.frame, deposition.file_unit, deposition.file_scale,
+                        deposition.relax, scenario.bed.depth * plan.mean_diameter},
+                       plan, remark);
   return bed_without_grains(plan);
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/scenario.h"
+#include "session/bed_table.h"
 
 namespace talus::session {
 
@@ -19,14 +19,23 @@ struct DumpFrame {
   std::size_t names_line = 0;  ///< line of the names, from 1
   std::string_view rows;       ///< text from the row of its first grain to the end
   std::size_t count = 0;       ///< stated number of its grains
-  std::size_t found = 0;       ///< number of lines found
-  bool has_box = false, periodic = false;    ///< periodic: along x
-  std::optional<scenario::LengthUnit> unit;  ///< unit of ITEM: UNITS
-  std::array<double, 3> low{}, high{};       ///< bounds of the box
+  std::size_t found = 0;       ///< number of rows found
+  bool has_box = false;
+  BoxEnds ends = BoxEnds::unknown;
+  std::string units;                    ///< word after ITEM: UNITS, e.g. "si"; empty: none
+  std::array<double, 3> low{}, high{};  ///< bounds of the box
+  /// Message about its first fault, with its place, which concerns only those who read this frame; empty if
+  /// it has none. A box that is not at right angles to the axes is one.
+  std::string fault;
+  std::size_t fault_line = 0;
 };
 
-/// Returns the frames in order; none for a text in another format. Throws LocatedError(bad_data) at the first
-/// line that does not belong to such a file, and for a box that is not at right angles to the axes.
+/// Removes the first line from a text and returns it, after lines that are only a comment, which are counted
+/// in `line` as well.
+std::string_view take_row(std::string_view& rest, std::size_t& line);
+
+/// Returns the frames in order; none for a text in another format. Throws LocatedError(bad_data) for a line
+/// before the first frame that does not belong to such a file.
 std::vector<DumpFrame> dump_frames(std::string_view text, const std::string& name);
 
 }  // namespace talus::session

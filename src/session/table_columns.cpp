@@ -206,8 +206,12 @@ TableColumns columns_in(const TablePlace& place, std::string_view line, std::vec
 
 }  // namespace
 
-void TablePlace::refuse(std::size_t column, const std::string& message) const {
-  throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:{}: error: {}", table, line, column, message));
+std::string TablePlace::message(std::size_t column, const std::string& text) const {
+  return fmt::format("{}:{}:{}: error: {}", table, line, column, text);
+}
+
+void TablePlace::refuse(std::size_t column, const std::string& text) const {
+  throw LocatedError(ExitCode::bad_data, message(column, text));
 }
 
 std::string_view take_line(std::string_view& rest) {

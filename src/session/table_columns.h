@@ -21,7 +21,10 @@ struct TablePlace {
   const std::string& table;
   std::size_t line = 0;  ///< line number, from 1
 
-  [[noreturn]] void refuse(std::size_t column, const std::string& message) const;
+  /// Returns a message with this place.
+  std::string message(std::size_t column, const std::string& text) const;
+  /// Throws it.
+  [[noreturn]] void refuse(std::size_t column, const std::string& text) const;
 };
 
 /// Returns the cells of a line without its comment, separated by semicolons, commas, `tabs` or otherwise any

@@ -101,6 +101,67 @@ TEST(BedOfTable, stays_within_walls_and_above_the_floor) {
             "grains, whose tops are at 0");
 }
 
+// A run with such a grain could not be read.
+TEST(BedOfTable, has_no_grain_that_a_run_cannot_store) {
+  std::string many;
+  for (int k = 0; k < 40; ++k) many += fmt::format("{},{},0.51\n", 1.0 + 2 * (k % 4), 1 + 2 * (k / 4));
+  EXPECT_EQ(message_of(many + "1,30,0.001\n"), "accepted");
+  for (const char* radius : {"0.0009", "1e-300"})
+    EXPECT_TRUE(message_of(many + "1,30," + radius + "\n")
+                    .starts_with("bed.csv:41:1: error: the grain has a radius of "))
+        << message_of(many + "1,30," + radius + "\n");
+  const Table far(many + "1,130001,0.5\n"), near(many + "1,129999,0.5\n");
+  const dynamics::BedPlan plan = plan_of();
+  const double depth = 3.0 * plan.mean_diameter;  // 1e4 (10 D + 3 D) is the farthest place
+  EXPECT_THROW(bed_of_file({.path = far.path, .depth = depth}, plan), LocatedError);
+  EXPECT_EQ(bed_of_file({.path = near.path, .depth = depth}, plan).grains.free_count, 41);
+}
+
+/// Returns the places of the grains of a dump with a box from -5 to 5 D, or the message.
+std::string placed(const std::string& flags, bool periodic, const std::string& bounds = "-5 5") {
+  const Table dump("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS " + flags + "\n" + bounds +
+                   "\n0 20\n-1 1\nITEM: ATOMS id x y radius\n1 -3 0.5 0.5\n2 0 0.5 0.5\n3 3 0.5 0.5\n");
+  const dynamics::BedPlan plan = plan_of(periodic, false);
+  const std::string message = message_of(dump.path, 0, plan, ExitCode::bad_data);
+  if (message != "accepted") return message;
+  std::string places;
+  for (const double x : bed_of_file({dump.path}, plan).grains.x)
+    places += fmt::format("{:.6g} ", x / plan.mean_diameter);
+  return places;
+}
+
+TEST(BedOfDump, is_moved_with_its_box) {
+  EXPECT_EQ(placed("pp ff pp", true), "2 5 8 ");
+  EXPECT_EQ(placed("ff ff pp", false), "2 5 8 ") << "the room between the walls";
+  EXPECT_EQ(placed("", true), "2 5 8 ");
+  EXPECT_EQ(placed("", false), "2 5 8 ");
+  EXPECT_EQ(placed("pp ff pp", true, "-4 6"), "1 4 7 ");
+  EXPECT_EQ(placed("pp ff pp", true, "-2 8"), "9 2 5 ") << "unwrapped";
+}
+
+TEST(BedOfDump, whose_box_is_that_of_another_bed_is_refused) {
+  for (const char* flags : {"ff ff pp", "ff pp", "ss pp pp"})
+    EXPECT_EQ(placed(flags, true),
+              "bed.csv: its box is not periodic along x: expected bed.boundary = \"walls\", or a box with "
+              "the flags "
+              "pp (pbc=\"T ...\")");
+  EXPECT_EQ(placed("pp ff pp", false),
+            "bed.csv: its box is periodic along x: expected bed.boundary = \"periodic\", or a box with the "
+            "flags ff "
+            "(pbc=\"F ...\")");
+  EXPECT_EQ(
+      placed("pp ff pp", true, "-6 6"),
+      "bed.csv: its periodic box is 12 D long: expected bed.length = 10 D; check deposition.file_unit and "
+      "deposition.file_scale");
+  const std::string walls = placed("ff ff pp", false, "-6 6");
+  EXPECT_TRUE(walls.starts_with("bed.csv:10:1: error: the grain overlaps with the wall at x = 0 by 3.5 D"))
+      << walls;
+  EXPECT_TRUE(
+      walls.ends_with("; the box of the file is from -6 to 6 D along x: one of bed.length = 10 D would be "
+                      "shifted to begin at 0"))
+      << walls;
+}
+
 TEST(BedOfTable, stays_within_the_period) {
   EXPECT_EQ(message_of("0,2,0.5\n9.99,5,0.5\n"), "accepted");
   for (const char* x : {"10", "-0.5"})
