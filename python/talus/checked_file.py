@@ -57,9 +57,13 @@ def read_text(path: Path) -> str:
         return file.read(size).decode("utf-8", "surrogateescape")
 
 
+def bytes_hash(data: bytes) -> str:
+    """Returns a hash in the format of Talus: 16 hexadecimal digits."""
+    return xxhash.xxh3_64_hexdigest(data)
+
+
 def text_hash(text: str) -> str:
-    """Returns the hash of a text in the format of Talus: 16 hexadecimal digits."""
-    return xxhash.xxh3_64_hexdigest(text.encode("utf-8", "surrogateescape"))
+    return bytes_hash(text.encode("utf-8", "surrogateescape"))
 
 
 def identity_of(descriptor: int) -> Identity:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from talus.checked_file import text_hash
+from talus.checked_file import SEAL, SEAL_SIZE, bytes_hash, open_regular, text_hash
 from talus.errors import Error
 
 NAME = "manifest"
@@ -25,9 +25,20 @@ class Manifest:
     segments: list[StoredFile]
 
 
-def replaces_packed(text: str) -> bool:
-    """Whether the run in the folder replaces a packed file of its name."""
-    return "\nreplaces the packed file\n" in text
+def hides_packed(text: str, packed: Path) -> bool:
+    """Whether the run in the folder with this manifest is the one of its name, and not the packed file: it has not been
+    packed into this file, which it replaces, or which is no run."""
+    if not text:
+        return False
+    try:
+        with open_regular(packed) as file:
+            begin = file.read(SEAL_SIZE)
+    except (OSError, Error):
+        return True
+    for line in text.split("\n"):
+        if line.startswith("packed "):
+            return line != "packed " + bytes_hash(begin)
+    return "\nreplaces the packed file\n" in text or not begin.startswith(SEAL)
 
 
 def is_sealed(text: str) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from talus.checked_file import (CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text,
                                 require_files)
 from talus.errors import Error, FailedFile, MissingFile, MissingName
-from talus.manifest import NAME, StoredFile, parse_manifest, replaces_packed
+from talus.manifest import NAME, StoredFile, parse_manifest, hides_packed
 from talus.trial_walk import require_walkable
 
 SERIES = ("frames/", "contacts/", "observables/", "steps/", "commands/")
@@ -22,7 +22,7 @@ def find_run(path: Path) -> Path:
     """Returns the packed file of the run called `path`, or its folder while it is being computed. Raises Error if
     neither exists."""
     folder_of_run = path.parent / (path.name + ".run")
-    if path.is_file() and not replaces_packed(manifest_text(folder_of_run)):
+    if path.is_file() and not hides_packed(manifest_text(folder_of_run), path):
         return path
     for folder in (path, folder_of_run):
         if (folder / NAME).is_file():

@@ -131,7 +131,8 @@ std::vector<StoredReading> read_readings(const RunFile& run) {
   return readings;
 }
 
-std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const analysis::Analysis& analysis,
+std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const std::string& name,
+                                     const analysis::Analysis& analysis,
                                      const std::vector<StoredReading>& readings,
                                      std::span<const analysis::Quantity> table) {
   Sizes sizes = sizes_of(analysis);
@@ -139,7 +140,7 @@ std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const
     sizes['F'] = readings.front().thresholds;
     sizes['W'] = readings.front().values.size() / readings.front().thresholds;
   }
-  hdf5::Writer writer(std::move(sizes), seal_size, packed, "the packed run");
+  hdf5::Writer writer(std::move(sizes), seal_size, packed, name);
   write_analysis(writer, analysis, table);
   for (const StoredReading& reading : readings) {
     writer.write_text("/readings/key/" + reading.name, reading.key);
@@ -167,14 +168,15 @@ void store_analysis(const std::string& path, const analysis::Analysis& analysis,
                     const std::string& state_hash, std::span<const analysis::Quantity> table,
                     bool keep_frames) {
   const std::vector<StoredReading> readings = read_readings(RunFile::open(path));
-  replace_packed(path, with_analysis(bare_bytes(path, state_hash, keep_frames), analysis, readings, table));
+  replace_packed(path,
+                 with_analysis(bare_bytes(path, state_hash, keep_frames), path, analysis, readings, table));
 }
 
 void store_readings(const std::string& path, const std::vector<StoredReading>& readings,
                     const std::string& state_hash) {
   const std::optional<analysis::Analysis> analysis = read_analysis(path);
   if (!analysis) throw Error(ExitCode::bad_data, path + " has no analysis of this version of Talus");
-  replace_packed(path, with_analysis(bare_bytes(path, state_hash, true), *analysis, readings));
+  replace_packed(path, with_analysis(bare_bytes(path, state_hash, true), path, *analysis, readings));
 }
 
 }  // namespace talus::io

@@ -24,8 +24,10 @@ inline std::optional<analysis::Analysis> read_analysis(
 /// Returns the stored readings, in the order in which they were written.
 std::vector<StoredReading> read_readings(const RunFile& run);
 
-/// Returns the bytes of a packed file with an analysis and readings added, sealed.
-std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const analysis::Analysis& analysis,
+/// Returns the bytes of a packed file, called `name` in messages, with an analysis and readings added,
+/// sealed.
+std::vector<std::byte> with_analysis(const std::vector<std::byte>& packed, const std::string& name,
+                                     const analysis::Analysis& analysis,
                                      const std::vector<StoredReading>& readings,
                                      std::span<const analysis::Quantity> table = analysis::quantities());
 

@@ -68,27 +68,27 @@ void for_each_origin(Branch& branch, Direction direction) {
   fields.scalar(branch_group + "frame", branch.frame, not_negative);
 }
 
-void check_grains(const hdf5::Reader& reader, const std::string& here, const Grains& grains) {
+void check_grains(const RecordCheck& record, const std::string& here, const Grains& grains) {
   if (grains.free_count < 0 || grains.free_count > grains.count())
-    reader.refuse(here + "free_count", "is not between 0 and the number of grains");
+    record.refuse(here + "free_count", "is not between 0 and the number of grains");
   const double farthest = grains.radius.empty() ? 0.0 : 1e8 * *std::ranges::max_element(grains.radius);
-  reader.check(here + "x", grains.x, {-farthest, farthest});
-  reader.check(here + "y", grains.y, {-farthest, farthest});
+  record.check(here + "x", grains.x, {-farthest, farthest});
+  record.check(here + "y", grains.y, {-farthest, farthest});
 }
 
-void check_contacts(const hdf5::Reader& reader, const std::string& here, const World& world) {
+void check_contacts(const RecordCheck& record, const std::string& here, const World& world) {
   const auto bodies = static_cast<std::size_t>(world.grains.count()) + world.boundary.planes.size();
   const Contacts& c = world.contacts;
   if (!c.moment.empty() && c.moment.size() != c.a.size())
-    reader.refuse(here + "contact_moment",
+    record.refuse(here + "contact_moment",
                   fmt::format("holds {} moments of {} contacts", c.moment.size(), c.a.size()));
   for (std::size_t k = 0; k < c.a.size(); ++k)
     if (c.a[k] < 0 || c.a[k] >= world.grains.count() || c.b[k] <= c.a[k] ||
         static_cast<std::size_t>(c.b[k]) >= bodies)
-      reader.refuse(here + "contact_pair", "names a body that does not exist, or one twice");
+      record.refuse(here + "contact_pair", "names a body that does not exist, or one twice");
   for (std::size_t k = 1; k < c.a.size(); ++k)
     if (std::pair(c.a[k], c.b[k]) < std::pair(c.a[k - 1], c.b[k - 1]))
-      reader.refuse(here + "contact_pair", "does not ascend");
+      record.refuse(here + "contact_pair", "does not ascend");
 }
 
 void read_state(hdf5::Reader& reader, const std::string& here, Checkpoint& checkpoint) {
@@ -102,6 +102,8 @@ void read_state(hdf5::Reader& reader, const std::string& here, Checkpoint& check
 }
 
 void write_state(hdf5::Writer& writer, const std::string& here, const Checkpoint& checkpoint) {
+  check_grains(RecordCheck(), here, checkpoint.world.grains);
+  check_contacts(RecordCheck(), here, checkpoint.world);
   writer.write_text(here + "state_hash", hash_text(state_hash(checkpoint.world)));
   for_each_field(here, checkpoint, FileWriter{writer});
 }

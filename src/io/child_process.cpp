@@ -16,6 +16,7 @@
 #include "base/descriptor.h"
 #include "base/errors.h"
 #include "base/sanitizers.h"
+#include "io/hdf5_handle.h"
 
 namespace talus::io {
 namespace {
@@ -99,6 +100,22 @@ struct Child {
   Descriptor pipe;  ///< receives the child's output
 };
 
+/// Forks while this thread holds the lock of HDF5, so that the child can use the library even if another
+/// thread of this process does at this moment. HDF5 holds it while it calls back.
+pid_t fork_between_calls() {
+  hdf5::set_library_policy();
+  pid_t child = -1;
+  int property = 0;
+  H5Piterate(
+      H5P_FILE_ACCESS_DEFAULT, &property,
+      [](hid_t, const char*, void* process) -> herr_t {
+        *static_cast<pid_t*>(process) = ::fork();
+        return 1;  // ends the iteration
+      },
+      &child);
+  return child;
+}
+
 /// Starts a restricted child that calls `speak` with its pipe, and ends.
 Child start(const std::string& path, std::size_t input, const std::function<void(int)>& speak) {
   int ends[2] = {-1, -1};
@@ -106,7 +123,7 @@ Child start(const std::string& path, std::size_t input, const std::function<void
   Child child{-1, Descriptor(ends[0])};
   Descriptor to(ends[1]);
   const pid_t parent = ::getpid();
-  child.process = ::fork();
+  child.process = fork_between_calls();
   if (child.process < 0) throw system_error(ExitCode::io_error, "start a process for", path, errno);
   if (child.process == 0) {
     const int pipe = close_all_but(to.get());

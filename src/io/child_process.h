@@ -18,7 +18,8 @@ using Parcels = std::map<std::string, std::vector<std::byte>>;
 /// 1 s for each MiB of `input`, the size of its input in bytes; to six times that in wall time; and to 2 GiB
 /// of memory plus 64 times `input`, in addition to the memory of this process. It writes no files. An Error
 /// that `work` throws is rethrown here; if the child ends in any other way, this throws Error(bad_data) with
-/// the name `path`. Must not be called while another thread holds a resource that `work` needs.
+/// the name `path`. HDF5 can be used in the child, whatever other
+/// threads do; no other resource that a thread may hold.
 Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work);
 
 /// Convert parcels to a sequence of bytes and back. `decode` throws Error(bad_data), naming `path`, for bytes

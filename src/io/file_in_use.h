@@ -11,10 +11,13 @@ namespace talus::io {
 /// null.
 inline constinit thread_local const char* file_in_use = nullptr;
 
-/// Registers the file during its lifetime; `name` must outlive it.
+/// Registers the file during its lifetime; `name` must outlive it. An empty name registers nothing. Every
+/// call of HDF5 on a file that this process has not made itself is made during the lifetime of one, and so is
+/// the closing of what it opens: declare it first in a function.
 class FileInUse {
  public:
-  explicit FileInUse(const std::string& name) : before_(std::exchange(file_in_use, name.c_str())) {}
+  explicit FileInUse(const std::string& name)
+      : before_(std::exchange(file_in_use, name.empty() ? file_in_use : name.c_str())) {}
   FileInUse(const FileInUse&) = delete;
   FileInUse& operator=(const FileInUse&) = delete;
   ~FileInUse() { file_in_use = before_; }

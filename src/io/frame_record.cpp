@@ -62,11 +62,14 @@ struct RowWriter {
 
   static bool has(const std::string&, bool is_there) { return is_there; }
   template <typename T>
-  void put(const std::string& path, const std::vector<T>& values) {
+  void put(const std::string& path, const std::vector<T>& values, Range range) {
     const DataSetField field = field_of(path);
-    if (field.type != ElementType::float32) return take(field, std::as_bytes(std::span(values)));
-    const std::vector<float> stored(values.begin(), values.end());
-    take(field, std::as_bytes(std::span(stored)));
+    const auto check_and_take = [&](const auto& stored) {
+      RecordCheck().check(path, stored, range);
+      take(field, std::as_bytes(std::span(stored)));
+    };
+    if (field.type != ElementType::float32) return check_and_take(values);
+    check_and_take(std::vector<float>(values.begin(), values.end()));
   }
 };
 template <typename Take>
@@ -177,26 +180,20 @@ Frame read_frame(hdf5::Reader& reader, std::size_t row) {
   return frame;
 }
 
-double farthest_place(const RunStatics& statics) {
-  return std::min(1e4 * (statics.length + statics.depth), 1e8 * statics.mean_diameter);
-}
-
-void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t planes) {
-  const double farthest = farthest_place(bed.statics);
+void check_frame(const RecordCheck& record, const Frame& frame, double farthest, std::size_t planes) {
   const auto check_places = [&](const std::vector<double>& along, const std::string& name) {
     if (std::ranges::any_of(along, [&](double r) { return std::abs(r) > farthest; }))
-      reader.refuse(name, "holds a position farther away than a grain can be");
+      record.refuse(name, "holds a position farther away than a grain can be");
   };
-  for (const auto* along : {&bed.frame.x, &bed.frame.y}) check_places(*along, grains + "position/value");
-  for (const auto* along : {&bed.frame.contacts.px, &bed.frame.contacts.py})
-    check_places(*along, contacts + "point");
-  const auto bodies = static_cast<Index>(bed.frame.x.size() + planes);
-  const FrameContacts& c = bed.frame.contacts;
+  for (const auto* along : {&frame.x, &frame.y}) check_places(*along, grains + "position/value");
+  for (const auto* along : {&frame.contacts.px, &frame.contacts.py}) check_places(*along, contacts + "point");
+  const auto bodies = static_cast<Index>(frame.x.size() + planes);
+  const FrameContacts& c = frame.contacts;
   if (!c.moment.empty() && c.moment.size() != c.a.size())
-    reader.refuse(moments, "does not have as many rows as " + contacts + "pair");
+    record.refuse(moments, "does not have as many rows as " + contacts + "pair");
   for (std::size_t k = 0; k < c.a.size(); ++k)
-    if (c.a[k] < 0 || c.a[k] >= bed.frame.grain_count() || c.b[k] <= c.a[k] || c.b[k] >= bodies)
-      reader.refuse(contacts + "pair",
+    if (c.a[k] < 0 || c.a[k] >= frame.grain_count() || c.b[k] <= c.a[k] || c.b[k] >= bodies)
+      record.refuse(contacts + "pair",
                     fmt::format("joins the bodies {} and {}, expected a < b < {} with a grain a", c.a[k],
                                 c.b[k], bodies));
 }

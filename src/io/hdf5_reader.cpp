@@ -9,7 +9,6 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "io/file_in_use.h"
 
 namespace talus::io::hdf5 {
 namespace {
@@ -27,6 +26,24 @@ bool is_fixed_text(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Ti
 
 Reader::Reader(Handle file, std::string name, Sizes sizes)
     : file_(std::move(file)), file_size_(size_of(file_)), name_(std::move(name)), sizes_(std::move(sizes)) {}
+
+Reader& Reader::operator=(Reader&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(file_size_, other.file_size_);
+  std::swap(name_, other.name_);
+  std::swap(sizes_, other.sizes_);
+  return *this;
+}
+
+Reader::~Reader() {
+  const FileInUse in_use(name_);
+  file_ = Handle();
+}
+
+Reader Reader::again() const {
+  const FileInUse in_use(name_);
+  return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}};
+}
 
 Reader Reader::from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known) {
   const FileInUse in_use(name);
@@ -90,8 +107,8 @@ DataSet Reader::open(const std::string& path) const {
 }
 
 DataSet Reader::open(const DataSetField& field) {
-  DataSet set = open(field.path);
   const FileInUse in_use(name_);
+  DataSet set = open(field.path);
   const bool is_text = field.type == ElementType::text;
   const bool same =
       is_text ? is_fixed_text(set.type.get()) : H5Tequal(set.type.get(), file_type(field.type)) > 0;
@@ -103,6 +120,7 @@ DataSet Reader::open(const DataSetField& field) {
 }
 
 DataSet Reader::open_numbers(const std::string& path, bool of_reals) const {
+  const FileInUse in_use(name_);
   DataSet set = open(path);
   const H5T_class_t kind = H5Tget_class(set.type.get());
   if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
@@ -144,15 +162,19 @@ void Reader::read_block(const DataSet& set, std::optional<Rows> rows, hid_t type
     refuse(set.path, "cannot be read");
 }
 
-void Reader::refuse_value(const std::string& path, double value, std::size_t index, Range range) const {
-  refuse(path,
-         fmt::format("holds {:.6g} at index {}, expected {}", value, index,
+std::string problem_of(double value, std::size_t index, Range range) {
+  return fmt::format("holds {:.6g} at index {}, expected {}", value, index,
                      std::isinf(range.high) && std::isinf(range.low) ? "a finite number"
                      : std::isinf(range.high) ? fmt::format("a finite number >= {:.6g}", range.low)
-                                              : fmt::format("{:.6g} to {:.6g}", range.low, range.high)));
+                                              : fmt::format("{:.6g} to {:.6g}", range.low, range.high));
+}
+
+void Reader::refuse_value(const std::string& path, double value, std::size_t index, Range range) const {
+  refuse(path, problem_of(value, index, range));
 }
 
 std::string Reader::read_text(const std::string& path) {
+  const FileInUse in_use(name_);
   const DataSet set = open(field_of(path));
   std::string text(H5Tget_size(set.type.get()), '\0');
   read_block(set, {}, set.type.get(), text.data());
@@ -175,6 +197,7 @@ std::optional<std::uint64_t> stored_hash(hid_t set) {
 }  // namespace
 
 bool Reader::is_as_written(const std::string& path) {
+  const FileInUse in_use(name_);
   const DataSetField field = field_of(path);
   const DataSet set = open(field);
   const std::optional<std::uint64_t> hash = stored_hash(set.id.get());
@@ -195,6 +218,7 @@ bool Reader::has(const std::string& path) const {
 }
 
 std::uint64_t Reader::row_count(const std::string& path) {
+  const FileInUse in_use(name_);
   const DataSet set = open(field_of(path));
   return set.dims.empty() ? 1 : set.dims[0];
 }
@@ -205,6 +229,33 @@ std::vector<std::string> Reader::data_sets(const std::string& group) const {
   for (const std::string& name : names(group, H5O_TYPE_GROUP))
     for (std::string& path : data_sets(fmt::format("{}/{}", group, name))) paths.push_back(std::move(path));
   return paths;
+}
+
+namespace {
+
+/// Opens an object of a file, and what belongs to it; a failure of HDF5 is reported when the object is read.
+herr_t look_at(hid_t file, const char* name, const H5O_info_t*, void*) {
+  const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
+  const int attributes = object.get() < 0 ? 0 : H5Aget_num_attrs(object.get());
+  for (int k = 0; k < attributes; ++k) {
+    const Handle attribute(H5Aopen_by_idx(object.get(), ".", H5_INDEX_NAME, H5_ITER_NATIVE,
+                                          static_cast<hsize_t>(k), H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  }
+  if (H5Iget_type(object.get()) != H5I_DATASET) return 0;
+  const Handle type(H5Dget_type(object.get()), H5Tclose), space(H5Dget_space(object.get()), H5Sclose),
+      creation(H5Dget_create_plist(object.get()), H5Pclose);
+  hsize_t chunks = 0;
+  if (H5Pget_layout(creation.get()) == H5D_CHUNKED) H5Dget_num_chunks(object.get(), H5S_ALL, &chunks);
+  return 0;
+}
+
+}  // namespace
+
+void Reader::walk() const {
+  const FileInUse in_use(name_);
+  H5Ovisit(file_.get(), H5_INDEX_NAME, H5_ITER_NATIVE, look_at, nullptr);
 }
 
 std::string Reader::attribute(const std::string& path, const char* name) const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_in_use.h"
 #include "io/hdf5_handle.h"
 #include "io/run_schema.h"
 
@@ -25,6 +26,9 @@ struct Range {
 };
 inline constexpr Range any_number = {.is_finite = false};
 
+/// Describes a value outside its range: "holds 9e-06 at index 30, expected 1e-05 to 10".
+std::string problem_of(double value, std::size_t index, Range range);
+
 /// Rows along the first dimension.
 struct Rows {
   std::uint64_t first = 0, count = 0;
@@ -38,12 +42,16 @@ class Reader {
   /// Opens a file; `name` is its name in messages, and `known` are sizes that it must match.
   static Reader from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known = {});
   static Reader from_file(const std::string& path);
+  Reader(Reader&& other) noexcept = default;
+  Reader& operator=(Reader&& other) noexcept;
+  ~Reader();
   /// Returns a reader of the same file in which no letter has a value yet.
-  Reader again() const { return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}}; }
+  Reader again() const;
 
   /// Reads a data set, or some of its rows; floats are converted to doubles.
   template <typename T>
   std::vector<T> read(const DataSetField& field, Range range = {}, std::optional<Rows> rows = {}) {
+    const FileInUse in_use(name_);
     std::vector<T> values = values_of<T>(open(field), rows);
     check(field.path, values, range);
     return values;
@@ -61,6 +69,7 @@ class Reader {
   /// Reads a data set of another program in any shape: integers, or numbers of any type.
   template <typename T>
   std::vector<T> read_numbers(const std::string& path) const {
+    const FileInUse in_use(name_);
     return values_of<T>(open_numbers(path, std::is_same_v<T, double>), {});
   }
 
@@ -75,6 +84,9 @@ class Reader {
   std::vector<std::string> names(const std::string& group) const { return names(group, H5O_TYPE_DATASET); }
   /// Returns the paths of the data sets below a group; those in subgroups come last.
   std::vector<std::string> data_sets(const std::string& group) const;
+  /// Opens every object of the file and its attributes, and looks up where values are stored, without reading
+  /// them. A malformed file can make HDF5 crash here, before it is used.
+  void walk() const;
   /// Reads a text attribute of a group or a data set.
   std::string attribute(const std::string& path, const char* name) const;
 

@@ -132,9 +132,19 @@ Writer::Writer(Sizes sizes, std::size_t user_block, Storage storage)
 }
 
 Writer::Writer(Sizes sizes, std::size_t user_block, std::vector<std::byte> image, const std::string& name)
-    : sizes_(std::move(sizes)), user_block_(user_block), file_(open_image(image, name, H5F_ACC_RDWR)) {}
+    : sizes_(std::move(sizes)), user_block_(user_block), name_(name) {
+  const FileInUse in_use(name_);
+  file_ = open_image(image, name, H5F_ACC_RDWR);
+}
+
+Writer::~Writer() {
+  const FileInUse in_use(name_);
+  open_.clear();
+  file_ = Handle();
+}
 
 void Writer::create(const DataSetField& field) {
+  const FileInUse in_use(name_);
   create_group(parent_of(field.path));
   DataSet set;
   const std::vector<std::uint64_t> shape = dimensions(field, sizes_);
@@ -155,6 +165,7 @@ void Writer::create(const DataSetField& field) {
 
 void Writer::write_rows(const DataSetField& field, std::uint64_t first_row,
                         std::span<const std::byte> values) {
+  const FileInUse in_use(name_);
   const DataSet& set = open_.at(field.path);
   const std::size_t count = values.size() / size_of(field.type);
   std::vector<hsize_t> block = set.dims, start(set.dims.size(), 0);
@@ -179,6 +190,7 @@ void Writer::write_rows(const DataSetField& field, std::uint64_t first_row,
 }
 
 void Writer::write_bytes(const DataSetField& field, std::span<const std::byte> values, hid_t type) {
+  const FileInUse in_use(name_);
   create(field);
   if (H5Tequal(type, file_type(field.type)) <= 0)
     throw Error(ExitCode::internal, "values whose type is not that of " + field.path);
@@ -187,6 +199,7 @@ void Writer::write_bytes(const DataSetField& field, std::span<const std::byte> v
 }
 
 Handle Writer::put_text(const std::string& path, const std::string& text, const std::string& unit) {
+  const FileInUse in_use(name_);
   create_group(parent_of(path));
   const Handle type = text_type(text.size()), space = space_of({}), creation = properties(H5P_DATASET_CREATE);
   Handle set(checked(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), H5P_DEFAULT,
@@ -199,6 +212,7 @@ Handle Writer::put_text(const std::string& path, const std::string& text, const 
 }
 
 void Writer::write_text(const DataSetField& field, const std::string& bytes) {
+  const FileInUse in_use(name_);
   const std::string text = utf8(bytes);
   const Handle set = put_text(field.path, text, field.unit);
   attach_hash(set.get(), piece_hash(field.path, std::as_bytes(std::span(text))));
@@ -206,10 +220,12 @@ void Writer::write_text(const DataSetField& field, const std::string& bytes) {
 }
 
 void Writer::write_help(const std::string& path, const std::string& text) {
+  const FileInUse in_use(name_);
   put_text("/help" + path, text, "1");
 }
 
 void Writer::create_group(const std::string& path) {
+  const FileInUse in_use(name_);
   if (path.empty()) return;
   create_group(parent_of(path));
   if (checked(H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT), "look for " + path) > 0) return;
@@ -221,6 +237,7 @@ void Writer::create_group(const std::string& path) {
 }
 
 void Writer::link(const std::string& path, const std::string& second_path) {
+  const FileInUse in_use(name_);
   checked(
       H5Lcreate_hard(file_.get(), path.c_str(), file_.get(), second_path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
       "link " + second_path);
@@ -228,12 +245,14 @@ void Writer::link(const std::string& path, const std::string& second_path) {
 
 void Writer::set_attribute(const std::string& path, const char* name,
                            const std::vector<std::int32_t>& values) {
+  const FileInUse in_use(name_);
   std::vector<hsize_t> dims;
   if (values.size() > 1) dims.push_back(values.size());
   attach(object_at(path).get(), name, H5T_STD_I32LE, dims, values.data());
 }
 
 void Writer::set_attribute(const std::string& path, const char* name, const std::vector<std::string>& texts) {
+  const FileInUse in_use(name_);
   std::size_t length = 1;
   for (const std::string& text : texts) length = std::max(length, text.size());
   std::string padded;
@@ -242,25 +261,30 @@ void Writer::set_attribute(const std::string& path, const char* name, const std:
 }
 
 void Writer::set_attribute(const std::string& path, const char* name, const std::string& text) {
+  const FileInUse in_use(name_);
   attach_text(object_at(path).get(), name, text);
 }
 
 Handle Writer::object_at(const std::string& path) {
+  const FileInUse in_use(name_);
   create_group(path);
   return {checked(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), "open " + path), H5Oclose};
 }
 
 void Writer::remove(const std::string& path) {
+  const FileInUse in_use(name_);
   if (find(file_.get(), path) != PathTarget::nothing)
     checked(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "remove " + path);
 }
 
 void Writer::write_contents() {
+  const FileInUse in_use(name_);
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "write values to a file");
   write_text("/contents", contents_);
 }
 
 std::vector<std::byte> Writer::image() {
+  const FileInUse in_use(name_);
   checked(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "complete a file");
   const ssize_t size = checked(H5Fget_file_image(file_.get(), nullptr, 0), "get the size of a file");
   std::vector<std::byte> bytes(user_block_ + static_cast<std::size_t>(size));

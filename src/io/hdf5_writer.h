@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file_in_use.h"
 #include "io/hdf5_handle.h"
 #include "io/run_schema.h"
 
@@ -25,6 +26,9 @@ class Writer {
   /// Continues an existing file, whose name in messages is `name`; `image` begins with `user_block` bytes of
   /// any content. Throws Error(bad_data) if HDF5 cannot open it.
   Writer(Sizes sizes, std::size_t user_block, std::vector<std::byte> image, const std::string& name);
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer();
 
   /// Creates a data set with its unit; floats are initialised to NaN.
   void create(const DataSetField& field);
@@ -84,6 +88,7 @@ class Writer {
 
   Sizes sizes_;
   std::size_t user_block_;
+  std::string name_;  ///< name of an existing file, which can be malformed; empty for a new one
   Storage storage_ = Storage::compressed;
   Handle file_;
   std::string contents_;                 ///< paths of the data sets, one per line

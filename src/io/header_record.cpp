@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "base/errors.h"
+#include "io/bounds.h"
 #include "io/record_fields.h"
 #include "io/run_records.h"
 #include "scenario/scenario.h"
@@ -17,12 +18,14 @@ constexpr const char* friction_of_grains = "/parameters/friction";
 constexpr const char* edges = "/particles/grains/box/edges";
 constexpr Range diameters = {1e-9, 1e9};
 
+Range lengths_of_bed(double d) { return {0.1 * d, 1e6 * d}; }
+
 /// Visits the static data. Lengths are limited relative to the diameter d, m, because grids are sized by
 /// these ratios.
 template <typename Statics, typename Direction>
 void for_each_field(Statics& statics, double d, Direction direction) {
   Fields fields{direction};
-  fields.array("/particles/grains/radius", statics.radius, Range{1e-3 * d, 1e3 * d});
+  fields.array("/particles/grains/radius", statics.radius, Range{smallest_radius * d, largest_radius * d});
   fields.array("/particles/grains/mass", statics.mass, not_negative);
   fields.scalar("/parameters/periodic", statics.periodic);
   fields.scalar("/parameters/mean_diameter", statics.mean_diameter, diameters);
@@ -35,7 +38,9 @@ void write_statics(hdf5::Writer& writer, const RunStatics& statics) {
   std::vector<std::int8_t> species(count, floor_species);
   for (std::size_t i = 0; i < count; ++i) ids[i] = static_cast<Index>(i);
   std::fill_n(species.begin(), statics.free_count, free_species);
-  writer.write(edges, std::vector{statics.length, statics.depth});
+  if (statics.free_count < 1) RecordCheck().refuse("/particles/grains/species", "has no free grain");
+  FileWriter{writer}.put(edges, std::vector{statics.length, statics.depth},
+                         lengths_of_bed(statics.mean_diameter));
   writer.write("/particles/grains/id", ids);
   writer.write("/particles/grains/species", species);
   for_each_field(statics, statics.mean_diameter, FileWriter{writer});
@@ -55,7 +60,7 @@ RunStatics read_statics(hdf5::Reader& reader) {
   RunStatics statics;
   statics.free_count = free_grains(reader);
   const double d = reader.read_scalar<double>("/parameters/mean_diameter", diameters);
-  const std::vector<double> lengths = reader.read<double>(edges, Range{0.1 * d, 1e6 * d});
+  const std::vector<double> lengths = reader.read<double>(edges, lengths_of_bed(d));
   statics.length = lengths.at(0);
   statics.depth = lengths.at(1);
   for_each_field(statics, d, FileReader{reader});
@@ -81,10 +86,10 @@ bool is_inverse(double inverse, double value, bool free) {
 }
 
 /// Checks that the state from which a branch begins belongs to the bed of the run.
-void check_branch(const hdf5::Reader& reader, const World& start, const RunStatics& statics) {
+void check_branch(const RecordCheck& record, const World& start, const RunStatics& statics) {
   const Grains& grains = start.grains;
-  const auto require = [&reader](bool holds, const char* name) {
-    if (!holds) reader.refuse(std::string("/branch/").append(name), "is not that of the bed of the run");
+  const auto require = [&record](bool holds, const char* name) {
+    if (!holds) record.refuse(std::string("/branch/").append(name), "is not that of the bed of the run");
   };
   require(grains.radius == statics.radius, "radius");
   require(grains.mass == statics.mass, "mass");
@@ -98,8 +103,8 @@ void check_branch(const hdf5::Reader& reader, const World& start, const RunStati
     require(is_inverse(grains.inverse_inertia[i], grains.inertia[i], free), "inverse_inertia");
   }
   const double farthest = farthest_place(statics);
-  reader.check("/branch/x", grains.x, {-farthest, farthest});
-  reader.check("/branch/y", grains.y, {-farthest, farthest});
+  record.check("/branch/x", grains.x, {-farthest, farthest});
+  record.check("/branch/y", grains.y, {-farthest, farthest});
 }
 
 }  // namespace
@@ -120,7 +125,10 @@ void write_header(hdf5::Writer& writer, const RunHeader& header) {
   write_statics(writer, header.statics);
   writer.write_scalar(friction_of_grains, header.friction.grains);
   writer.write_scalar("/provenance/seed", header.seed);
-  if (header.branch) write_branch(writer, *header.branch);
+  if (header.branch) {
+    check_branch(RecordCheck(), header.branch->start.world, header.statics);
+    write_branch(writer, *header.branch);
+  }
   for (const auto& [name, fact] : header.provenance) writer.write_text("/provenance/" + name, fact);
 }
 

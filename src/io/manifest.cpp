@@ -113,11 +113,19 @@ Manifest read_manifest(const std::string& folder) {
   return parse_manifest({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
-bool replaces_packed(const std::string& folder, const std::string& packed) try {
-  const Manifest manifest = read_manifest(folder);
-  return manifest.replaces && (manifest.packed_seal == 0 || manifest.packed_seal != seal_hash_of(packed));
-} catch (const Error&) {
-  return false;
+bool hides_packed(const std::string& folder, const std::string& packed) {
+  Manifest manifest;
+  try {
+    manifest = read_manifest(folder);
+  } catch (const Error&) {
+    return false;
+  }
+  try {
+    if (manifest.packed_seal != 0) return manifest.packed_seal != seal_hash_of(packed);
+    return manifest.replaces || !begins_as_run(packed);
+  } catch (const Error&) {
+    return true;  // the file cannot be read
+  }
 }
 
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file) {

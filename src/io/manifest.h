@@ -31,8 +31,8 @@ struct Manifest {
   /// Whether the packed file next to the folder belongs to an earlier run, and is kept until this one is
   /// packed.
   bool replaces = false;
-  /// Hash of the seal of this run's packed file, from just before that file is renamed; 0 earlier. Set only
-  /// if a packed file is replaced; otherwise an existing packed file belongs to this run.
+  /// Hash of the seal of this run's packed file, from just before that file is renamed; 0 earlier. An
+  /// existing run file belongs to this run if it has this seal, or none is known and none is replaced.
   std::uint64_t packed_seal = 0;
   StoredFile header;
   StoredFile checkpoint;
@@ -52,9 +52,10 @@ Manifest parse_manifest(const std::string& text, const std::string& path);
 /// damaged.
 Manifest read_manifest(const std::string& folder);
 
-/// Whether a folder contains a run that is to replace the packed file next to it and has not done so yet.
-/// Returns false for an unreadable folder.
-bool replaces_packed(const std::string& folder, const std::string& packed);
+/// Whether the run of this name is that in the folder and not the packed file next to it: the folder has not
+/// been packed into this file, which it is to replace, or which is no run. Returns false for an unreadable
+/// folder.
+bool hides_packed(const std::string& folder, const std::string& packed);
 
 /// Returns the bytes of a file in the folder. Throws Error(bad_data) if they do not match the manifest.
 std::vector<std::byte> read_stored(const std::string& folder, const StoredFile& file);

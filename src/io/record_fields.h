@@ -2,11 +2,13 @@
 /// One table of fields for both directions: a record lists its data sets once, in the order of the file, and
 /// passes them to Fields, which writes or reads them. Private to src/io.
 
+#include <fmt/core.h>
 #include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "base/errors.h"
 #include "core/types.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
@@ -16,6 +18,33 @@ namespace talus::io {
 using hdf5::Range;
 inline constexpr Range not_negative = {.low = 0.0};
 
+/// Rejects values of a record in the same way when it is read and when it is written, so that no run is
+/// written that cannot be read.
+class RecordCheck {
+ public:
+  /// For a record that is written: throws Error(bad_data) that it cannot be stored.
+  RecordCheck() = default;
+  /// For a record that is read: throws the errors of the reader, which must outlive this.
+  RecordCheck(const hdf5::Reader& reader) : reader_(&reader) {}  // NOLINT(google-explicit-constructor)
+
+  [[noreturn]] void refuse(const std::string& path, const std::string& problem) const {
+    if (reader_ != nullptr) reader_->refuse(path, problem);
+    throw Error(ExitCode::bad_data,
+                fmt::format("the run cannot be stored: its data set {} {}; what was committed before is kept",
+                            path, problem));
+  }
+  /// Refuses a value outside its range.
+  template <typename T>
+  void check(const std::string& path, const std::vector<T>& values, Range range) const {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (!range.holds(static_cast<double>(values[k])))
+        refuse(path, hdf5::problem_of(static_cast<double>(values[k]), k, range));
+  }
+
+ private:
+  const hdf5::Reader* reader_ = nullptr;
+};
+
 /// Writes entire data sets.
 struct FileWriter {
   hdf5::Writer& writer;
@@ -23,7 +52,8 @@ struct FileWriter {
 
   static bool has(const std::string&, bool is_there) { return is_there; }
   template <typename T>
-  void put(const std::string& path, const std::vector<T>& values) {
+  void put(const std::string& path, const std::vector<T>& values, Range range) {
+    RecordCheck().check(path, values, range);
     writer.write(path, values);
   }
 };
@@ -60,7 +90,8 @@ template <typename T>
 using Stored = std::conditional_t<std::is_enum_v<NumberOf<T>> || std::is_same_v<NumberOf<T>, bool>,
                                   std::int8_t, NumberOf<T>>;
 
-/// Exchanges data sets, described once for both directions. A range limits the values that are read.
+/// Exchanges data sets, described once for both directions. A range limits the values that are read and
+/// written.
 template <typename Direction>
 struct Fields {
   Direction direction;
@@ -135,7 +166,7 @@ struct Fields {
     } else {
       std::vector<T> values(count);
       for (std::size_t k = 0; k < count; ++k) values[k] = static_cast<T>(at(k));
-      direction.put(path, values);
+      direction.put(path, values, range);
     }
   }
 };

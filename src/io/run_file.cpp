@@ -8,11 +8,13 @@
 #include <optional>
 
 #include "base/errors.h"
+#include "io/bounds.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/mistaken_path.h"
 #include "io/run_records.h"
 #include "io/seal.h"
+#include "io/trial_walk.h"
 
 namespace talus::io {
 namespace {
@@ -161,7 +163,7 @@ struct RunFile::State {
                       name));
     const FramePlace place = place_of(k);
     Frame frame = record(place.reader, place.row);
-    check_frame(place.reader, {frame, header.statics}, plane_count());
+    check_frame(place.reader, frame, farthest_place(header.statics), plane_count());
     frame.friction = friction_of_frame(k);
     return frame;
   }
@@ -317,9 +319,24 @@ RunFile RunFile::open_folder(const std::string& folder) {
   return RunFile(std::move(state));
 }
 
+namespace {
+
+/// Returns the paths of the files of a folder; none if its manifest cannot be read.
+std::vector<std::string> files_in(const std::string& folder) try {
+  std::vector<std::string> paths;
+  for (const StoredFile& file : files_of(read_manifest(folder)))
+    paths.push_back((fs::path(folder) / file.name).string());
+  return paths;
+} catch (const Error&) {
+  return {};
+}
+
+}  // namespace
+
 RunFile RunFile::open(const std::string& path) {
   for (int attempts_left = 20;; --attempts_left) {
     const std::optional<std::string> folder = folder_to_read(path);
+    try_run(folder.value_or(path), folder ? files_in(*folder) : std::vector{path});
     if (!folder) return open_packed(path);
     const std::string before = find_manifest(*folder);
     try {

@@ -20,7 +20,7 @@ class RunFile {
  public:
   /// Opens `path`: a packed file, a folder `path.run/`, or such a folder by its own name; its writer may be
   /// at work. Throws Error(missing_input) if the run does not exist, and Error(bad_data) with the name of the
-  /// damaged file or data set.
+  /// damaged file or data set. The library tries each run in a child process first (trial_walk.h).
   static RunFile open(const std::string& path);
 
   /// Opens a packed file in memory that this process has made. Throws Error(bad_data), naming `name`.

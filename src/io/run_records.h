@@ -7,6 +7,7 @@
 #include "core/bed_frame.h"
 #include "io/hdf5_reader.h"
 #include "io/hdf5_writer.h"
+#include "io/record_fields.h"
 #include "io/run_store.h"
 
 namespace talus::io {
@@ -31,12 +32,9 @@ Frame read_frame(hdf5::Reader& reader, std::size_t row);
 Frame read_positions(hdf5::Reader& reader, std::size_t row);
 /// Returns the value of /frames/hash: the hash of the size and the bytes of each data set, as stored.
 std::uint64_t frame_hash(const Frame& frame);
-/// Returns the largest valid distance of a grain or contact from the origin along either axis, m. Divided
-/// into cells of the size of a grain, it must still be a valid number of cells.
-double farthest_place(const RunStatics& statics);
-/// Rejects a frame whose grains or contacts cannot belong to a bed with `planes` planes, because other code
-/// uses these values as indices, or sizes grids by them, without a check.
-void check_frame(const hdf5::Reader& reader, const BedFrame& bed, std::size_t planes);
+/// Rejects a frame whose grains or contacts cannot belong to a bed with `planes` planes and farthest_place
+/// `farthest`, because other code uses these values as indices, or sizes grids by them, without a check.
+void check_frame(const RecordCheck& record, const Frame& frame, double farthest, std::size_t planes);
 
 /// Writes the metadata that H5MD 1.1 requires, and the meaning of each data set.
 void write_h5md(hdf5::Writer& writer, bool periodic);

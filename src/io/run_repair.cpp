@@ -311,6 +311,7 @@ void refuse_output(const RepairRequest& request) {
       throw Error(ExitCode::cannot_create,
                   path + " exists already; replace it with --overwrite, or choose another output with -o");
   }
+  if (!request.overwrite) keep_free(request.output);
 }
 
 }  // namespace
@@ -329,7 +330,7 @@ RepairReport repair_run(const RepairRequest& request) {
                       request.output);  // checks that the output can be read before it is written
   prepare_folder_of(request.output);
   write_durably(request.output, salvage.file);
-  discard_folder(request.output);  // next to the file it would be another run of the same name
+  discard_folder(request.output, true);  // next to the file it would be another run of the same name
   return {false, folder.has_value(), std::move(salvage.kept), std::move(salvage.lost)};
 }
 

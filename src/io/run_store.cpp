@@ -20,6 +20,7 @@
 #include "base/locked_file.h"
 #include "base/paths.h"
 #include "io/analysis_file.h"
+#include "io/bounds.h"
 #include "io/durable_file.h"
 #include "io/manifest.h"
 #include "io/packed_file.h"
@@ -205,9 +206,17 @@ bool is_empty(const Segment& segment) {
          segment.commands.empty() && segment.trials.empty();
 }
 
+/// Lets a run replace no file that has appeared under its name when it is packed.
+void keep_file_free(const std::string& path) {
+  keep_free(path, fmt::format(
+                      "the run is in {}: move the file away, and complete the run with talus run --resume {}",
+                      run_folder(path), path));
+}
+
 void refuse_existing(const std::string& path, bool overwrite) {
   output_target(path);
-  if (overwrite || run_presence(path) == RunPresence::none) return;
+  if (overwrite) return allow_replacing(path);
+  if (run_presence(path) == RunPresence::none) return keep_file_free(path);
   throw Error(ExitCode::cannot_create, path +
                                            " exists already; continue it with --resume, replace it with "
                                            "--overwrite, or choose another output with -o");
@@ -247,6 +256,7 @@ struct RunStore::State {
   Manifest manifest;
   std::vector<std::string> replaced;  ///< names of files of a run that this one replaces in its folder
   std::size_t grains = 0;
+  double farthest = 0.0;          ///< farthest_place of the bed, m
   std::vector<std::byte> header;  ///< header of a run that has not begun, written with its first commit
   /// Number of the next commit. A commit that failed may have left its files, or even its manifest, so no
   /// name is used twice.
@@ -300,6 +310,7 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
   state->manifest.replaces = fs::is_regular_file(path, unknown);
   state->header = header_bytes(header);
   state->grains = header.statics.radius.size();
+  state->farthest = farthest_place(header.statics);
   state->serial = next_serial(folder);
   // No name of an existing run is used, so that it remains complete until its manifest is replaced.
   state->manifest.header = describe(state->name_of_next("header_"), state->header);
@@ -320,6 +331,7 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
   exclude_other_writers(folder, state->lock);
   try {
     state->manifest = read_manifest(folder);
+    state->manifest.replaces ? allow_replacing(path) : keep_file_free(path);
     state->manifest.packed_seal = 0;  // it is packed again
     state->serial = serial_of(state->manifest.checkpoint) + 1;
     const RunFile run =
@@ -331,6 +343,7 @@ RunStore RunStore::resume(const std::string& path, RunHeader& header, Checkpoint
     throw;
   }
   state->grains = header.statics.radius.size();
+  state->farthest = farthest_place(header.statics);
   remove_leftovers(folder, state->lock, state->manifest);
   return RunStore(std::move(state));
 }
@@ -340,6 +353,8 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try 
   State& state = *state_;
   const std::string& folder = state.folder;
   state.lock.require();
+  for (const Frame& frame : segment.frames)
+    check_frame(RecordCheck(), frame, state.farthest, checkpoint.world.boundary.planes.size());
   Manifest next = state.manifest;
   const std::string segment_name = state.name_of_next("segment_"),
                     checkpoint_name = state.name_of_next("checkpoint_");
@@ -365,14 +380,12 @@ bool RunStore::pack(const std::function<bool()>& should_continue, const PackedPa
   const RunFile run = RunFile::open(folder);
   std::vector<std::byte> bytes = packed_bytes(content_of(run, parts.frames), should_continue);
   if (bytes.empty()) return false;
-  if (parts.analysis != nullptr) bytes = with_analysis(bytes, *parts.analysis, parts.readings);
-  if (state_->manifest.replaces) {
-    // Once the new file has replaced the old one, the folder next to it must no longer hide it. The manifest
-    // identifies the new file by its seal, before and after the rename.
-    Manifest last = state_->manifest;
-    last.packed_seal = seal_hash(bytes);
-    state_->publish(last);
-  }
+  if (parts.analysis != nullptr) bytes = with_analysis(bytes, state_->path, *parts.analysis, parts.readings);
+  // Once the new file is there, the folder next to it must no longer hide it, but another file of this name
+  // must not hide the folder. The manifest identifies the new file by its seal, before and after the rename.
+  Manifest last = state_->manifest;
+  last.packed_seal = seal_hash(bytes);
+  state_->publish(last);
   // Until the file is known to be readable, the run exists only in the folder. The seal shows that the bytes
   // on disk equal those in memory, which HDF5 reads.
   state_->publish(made_packed, bytes, state_->path, [&](const std::string& packed) {
@@ -389,10 +402,19 @@ bool RunStore::pack(const std::function<bool()>& should_continue, const PackedPa
 
 double RunStore::seconds_writing() const { return state_->seconds_writing; }
 
-void discard_folder(const std::string& path) {
+/// Whether the folder was left behind when it was packed into the file, or holds no run.
+static bool is_left_behind(const std::string& folder, const std::string& packed) try {
+  return !is_there(in(folder, Manifest::file_name)) ||
+         read_manifest(folder).packed_seal == seal_hash_of(packed);
+} catch (const Error&) {
+  return false;
+}
+
+void discard_folder(const std::string& path, bool of_any_run) {
   std::error_code unknown;
   const std::string folder = run_folder(path);
   if (!fs::is_regular_file(path, unknown) || !fs::is_directory(folder, unknown)) return;
+  if (!of_any_run && !is_left_behind(folder, path)) return;
   WriterLock lock(folder);
   remove_folder(folder, lock);
 }
@@ -464,7 +486,7 @@ std::string run_folder(const std::string& path) { return path + ".run"; }
 RunPresence run_presence(const std::string& path) {
   std::error_code unknown;
   const bool has_folder = fs::exists(in(run_folder(path), Manifest::file_name), unknown);
-  if (fs::is_regular_file(path, unknown) && !(has_folder && replaces_packed(run_folder(path), path)))
+  if (fs::is_regular_file(path, unknown) && !(has_folder && hides_packed(run_folder(path), path)))
     return RunPresence::packed;
   return has_folder ? RunPresence::folder : RunPresence::none;
 }

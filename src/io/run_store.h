@@ -124,9 +124,9 @@ class RunStore {
 enum class RunPresence { none, folder, packed };
 RunPresence run_presence(const std::string& path);
 
-/// Removes the folder of a run that is already packed, which a kill at the end of packing can leave. Throws
-/// Error(cannot_create) if another process uses it.
-void discard_folder(const std::string& path);
+/// Removes the folder of a run that is already packed, which a kill at the end of packing can leave; a folder
+/// with another run only if `of_any_run`. Throws Error(cannot_create) if another process uses it.
+void discard_folder(const std::string& path, bool of_any_run = false);
 
 /// Returns the damage of a packed file, as detected by its seal; empty if it is undamaged, gone, or of a
 /// later format. Throws Error(missing_input).

@@ -35,7 +35,7 @@ std::string holder(const std::string& path) {
                           folder, writer));
 }
 
-Descriptor lock(const std::string& folder, const std::string& path) {
+Descriptor take_lock(const std::string& folder, const std::string& path) {
   std::optional<Descriptor> file = create_locked(path);
   if (!file) refuse_held(folder, holder(path));
   const std::string text = this_process();
@@ -52,7 +52,7 @@ Descriptor lock(const std::string& folder, const std::string& path) {
 WriterLock::WriterLock(const std::string& folder)
     : folder_(folder),
       path_((std::filesystem::path(folder) / WriterLock::file_name).string()),
-      file_(lock(folder, path_)) {}
+      file_(take_lock(folder, path_)) {}
 
 WriterLock::~WriterLock() {
   if (file_.get() >= 0) ::flock(file_.get(), LOCK_UN);

@@ -17,6 +17,7 @@
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
+#include "io/trial_walk.h"
 #include "library/simulation_state.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
@@ -28,6 +29,9 @@ namespace talus {
 namespace {
 
 constexpr std::chrono::milliseconds interrupt_interval(50);
+
+/// A crash of HDF5 on a malformed file would end the program or interpreter that uses the library.
+[[maybe_unused]] const bool walks_first = io::walk_before_opening();
 
 void require_finite(double value, const char* what) {
   if (!std::isfinite(value))

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include "io/run_file.h"
 #include "support/process.h"
 #include "support/runs.h"
 
@@ -194,6 +195,79 @@ TEST(Run, that_is_complete_has_nothing_to_resume_but_a_folder_left_behind) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "bed.h5 is already complete.\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
+}
+
+// A batch system sends its signal to the script of a job and to all its processes, and the script passes it
+// on.
+TEST(Run, commits_a_checkpoint_even_if_a_signal_comes_twice) {
+  const TemporaryFolder folder;
+  const pid_t process = start_long_run(folder);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // computes some steps
+  kill(process, SIGTERM);
+  kill(process, SIGINT);
+  ASSERT_EQ(wait_for(process), 75);
+  EXPECT_GT(io::RunFile::open(folder.path("bed.h5")).checkpoint().world.step, 0);
+}
+
+TEST(Run, replaces_no_file_that_has_appeared_under_its_name) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", small_bed);
+  const pid_t process = start_talus({"run", "bed.toml", "-o", "bed.h5"}, folder.path());
+  while (!has_ended(process) && !std::filesystem::exists(folder.path("bed.h5.run/manifest")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  write_file(folder, "bed.h5", "precious");
+  EXPECT_EQ(wait_for(process), 73);
+  EXPECT_NE(errors_in(folder.path())
+                .find("bed.h5 was created by another process in the meantime, and is kept; the "
+                      "run is in bed.h5.run: move the file away, and complete the run with talus "
+                      "run --resume bed.h5"),
+            std::string::npos)
+      << errors_in(folder.path());
+  EXPECT_EQ(text_of(folder.path("bed.h5")), "precious");
+  EXPECT_EQ(run_talus({"info", "bed.h5"}, folder.path()).exit_code, 0) << "the run in the folder";
+  EXPECT_EQ(run_talus({"run", "--resume", "bed.h5"}, folder.path()).exit_code, 73);
+  EXPECT_EQ(text_of(folder.path("bed.h5")), "precious");
+  std::filesystem::rename(folder.path("bed.h5"), folder.path("moved"));
+  EXPECT_EQ(run_talus({"run", "--resume", "bed.h5"}, folder.path()).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
+  // The run of another name that appears is not removed either, and does not hide the folder once packing has
+  // failed.
+  const std::string other = text_of(folder.path("bed.h5"));
+  const pid_t again = start_talus({"run", "bed.toml", "-o", "new.h5", "--seed", "4"}, folder.path());
+  while (!has_ended(again) && !std::filesystem::exists(folder.path("new.h5.run/manifest")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::filesystem::copy_file(folder.path("bed.h5"), folder.path("new.h5"));
+  EXPECT_EQ(wait_for(again), 73);
+  EXPECT_EQ(text_of(folder.path("new.h5")), other);
+  EXPECT_EQ(json_value(run_talus({"info", "new.h5", "--json"}, folder.path()).out, "seed"), "4");
+}
+
+TEST(Run, of_a_bed_that_cannot_be_stored_is_refused_before_its_first_step) {
+  const TemporaryFolder folder;
+  std::string table = "x,y,radius\n";
+  for (int k = 0; k < 30; ++k)
+    table += std::to_string(k % 10) + ".5," + std::to_string(0.51 + 1.02 * (k / 10)) + ",0.5\n";
+  write_file(folder, "bed.toml",
+             "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"file\"\nfile = "
+             "\"bed.csv\"\nrest_velocity = 0.1\n"
+             "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 0.1\n");
+  for (const auto& [last, message] :
+       {std::pair{"1,1.02,0.0009\n",
+                  "bed.csv:32:1: error: the grain has a radius of 0.0009 D: "
+                  "expected 0.001 to 1000 D"},
+        {"1,1.02,1e-300\n", "bed.csv:32:1: error: the grain has a radius of 1e-300 D"},
+        {"1,130001,0.5\n",
+         "bed.csv:32:1: error: the grain is at x = 1 D, y = 130001 D: "
+         "expected at most 130000 D from the origin"}}) {
+    write_file(folder, "bed.csv", table + last);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"check", "bed.toml"}, {"run", "bed.toml"}}) {
+      const Outcome outcome = run_talus(words, folder.path());
+      EXPECT_EQ(outcome.exit_code, 65) << outcome.err;
+      EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder.path("bed.h5.run")));
+  }
 }
 
 TEST(Run, another_scenario_cannot_resume_it) {

@@ -7,13 +7,15 @@ import os
 import random
 import shutil
 import signal
+import subprocess
+import sys
 import tracemalloc
 
 import h5py
 import numpy as np
 import pytest
 import xxhash
-from conftest import ROOT
+from conftest import PROGRAM, PROGRAM_ENVIRONMENT, ROOT
 from resealed import change_manifest, reseal_folder, seal, sealed, sealed_text
 
 import talus
@@ -419,3 +421,35 @@ def test_any_damage_that_is_sealed_again_ends_in_an_error(tmp_path):
         except Exception as error:
             raise AssertionError(f"try {seed}") from error
     assert tries / 4 < refused < tries, "the damage must make some runs unreadable, and leave others readable"
+
+
+#: Bytes of a checkpoint by their places, with which HDF5 crashes when it reads the state.
+CRASHING = {134: 16, 2677: 127}
+
+
+@pytest.mark.parametrize("opener", ["talus.resume('run.h5')",
+                                    "talus.Simulation({'bed': {'length': 10, 'depth': 1}, "
+                                    "'deposition': {'method': 'file', 'file': 'run.h5'}})",
+                                    "talus.open('run.h5')"])
+def test_a_file_on_which_hdf5_crashes_does_not_end_the_interpreter(folder_of_run, tmp_path, opener):
+    path = folder_of_run / "checkpoint_000004.h5"
+    data = bytearray(path.read_bytes())
+    for place, byte in CRASHING.items():
+        data[place] = byte
+    path.write_bytes(data)
+    reseal_folder(folder_of_run)
+    code = f"import talus\ntry:\n    {opener}\nexcept talus.Error as error:\n    print('refused:', error)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, (done.returncode, done.stderr)
+    assert done.stdout.startswith("refused:") and "run.h5.run" in done.stdout, done.stdout
+
+
+def test_the_program_names_the_file_on_which_hdf5_crashes(packed):
+    data = bytearray(packed.read_bytes())
+    assert data[77945:77949] == b"unit"  # an attribute, whose type and shape have these sizes
+    data[77942] = data[77943] = 255
+    packed.write_bytes(data)
+    seal(packed)
+    checked = subprocess.run([PROGRAM, "check", packed], capture_output=True, text=True, check=False, env=PROGRAM_ENVIRONMENT)
+    assert checked.returncode == 65, (checked.returncode, checked.stderr)
+    assert checked.stderr.startswith(f"talus: error: {packed}: HDF5 crashes on this file"), checked.stderr

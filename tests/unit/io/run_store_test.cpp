@@ -7,11 +7,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "base/errors.h"
+#include "io/manifest.h"
 #include "io/run_file.h"
+#include "io/seal.h"
 #include "unit/io/example_run.h"
 
 namespace talus::io {
@@ -124,6 +127,96 @@ TEST(RunStore, a_run_that_has_not_ended_stays_until_the_one_that_replaces_it_beg
   store.commit(example::segment(1), example::checkpoint(1));
   EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
   EXPECT_EQ(names_in(run_folder(path)).size(), 5u) << "header, lock, manifest, segment, checkpoint";
+}
+
+// Reader and writer have the same bounds.
+TEST(RunStore, writes_nothing_that_cannot_be_read) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  const auto refuses_header = [&](const auto& spoil) {
+    RunHeader header = example::header();
+    spoil(header);
+    const Error error = error_of([&] { RunStore::create(path, header, false); });
+    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    EXPECT_FALSE(fs::exists(run_folder(path)));
+    return std::string(error.what());
+  };
+  EXPECT_EQ(refuses_header([](RunHeader& header) { header.statics.radius[2] = 9e-6; }),
+            "the run cannot be stored: its data set /particles/grains/radius holds 9e-06 at index 2, "
+            "expected 1e-05 "
+            "to 10; what was committed before is kept");
+  refuses_header([](RunHeader& header) { header.statics.radius[0] = 11.0; });
+  refuses_header([](RunHeader& header) { header.statics.mass[1] = -1.0; });
+  refuses_header([](RunHeader& header) { header.statics.depth = 1e-4; });
+  refuses_header([](RunHeader& header) { header.statics.length = 2e4; });
+  refuses_header([](RunHeader& header) { header.statics.free_count = 0; });
+  refuses_header([](RunHeader& header) { header.statics.gravity = std::nan(""); });
+
+  RunStore store = example::store_with_commits(path, 2);
+  const std::size_t frames = RunFile::open(path).frame_count();
+  const auto refuses = [&](const auto& spoil) {
+    Segment segment = example::segment(2);
+    Checkpoint checkpoint = example::checkpoint(2);
+    ASSERT_FALSE(segment.frames.empty());
+    spoil(segment, checkpoint);
+    EXPECT_EQ(error_of([&] { store.commit(segment, checkpoint); }).code(), ExitCode::bad_data);
+    EXPECT_EQ(RunFile::open(path).frame_count(), frames) << "the earlier commit stays";
+  };
+  using S = Segment&;
+  using C = Checkpoint&;
+  // 1e4 (2/3 m + 0.4 m) is the farthest place.
+  refuses([](S segment, C) { segment.frames[0].y[1] = 10667.0; });
+  refuses([](S segment, C) { segment.frames[0].vx[0] = 1e39; });  // infinite in single precision
+  refuses([](S segment, C) { segment.frames[0].internal_moment[0].xy = std::nan(""); });
+  refuses([](S segment, C) { segment.frames[0].contacts.b.at(0) = 8; });
+  refuses([](S segment, C) { segment.frames[0].contacts.shift.at(0) = 2; });
+  refuses([](S segment, C) { at(segment.observables[0], Observable::tilt) = std::nan(""); });
+  refuses([](S segment, C) { segment.commands.at(0).x = std::nan(""); });
+  refuses([](S, C checkpoint) { checkpoint.world.tilt = 1.7; });
+  refuses([](S, C checkpoint) { checkpoint.world.grains.x[0] = 1e9; });
+  refuses([](S, C checkpoint) { checkpoint.world.grains.inverse_mass[0] = HUGE_VAL; });
+  refuses([](S, C checkpoint) { checkpoint.world.contacts.b[0] = 100; });
+  refuses([](S, C checkpoint) { checkpoint.world.step = -1; });
+  store.commit(example::segment(2), example::checkpoint(2));
+  EXPECT_GT(RunFile::open(path).frame_count(), frames);
+}
+
+TEST(RunStore, is_packed_over_nothing_that_has_appeared_under_its_name) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5"), other = folder.path("other.h5");
+  example::store_with_commits(other, 3).pack();
+  for (const bool is_run : {false, true}) {
+    RunStore store = example::store_with_commits(path, 2);
+    is_run ? static_cast<void>(fs::copy_file(other, path)) : example::write_text(path, "precious");
+    const std::string before = example::file_text(path);
+    const Error error = error_of([&] { store.pack(); });
+    EXPECT_EQ(error.code(), ExitCode::cannot_create);
+    EXPECT_NE(std::string(error.what()).find("the run is in " + run_folder(path)), std::string::npos)
+        << error.what();
+    EXPECT_TRUE(example::file_text(path) == before);
+    EXPECT_EQ(run_presence(path), RunPresence::folder);
+    EXPECT_FALSE(RunFile::open(path).complete());
+    discard_folder(path);
+    EXPECT_EQ(run_presence(path), RunPresence::folder) << "nothing else removes it";
+    fs::remove(path);
+    store.pack();
+    EXPECT_TRUE(RunFile::open(path).complete());
+    EXPECT_FALSE(fs::exists(run_folder(path)));
+    fs::remove(path);
+  }
+}
+
+TEST(RunStore, of_an_interrupted_run_is_not_discarded_for_another_run_of_its_name) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5"), other = folder.path("other.h5");
+  example::store_with_commits(other, 3).pack();
+  { const RunStore store = example::store_with_commits(path, 2); }
+  fs::copy_file(other, path);
+  EXPECT_EQ(run_presence(path), RunPresence::packed);
+  discard_folder(path);
+  EXPECT_TRUE(fs::exists(run_folder(path) + "/manifest"));
+  fs::remove(path);
+  EXPECT_EQ(run_presence(path), RunPresence::folder);
 }
 
 TEST(RunStore, what_was_never_committed_does_not_exist) {
@@ -239,6 +332,11 @@ TEST(RunStore, the_folder_of_a_packed_run_can_be_discarded_and_no_other) {
   Checkpoint checkpoint;
   RunStore::resume(path, header, checkpoint).pack();
   fs::rename(folder.path("copy"), run_folder(path));
+  discard_folder(path);
+  EXPECT_TRUE(fs::exists(run_folder(path))) << "it may be of another run";
+  Manifest manifest = read_manifest(run_folder(path));
+  manifest.packed_seal = seal_hash_of(path);
+  example::write_text(run_folder(path) + "/manifest", manifest_text(manifest));
   discard_folder(path);
   EXPECT_FALSE(fs::exists(run_folder(path)));
   EXPECT_EQ(run_presence(path), RunPresence::packed);
