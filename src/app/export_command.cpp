@@ -20,6 +20,7 @@
 #include "base/text.h"
 #include "base/visible_text.h"
 #include "exports/export_files.h"
+#include "io/durable_file.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
 
@@ -85,15 +86,22 @@ void export_run(const ExportArguments& arguments) {
     plan.frames = chosen_frames(run, arguments.run, arguments.frames);
   else
     require_flow(run, arguments.run, arguments.frames);
-  for (const std::string& file : exports::files_of(plan))
-    output_target(file, output_of_run(arguments.run, arguments.overwrite));
+  const std::vector<std::string> stale =
+      arguments.overwrite ? exports::stale_files(plan) : std::vector<std::string>();
+  for (const std::vector<std::string>& files : {exports::files_of(plan), stale})
+    for (const std::string& file : files)
+      output_target(file, output_of_run(arguments.run, arguments.overwrite));
   if (format.needs_analysis)
     plan.analysis = runs::analysed_run(arguments.run, plan.parameters,
                                        {.progress = count_shown("analysis", arguments.quiet)})
                         .analysis;
   const std::size_t count =
       exports::export_files(run, plan, {count_shown("exporting", arguments.quiet), asked_to_stop});
+  for (const std::string& file : stale) io::remove_file(file);
   if (arguments.quiet) return;
+  if (!stale.empty())
+    print("%zu files of frames of an earlier export were removed from %s\n", stale.size(),
+          arguments.output.c_str());
   if (format.has_frames) report_omissions(run, plan);
   print("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
         count == 1 ? "" : "s", std::string(format.program).c_str());

@@ -1,5 +1,6 @@
 #include "app/figure_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "app/gnuplot.h"
+#include "app/json.h"
 #include "base/descriptor.h"
 #include "base/errors.h"
 #include "base/locked_file.h"
@@ -110,6 +112,34 @@ std::vector<std::string> figure_files(const figures::Figure& figure) {
   return names;
 }
 
+std::vector<std::string> earlier_figure_files(const std::string& folder, const std::string& name) {
+  const std::string provenance = name + ".json";
+  std::vector<std::string> names;
+  try {
+    const Json json = Json::parse(io::read_text((fs::path(folder) / provenance).string()));
+    if (json.at("figure") != name) return {};
+    for (const Json& table : json.at("tables")) {
+      const std::string file = table.at("file");
+      if (file.starts_with(name + "-") && file.ends_with(".csv") && file.find('/') == std::string::npos)
+        names.push_back(file);
+    }
+  } catch (const Error&) {
+    return {};
+  } catch (const Json::exception&) {
+    return {};
+  }
+  for (const char* ending : endings) names.push_back(name + ending);
+  names.push_back(name + ".gp");
+  names.push_back(provenance);
+  return names;
+}
+
+void remove_earlier_figure(const std::string& folder, const std::vector<std::string>& earlier,
+                           const std::vector<std::string>& names) {
+  for (const std::string& name : earlier)
+    if (std::ranges::find(names, name) == names.end()) io::remove_file((fs::path(folder) / name).string());
+}
+
 void write_figure(const figures::Figure& figure, std::span<const figures::RunGroup> groups,
                   const std::string& folder, const FigureOptions& options) {
   prepare_folder(folder);
@@ -124,8 +154,11 @@ void write_figure(const figures::Figure& figure, std::span<const figures::RunGro
     draw(figure, workshop.path, figure_width(figure, options.size));
   else
     draw_maps(figure, workshop.path, options.size);
-  for (const std::string& name : figure_files(figure))
+  const std::vector<std::string> earlier = earlier_figure_files(folder, figure.name),
+                                 names = figure_files(figure);
+  for (const std::string& name : names)
     publish_file((workshop.path / name).string(), (fs::path(folder) / name).string());
+  remove_earlier_figure(folder, earlier, names);
 }
 
 }  // namespace talus::app

@@ -159,6 +159,18 @@ void write_figures(const std::vector<figures::Figure>& figures, std::span<const 
   for (std::future<void>& other : others) other.get();
 }
 
+/// Removes earlier figures that were asked for and cannot be made of these runs.
+void remove_left_out(const std::vector<figures::FigureRecipe>& recipes,
+                     const std::vector<figures::Figure>& figures, const std::string& folder) {
+  for (const figures::FigureRecipe& recipe : recipes) {
+    const std::string name(recipe.name);
+    if (std::ranges::find(figures, name, &figures::Figure::name) != figures.end()) continue;
+    const std::vector<std::string> earlier = earlier_figure_files(folder, name);
+    remove_earlier_figure(folder, earlier);
+    if (!earlier.empty()) print_error("%s", fmt::format("removed: {} of an earlier command\n", name).c_str());
+  }
+}
+
 void make(const FiguresArguments& arguments) {
   const std::vector<figures::FigureRecipe> recipes = chosen_recipes(arguments.only);
   parse_size(arguments.size);
@@ -175,7 +187,12 @@ void make(const FiguresArguments& arguments) {
   const OutputRule rule{arguments.overwrite, input.files};
   for (const figures::Figure& figure : figures)
     for (const std::string& file : figure_files(figure)) output_target((folder / file).string(), rule);
+  if (arguments.overwrite)
+    for (const figures::FigureRecipe& recipe : recipes)
+      for (const std::string& file : earlier_figure_files(arguments.folder, std::string(recipe.name)))
+        output_target((folder / file).string(), rule);
   write_figures(figures, groups, arguments);
+  if (arguments.overwrite) remove_left_out(recipes, figures, arguments.folder);
   for (const figures::Figure& figure : figures)
     print("%-34s %s\n", figure.name.c_str(), figure.title.c_str());
   const bool scripted = std::ranges::any_of(figures, [](const auto& figure) { return figure.maps.empty(); });

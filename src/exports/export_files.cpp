@@ -1,7 +1,10 @@
 #include "exports/export_files.h"
 
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <fmt/core.h>
+#include <fstream>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -11,6 +14,7 @@
 #include "analysis/packing/packing.h"
 #include "base/errors.h"
 #include "base/output_file.h"
+#include "base/paths.h"
 #include "exports/page/run_page.h"
 #include "exports/writers.h"
 #include "io/durable_file.h"
@@ -187,6 +191,72 @@ std::vector<std::string> files_of(const ExportPlan& plan) {
       break;
   }
   return {plan.output};
+}
+
+namespace {
+
+/// Names of the files of frames in a format, and the folder in which they are.
+struct FrameFiles {
+  std::string folder;
+  std::vector<const char*> kinds;
+  std::string_view ending;
+};
+
+FrameFiles frame_files(const ExportPlan& plan) {
+  switch (plan.format) {
+    case ExportFormat::paraview:
+      return {path_in(plan, "frames"), {"grains", "contacts"}, ".vtp"};
+    case ExportFormat::vti:
+      return {path_in(plan, "frames"), {"fields"}, ".vti"};
+    case ExportFormat::graphml:
+      if (!is_file_name(plan)) return {plan.output, {"network"}, ".graphml"};
+      return {};
+    case ExportFormat::csv:
+    case ExportFormat::xyz:
+    case ExportFormat::lammps:
+    case ExportFormat::observables:
+    case ExportFormat::html:
+      break;
+  }
+  return {};
+}
+
+/// Whether a name is that of a frame in a format.
+bool is_frame_name(const std::string& name, const FrameFiles& files) {
+  return std::ranges::any_of(files.kinds, [&](const char* kind) {
+    const std::size_t begin = std::string_view(kind).size() + 1;
+    std::size_t number = 0;
+    if (name.size() <= begin) return false;
+    std::from_chars(name.data() + begin, name.data() + name.size(), number);
+    return name == frame_name(kind, number, files.ending);
+  });
+}
+
+/// Whether a file begins as those that Talus writes in XML.
+bool is_by_talus(const std::string& path) {
+  constexpr std::size_t most = 256;
+  std::string text(most, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), most);
+  return text.find("<!-- talus ") != std::string::npos;
+}
+
+}  // namespace
+
+std::vector<std::string> stale_files(const ExportPlan& plan) {
+  const FrameFiles files = frame_files(plan);
+  const std::vector<std::string> written = files_of(plan);
+  std::vector<std::string> stale;
+  std::error_code unknown;
+  if (files.kinds.empty()) return stale;
+  for (const std::string& name : names_in(files.folder, unknown)) {
+    const std::string path = (std::filesystem::path(files.folder) / name).string();
+    const bool is_written = std::ranges::find(written, path) != written.end();
+    if (!is_written && is_frame_name(name, files) && std::filesystem::is_regular_file(path, unknown) &&
+        is_by_talus(path))
+      stale.push_back(path);
+  }
+  return stale;
 }
 
 std::size_t export_files(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {

@@ -31,6 +31,10 @@ void check_output_name(ExportFormat format, const std::string& output);
 /// and the output is the name of one file.
 std::vector<std::string> files_of(const ExportPlan& plan);
 
+/// Returns the files that an earlier export in this format has left in the folder of the output, and that the
+/// plan does not write: they have the name of a frame and begin as Talus writes them.
+std::vector<std::string> stale_files(const ExportPlan& plan);
+
 /// Writes the files, each atomically, and creates the folder if it is missing. Frames are read one by one.
 /// Returns the number of frames, or of rows of observables. Throws Error(stopped) if it was stopped,
 /// Error(bad_data) if the run has no frames, and the errors of RunFile::frame and write_text.

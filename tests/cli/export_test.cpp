@@ -6,7 +6,9 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "pictures.h"
 #include "support/places.h"
@@ -130,6 +132,29 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
     one.emplace_back("--overwrite");
     EXPECT_EQ(exported(one).exit_code, 0) << format;
     EXPECT_EQ(text_of(folder_.path() / ("one" + ending)), made) << format << ": identical each time";
+  }
+}
+
+TEST_F(Export, that_replaces_a_folder_leaves_nothing_of_the_earlier_one_in_it) {
+  for (const auto& [format, inner, kept] :
+       {std::tuple{"graphml", "", std::set<std::string>{"network_0001.graphml"}},
+        std::tuple{"paraview", "/frames", std::set<std::string>{"contacts_0001.vtp", "grains_0001.vtp"}},
+        std::tuple{"vti", "/frames", std::set<std::string>{"fields_0001.vti"}}}) {
+    const std::string folder = std::string("out-") + format, frames = folder + inner;
+    ASSERT_EQ(exported({"--to", format, "--frames", "0-2", "-o", folder}).exit_code, 0);
+    ASSERT_EQ(files(frames.c_str()).size(), 3 * kept.size());
+    // Not written by Talus, or not under such a name.
+    std::set<std::string> expected = kept;
+    for (const char* foreign :
+         {"network_0000.xml", "grains_7.vtp", "network_0007.graphml", "fields_.vti", "notes.txt"}) {
+      write_file(folder_, frames + "/" + foreign, "mine");
+      expected.insert(foreign);
+    }
+    ASSERT_EQ(exported({"--to", format, "--frames", "1", "-o", folder}).exit_code, 73) << format;
+    EXPECT_EQ(files(frames.c_str()).size(), 3 * kept.size() + 5) << "nothing is removed without --overwrite";
+    const Outcome over = exported({"--to", format, "--frames", "1", "-o", folder, "--overwrite"});
+    EXPECT_EQ(over.exit_code, 0) << over.err;
+    EXPECT_EQ(files(frames.c_str()), expected) << format;
   }
 }
 

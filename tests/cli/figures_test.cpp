@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "support/process.h"
@@ -195,6 +196,35 @@ TEST_F(Figures, that_exist_are_replaced_only_on_request) {
   EXPECT_EQ(content(out("fig04-shear-stress.json")), "mine");
   EXPECT_EQ(figures({"--only", "4", "--overwrite"}).exit_code, 0);
   EXPECT_NE(content(out("fig04-shear-stress.json")), "mine");
+}
+
+TEST_F(Figures, that_replace_others_leave_no_table_of_them) {
+  ASSERT_EQ(figures({"--only", "4"}).exit_code, 0);
+  const auto files = [&] {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path("out")))
+      names.insert(entry.path().filename().string());
+    return names;
+  };
+  const std::set<std::string> made = files();
+  // An earlier figure had another group, and one that cannot be made of this run was drawn as well.
+  std::string provenance = content(out("fig04-shear-stress.json"));
+  const std::size_t tables = provenance.find("\"file\": \"");
+  ASSERT_NE(tables, std::string::npos) << provenance;
+  provenance.insert(provenance.find('{', provenance.find("\"tables\"")),
+                    "{\"file\": \"fig04-shear-stress-old.csv\", \"columns\": []}, "
+                    "{\"file\": \"../bed.toml\", \"columns\": []}, ");
+  write_file(folder_, "out/fig04-shear-stress.json", provenance);
+  write_file(folder_, "out/fig09-overloaded-fraction.json",
+             "{\"figure\": \"fig09-overloaded-fraction\", \"tables\": [{\"file\": "
+             "\"fig09-overloaded-fraction-a.csv\"}]}");
+  for (const char* name : {"fig04-shear-stress-old.csv", "fig04-shear-stress-mine.csv",
+                           "fig09-overloaded-fraction-a.csv", "fig09-overloaded-fraction.pdf"})
+    write_file(folder_, std::string("out/") + name, "1");
+  ASSERT_EQ(figures({"--only", "4,9", "--overwrite"}).exit_code, 0);
+  std::set<std::string> expected = made;
+  expected.insert("fig04-shear-stress-mine.csv");
+  EXPECT_EQ(files(), expected);
 }
 
 TEST_F(Figures, with_unknown_names_are_refused_with_the_nearest) {
