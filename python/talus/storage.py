@@ -11,7 +11,7 @@ import numpy as np
 from talus.checked_file import (CheckedFile, Identity, as_text, check_seal, check_stored, field_of, read_seal, read_text,
                                 require_files)
 from talus.errors import Error, FailedFile, MissingFile, MissingName
-from talus.manifest import NAME, StoredFile, parse_manifest, hides_packed
+from talus.manifest import NAME, StoredFile, hides_packed, parse_manifest
 from talus.trial_walk import require_walkable
 
 SERIES = ("frames/", "contacts/", "observables/", "steps/", "commands/")
