@@ -31,7 +31,7 @@ void advance_frames(Gui& gui, int count) {
 /// Returns the next multiple of 5 deg in the direction of the tilt, deg, as a target to run to.
 double next_round_tilt(const view::LiveStatus& status) {
   const double side = status.tilt_rate < 0.0 ? -1.0 : 1.0;
-  return side * 5.0 * (std::floor(side * degrees(status.tilt) / 5.0 + 1e-6) + 1.0);
+  return side * 5.0 * (std::floor(side * degrees(status.tilt) / 5.0 + 1e-6) + 1.0) + 0.0;
 }
 
 }  // namespace

@@ -228,12 +228,16 @@ TEST_F(SilentLive, a_tilt_that_is_reached_is_offered_no_more_and_a_bed_that_rest
   EXPECT_NEAR(degrees(window->status().tilt), 0.5, 1e-9);
   window->gui.settle();
   EXPECT_EQ(model.state.run_to_tilt, 5.0);
-  model.state.run_to_tilt = degrees(window->status().tilt);
+  model.state.run_to_tilt = 0.2;
   window->gui.key('g');
-  EXPECT_NE(model.state.message.find("already 0.50°; the target is now 5.00°"), std::string::npos)
+  EXPECT_NE(model.state.message.find("Computing until the tilt is 0.20°"), std::string::npos)
       << model.state.message;
+  ASSERT_TRUE(test::drawn_until(window->gui, [&] { return !window->runs(); }));
+  EXPECT_NEAR(degrees(window->status().tilt), 0.2, 1e-9) << "the tilt is turned for it";
+  window->gui.settle();
+  EXPECT_EQ(model.state.run_to_tilt, 0.0) << "the next round angle on its way";
   window->gui.key('b');
-  EXPECT_NE(model.state.message.find("The bed is deposited and tilted by 0.50°"), std::string::npos)
+  EXPECT_NE(model.state.message.find("The bed is deposited and tilted by 0.20°"), std::string::npos)
       << model.state.message;
 }
 
