@@ -34,8 +34,9 @@ std::string heading(const runs::RunView& run) {
   const double theta_c = analysis.theta_c, gamma_c = analysis.gamma_c;
   const std::vector<analysis::FrameRecord>& frames = analysis.frames;
   const auto [lowest, highest] = std::ranges::minmax_element(frames, {}, &analysis::FrameRecord::tilt);
-  std::string text = fmt::format("{}  ({})\n{} frames, {} to {} deg; ", run.path, run.kept, frames.size(),
-                                 degree_text(lowest->tilt), degree_text(highest->tilt));
+  std::string text =
+      fmt::format("{}  ({})\n{}, {} to {} deg; ", run.path, run.kept, counted(frames.size(), "frame"),
+                  degree_text(lowest->tilt), degree_text(highest->tilt));
   if (const analysis::FramesOfRise rise = analysis::last_rise(frames); rise.frames.size() < frames.size())
     text += fmt::format("theta_c, theta_d and the first slide refer to the last rise, from {} deg; ",
                         degree_text(rise.tilts.front()));

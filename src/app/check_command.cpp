@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "io/run_repair.h"
 #include "scenario/keys.h"
 #include "scenario/scripted_command.h"
@@ -103,7 +104,8 @@ void print_report(const CheckArguments& arguments, const scenario::Scenario& sce
                   until_failure ? fmt::format(" (failure at {} deg)", session::assumed_repose) : "",
                   expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""));
   print_line("output",
-             fmt::format("{} frames, {} rows of observables", expected.frames, expected.observable_rows));
+             fmt::format("{}, {} of observables", counted(static_cast<std::size_t>(expected.frames), "frame"),
+                         counted(static_cast<std::size_t>(expected.observable_rows), "row")));
   print_line("time", fmt::format("about {} on one core", duration(expected.seconds)));
   print_line("memory", "up to about " + session::size_text(expected.memory));
   print_line("disk", fmt::format("about {}, 2.5 times that while the run is packed",
@@ -160,13 +162,14 @@ void print_run(const std::string& path, const io::RunFile& run, const session::R
     print("  hashes      correct\n");
   else
     print("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
-  print("  series      %zu frames, %zu rows of observables, %zu steps, %zu commands\n", check.frames,
-        check.rows, check.steps, check.commands);
+  print("  series      %s, %s of observables, %s, %s\n", counted(check.frames, "frame").c_str(),
+        counted(check.rows, "row").c_str(), counted(check.steps, "step").c_str(),
+        counted(check.commands, "command").c_str());
   if (run.has_frames()) {
     print("  overlap     at most %.2g D\n", check.largest_overlap);
     print("  friction    at most %.6f of the Coulomb limit\n", check.largest_mobilisation);
-    print("  balance     forces and weight differ by at most %.2g m g (rms) in %zu frames at rest\n",
-          check.largest_imbalance, check.frames_at_rest);
+    print("  balance     forces and weight differ by at most %.2g m g (rms) in %s at rest\n",
+          check.largest_imbalance, counted(check.frames_at_rest, "frame").c_str());
     print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
           check.largest_moment_error);
   } else {

@@ -16,6 +16,10 @@ std::string degrees_text(double angle, int decimals) {
   return fixed_text(angle * (180.0 / std::numbers::pi), decimals);
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string xml_text(std::string_view text) {
   std::string result;
   for (const char c : text)

@@ -1,6 +1,7 @@
 #pragma once
 /// Functions that compose texts.
 
+#include <cstddef>
 #include <fmt/core.h>
 #include <functional>
 #include <iterator>
@@ -23,6 +24,8 @@ std::string joined(const Items& items, std::string_view between, const TextOf& t
 std::string fixed_text(double value, int decimals);
 /// Returns an angle (rad) in degrees in this form, without a unit.
 std::string degrees_text(double angle, int decimals);
+/// Returns a number with a noun whose plural ends with s: "1 frame", "2 frames".
+std::string counted(std::size_t count, std::string_view noun);
 
 /// Returns a CSV field in quotes (RFC 4180), for texts that may contain commas.
 std::string csv_quoted(const std::string& text);

@@ -243,13 +243,9 @@ class Salvager {
       return read_frame(readers_[places_[k].first], places_[k].second);
     };
     salvage_.file = packed_bytes(run_);
-    const auto keep = [this](std::size_t count, const std::string& what) {
-      salvage_.kept.push_back(fmt::format("{}{}", count, what));
-    };
-    keep(run_.frames, fmt::format(" of {} frames", frames_before_));
-    keep(run_.observables.size(), " rows of observables");
-    keep(run_.steps.size(), " steps");
-    keep(run_.commands.size(), " commands");
+    salvage_.kept = {fmt::format("{} of {}", run_.frames, counted(frames_before_, "frame")),
+                     counted(run_.observables.size(), "row") + " of observables",
+                     counted(run_.steps.size(), "step"), counted(run_.commands.size(), "command")};
     if (!lacks_state(run_.header, run_.checkpoint)) salvage_.kept.emplace_back("the last state");
   }
 

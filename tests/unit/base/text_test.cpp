@@ -10,6 +10,12 @@
 namespace talus {
 namespace {
 
+TEST(Text, numbers_have_their_plural) {
+  EXPECT_EQ(counted(0, "command"), "0 commands");
+  EXPECT_EQ(counted(1, "command"), "1 command");
+  EXPECT_EQ(counted(2, "command"), "2 commands");
+}
+
 TEST(Text, items_are_joined) {
   EXPECT_EQ(joined(std::vector<std::string>{}, ", "), "");
   EXPECT_EQ(joined(std::vector<std::string>{"", "b"}, ", "), ", b");
