@@ -26,7 +26,7 @@ class Manifest:
 
 
 def hides_packed(text: str, packed: Path) -> bool:
-    """Whether the run in the folder with this manifest is the one of its name, and not the packed file: it has not been
+    """Whether the name of the run stands for the folder with this manifest and not for the packed file: it has not been
     packed into this file, which it replaces, or which is no run."""
     if not text:
         return False

@@ -35,7 +35,7 @@ class ProgramText {
   int end() const { return to_.get(); }
   /// Closes that descriptor in this process; call when the program has been started.
   void close_end() { to_.close(); }
-  /// Reads what is there, without waiting.
+  /// Reads the existing bytes, without waiting.
   void read();
   const std::string& text() const { return text_; }
 
@@ -71,7 +71,7 @@ void pass_on_stop(pid_t process, StopRequest request);
 /// Returns the request in a signal that was passed on; nothing for any other signal.
 std::optional<StopRequest> passed_on(const siginfo_t& signal);
 
-/// Time after the first signal during which others are taken for repetitions of it, in s.
+/// Time after the first signal during which others are considered repetitions of it, in s.
 inline constexpr double repeats_end = 1.0;
 
 /// Kills a program with those that it has started.

@@ -82,7 +82,7 @@ std::optional<std::string> advice_if_kept_free(const std::string& path) {
   return name == free_names.end() ? std::nullopt : std::optional(name->second);
 }
 
-/// Renames a file where no file has the new name; returns false, with the reason in errno, if it cannot.
+/// Renames a file if no file has the new name; returns false, with the reason in errno, if it cannot.
 bool rename_to_free(const std::string& from, const std::string& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;  // network file systems do not know the flag

@@ -250,7 +250,7 @@ TEST(Run, of_a_bed_that_cannot_be_stored_is_refused_before_its_first_step) {
   write_file(folder, "bed.toml",
              "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"file\"\nfile = "
              "\"bed.csv\"\nrest_velocity = 0.1\n"
-             "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 0.1\n");
+             "[tilt]\nrate = 20\nstep = 0.01\nend_angle = 0.1\n");
   for (const auto& [last, message] :
        {std::pair{"1,1.02,0.0009\n",
                   "bed.csv:32:1: error: the grain has a radius of 0.0009 D: "
