@@ -86,7 +86,11 @@ std::optional<std::string> advice_if_kept_free(const std::string& path) {
 bool rename_to_free(const std::string& from, const std::string& to) {
   if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
   if (errno != EINVAL && errno != ENOSYS) return false;  // network file systems do not know the flag
-  return ::link(from.c_str(), to.c_str()) == 0 && ::unlink(from.c_str()) == 0;
+  if (::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0;
+  if (errno == EEXIST) return false;
+  struct stat file {};  // the file system has no links
+  if (::lstat(to.c_str(), &file) == 0) errno = EEXIST;
+  return errno != EEXIST && std::rename(from.c_str(), to.c_str()) == 0;
 }
 
 /// Gives a complete file its final name; returns false, with the reason in errno, if the system refuses.
