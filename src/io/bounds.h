@@ -8,6 +8,9 @@
 
 namespace talus::io {
 
+/// Whether what is written is checked; only tests that make invalid runs clear it.
+inline bool checks_what_is_written = true;
+
 /// Radii of grains, mean diameters.
 inline constexpr double smallest_radius = 1e-3, largest_radius = 1e3;
 
