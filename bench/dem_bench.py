@@ -79,7 +79,7 @@ def dem_cost(run, frame, overlap, steps):
                 data=os.path.join(folder, "data"), density=run.scenario["grains"]["density"], kn=kn,
                 # 1/s, for a restitution of 0.1.
                 damping=1.7 * math.sqrt(kn / mass.mean()), friction=run.scenario["contact"]["friction"], gravity=run.gravity,
-                gx=math.sin(frame.tilt), gy=-math.cos(frame.tilt), skin=0.2 * run.D, step=step,
+                gx=math.sin(math.radians(frame.tilt)), gy=-math.cos(math.radians(frame.tilt)), skin=0.2 * run.D, step=step,
                 settle=steps // 10, steps=steps))
         environment = os.environ | {"OMP_NUM_THREADS": "1"}
         done = subprocess.run(["lmp", "-in", os.path.join(folder, "in"), "-log", "none"], capture_output=True, text=True,
@@ -110,7 +110,7 @@ def main():
             of_tilt = steps["phase"] == PHASE_TILT
             h = run.scenario["tilt"]["step"] / run.scenario["tilt"]["rate"]
             cost = float(run["provenance/timing/tilt"]) / (of_tilt.sum() * h)
-            print(f"{frame.free.sum()} grains, on one core; LAMMPS from the frame at {math.degrees(frame.tilt):.1f} deg, Talus the mean of its tilt")
+            print(f"{frame.free.sum()} grains, on one core; LAMMPS from the frame at {frame.tilt:.1f} deg, Talus the mean of its tilt")
             print()
             print("| program | method | overlap of the deepest grains | steps for a second | wall time for a second | ratio |")
             print("|---|---|--:|--:|--:|--:|")

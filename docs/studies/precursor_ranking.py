@@ -89,7 +89,7 @@ def beds_of_runs(paths):
     for path in paths:
         with talus.open(path) as run:
             rows = run.frames_of_tilt
-            tilt, theta_c = np.degrees(run.tilt[:rows]), np.degrees(run.theta_c)
+            tilt, theta_c = run.tilt[:rows], run.theta_c
             if np.isnan(theta_c):
                 continue
             near, far = {}, {}

@@ -61,7 +61,8 @@ class Count {
   std::atomic<int>& of_;
 };
 
-// Python tells only the main thread of signals. Simulations in other threads learn of Ctrl-C from its time.
+// Python delivers signals to the main thread only. Other threads compare the time of the last SIGINT with
+// their own.
 
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds one_second = 1'000'000'000;
@@ -592,6 +593,7 @@ PYBIND11_MODULE(_core, module) {
     std::string text;
     const scenario::Scenario scenario = path.empty() ? scenario::parse_scenario(tables, "scenario", settings)
                                                      : scenario::read_scenario(path, settings, &text);
+    if (scenario.deposition.method == scenario::DepositionMethod::file) require_files();
     return std::make_shared<Driven>(Simulation(scenario, text));
   }));
   type.def("_copy", [](Driven& driven) {

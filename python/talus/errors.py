@@ -92,8 +92,8 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     """Returns "; did you mean 'this'?" for the names most similar to a misspelt one, or a list of all if they are few."""
     group = name.rpartition("/")[0]
     names = list(dict.fromkeys(known))
-    beside = {each.rpartition("/")[2]: each for each in names if each.rpartition("/")[0] == group}
-    near = [beside[leaf] for leaf in difflib.get_close_matches(name.rpartition("/")[2], beside, 2, 0.5)]
+    siblings = {each.rpartition("/")[2]: each for each in names if each.rpartition("/")[0] == group}
+    near = [siblings[leaf] for leaf in difflib.get_close_matches(name.rpartition("/")[2], siblings, 2, 0.5)]
     near = near or difflib.get_close_matches(name, names, 2, 0.5) or [each for each in names if name.lower() in each.lower()][:2]
     if near:
         return f"; did you mean {' or '.join(map(repr, near))}?"

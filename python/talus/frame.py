@@ -230,8 +230,8 @@ class Frame(Closed):
         return pandas.DataFrame(columns, index=pandas.Index(self.run.id, name="id"))
 
     def to_networkx(self) -> Any:
-        """Returns the contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice).
-        Nodes are ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are
+        """Returns the contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice), with
+        the `tilt` of the frame. Nodes are ids, with `kind` ("free", "floor", "plane"), and `x`, `y`, `radius`, `gamma` of grains; edges are
         contacts, with their row in `contacts` as `contact`, and `f_n`, `f_t` (N/m), `sliding` and `shift`. Raises
         ImportError without networkx."""
         graph = need("networkx", "to_networkx()").MultiGraph(tilt=self.tilt)  # deg

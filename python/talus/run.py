@@ -167,9 +167,9 @@ class Run(Closed):
         return [f"{group}/{name}" for group in groups for name in self.storage.names(group)]
 
     def _converted(self, name: str, values: Any) -> Any:
+        values = values_in(self.units, self.storage.unit(name), values, self.D)
         if isinstance(values, np.ndarray) and values.dtype.kind == "f":
             values = values.astype(np.float64, copy=False)
-        values = values_in(self.units, self.storage.unit(name), values, self.D)
         return values.item() if isinstance(values, np.generic) else values
 
     def unit(self, name: str) -> str:

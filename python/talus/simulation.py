@@ -516,7 +516,12 @@ class Simulation(Closed):
     @property
     def scenario(self) -> dict[str, Any]:
         """The scenario with every key, in the units of the scenario, as `Run.scenario`."""
-        return tomllib.loads(self._core.scenario)
+        return tomllib.loads(self.scenario_text)
+
+    @property
+    def scenario_text(self) -> str:
+        """The scenario with every key, as TOML."""
+        return self._core.scenario
 
     # Measures.
 

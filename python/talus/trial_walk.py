@@ -5,7 +5,9 @@ import contextlib
 import os
 import signal
 import warnings
+from collections.abc import Callable
 from pathlib import Path
+from typing import NoReturn
 
 import h5py
 from h5py._objects import phil
@@ -38,7 +40,7 @@ def walk(path: Path) -> None:
     h5py.h5o.visit(file.id, look)
 
 
-def _in_child(path: Path) -> None:
+def _in_child(path: Path) -> NoReturn:
     """Walks through the file and ends the process, possibly by a crash, without the cleanup of Python, which belongs to
     the parent."""
     with contextlib.suppress(BaseException):
@@ -61,6 +63,44 @@ def _in_child(path: Path) -> None:
     os._exit(MALFORMED)
 
 
+def end_children(children: list[int]) -> None:
+    for child in children:
+        with contextlib.suppress(OSError):
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+
+
+def fork_within_hdf5(run_child: Callable[[], NoReturn]) -> int:
+    """Forks a child that calls a function, and returns its id. Other threads may use HDF5, whose lock would remain taken in
+    the child. In a function that HDF5 itself calls, this thread holds the lock. Raises OSError."""
+    children: list[int] = []
+    failures: list[OSError] = []
+
+    def fork(_: bytes) -> bool:
+        try:
+            child = os.fork()
+        except OSError as error:
+            failures.append(error)
+            return True
+        if child == 0:
+            run_child()
+        children.append(child)
+        return True
+
+    access = h5py.h5p.create(h5py.h5p.FILE_ACCESS)
+    access.set_fapl_core(backing_store=False)
+    file = h5py.h5f.create(b"talus", fapl=access)  # in memory
+    h5py.h5g.create(file, b"group")
+    try:
+        h5py.h5g.iterate(h5py.h5g.open(file, b"/"), fork)
+    except BaseException:  # Ctrl-C
+        end_children(children)
+        raise
+    if failures:
+        raise failures[0]
+    return children[0]
+
+
 def require_walkable(path: Path, identity: Identity) -> None:
     """Raises Error if HDF5 crashes or hangs on the file. Each file is tested once while its identity stays the same;
     not on systems without fork."""
@@ -69,19 +109,15 @@ def require_walkable(path: Path, identity: Identity) -> None:
     with phil, warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)  # the child calls only HDF5, whose lock we hold
         try:
-            child = os.fork()
+            child = fork_within_hdf5(lambda: _in_child(path))
         except OSError:  # too many processes, or too little memory
             return
-        if child == 0:
-            _in_child(path)
     try:
         _, status = os.waitpid(child, 0)
     except ChildProcessError:  # the program reaps its children itself, so the status is unknown
         return
     except BaseException:  # Ctrl-C
-        with contextlib.suppress(OSError):
-            os.kill(child, signal.SIGKILL)
-            os.waitpid(child, 0)
+        end_children([child])
         raise
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) == NOT_KNOWN:
         return  # opening the file will report the missing resource

@@ -31,6 +31,8 @@ struct AnalysisParameters {
   double event_quiet = 1.0;              ///< quiet time after which an event is over, in sqrt(D/g)
   double event_displacement = 0.01;      ///< displacement from which a grain counts as moved, in D
   std::optional<double> event_size_min;  ///< lower end of the power law of sizes, in m g D; default: fitted
+
+  bool operator==(const AnalysisParameters&) const = default;
 };
 
 }  // namespace talus::analysis

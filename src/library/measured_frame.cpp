@@ -80,7 +80,8 @@ constexpr const char* of_contacts = "quantity of contacts";
 }  // namespace
 
 MeasuredFrame::MeasuredFrame(FrameInput input) : input_(std::move(input)) {
-  runs::from_facts(runs::as_facts(input_.parameters));
+  if (input_.parameters != analysis::AnalysisParameters())
+    runs::from_facts(runs::as_facts(input_.parameters));  // checks them
 }
 
 double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(pictures::assumed_theta_c)); }

@@ -46,8 +46,8 @@ struct ScriptCourse {
   std::int64_t steps = 0;              ///< steps taken since the tilt began
 };
 
-/// What is known of the last step, for those who look at the state; no later step depends on it, so it is not
-/// part of the state. Values are empty before the first step, and where a file does not tell them.
+/// Data of the last step for reports. No later step depends on them, so they are not part of the state. A
+/// value is empty before the first step, and if the file of a resumed run or of a branch lacks it.
 struct LastStep {
   std::optional<double> largest_overlap;  ///< m, at the midpoint; 0 without overlaps
   std::optional<double> residual;         ///< eta

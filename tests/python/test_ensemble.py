@@ -111,7 +111,7 @@ def test_errors_name_what_there_is(ensemble, folder_of, tmp_path):
         ensemble.mean("theta_c")
     with pytest.raises(talus.Error, match="has no variant 'contact.friction=0.4'"):
         ensemble.mean("theta_c", "contact.friction=0.4")
-    with pytest.raises(talus.Error, match="no number theta_k; they have theta_c, first_slide"):
+    with pytest.raises(talus.Error, match="no number theta_k; did you mean 'theta_.' or 'theta_c"):
         ensemble.mean("theta_k", VARIANTS[0])
     with pytest.raises(talus.Error, match="no ensemble here; start one with"):
         talus.open_ensemble(tmp_path)

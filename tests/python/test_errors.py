@@ -108,7 +108,7 @@ def test_names_and_units_that_do_not_exist(run, analysed):
         run["observables/volume"]
     with pytest.raises(talus.Error, match="has no data set observables/volume"):
         run.unit("observables/volume")
-    with pytest.raises(KeyError, match="no such data set in /analysis .* overloaded/fraction"):
+    with pytest.raises(KeyError, match="no such data set in /analysis .*; did you mean 'overloaded/fraction'"):
         run.analysis["overloaded/share"]
     with pytest.raises(talus.Error, match='units=\'mm\': expected "SI"'):
         talus.open(analysed, units="mm")

@@ -39,7 +39,7 @@ def test_extended_xyz_is_read_by_ase(boundary, request, tmp_path):
         for atoms, k in zip(frames, chosen):
             frame = run.frames[k]
             info = {name: atoms.info[name] for name in ("Time", "tilt", "step", "frame", "mean_diameter")}
-            assert info == {"Time": frame.time, "tilt": frame.tilt, "step": frame.step, "frame": k, "mean_diameter": d}
+            assert info == {"Time": frame.time, "tilt": run["frames/tilt"][k], "step": frame.step, "frame": k, "mean_diameter": d}
             assert "mean diameters" in atoms.info["units"]
             assert atoms.pbc.tolist() == [run.periodic, False, False]
             np.testing.assert_allclose(atoms.positions[:, :2], frame.position / d, rtol=1e-15)

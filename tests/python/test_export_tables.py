@@ -46,7 +46,7 @@ def test_network_is_that_of_the_frame(networkx, boundary, request, tmp_path):
         assert {n: kind for n, kind in graph.nodes(data="kind")} == {n: kind for n, kind in expected.nodes(data="kind")}
         assert (boundary == "walls") == ("plane" in dict(graph.nodes(data="kind")).values())
         whole = graph.graph
-        assert (whole["frame"], whole["step"], whole["time"], whole["tilt"]) == (k, frame.step, frame.time, frame.tilt)
+        assert (whole["frame"], whole["step"], whole["time"], whole["tilt"]) == (k, frame.step, frame.time, run["frames/tilt"][k])
         assert whole["period"] == (run.length if run.periodic else 0)
         nodes = attributes([graph.nodes[i] for i in range(len(run.id))])
         np.testing.assert_array_equal(np.float32([nodes.pop("x"), nodes.pop("y")]), np.float32(frame.position.T))
@@ -66,7 +66,7 @@ def test_networks_of_several_frames_are_files_of_a_folder(networkx, analysed, ru
     files = sorted((tmp_path / "networks").iterdir())
     assert [file.name for file in files] == [f"network_{k:04}.graphml" for k in range(3)]
     for k, file in enumerate(files):
-        assert networkx.read_graphml(file).graph["tilt"] == run.frames[k].tilt
+        assert networkx.read_graphml(file).graph["tilt"] == run["frames/tilt"][k]
 
 
 @pytest.fixture(scope="module")
@@ -86,7 +86,7 @@ def test_tables_have_a_row_for_each_frame_grain_and_contact(pandas, boundary, re
             for name in ("frames", "grains", "contacts")}
     assert {"radius (m)", "internal_moment_xy (J/m)", "gamma"} < set(read["grains"])
     with talus.open(path) as run:
-        assert read["frames"].values.tolist() == [[k, run.frames[k].step, run.frames[k].time, run.frames[k].tilt]
+        assert read["frames"].values.tolist() == [[k, run.frames[k].step, run.frames[k].time, run["frames/tilt"][k]]
                                                   for k in chosen]
         assert list(read["frames"]) == ["frame", "step", "time (s)", "tilt (rad)"]
         for name, fields in (("grains", grains), ("contacts", contacts)):

@@ -142,8 +142,8 @@ def test_runs_are_read_by_their_analysis(analysed):
     beds = study.beds_of_runs([analysed, analysed])
     with talus.open(analysed) as run:
         mean = run.analysis["lc/mean"][:, 1]
-        tilt = np.degrees(run.tilt[: len(mean)])
-        assert beds.theta_c == pytest.approx(np.degrees([run.theta_c] * 2))
+        tilt = run.tilt[: len(mean)]
+        assert beds.theta_c == pytest.approx([run.theta_c] * 2)
         at = np.interp(beds.theta_c[0] - study.DISTANCES[7], tilt, mean)
         assert beds.near["lc/mean[1]"][:, 7] == pytest.approx([at, at], nan_ok=True)
         assert "contacts/fabric_angle" not in beds.near

@@ -3,9 +3,11 @@ script that must end by itself with code 0."""
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import textwrap
+import time
 
 import pytest
 import talus
@@ -119,6 +121,152 @@ def test_a_child_of_fork_while_another_thread_records(tmp_path):
         for _ in range(10):
             in_child(child)
         """, folder=tmp_path)
+
+
+def test_a_child_of_fork_while_another_thread_records_reports_that_it_cannot_read(tmp_path):
+    script("""
+        done = bed()
+        done.record("done.h5")
+        done.run()
+        run = talus.open("done.h5")
+        sim = large()
+        sim.record("run.h5")
+        def commits():
+            while True:
+                sim.step(1)
+                sim.commit()
+        threading.Thread(target=commits, daemon=True).start()
+        time.sleep(0.3)
+        def child():
+            for do in (lambda: talus.open("done.h5"), lambda: run.frames[0].position, lambda: talus.resume("done.h5"),
+                       lambda: bed(**{"deposition.method": "file", "deposition.file": "done.h5"})):
+                try:
+                    do()
+                except talus.Error as error:
+                    assert "spawn" in str(error) and error.exit_code == 69, error
+                else:
+                    os._exit(1)
+            os._exit(0)
+        for _ in range(5):
+            in_child(child)
+        """, folder=tmp_path)
+
+
+def test_a_file_is_walked_through_while_another_thread_records(tmp_path):
+    script("""
+        import shutil
+        done = bed()
+        done.record("done.h5")
+        done.run()
+        sim = bed(**{"bed.length": 30, "tilt.rate": 1, "tilt.step": 0.005})
+        sim.record("run.h5")
+        ends = threading.Event()
+        def commits():
+            while not ends.is_set():
+                sim.step(1)
+                sim.commit()
+        thread = threading.Thread(target=commits)
+        thread.start()
+        for k in range(30):
+            shutil.copy("done.h5", f"{k}.h5")
+            before = time.monotonic()
+            talus.open(f"{k}.h5")
+            assert time.monotonic() - before < 30, "the child of the walk hangs"
+        ends.set()
+        thread.join()
+        """, folder=tmp_path)
+
+
+#: Programs that a Ctrl-C ends, with what they print then.
+INTERRUPTED = {
+    "a pool": ("""
+        with ThreadPoolExecutor(2) as pool:
+            list(pool.map(lambda sim: sim.run(1e6), sims))
+        """, ""),
+    "more tasks than threads": ("""
+        with ThreadPoolExecutor(2) as pool:
+            for task in [pool.submit(sim.run, 1e6) for sim in sims + [sim.copy() for sim in sims]]:
+                task.result()
+        """, ""),
+    "threads": ("""
+        threads = [threading.Thread(target=sim.run, args=(1e6,)) for sim in sims]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        """, ""),
+    "short calls": ("""
+        def work():
+            while True:
+                sims[0].step(1)
+                sims[0]["kinetic_energy"]
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+        """, ""),
+    "asyncio": ("""
+        import asyncio
+        async def work():
+            await asyncio.to_thread(sims[0].run, 1e6)
+        asyncio.run(work())
+        """, ""),
+    "a later call": ("""
+        pool = ThreadPoolExecutor(1)
+        task = pool.submit(sims[0].run, 1e6)
+        try:
+            task.result()
+        except KeyboardInterrupt:
+            assert isinstance(task.exception(), KeyboardInterrupt)
+        before = sims[0].step_count
+        pool.submit(sims[0].step, 5).result()
+        sims[0].step(5)
+        pool.shutdown()
+        sims[0].commit()
+        print(sims[0].step_count - before)
+        """, "10"),
+    "a handler of the user": ("""
+        ends = threading.Event()
+        signal.signal(signal.SIGINT, lambda *_: ends.set())
+        thread = threading.Thread(target=lambda: sims[0].run(until=ends.is_set, every=0.01))
+        thread.start()
+        thread.join()
+        sims[0].commit()
+        print(ends.is_set())
+        """, "True"),
+}
+
+
+@pytest.mark.parametrize("way", INTERRUPTED)
+def test_ctrl_c_ends_simulations_in_all_threads(tmp_path, way):
+    text, expected = INTERRUPTED[way]
+    begin = BEGIN + textwrap.dedent("""
+        from concurrent.futures import ThreadPoolExecutor
+        sims = [bed(**{"seed": seed, "bed.length": 40, "bed.depth": 20, "tilt.rate": 1, "tilt.step": 0.005}) for seed in (1, 2)]
+        for k, sim in enumerate(sims):
+            sim.record(f"{k}.h5")
+            sim.step(1)
+            sim.commit()
+        print("go", flush=True)
+        """)
+    end = textwrap.dedent("""
+        except KeyboardInterrupt:
+            pass
+        for thread in threading.enumerate()[1:]:
+            thread.join()
+        print([talus.open(f"{k}.h5")["checkpoint/step"] == sim.step_count for k, sim in enumerate(sims)], flush=True)
+        """)
+    program = begin + "try:\n" + textwrap.indent(textwrap.dedent(text), "    ") + end
+    process = subprocess.Popen([sys.executable, "-c", program], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout.readline() == "go\n"
+        time.sleep(0.7)
+        process.send_signal(signal.SIGINT)
+        out, error = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    lines = out.splitlines()
+    assert process.returncode == 0, error
+    assert lines == ([expected] if expected else []) + ["[True, True]"], out + error
 
 
 def test_a_child_of_fork_while_another_thread_draws():

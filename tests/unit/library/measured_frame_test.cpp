@@ -117,7 +117,7 @@ TEST(MeasuredFrame, has_its_quantities_at_every_threshold) {
   EXPECT_TRUE(sim.measured().grain_quantity("overloaded_4").flag);
 }
 
-/// The ranges are those of talus render; without them l_min = inf takes for ever.
+/// The ranges are those of talus render; without them a map with l_min = inf is never finished.
 TEST(MeasuredFrame, draws_within_the_ranges_of_the_options) {
   Simulation sim(test::small_tilted_bed(10.0));
   sim.step(3);
