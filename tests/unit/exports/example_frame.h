@@ -27,8 +27,7 @@ inline ExampleFrame example_frame() {
                     .length = 1.0,
                     .depth = 0.2,
                     .mean_diameter = 0.125,
-                    .gravity = 9.81,
-                    .friction = 0.5};
+                    .gravity = 9.81};
   sample.factors = {1.0, 1.5};
   sample.first.x = {0.1, 0.9, 0.5};
   sample.first.y = {0.2, 0.1, -0.05};
@@ -36,6 +35,7 @@ inline ExampleFrame example_frame() {
   sample.frame.step = 1200;
   sample.frame.time = 0.1;
   sample.frame.tilt = 0.25;
+  sample.frame.friction = {0.5, 0.0};
   sample.frame.x = {0.9375, 0.03125, 0.5};
   sample.frame.y = {0.1875, 0.125, -0.0625};
   sample.frame.angle = {0.0, static_cast<double>(0.1F), 0.0};
