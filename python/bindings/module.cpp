@@ -67,7 +67,7 @@ class Count {
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds one_second = 1'000'000'000;
 std::atomic<Nanoseconds> interrupted_at = 0;  ///< time of the last SIGINT
-struct sigaction next_action;                 ///< handler of SIGINT that Python or another program has set
+void (*handler_of_python)(int) = nullptr;     ///< what Python does at a SIGINT
 
 Nanoseconds now() {
   timespec time{};
@@ -75,23 +75,21 @@ Nanoseconds now() {
   return time.tv_sec * one_second + time.tv_nsec;
 }
 
-void note_interrupt(int number, siginfo_t* info, void* context) {
+void note_interrupt(int number) {
   interrupted_at = now();
-  if ((next_action.sa_flags & SA_SIGINFO) != 0)
-    next_action.sa_sigaction(number, info, context);
-  else
-    next_action.sa_handler(number);
+  handler_of_python(number);
 }
 
-/// Has the handler of SIGINT note the time as well. Handlers of Python are unaffected; one that is set later
-/// replaces this, until the next call. Call while holding the interpreter.
+/// Has Python's handler of SIGINT note the time as well. Handlers in Python are unaffected. Python replaces
+/// this when it sets one, until the next call; handlers of other libraries are left alone. Call while holding
+/// the interpreter.
 void watch_interrupts() {
   struct sigaction action {};
-  if (::sigaction(SIGINT, nullptr, &action) != 0 || action.sa_sigaction == &note_interrupt) return;
+  if (::sigaction(SIGINT, nullptr, &action) != 0 || (action.sa_flags & SA_SIGINFO) != 0) return;
   if (action.sa_handler == SIG_DFL || action.sa_handler == SIG_IGN) return;
-  next_action = action;
-  action.sa_flags |= SA_SIGINFO;
-  action.sa_sigaction = &note_interrupt;
+  if (handler_of_python == nullptr) handler_of_python = action.sa_handler;
+  if (action.sa_handler != handler_of_python) return;
+  action.sa_handler = note_interrupt;
   ::sigaction(SIGINT, &action, nullptr);
 }
 
