@@ -67,7 +67,7 @@ class Count {
 using Nanoseconds = std::int64_t;
 constexpr Nanoseconds one_second = 1'000'000'000;
 std::atomic<Nanoseconds> interrupted_at = 0;  ///< time of the last SIGINT
-void (*handler_of_python)(int) = nullptr;     ///< what Python does at a SIGINT
+void (*handler_of_python)(int) = nullptr;     ///< handler of SIGINT that Python has set
 
 Nanoseconds now() {
   timespec time{};

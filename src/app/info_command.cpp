@@ -44,8 +44,8 @@ struct RunInfo {
   double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
   double tilt = 0.0;                               ///< rad, tilt of the last state
   std::size_t steps = 0;
-  Friction friction;             ///< with which the tilt or the branch began
-  Friction deposition_friction;  ///< that of a run which is not a branch
+  Friction friction;             ///< friction at the beginning of the tilt or the branch
+  Friction deposition_friction;  ///< friction until the bed was at rest; none of a branch
   double branch_rate = none;     ///< rad/s, set by a command before the branch began
   std::vector<Command> commands;
   std::vector<std::string> waiting;   ///< commands of the scenario that a complete run did not reach

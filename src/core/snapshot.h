@@ -51,7 +51,7 @@ struct Frame {
       internal_moment;        ///< J (per metre of thickness); compression positive; Eq. (4) of the paper
   std::vector<double> gamma;  ///< stress ratio q/p of each grain; NaN for a grain that carries no load
   FrameContacts contacts;
-  Friction friction;  ///< of the step that led to this state, and thus of its forces
+  Friction friction;  ///< friction in the step that led to this state, and thus to its forces
 
   Index grain_count() const { return static_cast<Index>(x.size()); }
 };

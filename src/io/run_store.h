@@ -42,8 +42,8 @@ struct BranchOrigin {
 /// Data known when a run begins.
 struct RunHeader {
   RunStatics statics;
-  Friction friction;              ///< of the scenario, after the deposition
-  Friction deposition_friction;   ///< of the scenario, until the bed is at rest
+  Friction friction;              ///< friction of the scenario, after the deposition
+  Friction deposition_friction;   ///< friction of the scenario, until the bed is at rest
   std::string scenario_given;     ///< TOML as the user wrote it
   std::string scenario_resolved;  ///< TOML with every key
   std::uint64_t seed = 0;

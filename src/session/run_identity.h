@@ -1,5 +1,5 @@
 #pragma once
-/// What distinguishes a run from the one that its scenario alone gives.
+/// The identity of a run: its difference from the run that its scenario alone gives.
 
 #include <string>
 #include <vector>

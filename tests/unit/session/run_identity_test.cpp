@@ -1,4 +1,4 @@
-/// What was in force in a frame, and what was done to a run that its scenario does not say.
+/// Friction in force in a frame, and departures of a run from its scenario.
 
 #include "session/run_identity.h"
 
