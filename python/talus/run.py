@@ -103,7 +103,8 @@ class Run(Closed):
         self.free: np.ndarray = self._values("particles/grains/species") == 0  #: (N,) False: fixed to the floor
         self.step: np.ndarray = self._values("frames/step")  #: (frames,) steps since the start
         self.time: np.ndarray = self._values("frames/time")  #: (frames,) s
-        self.tilt: np.ndarray = rounded_degrees(self.storage.read("frames/tilt"))  #: (frames,) angle of the bed, deg
+        tilt = self._values("frames/tilt")
+        self.tilt: np.ndarray = rounded_degrees(tilt) if units == "SI" else tilt  #: (frames,) angle of the bed, deg
         #: Results of the run: theta_c (NaN if the slope has not failed), theta_r, residual_max, ...
         self.results: dict[str, float] = {name: self._values("results/" + name) for name in storage.names("results")}
         self._is_closed = True
@@ -167,7 +168,10 @@ class Run(Closed):
         return [f"{group}/{name}" for group in groups for name in self.storage.names(group)]
 
     def _converted(self, name: str, values: Any) -> Any:
-        values = values_in(self.units, self.storage.unit(name), values, self.D)
+        unit = self.storage.unit(name)
+        if self.units == "D" and unit == "rad" and name.endswith("/tilt"):
+            return rounded_degrees(values)
+        values = values_in(self.units, unit, values, self.D)
         if isinstance(values, np.ndarray) and values.dtype.kind == "f":
             values = values.astype(np.float64, copy=False)
         return values.item() if isinstance(values, np.generic) else values

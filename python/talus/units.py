@@ -31,8 +31,6 @@ def values_in(units: Units, unit: str, values: Any, mean_diameter: float) -> Any
     """Returns converted values, stored in `unit`; `mean_diameter` in m."""
     if units == "SI" or unit not in ("m", "rad"):
         return values
-    if unit == "rad" and np.asarray(values).dtype == np.float64:  # rotations of grains are in single precision
-        return rounded_degrees(values)
     if isinstance(values, np.ndarray):
         # The quotient of floats in single precision may round up to L.
         values = values.astype(np.float64, copy=False)
