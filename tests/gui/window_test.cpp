@@ -114,7 +114,7 @@ TEST(View, names_a_display_that_has_no_opengl) {
   const Desktop desktop(false);
   const Outcome outcome = run_talus({"view", "bed.toml"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 69);
-  for (const std::string part :
+  for (const std::string& part :
        {std::string("the display ") + std::getenv("DISPLAY"), std::string("talus view --screenshot"),
         std::string("talus render"), std::string("talus export --to html")})
     EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
