@@ -64,7 +64,9 @@ using WindowHandle = std::unique_ptr<GLFWwindow, WindowDeleter>;
 
 /// Returns what to do if no window has OpenGL, for the reason that GLFW gives.
 std::string opengl_advice(std::string_view reason) {
-  if (const std::string variables = render::driver_variables(); !variables.empty())
+  // GLFW: "GLX: GLX extension not found"
+  const bool display_lacks_it = reason.find("extension not found") != std::string_view::npos;
+  if (const std::string variables = render::driver_variables(); !display_lacks_it && !variables.empty())
     return "the environment configures its driver, try without " + visible_word(variables, 200);
   // GLFW: "GLX: Failed to load GLX", "EGL: Library not found"
   if (reason.find("Failed to load") != std::string_view::npos ||

@@ -12,6 +12,7 @@ namespace {
 
 Frame frame_of(const World& world) {
   Frame frame;
+  frame.image = world.grains.image;
   frame.x = world.grains.x;
   frame.y = world.grains.y;
   return frame;
