@@ -169,7 +169,7 @@ void take_frame(BedTable& table, const std::vector<BadRow>& bad, const TableColu
   std::vector<double> frames;
   for (const TableGrain& grain : table.grains) frames.push_back(grain.frame);
   std::ranges::sort(frames);
-  frames.erase(std::ranges::unique(frames).begin(), frames.end());
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   const double taken = frames[chosen_frame(name, frame, frames.size())];
   for (const BadRow& row : bad)
     if (table.grains[row.grain].frame == taken) throw LocatedError(ExitCode::bad_data, row.message);
