@@ -120,10 +120,11 @@ def test_a_disk_that_rolls_round_the_bed_releases_the_work_of_gravity(rolling_di
         disk = [frame.unwrapped[0] for frame in run.frames]
         steps = np.diff(disk, axis=0)
         assert np.abs(steps[:, 0]).max() > 2 * run.length, "nothing was tested"
-        tilt = 0.5 * (run.tilt[1:] + run.tilt[:-1])
+        tilts = np.radians(run.tilt)
+        tilt = 0.5 * (tilts[1:] + tilts[:-1])
         work = run.mass[0] * run.gravity * (np.sin(tilt) * steps[:, 0] - np.cos(tilt) * steps[:, 1])
         energy = run.analysis["events/energy"]
-        begin = np.searchsorted(run.tilt, run.analysis["events/frame_tilt"][-1, 0])
+        begin = np.searchsorted(tilts, run.analysis["events/frame_tilt"][-1, 0])
         assert energy[-1] == pytest.approx(work[begin:].sum(), rel=1e-4)
         assert energy[-1] > 0.2, "J/m"
         assert run.analysis["events/grains"][-1] == 1

@@ -136,7 +136,12 @@ STEPPING = ("step", "deposit", "tilt_to", "tilt_by", "run", "finish", "run until
 
 
 def catch_up(twin, sim):
-    """Steps made before an error are kept, and the division into chunks does not matter."""
+    """Steps made before an error are kept, and the division into chunks does not matter. A goal of the tilt may have turned
+    it, at once or when the bed was at rest."""
+    if twin.tilt_rate == -sim.tilt_rate != 0:
+        if twin.phase == "deposition":
+            twin.deposit()
+        twin.tilt_rate = sim.tilt_rate
     while (before := twin.step_count) < sim.step_count:
         with contextlib.suppress(talus.Error):
             twin.step(sim.step_count - before)
