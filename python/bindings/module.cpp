@@ -621,5 +621,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("_png", &png_of);
   module.def("_end_steps", &end_steps);
   module.def("_require_files", &require_files);
+  module.def("_departures", &departures);
   module.attr("version") = version_text();
 }

@@ -105,7 +105,7 @@ def check_owner(run: Run, seed: int, scenario: dict[str, Any], bed: str) -> None
     if run.seed != seed:
         differing.append(f"seed {run.seed}")
     if run.departures:
-        differing.append("commands that its scenario does not have, or the start as a branch")
+        differing.append("not of its scenario alone: " + run.departures[0])
     if bed and run.provenance.get("bed_hash", bed) != bed:
         differing.append("its bed")
     if differing:

@@ -19,8 +19,8 @@ from talus.storage import Storage, find_run, manifest_text, unreadable
 from talus.table import Table
 from talus.units import Units, check_units, rounded_degrees, unit_in, values_in
 
-#: Number of the kind of a command that sets the friction, in /commands/kind.
-FRICTION = 2
+#: Kinds of commands by their numbers in /commands/kind.
+KINDS = ("push", "drop", "friction", "tilt_rate", "drag", "release")
 
 
 def last_rise(tilts: np.ndarray) -> tuple[int, int]:
@@ -266,7 +266,7 @@ class Run(Closed):
         if branch and step == self["branch/step"] and "last_friction" in branch:
             return self["branch/reals/last_friction"]
         friction = self["branch/reals/friction"] if "friction" in branch else None
-        for command in np.flatnonzero(self._commands["kind"] == FRICTION):
+        for command in np.flatnonzero(self._commands["kind"] == KINDS.index("friction")):
             if self._commands["step"][command] < step:
                 friction = float(self._commands["x"][command])
         if friction is not None:
@@ -287,27 +287,29 @@ class Run(Closed):
         return {name: self.commands.get(name, np.array([])) for name in ("step", "kind", "grain", "x", "y")}
 
     @cached_property
-    def departures(self) -> int:
-        """How much was done to the run that its scenario does not say: commands that it does not have, and the start as
-        a branch. A run without any is the one that `talus run` makes of its scenario."""
-        kinds = ("push", "drop", "friction", "tilt_rate", "drag", "release")
-        wanted = [(kinds.index(c["kind"]), c.get("grain", -1), c.get("x", 0.0), c.get("y", 0.0), c.get("at"))
-                  for c in self.scenario.get("command", [])]
-        known, more = self._commands, 0
-        for step, kind, *values in zip(*(known[name].tolist() for name in ("step", "kind", "grain", "x", "y"))):
-            found = next((w for w in wanted if [w[0], *w[1:4]] == [kind, *values] and self._is_at(step, w[4])), None)
-            if found:
-                wanted.remove(found)
-            else:
-                more += 1
-        return more + bool(self.storage.names("branch"))
+    def departures(self) -> list[str]:
+        """What was done to the run that its scenario does not say, in order: the start as a branch, and commands that the
+        scenario does not have. Empty for the run that `talus run` makes of its scenario. Without the extension the
+        moments of commands are not compared with those in the scenario."""
+        branch = bool(self.storage.names("branch"))
+        if not branch and not len(self._commands["step"]):
+            return []
+        try:
+            from talus import _core
+        except ImportError:
+            return ["branch"] * branch + self._other_commands()
+        return _core._departures(os.fspath(self.storage.absolute))
 
-    def _is_at(self, step: int, angle: float | None) -> bool:
-        """Whether a command at this step was given at an angle in degrees, to the spacing of the observables."""
-        steps, tilts = self.storage.read("observables/step"), np.degrees(self.storage.read("observables/tilt"))
-        k = int(np.searchsorted(steps, step, side="right"))
-        near = tilts[max(k - 2, 0) : k + 2]
-        return angle is None or (len(near) > 0 and near.min() - 1e-6 <= angle <= near.max() + 1e-6)
+    def _other_commands(self) -> list[str]:
+        wanted = [(KINDS.index(c["kind"]), c.get("grain", -1), c.get("x", 0.0), c.get("y", 0.0))
+                  for c in self.scenario.get("command", [])]
+        more = []
+        for command in zip(*(self._commands[name].tolist() for name in ("kind", "grain", "x", "y"))):
+            if command in wanted:
+                wanted.remove(command)
+            else:
+                more.append(KINDS[command[0]])
+        return more
 
     def frame_at(self, angle: float | Literal["repose"]) -> Frame:
         """Returns the frame of the tilt nearest to an angle in degrees, or, for "repose", the last frame with a tilt up

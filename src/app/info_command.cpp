@@ -190,6 +190,7 @@ void print_json(const RunInfo& info) {
                      {"branch_of", branch ? Json(branch->run) : Json()},
                      {"branch_frame", branch ? Json(branch->frame) : Json()},
                      {"branch_step", branch ? Json(branch->start.world.step) : Json()},
+                     {"branch_history", branch ? Json(branch->history) : Json()},
                      {"branch_run_hash", branch ? Json(branch->run_hash) : Json()},
                      {"talus_version", fact(info.provenance, "version")},
                      {"git_hash", fact(info.provenance, "git_hash")},
@@ -252,6 +253,7 @@ void print_report(const RunInfo& info) {
   if (!std::isnan(info.branch_rate))
     print_line("began with", fmt::format("a tilt rate of {:.4g} deg/s, set by a command before",
                                          degrees(info.branch_rate)));
+  if (info.branch && !info.branch->history.empty()) print_line("before", info.branch->history);
   print_line("version", runs::version_of(info.provenance));
   print_line("seed", std::to_string(info.seed));
   print_line("grains", fmt::format("{} free, {} on the floor", info.grains, info.floor_grains));

@@ -21,6 +21,7 @@
 #include "session/frame_state.h"
 #include "session/recorder.h"
 #include "session/run_header.h"
+#include "session/run_identity.h"
 
 namespace talus::app {
 
@@ -102,7 +103,10 @@ void settle_friction(const RunRequest& request, const scenario::Scenario& parent
   const double given = session.scenario().contact.friction;
   if (sets(request.settings, "contact.friction") || given != parent.contact.friction) {
     std::erase_if(start.reals, [](const auto& real) { return real.first == "friction"; });
-    session = session::Session(session.scenario(), start, request.branch, "/branch");
+    scenario::Scenario scenario = session.scenario();
+    if (const auto deposited = session.schedule().deposition_friction)
+      scenario.deposition.friction = deposited;
+    session = session::Session(scenario, start, request.branch, "/branch");
     return;
   }
   if (!request.scenario.empty() && !scripts_friction(session.scenario(), session.schedule()))
@@ -114,6 +118,19 @@ void settle_friction(const RunRequest& request, const scenario::Scenario& parent
   session.adopt_friction();
   start = session::start_of(session.checkpoint(0.0));
   text = scenario::resolved_toml(session.scenario());
+}
+
+/// Returns what was done to the run before frame k, and how the user has changed the contacts for the branch.
+std::string history_of(const io::RunFile& run, std::size_t k, scenario::Scenario parent,
+                       const scenario::Scenario& branch) {
+  const std::int64_t step = run.instant(k).step;
+  std::vector<std::string> history = session::departures(run, parent, step);
+  parent.contact.friction = run.commanded_friction(step).value_or(parent.contact.friction);
+  scenario::Scenario changed = parent;
+  changed.contact = branch.contact;
+  if (changed.contact != parent.contact)
+    history.push_back("a change: " + scenario::differences(parent, changed));
+  return session::history_text(history);
 }
 
 /// Throws if the user gives a rate of the tilt for a branch of a run in which a command has set another.
@@ -151,6 +168,7 @@ OpenRun start_branch(const RunRequest& request) {
   require_rate_in_force(request, session);
   settle_friction(request, parent, session, origin.start, text);
   scenario = session.scenario();
+  origin.history = history_of(run, k, parent, scenario);
   if (const auto end = scenario.tilt.end_angle; end && std::abs(degrees(session.world().tilt)) >= *end)
     throw Error(ExitCode::bad_data,
                 fmt::format("the branch of {} begins at {} deg; expected a tilt.end_angle beyond it",

@@ -158,6 +158,7 @@ RunHeader read_header(hdf5::Reader& reader, const std::function<bool(const std::
     if (name != "seed" && (!keeps || keeps(path)))
       header.provenance.emplace_back(name, reader.read_text(path));
   }
+  if (header.branch) header.branch->history = find_value(header.provenance, history_fact).value_or("");
   return header;
 }
 

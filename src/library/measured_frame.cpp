@@ -18,6 +18,8 @@
 #include "pictures/maps.h"
 #include "render/renderer.h"
 #include "runs/analysis_parameters.h"
+#include "runs/run_view.h"
+#include "session/run_identity.h"
 
 namespace talus {
 namespace {
@@ -216,6 +218,11 @@ MeasuredFrame measured_frame(const std::string& path, std::size_t k,
   for (const ObservableRow& row : run.all_observables())
     if (at(row, Observable::time) <= run.all_frame_times()[k]) input.row = row;
   return MeasuredFrame(std::move(input));
+}
+
+std::vector<std::string> departures(const std::string& path) {
+  const io::RunFile run = io::RunFile::open(path);
+  return session::departures(run, runs::stored_scenario(run.header(), path + ":/parameters"));
 }
 
 }  // namespace talus

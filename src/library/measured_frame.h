@@ -79,4 +79,8 @@ class MeasuredFrame {
 MeasuredFrame measured_frame(const std::string& path, std::size_t k,
                              const std::vector<std::string>& settings = {});
 
+/// Returns what was done to a run file that its scenario does not say (session::departures). Throws as
+/// RunFile::open does.
+std::vector<std::string> departures(const std::string& path);
+
 }  // namespace talus

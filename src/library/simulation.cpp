@@ -23,6 +23,7 @@
 #include "runs/run_view.h"
 #include "session/estimate.h"
 #include "session/measure.h"
+#include "session/run_identity.h"
 #include "session/tilt_goal.h"
 
 namespace talus {
@@ -110,8 +111,9 @@ Simulation Simulation::resume(const std::string& name) {
   state->origin.scenario_text = header.scenario_given;
   state->store.emplace(std::move(store));
   state->recorder.emplace(state->session, *state->store);
-  if (const io::RunFile run = io::RunFile::open(path); !run.all_frame_tilts().empty())
-    state->begin = run.frame(0);
+  const io::RunFile run = io::RunFile::open(path);
+  state->departures = session::departures(run, scenario);
+  if (!run.all_frame_tilts().empty()) state->begin = run.frame(0);
   return Simulation(std::move(state));
 }
 
@@ -120,6 +122,7 @@ Simulation::Simulation(const Simulation& other)
   state_->origin = other.state_->origin;
   state_->parameters = other.state_->parameters;
   state_->begin = other.state_->begin;
+  state_->departures = other.state_->departures;
   state_->is_new = other.state_->is_new;
   state_->owed_steps = other.state_->owed_steps;
 }
@@ -233,6 +236,11 @@ void Simulation::use_threads(int threads) {
 void Simulation::apply(const Command& command) {
   state_->require_own();
   state_->session.apply(command);
+  const session::Schedule& now = state_->session.schedule();
+  const bool tilts = phase() != session::Phase::deposition;
+  state_->departures.push_back(session::departure_text(
+      command, tilts ? tilt() : not_known,
+      static_cast<double>(now.tilt_steps + now.flow_steps) * scenario::time_step(scenario())));
   state_->measured.reset();
   state_->is_new = false;
   if (!state_->recorder) state_->session.clear_segment();
@@ -313,8 +321,8 @@ void Simulation::record(const std::string& name, bool overwrite) {
   session::RunOrigin origin = state.origin;
   const World& now = world();
   if (!state.is_new)
-    origin.branch =
-        io::BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)), state.session.checkpoint(0.0)};
+    origin.branch = io::BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)),
+                                     state.session.checkpoint(0.0), session::history_text(state.departures)};
   const std::string path = absolute_path(name);  // remains valid if the process changes its folder
   prepare_folder_of(path);
   state.session.clear_segment();

@@ -5,6 +5,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "library/measured_frame.h"
 #include "library/simulation.h"
@@ -22,9 +24,10 @@ struct Simulation::State {
   std::optional<session::Recorder> recorder;
   std::function<bool()> interrupts;
   analysis::AnalysisParameters parameters;
-  bool is_new = true;            ///< neither stepped nor changed
-  double owed_steps = 0.0;       ///< fraction of a step that Simulation::steps_in carries over
-  std::optional<Frame> begin{};  ///< frame at the start of the tilt, if the simulation reached it
+  std::vector<std::string> departures{};  ///< commands given so far, for the history of a branch
+  bool is_new = true;                     ///< neither stepped nor changed
+  double owed_steps = 0.0;                ///< fraction of a step that Simulation::steps_in carries over
+  std::optional<Frame> begin{};           ///< frame at the start of the tilt, if the simulation reached it
 
   std::optional<MeasuredFrame> measured{};  ///< measurements of the state after the last step, if requested
 

@@ -141,6 +141,9 @@ FrozenBed freeze(World world, const dynamics::StepSettings& settings, double mea
 
 FrozenBed frozen_frame(const io::RunFile& run, std::size_t k) {
   FrameStart start = start_at_frame(run, k);
+  // Other forces of the frame are those that its own friction allows, not that of the next step.
+  start.settings.law.friction = run.friction_of_frame(k).grains;
+  start.settings.law.wall_friction = run.friction_of_frame(k).walls;
   return freeze(std::move(start.world), start.settings, start.mean_diameter);
 }
 

@@ -113,6 +113,7 @@ class RunCourse {
     if (!run_.header().branch) return schedule;
     const Schedule start =
         stored_schedule(start_of(run_.header().branch->start), follows_failure(), "the run", "/branch");
+    schedule.deposition_friction = start.deposition_friction;
     schedule.course = start.course;
     schedule.drag = start.drag;
     schedule.script = start.script;
@@ -271,6 +272,7 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
   wrap_rounded(checkpoint.world);
   const RunCourse course(run);
   Schedule schedule = course.at_step(checkpoint.world.step, checkpoint.world);
+  if (!run.header().branch) schedule.deposition_friction = run.commanded_friction(run.instant(0).step);
   schedule.last.friction = run.friction_of_frame(k).grains;
   schedule.last.wall_friction = run.friction_of_frame(k).walls;
   if (schedule.phase == Phase::done)

@@ -65,6 +65,8 @@ io::RunHeader run_header(const Session& session, const RunOrigin& origin) {
                        {"command", origin.command_line},
                        {"scenario_file", origin.scenario_file}};
   if (!origin.bed.empty()) header.provenance.emplace_back(bed_fact, origin.bed);
+  if (origin.branch && !origin.branch->history.empty())
+    header.provenance.emplace_back(io::history_fact, origin.branch->history);
   header.branch = origin.branch;
   return header;
 }

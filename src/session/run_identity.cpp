@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <span>
 
+#include "base/hash.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "scenario/scripted_command.h"
 #include "session/command.h"
@@ -63,39 +66,47 @@ void drop_scripted(std::vector<Given>& given, const scenario::Scenario& scenario
   }
 }
 
-std::string moment_text(const Given& given) {
-  return std::isnan(given.tilt) ? "in the deposition"
-                                : fmt::format("at {:.2f} deg, {:.2f} s", given.tilt + 0.0, given.time);
-}
-
-std::string branch_text(const io::Checkpoint& start) {
-  std::string text = fmt::format("branch at {:.2f} deg", degrees(start.world.tilt));
+std::string branch_text(const io::BranchOrigin& branch) {
+  const io::Checkpoint& start = branch.start;
+  std::string text = fmt::format("branch at {} deg", degrees_text(start.world.tilt, 2));
   if (const auto rate = find_value(start.reals, "tilt_rate"))
     text += fmt::format(" with a tilt rate of {:.4g} deg/s", degrees(*rate));
   if (find_value(start.integers, "drag_grain")) text += " with a dragged grain";
+  if (!branch.history.empty()) text += " after " + branch.history;
   return text;
 }
 
 }  // namespace
 
-std::vector<std::string> departures(const io::RunFile& run, const scenario::Scenario& scenario) {
+std::string departure_text(const Command& command, double tilt, double time) {
+  return command_text(command) +
+         (std::isnan(tilt) ? " in the deposition"
+                           : fmt::format(" at {} deg, {} s", fixed_text(tilt, 2), fixed_text(time, 2)));
+}
+
+std::vector<std::string> departures(const io::RunFile& run, const scenario::Scenario& scenario,
+                                    std::int64_t step) {
   std::vector<std::string> found;
-  if (run.header().branch) found.push_back(branch_text(run.header().branch->start));
+  if (run.header().branch) found.push_back(branch_text(*run.header().branch));
   std::vector<Given> given = commands_given(run, scenario);
+  std::erase_if(given, [step](const Given& each) { return each.command.step >= step; });
   drop_scripted(given, scenario);
-  std::vector<Command> commands;
-  for (const Given& each : given) commands.push_back(each.command);
-  auto next = given.begin();
-  for (const Command& command : given_commands(commands)) {
-    next = std::ranges::find(next, given.end(), command, &Given::command);
-    found.push_back(fmt::format("{} {}", command_text(command), moment_text(*next)));
-  }
+  for (const Given& each : given) found.push_back(departure_text(each.command, each.tilt, each.time));
   return found;
 }
 
 std::string departures_text(const std::vector<std::string>& departures) {
   if (departures.empty()) return "";
-  return departures.front() + (departures.size() > 1 ? fmt::format(" and {} more", departures.size() - 1) : "");
+  return departures.front() +
+         (departures.size() > 1 ? fmt::format(" and {} more", departures.size() - 1) : "");
+}
+
+std::string history_text(const std::vector<std::string>& departures) {
+  constexpr std::size_t most = 5;
+  if (departures.size() <= most) return joined(departures, "; ");
+  const std::string all = joined(departures, "; ");
+  return fmt::format("{}, with hash {}", departures_text(departures),
+                     hash_text(hash_bytes(std::as_bytes(std::span(all)))));
 }
 
 }  // namespace talus::session

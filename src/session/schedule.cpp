@@ -94,6 +94,7 @@ std::vector<ScheduleField> fields(Schedule& s, bool follows) {
     all.push_back({results, name + "_first_step", &s.warnings.first[k], where_not_zero});
     all.push_back({reals, std::string("broken_").append(guard_names[k]), &s.broken[k], where_not_zero});
   }
+  all.push_back({reals, "deposition_friction", &s.deposition_friction, where_known});
   all.push_back({reals, "last_largest_overlap", &s.last.largest_overlap, where_known});
   all.push_back({reals, "last_residual", &s.last.residual, where_known});
   all.push_back({reals, "last_converged", &s.last.converged, where_known});

@@ -79,8 +79,10 @@ struct Schedule {
   double surface_displacement = 0.0;  ///< m
   double residual_since_row = 0.0;    ///< largest eta since the last row
   std::optional<double> friction;     ///< set by a command
-  std::optional<TiltCourse> course;   ///< set by a command
-  std::optional<Drag> drag;           ///< started by a command and not ended
+  /// Friction between grains when the bed came to rest, if a command had set it; not part of the state.
+  std::optional<double> deposition_friction;
+  std::optional<TiltCourse> course;  ///< set by a command
+  std::optional<Drag> drag;          ///< started by a command and not ended
   std::optional<ScriptCourse>
       script;  ///< present in a scenario with commands, from the first step of the tilt on
   /// Number of world steps at the last step of the tilt, for a programme of the tilt. Records up to it belong

@@ -142,6 +142,7 @@ bool Session::adopt_friction() {
   const scenario::Scenario was = scenario_;
   scenario_.contact.friction = *std::exchange(schedule_.friction, {});
   keep_deposition_friction(was, scenario_);
+  if (schedule_.deposition_friction) scenario_.deposition.friction = schedule_.deposition_friction;
   return true;
 }
 
@@ -289,6 +290,7 @@ void Session::advance_deposition() {
 
 void Session::begin_tilt() {
   schedule_.phase = Phase::tilt;
+  schedule_.deposition_friction = schedule_.friction;
   schedule_.baseline = measure_baseline(world_);
   if (!program_.empty()) schedule_.last_tilt_step = world_.step;
   record_start();

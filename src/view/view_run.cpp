@@ -15,6 +15,7 @@
 #include "runs/event_catalogue.h"
 #include "session/frame_state.h"
 #include "session/run_header.h"
+#include "session/run_identity.h"
 #include "view/camera.h"
 #include "view/view_model.h"
 
@@ -273,7 +274,8 @@ void ViewModel::branch() {
   try {
     of_run = runs::stored_scenario(run.header(), pictures_.path + ":/parameters");
     origin = {pictures_.path, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)),
-              session::checkpoint_at_frame(run, k)};
+              session::checkpoint_at_frame(run, k),
+              session::history_text(session::departures(run, of_run, run.instant(k).step))};
   } catch (const Error&) {
     begin_series();
     throw;

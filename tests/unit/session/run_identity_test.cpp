@@ -57,7 +57,8 @@ TEST(FrictionInForce, is_that_of_the_step_which_gave_the_forces_of_a_frame) {
   const test::TemporaryFolder folder;
   scenario::Scenario scenario = test::small_tilted_bed(3.0);
   scenario.deposition.friction = 2.0;
-  const io::RunFile run = recorded(scenario, folder.path("run.h5"), {{1.0, {0, CommandKind::friction, -1, 0.1}}});
+  const io::RunFile run =
+      recorded(scenario, folder.path("run.h5"), {{1.0, {0, CommandKind::friction, -1, 0.1}}});
   ASSERT_GT(run.frame_count(), 4u);
   std::vector<double> largest;
   for (std::size_t k = 0; k < run.frame_count(); ++k) {
@@ -146,10 +147,62 @@ TEST(Departures, are_commands_that_the_scenario_does_not_have) {
   EXPECT_EQ(departures_text({"one", "two", "three"}), "one and 2 more");
 }
 
+TEST(Departures, tell_where_a_drag_leads_and_ends) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  scenario.commands = {{0.5, {}, CommandKind::drag, 5, 0.05, 0.04}};
+  const Command moves = {0, CommandKind::drag, 5, 0.05, 0.06}, ends = {0, CommandKind::release};
+  EXPECT_TRUE(departures(recorded(scenario, folder.path("a.h5")), scenario).empty());
+  EXPECT_EQ(departures(recorded(scenario, folder.path("b.h5"), {{1.0, moves}}), scenario).size(), 1u);
+  EXPECT_EQ(departures(recorded(scenario, folder.path("c.h5"), {{1.0, ends}}), scenario).size(), 1u);
+}
+
+TEST(Departures, of_a_branch_tell_the_history_of_its_run) {
+  const test::TemporaryFolder folder;
+  const scenario::Scenario scenario = test::small_tilted_bed(2.0);
+  const auto branch_of = [&](const std::string& name, std::vector<std::pair<double, Command>> commands) {
+    const io::RunFile run = recorded(scenario, folder.path(name), std::move(commands));
+    std::size_t k = 0;
+    while (degrees(run.frame_tilts()[k]) < 1.4) ++k;
+    const io::BranchOrigin origin{name, static_cast<std::int64_t>(k), "0123456789abcdef",
+                                  checkpoint_at_frame(run, k),
+                                  history_text(departures(run, scenario, run.instant(k).step))};
+    Session session(scenario, origin.start);
+    const std::string path = folder.path("branch-" + name);
+    io::RunStore store = io::RunStore::create(path, run_header(session, {"", "", "", 1, origin}), false);
+    session.record_start();
+    while (session.phase() != Phase::done) session.advance();
+    store.commit(session.segment(), session.checkpoint(0.0));
+    store.pack();
+    return departures(io::RunFile::open(path), scenario);
+  };
+  const Command push = {0, CommandKind::push, 3, 0.1, 0.0};
+  const auto plain = branch_of("plain.h5", {}), pushed = branch_of("pushed.h5", {{0.5, push}}),
+             later = branch_of("later.h5", {{1.8, push}});
+  ASSERT_EQ(plain.size(), 1u);
+  EXPECT_EQ(plain, later) << "what was done after the frame is not part of it";
+  ASSERT_EQ(pushed.size(), 1u);
+  EXPECT_NE(pushed[0].find("after push grain 3 by (0.1, 0) m/s at 0.50 deg"), std::string::npos) << pushed[0];
+  const std::vector<std::string> many(50, "push");
+  EXPECT_LT(history_text(many).size(), 60u);
+  EXPECT_NE(history_text(many), history_text(std::vector<std::string>(51, "push")));
+}
+
+TEST(FrictionInForce, of_the_deposition_is_stated_as_a_command_set_it) {
+  Session session(test::small_tilted_bed(3.0));
+  session.advance();
+  session.apply({0, CommandKind::friction, -1, 0.3});
+  while (session.phase() == Phase::deposition) session.advance();
+  EXPECT_TRUE(session.adopt_friction());
+  EXPECT_EQ(session.scenario().deposition.friction, 0.3);
+  EXPECT_EQ(session.scenario().contact.friction, 0.3);
+}
+
 TEST(Departures, tell_a_branch) {
   const test::TemporaryFolder folder;
   const scenario::Scenario scenario = test::small_tilted_bed(2.0);
-  const io::RunFile run = recorded(scenario, folder.path("run.h5"), {{0.9, {0, CommandKind::tilt_rate, -1, 5.0}}});
+  const io::RunFile run =
+      recorded(scenario, folder.path("run.h5"), {{0.9, {0, CommandKind::tilt_rate, -1, 5.0}}});
   const io::BranchOrigin origin{"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)};
   Session session(scenario, origin.start);
   io::RunStore store =
