@@ -406,7 +406,8 @@ double RunStore::seconds_writing() const { return state_->seconds_writing; }
 static bool is_left_behind(const std::string& folder, const std::string& packed) try {
   return !is_there(in(folder, Manifest::file_name)) ||
          read_manifest(folder).packed_seal == seal_hash_of(packed);
-} catch (const Error&) {
+} catch (const Error& error) {
+  if (error.code() != ExitCode::bad_data) throw;
   return false;
 }
 
