@@ -57,6 +57,7 @@ void Simulation::State::require_own() const {
 
 void Simulation::State::advance() {
   measured.reset();
+  aimed.reset();
   is_new = false;
   const session::Phase before = session.phase();
   if (recorder)
@@ -125,6 +126,7 @@ Simulation::Simulation(const Simulation& other)
   state_->departures = other.state_->departures;
   state_->is_new = other.state_->is_new;
   state_->owed_steps = other.state_->owed_steps;
+  state_->aimed = other.state_->aimed;
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -179,7 +181,7 @@ bool Simulation::tilt_to(double degrees) {
   if (!deposit()) return false;
   const session::TiltGoal goal =
       session::aim(radians(degrees), state_->session, [this](const Command& turn) { apply(turn); });
-  return advance_until([&goal](const session::Session& session) {
+  const bool completed = advance_until([&goal](const session::Session& session) {
     if (is_passed(goal, session)) return true;
     // A failure ends the run, at once or after its flow; a programme was checked as a whole.
     if (session.phase() != session::Phase::tilt || session.follows_program()) return false;
@@ -187,11 +189,13 @@ bool Simulation::tilt_to(double degrees) {
       throw Error(ExitCode::usage, reason);
     return false;
   });
+  if (!done() && is_passed(goal, state_->session)) state_->aimed = degrees;
+  return completed;
 }
 
 bool Simulation::tilt_by(double degrees) {
   require_finite(degrees, "a tilt by");
-  return deposit() && tilt_to(tilt() + degrees);
+  return deposit() && tilt_to(state_->aimed.value_or(tilt()) + degrees);
 }
 
 std::int64_t Simulation::steps_in(double seconds) {
@@ -241,6 +245,7 @@ void Simulation::apply(const Command& command) {
   state_->departures.push_back(session::departure_text(
       command, tilts ? tilt() : not_known,
       static_cast<double>(now.tilt_steps + now.flow_steps) * scenario::time_step(scenario())));
+  if (command.kind == CommandKind::tilt_rate) state_->aimed.reset();
   state_->measured.reset();
   state_->is_new = false;
   if (!state_->recorder) state_->session.clear_segment();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/core.h>
 #include <string>
 
@@ -56,6 +57,13 @@ bool needs_turn(const TiltGoal& goal, const Session& session) {
          leads_away(goal, session.tilt_rate());
 }
 
+/// Whether the tilt, on its present course, is beyond an angle by less than one step.
+bool is_just_passed(double angle, const Session& session) {
+  const double step = session.tilt_rate() * scenario::time_step(session.scenario());
+  const double beyond = step > 0.0 ? session.world().tilt - angle : angle - session.world().tilt;
+  return beyond >= 0.0 && beyond < std::fabs(step) - reached_within;
+}
+
 }  // namespace
 
 bool is_passed(const TiltGoal& goal, const Session& session) {
@@ -90,7 +98,9 @@ std::string why_never(const TiltGoal& goal, const Session& session) {
 }
 
 TiltGoal aim(double tilt, const Session& session, const std::function<void(const Command&)>& apply) {
-  const TiltGoal goal{tilt, session.world().tilt <= tilt};
+  const bool rises =
+      is_just_passed(tilt, session) ? session.tilt_rate() > 0.0 : session.world().tilt <= tilt;
+  const TiltGoal goal{tilt, rises};
   if (needs_turn(goal, session)) apply({0, CommandKind::tilt_rate, -1, -as_given(session.tilt_rate())});
   if (const std::string reason = why_never(goal, session); !reason.empty())
     throw Error(ExitCode::usage, reason);

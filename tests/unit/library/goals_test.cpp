@@ -69,6 +69,47 @@ TEST(Goals, of_the_tilt_are_passed_from_either_side_and_turn_it) {
   EXPECT_EQ(hash_text(state_hash(again.world())), sim.state_hash());
 }
 
+TEST(Goals, within_a_step_are_met_exactly_in_the_long_run) {
+  Simulation sim(test::small_tilted_bed(5.0));  // 0.02 deg per step
+  sim.deposit();
+  const std::int64_t begin = sim.world().step;
+  for (int k = 0; k < 50; ++k) sim.tilt_by(0.028);
+  EXPECT_NEAR(sim.tilt(), 1.4, 1e-9);
+  for (int k = 0; k < 40; ++k) sim.tilt_by(0.005);
+  EXPECT_NEAR(sim.tilt(), 1.6, 1e-9);
+  EXPECT_EQ(sim.world().step - begin, 80);
+  sim.tilt_by(0.013);
+  Simulation copy = sim;
+  for (int k = 0; k < 10; ++k) copy.tilt_by(0.013);
+  EXPECT_NEAR(copy.tilt(), 1.76, 1e-9) << "the first step beyond 1.743";
+  copy.step();
+  copy.tilt_by(0.013);
+  EXPECT_NEAR(copy.tilt(), 1.80, 1e-9) << "from where a step led: 1.78 + 0.013";
+  sim.set_tilt_rate(-20.0);
+  for (int k = 0; k < 10; ++k) sim.tilt_by(-0.013);
+  EXPECT_NEAR(sim.tilt(), 1.48, 1e-9) << "from where the rate was set: 1.62 - 0.13 = 1.49";
+}
+
+TEST(Goals, that_the_last_step_has_passed_do_not_turn_the_tilt) {
+  Simulation sim(test::small_tilted_bed(5.0));  // 0.02 deg per step
+  for (int k = 1; k < 30; ++k) {
+    const double before = sim.tilt();
+    sim.tilt_to(k * 0.005);
+    EXPECT_GE(sim.tilt(), before);
+    EXPECT_LT(std::abs(sim.tilt() - k * 0.005), 0.02);
+  }
+  for (const double goal : {2.013, 2.013, 2.001}) {
+    sim.tilt_to(goal);
+    EXPECT_NEAR(sim.tilt(), 2.02, 1e-9);
+    EXPECT_NEAR(sim.tilt_rate(), 20.0, 1e-12);
+  }
+  for (const double goal : {1.993, 1.993}) {
+    sim.tilt_to(goal);
+    EXPECT_NEAR(sim.tilt(), 1.98, 1e-9);
+    EXPECT_NEAR(sim.tilt_rate(), -20.0, 1e-12);
+  }
+}
+
 TEST(Goals, are_passed_by_a_programme_from_either_side) {
   scenario::Scenario scenario = test::small_tilted_bed(5.0);
   scenario.tilt.end_angle.reset();
