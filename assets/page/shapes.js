@@ -19,7 +19,7 @@ function branch(c, places) {
     const [, nx, ny] = data.contacts.planes.find((plane) => plane[0] === b);
     return { x, y, nx, ny, length: radii()[a], radius: radii()[a] };
   }
-  const shift = tables.shift.codes[c] === 255 ? -1 : tables.shift.codes[c];
+  const shift = (tables.shift.codes[c] << 24) >> 24;  // a signed byte
   const dx = places[2 * b] + shift * bed.length - x, dy = places[2 * b + 1] - y, length = Math.hypot(dx, dy);
   return { x, y, nx: dx / length, ny: dy / length, length, radius: radii()[a] };
 }

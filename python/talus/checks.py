@@ -53,8 +53,8 @@ def check_frame_values(run: "Run", name: str, values: np.ndarray) -> None:
         raise refuse(run.path, name, "holds a periodic image across the depth of the bed, which is not periodic")
     if name == "contacts/status" and np.any((values < 0) | (values > 2)):
         raise refuse(run.path, name, "holds a value other than 0, 1 and 2")
-    if name == "contacts/shift" and np.any((values < -1) | (values > 1)):
-        raise refuse(run.path, name, "holds a value other than -1, 0 and 1")
+    if name == "contacts/shift" and np.any((values < -100) | (values > 100)):
+        raise refuse(run.path, name, "holds a value beyond -100 to 100")
     if name == "contacts/pair":
         a, b, grains = *values.T, len(run.id)
         if np.any((a < 0) | (a >= grains) | (b <= a) | (b >= grains + run.planes)):

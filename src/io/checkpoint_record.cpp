@@ -44,7 +44,7 @@ void for_each_field(const std::string& here, Checkpoint& checkpoint, Direction d
   fields.column(here + "plane_wall", boundary.planes, &Plane::wall);
   auto& contacts = world.contacts;
   fields.pairs(here + "contact_pair", contacts.a, contacts.b);
-  fields.array(here + "contact_shift", contacts.shift, Range{-1.0, 1.0});
+  fields.array(here + "contact_shift", contacts.shift, shifts);
   fields.pairs(here + "contact_normal", contacts.nx, contacts.ny, Range{-2.0, 2.0});
   fields.array(here + "contact_gap", contacts.gap);
   fields.pairs(here + "contact_force", contacts.fn, contacts.ft);

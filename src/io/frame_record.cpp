@@ -44,7 +44,7 @@ void for_each_field(SomeFrame& frame, Direction direction) {
   fields.array(grains + "gamma/value", frame.gamma, hdf5::any_number);
   auto& c = frame.contacts;
   fields.pairs(contacts + "pair", c.a, c.b);
-  fields.array(contacts + "shift", c.shift, Range{-1.0, 1.0});
+  fields.array(contacts + "shift", c.shift, shifts);
   fields.pairs(contacts + "normal", c.nx, c.ny);
   fields.pairs(contacts + "point", c.px, c.py);
   fields.pairs(contacts + "force", c.fn, c.ft);

@@ -235,7 +235,7 @@ std::vector<WrongStart> wrong_starts() {
          std::ranges::reverse(contacts.a);
          std::ranges::reverse(contacts.b);
        }},
-      {"/branch/contact_shift", [](io::BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 100; }},
+      {"/branch/contact_shift", [](io::BranchOrigin& branch) { branch.start.world.contacts.shift[0] = 101; }},
       {"/branch/contact_normal", [](io::BranchOrigin& branch) { branch.start.world.contacts.nx[0] = 1e300; }},
       {"/branch/contact_force", [](io::BranchOrigin& branch) { branch.start.world.contacts.fn[0] = nan; }},
       with_integer("/branch/integers/phase", "phase", 0),

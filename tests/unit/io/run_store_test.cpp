@@ -169,7 +169,7 @@ TEST(RunStore, writes_nothing_that_cannot_be_read) {
   refuses([](S segment, C) { segment.frames[0].vx[0] = 1e39; });  // infinite in single precision
   refuses([](S segment, C) { segment.frames[0].internal_moment[0].xy = std::nan(""); });
   refuses([](S segment, C) { segment.frames[0].contacts.b.at(0) = 8; });
-  refuses([](S segment, C) { segment.frames[0].contacts.shift.at(0) = 2; });
+  refuses([](S segment, C) { segment.frames[0].contacts.shift.at(0) = 101; });
   refuses([](S segment, C) { at(segment.observables[0], Observable::tilt) = std::nan(""); });
   refuses([](S segment, C) { segment.commands.at(0).x = std::nan(""); });
   refuses([](S, C checkpoint) { checkpoint.world.tilt = 1.7; });

@@ -23,6 +23,7 @@
 #include "io/run_file.h"
 #include "session/recorder.h"
 #include "session/run.h"
+#include "session/run_check.h"
 #include "session/run_header.h"
 #include "support/exit_code.h"
 #include "support/small_bed.h"
@@ -118,6 +119,36 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   sim.finish();
   EXPECT_NE(sim.state_hash(), end_of(poured_bed()));
   EXPECT_EQ(replayed(io::RunFile::open(folder.path("run.h5"))), sim.state_hash());
+}
+
+TEST(Simulation, of_a_grain_that_passes_several_periods_in_a_step_is_stored) {
+  const test::TemporaryFolder folder;
+  scenario::Scenario scenario = test::small_tilted_bed(10.0);
+  scenario.tilt.rate = 100.0;
+  scenario.tilt.step = scenario.output.frame_every = scenario.output.observable_every = 1.0;  // 10 ms
+  scenario.guards.action = scenario::GuardAction::warn;
+  {
+    Simulation sim(scenario);
+    sim.record(folder.path("run.h5"));
+    sim.deposit();
+    sim.push(25, {25.0, 15.0});  // 0.25 m, or 2.5 periods, in a step
+    sim.step(1);
+    std::vector<int> shifts{0};
+    for (const std::int8_t shift : sim.world().contacts.shift) shifts.push_back(std::abs(shift));
+    EXPECT_GE(std::ranges::max(shifts), 2);
+  }
+  Simulation sim = Simulation::resume(folder.path("run.h5"));
+  sim.step(2);
+  sim.commit();
+  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
+  std::vector<int> shifts;
+  for (std::size_t k = 0; k < run.frame_count(); ++k)
+    for (const std::int8_t shift : run.frame(k).contacts.shift) shifts.push_back(std::abs(shift));
+  EXPECT_GE(std::ranges::max(shifts), 2);
+  EXPECT_EQ(session::check_run(run, {}).faults, std::vector<std::string>());
+  session::Session again = session::session_at_start(run.header(), "run");
+  session::replay(again, nullptr, run.commands(), sim.world().step, {});
+  EXPECT_EQ(hash_text(state_hash(again.world())), sim.state_hash());
 }
 
 TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
