@@ -131,6 +131,7 @@ std::vector<DumpFrame> lammps_frames(DumpText text) {
     if (!step.empty()) frames.back().label = "timestep " + visible_word(step);
     next_announced = false;
   };
+  const auto is_within_head = [&] { return !frames.empty() && frames.back().names_line == 0; };
   while (!text.at_end()) {
     const std::string_view line = text.next_row();
     // A file may be cut off within the head of a frame.
@@ -139,11 +140,12 @@ std::vector<DumpFrame> lammps_frames(DumpText text) {
     if (line.starts_with(frame_head) || is_cut) {
       begin_frame(text.next_row());
     } else if (line.starts_with("ITEM: UNITS")) {
-      units = visible_word(text.next_row());  // given once, before the first frame
-      next_announced = true;
+      units = visible_word(text.next_row());  // given once, for all frames that follow
+      if (is_within_head()) frames.back().units = units;
+      next_announced = !is_within_head();
     } else if (line.starts_with("ITEM: TIME")) {
       text.next_row();
-      next_announced = true;
+      next_announced = !is_within_head();
     } else if (line.starts_with("ITEM: NUMBER OF ATOMS") && !frames.empty() && frames.back().names_line > 0) {
       begin_frame("");
       text.note(frames.back(), line, "ITEM: TIMESTEP, the head of its frame");

@@ -88,6 +88,13 @@ TEST(LammpsDump, may_name_its_units) {
   const auto in_units = [](const std::string& units) {
     return "ITEM: UNITS\n" + units + "\n" + snapshot("x y radius", "1 1 0.5\n", 1);
   };
+  std::string after_head = si.substr(si.find('\n') + 4);
+  after_head.insert(after_head.find("1000\n") + 5, "ITEM: UNITS\ncgs\nITEM: TIME\n0.1\n");
+  for (const std::string& text : {after_head, after_head + snapshot("x y radius", "1 1 0.5\n", 1, 2000)}) {
+    const BedTable bed = parse_bed_table(text, "d", {scenario::LengthUnit::mean_diameter, 0.01}, -1);
+    EXPECT_EQ(grains_of(bed), "0.01 0.01 0.005, ") << text;
+  }
+  EXPECT_EQ(bed_of(after_head).remark.find("frame"), std::string::npos) << "one frame";
   EXPECT_EQ(grains_of(bed_of(in_units("lj"))), "1 1 0.5, ");
   EXPECT_EQ(bed_of(in_units("lj")).remark, "its units lj taken as mean diameters D");
   EXPECT_EQ(
@@ -97,7 +104,8 @@ TEST(LammpsDump, may_name_its_units) {
   for (const char* units : {"metal", "electron", "nano", "furlong", "REAL"})
     EXPECT_NE(message_about(in_units(units)).find(units), std::string::npos) << units;
   const LengthRule angstrom = {scenario::LengthUnit::micrometre, 1e-10, 1e-4};
-  EXPECT_NEAR(parse_bed_table(in_units("real"), "d", angstrom).grains[0].x, 1e-10, 1e-20) << "as the scenario says";
+  EXPECT_NEAR(parse_bed_table(in_units("real"), "d", angstrom).grains[0].x, 1e-10, 1e-20)
+      << "as the scenario says";
 }
 
 TEST(LammpsDump, has_the_flags_of_its_box_along_x) {
