@@ -39,7 +39,7 @@ std::string heading(const runs::RunView& run) {
                   degree_text(lowest->tilt), degree_text(highest->tilt));
   if (const analysis::FramesOfRise rise = analysis::last_rise(frames); rise.frames.size() < frames.size())
     text += fmt::format("theta_c, theta_d and the first slide refer to the last rise, from {} deg; ",
-                        degree_text(rise.tilts.front()));
+                        degree_text(frames[rise.first].tilt));
   text += std::isnan(theta_c) ? "the slope has not failed"
                               : fmt::format("theta_c = {} deg", degree_text(theta_c));
   if (std::isnan(gamma_c))

@@ -43,6 +43,7 @@ struct RunInfo {
   std::string course;  ///< "by a programme" or "by commands"; empty: the tilt only grows
   double tilt_lowest = none, tilt_highest = none;  ///< rad, extremes over the frames of the tilt
   double tilt = 0.0;                               ///< rad, tilt of the last state
+  bool lowered = false;                            ///< after failure
   std::size_t steps = 0;
   Friction friction;             ///< friction at the beginning of the tilt or the branch
   Friction deposition_friction;  ///< friction until the bed was at rest; none of a branch
@@ -77,6 +78,7 @@ double figure_or(const Figures& figures, const std::string& name, double otherwi
 void read_scenario(const io::RunFile& run, RunInfo& info) try {
   const scenario::Scenario scenario = runs::stored_scenario(run.header(), info.path);
   info.solver_tolerance = scenario.solver.tolerance;
+  info.lowered = scenario.tilt.after_failure == scenario::AfterFailure::lower;
   if (scenario.commands.empty() || !run.complete()) return;
   const bool follows = scenario.tilt.after_failure != scenario::AfterFailure::stop;
   const session::Schedule end = session::stored_schedule(run.checkpoint(), follows, info.path);
@@ -262,8 +264,9 @@ void print_report(const RunInfo& info) {
              std::to_string(info.frames) + (info.frames == 0 ? "" : tilts_text(info)) +
                  (info.flow_frames == 0 ? "" : fmt::format(", {} after failure", info.flow_frames)) +
                  (info.has_frames ? "" : "; only times and tilts of the frames are kept (--keep analysis)"));
-  print_line("theta_c", std::isnan(theta_c) ? "none: the slope has not failed"
-                                            : in_degrees(theta_c) + beyond_repose(theta_c, info.tilt));
+  print_line("theta_c", std::isnan(theta_c)
+                            ? "none: the slope has not failed"
+                            : in_degrees(theta_c) + (info.lowered ? "" : beyond_repose(theta_c, info.tilt)));
   if (find_value(info.results, "theta_r")) print_line("theta_r", rest_text(info));
   print_line("solver tolerance", short_number(info.solver_tolerance));
   print_line("worst residual", fmt::format("{} in the tilt, {} of its steps not converged",

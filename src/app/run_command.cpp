@@ -137,12 +137,14 @@ void print_end(const RunArguments& arguments, const session::Session& session) {
                   static_cast<long long>(session.schedule().warnings.first[k]));
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
+  const scenario::AfterFailure after = session.scenario().tilt.after_failure;
   if (theta_c)
-    print("The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
-          beyond_repose(*theta_c, session.world().tilt).c_str());
+    print(
+        "The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
+        after == scenario::AfterFailure::lower ? "" : beyond_repose(*theta_c, session.world().tilt).c_str());
   else
     print("The slope is stable at %s deg.\n", degrees_text(session.world().tilt, 3).c_str());
-  if (theta_c && session.scenario().tilt.after_failure != scenario::AfterFailure::stop) print_rest(session);
+  if (theta_c && after != scenario::AfterFailure::stop) print_rest(session);
   if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
   print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
         static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());

@@ -40,6 +40,17 @@ TEST(AnalysisText, says_that_a_fast_tilt_went_on_while_the_flow_gathered_speed) 
   EXPECT_EQ(text_with(not_known, 0.29).find("after theta_c"), std::string::npos);
 }
 
+TEST(AnalysisText, names_the_beginning_of_the_last_rise_with_its_sign) {
+  runs::RunView run;
+  run.statics.mean_diameter = 1.0;
+  run.analysis = test::blank_analysis({.frames = 3, .sections = 2, .bins = 2});
+  run.analysis.parameters = runs::as_facts(analysis::AnalysisParameters());
+  run.analysis.frames[0].tilt = 0.2;
+  run.analysis.frames[1].tilt = -0.1;
+  run.analysis.frames[2].tilt = 0.4;
+  EXPECT_NE(analysis_text(run).find("the last rise, from -5.73 deg"), std::string::npos);
+}
+
 TEST(BeyondRepose, is_told_from_a_degree_on) {
   EXPECT_EQ(beyond_repose(0.3, 0.31), "");
   EXPECT_EQ(beyond_repose(0.3, 0.2), "");
