@@ -48,7 +48,9 @@ std::string reading_text(const OverloadRule& rule) {
 
 MapLayer gamma_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice) {
   const double gamma_c = gamma_c_of(settings);
-  const Scale scale = chosen({render::ColourMap::gray, white_below, black_gamma * gamma_c}, choice);
+  const double black = black_gamma * gamma_c;  // a single grain fails at tiny angles
+  const Scale scale =
+      chosen({render::ColourMap::gray, black > white_below ? white_below : 0.0, black}, choice);
   const std::string end = choice.high ? number_label(scale.high) : fmt::format("2Γ_c = {:.2f}", scale.high);
   const auto free_grains = std::span(bed.frame.gamma).first(static_cast<std::size_t>(bed.statics.free_count));
   return scaled_layer(fmt::format("Stress ratio γ of {}{}",

@@ -176,5 +176,10 @@ TEST_F(RunPage, stops_when_asked) {
   EXPECT_EQ(test::exit_code_of([&] { run_page(*file_, path_, analysis_, {0}, watch); }), ExitCode::stopped);
 }
 
+TEST_F(RunPage, of_a_bed_that_fails_at_a_tiny_angle_is_written) {
+  write(0.3);
+  EXPECT_GT(page({0}).size(), 10'000u) << "2 Gamma_c = 0.01, below the usual white";
+}
+
 }  // namespace
 }  // namespace talus::exports
