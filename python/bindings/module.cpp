@@ -578,6 +578,18 @@ void bind_frames(py::module_& module) {
            });
 }
 
+/// Returns the scenario of a file or of `tables`, as TOML. Commands in `tables` replace those of the file;
+/// `text` becomes that of the scenario as it was given.
+scenario::Scenario scenario_of(const std::string& path, const std::vector<std::string>& settings,
+                               const std::string& tables, std::string& text) {
+  if (path.empty()) return scenario::parse_scenario(tables, "scenario", settings);
+  scenario::Scenario scenario = scenario::read_scenario(path, settings, &text);
+  if (tables.empty()) return scenario;
+  scenario.commands.clear();
+  text = scenario::resolved_toml(scenario) + "\n" + tables;
+  return scenario::parse_scenario(text, "scenario");
+}
+
 }  // namespace
 }  // namespace talus
 
@@ -586,14 +598,13 @@ PYBIND11_MODULE(_core, module) {
   survive_forks();
   py::register_exception_translator(translate);
   py::class_<Driven, Holder> type(module, "Simulation");
-  type.def(py::init([](const std::string& path, const std::vector<std::string>& settings,
-                       const std::string& tables) {
-    std::string text;
-    const scenario::Scenario scenario = path.empty() ? scenario::parse_scenario(tables, "scenario", settings)
-                                                     : scenario::read_scenario(path, settings, &text);
-    if (scenario.deposition.method == scenario::DepositionMethod::file) require_files();
-    return std::make_shared<Driven>(Simulation(scenario, text));
-  }));
+  type.def(py::init(
+      [](const std::string& path, const std::vector<std::string>& settings, const std::string& tables) {
+        std::string text;
+        const scenario::Scenario scenario = scenario_of(path, settings, tables, text);
+        if (scenario.deposition.method == scenario::DepositionMethod::file) require_files();
+        return std::make_shared<Driven>(Simulation(scenario, text));
+      }));
   type.def("_copy", [](Driven& driven) {
     return std::make_shared<Driven>(
         driven.use([](Simulation& simulation) { return Simulation(simulation); }));

@@ -301,11 +301,9 @@ class Simulation(Closed):
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
         core, threads = _extension(), _threads(threads)
-        if scenario is None or isinstance(scenario, Mapping):
-            tables, keys = _tables({**(scenario or {}), **settings})
-            self._begin(core.Simulation(b"", _settings(keys), tables), progress)
-        else:
-            self._begin(core.Simulation(_path(scenario), _settings(settings), ""), progress)
+        of_keys = scenario is None or isinstance(scenario, Mapping)
+        tables, keys = _tables({**(scenario or {}), **settings} if of_keys else settings)
+        self._begin(core.Simulation(b"" if of_keys else _path(scenario), _settings(keys), tables), progress)
         if threads != 1:
             self._core._use_threads(threads)
 
@@ -361,11 +359,13 @@ class Simulation(Closed):
     def tilt_to(self, angle: float) -> None:
         """Steps until the tilt passes `angle` (deg) from either side, or the run is over. If the tilt leads away from
         the angle, it is turned first: `tilt_rate` changes its sign, which is a recorded command. A programme
-        (tilt.program) is followed. Raises Error if the tilt never gets there: it is held, or its programme does not."""
+        (tilt.program) is followed. An angle passed by less than one step counts as reached. Raises Error if the tilt
+        never gets there: it is held, or its programme does not."""
         self._steps(self._core._tilt_to, _number(angle, "tilt_to: angle"))
 
     def tilt_by(self, angle: float) -> None:
-        """Steps until the tilt has grown by `angle` (deg), or fallen if it is negative, like tilt_to."""
+        """Steps until the tilt has grown by `angle` (deg), or fallen if it is negative, like tilt_to. Starts from the goal
+        of the call before, if no step was taken and no rate was set since: the rest of a step is carried over."""
         self._steps(self._core._tilt_by, _number(angle, "tilt_by: angle"))
 
     def run(self, seconds: float | None = None, *, until: Callable[[], bool] | None = None, every: float | None = None) -> None:
@@ -421,11 +421,13 @@ class Simulation(Closed):
         """Ends the drag."""
         self._core._release()
 
-    def _command(self, method: Any, *values: Any) -> None:
+    def _command(self, method: Any, *values: Any, name: str = "") -> None:
+        """`name`: an attribute that the command sets, in messages."""
         try:
             method(*values)
         except TypeError:
-            raise WrongType(f"{method.__name__.strip('_')}{short(values)}: expected numbers") from None
+            call = f"{name} = {short(values[0])}: expected a number" if name else f"{method.__name__.strip('_')}{short(values)}: expected numbers"
+            raise WrongType(call) from None
 
     @property
     def friction(self) -> float:
@@ -434,7 +436,7 @@ class Simulation(Closed):
 
     @friction.setter
     def friction(self, value: float) -> None:
-        self._command(self._core._set_friction, value)
+        self._command(self._core._set_friction, value, name="friction")
 
     @property
     def tilt_rate(self) -> float:
@@ -444,7 +446,7 @@ class Simulation(Closed):
 
     @tilt_rate.setter
     def tilt_rate(self, value: float) -> None:
-        self._command(self._core._set_tilt_rate, value)
+        self._command(self._core._set_tilt_rate, value, name="tilt_rate")
 
     # State.
 

@@ -57,9 +57,12 @@ class Simulation {
   bool step(std::int64_t count = 1);
   bool deposit();  ///< until the bed is at rest and the tilt begins
   /// Steps until the tilt passes this angle, from below or from above. A tilt that leads away from the angle
-  /// is turned first, by a command that sets its rate with the other sign; a programme is followed.
+  /// is turned first, by a command that sets its rate with the other sign; a programme is followed. An angle
+  /// that the tilt has passed by less than one step counts as reached.
   bool tilt_to(double degrees);
-  bool tilt_by(double degrees);  ///< tilt_to, relative to the present tilt
+  /// tilt_to, relative to the goal of the call before if no step was taken and no rate was set since; else to
+  /// the present tilt.
+  bool tilt_by(double degrees);
   /// Steps for a duration of simulated time, steps_in(seconds).
   bool run(double seconds);
   /// Returns the number of steps in a duration. The rest, at most half a step, is carried over to the next

@@ -395,6 +395,8 @@ WRONG = [
     (lambda s, r, f: bed().record(r.path), OSError, 73, "exists already"),
     (lambda s, r, f: talus.Simulation(5), TypeError, 64, "expected the path"),
     (lambda s, r, f: talus.Simulation({"bed.lenght": 3}), ValueError, 65, "did you mean 'bed.length'"),
+    (lambda s, r, f: setattr(s, "friction", None), TypeError, 64, "friction = None: expected a number"),
+    (lambda s, r, f: setattr(s, "tilt_rate", "1"), TypeError, 64, "tilt_rate = '1': expected a number"),
     (lambda s, r, f: s.tilt_to(float("nan")), ValueError, 64, "finite"),
     (lambda s, r, f: s.record("x.h5", overwrite="yes"), TypeError, 64, "overwrite = 'yes'"),
     (lambda s, r, f: setattr(s, "fricton", 0.1), AttributeError, 64, "did you mean 'friction'"),
@@ -501,6 +503,9 @@ def test_a_scenario_is_a_dictionary_in_either_direction(tmp_path, monkeypatch):
     assert talus.Simulation(tomllib.loads(text)).scenario == sim.scenario == talus.Simulation(sim.scenario).scenario
     assert tomllib.loads(sim.scenario_text) == sim.scenario
     assert talus.Simulation(command=[{"at": np.float32(1), "kind": "friction", "x": np.array(0.25)}]).scenario["command"][0]["x"] == 0.25
+    both = talus.Simulation("bed.toml", command=[{"at": 1, "kind": "friction", "x": 0.25}], seed=7).scenario
+    assert both["command"] == [{"at": 1, "kind": "friction", "x": 0.25}], "instead of those of the file"
+    assert both["bed"] == sim.scenario["bed"] and both["seed"] == 7
     for wrong, key in [({"command": [{"at": 1, "kind": "frction"}]}, "command.1.kind"), ({"command": [{"at": 1}, {"x": None}]}, "command.2.x"),
                        ({"command": [{"at": 1}, 3]}, "command"), ({"contact": {"friction": np.ma.masked}}, "contact.friction")]:
         with pytest.raises(talus.Error, match=re.escape(key)):
