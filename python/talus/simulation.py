@@ -422,12 +422,13 @@ class Simulation(Closed):
         self._core._release()
 
     def _command(self, method: Any, *values: Any, name: str = "") -> None:
-        """`name`: an attribute that the command sets, in messages."""
+        """`name`: the attribute that the command sets, in messages."""
         try:
             method(*values)
         except TypeError:
-            call = f"{name} = {short(values[0])}: expected a number" if name else f"{method.__name__.strip('_')}{short(values)}: expected numbers"
-            raise WrongType(call) from None
+            if name:
+                raise WrongType(f"{name} = {short(values[0])}: expected a number") from None
+            raise WrongType(f"{method.__name__.strip('_')}{short(values)}: expected numbers") from None
 
     @property
     def friction(self) -> float:

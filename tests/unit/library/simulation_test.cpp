@@ -131,7 +131,7 @@ TEST(Simulation, of_a_grain_that_passes_several_periods_in_a_step_is_stored) {
     Simulation sim(scenario);
     sim.record(folder.path("run.h5"));
     sim.deposit();
-    sim.push(25, {25.0, 15.0});  // 0.25 m, or 2.5 periods, in a step
+    sim.push(22, {31.0, 0.0});  // 0.31 m, or 3.1 periods, in a step
     sim.step(1);
     std::vector<int> shifts{0};
     for (const std::int8_t shift : sim.world().contacts.shift) shifts.push_back(std::abs(shift));
