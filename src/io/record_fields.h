@@ -18,7 +18,7 @@ namespace talus::io {
 
 using hdf5::Range;
 inline constexpr Range not_negative = {.low = 0.0};
-/// Of the periodic images of contacts: a fast grain passes several periods in one step.
+/// Periodic images of contacts; a fast grain passes several periods in one step.
 inline constexpr Range shifts = {-100.0, 100.0};
 
 /// Rejects values of a record in the same way when it is read and when it is written, so that no run is
