@@ -1,4 +1,4 @@
-# Every target of the project links talus_options: warnings are errors, and arithmetic is executed as written.
+# Every target of the project links talus_options: warnings, errors in the gate alone, and arithmetic executed as written.
 include(CheckCXXSourceCompiles)
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE
@@ -14,7 +14,7 @@ target_compile_options(talus_options INTERFACE
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 # With a sanitizer gcc gives false warnings, as its manual says (array-bounds within std::string, depending on the length of
 # the source path), so warnings are not errors there.
-if(NOT CMAKE_CXX_FLAGS_${build_type} MATCHES "-fsanitize")
+if(TALUS_WERROR AND NOT CMAKE_CXX_FLAGS_${build_type} MATCHES "-fsanitize")
   target_compile_options(talus_options INTERFACE -Werror)
 endif()
 # On targets with FMA (-march=native), the SLP vectoriser of gcc 12 fuses a b -+ c d despite -ffp-contract=off. It is kept

@@ -110,6 +110,18 @@ std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {
   }
 }
 
+std::string default_context() {
+  std::string reasons;
+  for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl}) try {
+      make_context(kind);
+      return std::string(context_name(kind));
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::unavailable) throw;
+      reasons.append(reasons.empty() ? "none: " : "; ").append(error.what());
+    }
+  return reasons;
+}
+
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second) {
   std::string missing;
   try {

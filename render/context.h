@@ -47,6 +47,9 @@ std::unique_ptr<Context> make_egl_context();
 /// kind that was tried.
 std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
 
+/// Returns the name of the kind that make_context without a kind makes on this system, or "none" and why.
+std::string default_context();
+
 using ContextMaker = std::function<std::unique_ptr<Context>()>;
 /// Makes the first context, or the second if the first is unavailable, as make_context does without a kind.
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second);

@@ -1,4 +1,3 @@
-#include <GL/osmesa.h>
 #include <dlfcn.h>
 
 #include <array>
@@ -15,12 +14,19 @@ namespace {
 
 constexpr const char* osmesa_library = "libOSMesa.so.8";
 
+// GL/osmesa.h has left Mesa with version 25.1, so the names that are used here are declared here.
+constexpr int format = 0x22, rgba = 0x1908, depth_bits = 0x30, stencil_bits = 0x31, accum_bits = 0x32;
+constexpr int profile = 0x33, core_profile = 0x34, major_version = 0x36, minor_version = 0x37;
+constexpr unsigned unsigned_byte = 0x1401;
+using OSMesaContext = struct OSMesaContextRecord*;
+
 /// The entry points of libOSMesa, opened at run time.
 struct OSMesa {
-  decltype(&OSMesaCreateContextAttribs) create = nullptr;
-  decltype(&OSMesaMakeCurrent) make_current = nullptr;
-  decltype(&OSMesaGetProcAddress) get_proc = nullptr;
-  decltype(&OSMesaDestroyContext) destroy = nullptr;
+  OSMesaContext (*create)(const int* attributes, OSMesaContext shared) = nullptr;
+  unsigned char (*make_current)(OSMesaContext context, void* buffer, unsigned type, int width,
+                                int height) = nullptr;
+  Context::Function (*get_proc)(const char* name) = nullptr;
+  void (*destroy)(OSMesaContext context) = nullptr;
 };
 
 template <typename Pointer>
@@ -49,7 +55,8 @@ OSMesa open_osmesa() {
   const auto says = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
   if (errno == ENOMEM || says("annot allocate") || says("failed to map")) throw std::bad_alloc();
   throw Error(ExitCode::unavailable,
-              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6",
+              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6, which systems "
+                          "with Mesa 25.1 or later do not have: there --context egl draws",
                           osmesa_library, reason));
 }
 
@@ -57,24 +64,24 @@ class OSMesaContextOwner final : public Context {
  public:
   OSMesaContextOwner() : mesa_(open_osmesa()) {
     // Maps are flat and need no depth, stencil or accumulation buffer.
-    const std::array<int, 15> attributes = {OSMESA_FORMAT,
-                                            OSMESA_RGBA,
-                                            OSMESA_DEPTH_BITS,
-                                            0,
-                                            OSMESA_STENCIL_BITS,
-                                            0,
-                                            OSMESA_ACCUM_BITS,
-                                            0,
-                                            OSMESA_PROFILE,
-                                            OSMESA_CORE_PROFILE,
-                                            OSMESA_CONTEXT_MAJOR_VERSION,
-                                            3,
-                                            OSMESA_CONTEXT_MINOR_VERSION,
-                                            3,
-                                            0};
+    constexpr std::array<int, 15> attributes = {format,
+                                                rgba,
+                                                depth_bits,
+                                                0,  //
+                                                stencil_bits,
+                                                0,
+                                                accum_bits,
+                                                0,  //
+                                                profile,
+                                                core_profile,  //
+                                                major_version,
+                                                3,
+                                                minor_version,
+                                                3,
+                                                0};
     context_ = mesa_.create(attributes.data(), nullptr);
     // The renderer draws into its own framebuffer, but a context becomes current only with a buffer.
-    if (!context_ || !mesa_.make_current(context_, dummy_.data(), GL_UNSIGNED_BYTE, 1, 1)) {
+    if (!context_ || !mesa_.make_current(context_, dummy_.data(), unsigned_byte, 1, 1)) {
       if (context_) mesa_.destroy(context_);
       throw Error(
           ExitCode::unavailable,

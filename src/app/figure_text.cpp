@@ -84,7 +84,7 @@ std::string gnuplot_text(const figures::Figure& figure, const FigureSize& size) 
   for (const auto& [name, value] : figure.variables) text += fmt::format("{} = {}\n", name, value);
   for (const std::string_view part : common_scripts)
     text += fmt::format("\n{}", figures::figure_script(part));
-  return fmt::format("{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) reread\n", text,
+  return fmt::format("{}\n{}\nunset output\npass = pass + 1\nif (pass <= 3) load figure . \".gp\"\n", text,
                      figures::figure_script(figure.script.empty() ? figure.name : figure.script));
 }
 

@@ -93,7 +93,26 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return result + rest;
 }
 
+namespace {
+
+/// Returns the row of an option or a command: its name, and beside or below it the lines of its description.
+/// Versions of CLI11 lay these out differently.
+std::string help_row(const std::string& name, const std::string& description) {
+  std::string row = fmt::format("{:<{}}", "  " + name, name_width);
+  const std::string next = "\n" + std::string(name_width, ' ');
+  if (!description.empty() && name.size() + 2 >= name_width) row += next;
+  for (const char c : description) row += c == '\n' ? next : std::string(1, c);
+  return row + "\n";
+}
+
+}  // namespace
+
 HelpText::HelpText() { column_width(name_width); }
+
+std::string HelpText::make_option(const CLI::Option* option, bool is_positional) const {
+  return help_row(make_option_name(option, is_positional) + make_option_opts(option),
+                  make_option_desc(option));
+}
 
 std::string HelpText::make_option_opts(const CLI::Option* option) const {
   std::string text;
@@ -114,10 +133,7 @@ std::string HelpText::make_option_desc(const CLI::Option* option) const {
 }
 
 std::string HelpText::make_subcommand(const CLI::App* command) const {
-  std::ostringstream out;
-  CLI::detail::format_help(out, command->get_name(),
-                           wrapped(command->get_description(), line_width - name_width), name_width);
-  return out.str();
+  return help_row(command->get_name(), wrapped(command->get_description(), line_width - name_width));
 }
 
 void add_examples(CLI::App& app) { add_examples_below(app, ""); }

@@ -13,6 +13,7 @@ std::string wrapped(const std::string& text, std::size_t width);
 class HelpText : public CLI::Formatter {
  public:
   HelpText();
+  std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
   std::string make_option_desc(const CLI::Option* option) const override;
   std::string make_subcommand(const CLI::App* command) const override;

@@ -42,7 +42,8 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 void run(std::vector<std::string> words, CLI::App& app) {
-  app.set_version_flag("--version", talus::app::version_report());
+  app.set_version_flag("--version", talus::app::version_report,
+                       "Display program version information and exit");
   app.require_subcommand(1);
   app.formatter(std::make_shared<talus::app::HelpText>());
   talus::app::add_commands(app);

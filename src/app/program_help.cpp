@@ -13,6 +13,7 @@
 #include "io/analysis_schema.h"
 #include "io/durable_file.h"
 #include "io/run_schema.h"
+#include "render/context.h"
 
 namespace talus::app {
 namespace {
@@ -31,10 +32,12 @@ std::string version_report() {
   return fmt::format(
       "{}\n"
       "compiler      {}, {}\n"
+      "context       {}\n"
       "window        {}\n"
       "run files     schema version {}\n"
       "analyses      version {}",
       version_text(), compiler, flags.substr(std::min(flags.find_first_not_of(' '), flags.size())),
+      render::default_context(),
       has_window ? "built in (talus view)" : "not included: built without GLFW or Dear ImGui",
       io::run_schema_version, io::analysis_version);
 }

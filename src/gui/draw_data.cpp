@@ -1,10 +1,10 @@
 #include "gui/draw_data.h"
 
 #include <cmath>
-#include <cstdint>
 #include <span>
 
 #include "gui/embedded_shaders.h"
+#include "gui/imgui_versions.h"
 
 namespace talus::gui {
 
@@ -48,7 +48,7 @@ void DrawDataPainter::draw_command(const ImDrawCmd& command, int first, const Im
   const int y1 = std::min(pixel(command.ClipRect.w, origin.y, scale.y), surface.height);
   if (x1 <= x0 || y1 <= y0 || command.UserCallback != nullptr) return;
   gl_.Scissor(x0, surface.top_row_first ? y0 : surface.height - y1, x1 - x0, y1 - y0);
-  gl_.BindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
+  gl_.BindTexture(GL_TEXTURE_2D, texture_number(command.GetTexID()));
   gl_.DrawArrays(GL_TRIANGLES, first, static_cast<GLsizei>(command.ElemCount));
 }
 

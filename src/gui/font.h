@@ -1,7 +1,7 @@
 #pragma once
 /// Font of the widgets, identical to that of the pictures, in the sizes of the type scale.
 
-#include <imgui.h>
+#include "gui/imgui_versions.h"
 
 namespace talus::gui {
 
@@ -16,7 +16,7 @@ void add_embedded_font(ImFontAtlas& atlas, float scale);
 /// Sets the text size during its lifetime.
 class TextOfSize {
  public:
-  explicit TextOfSize(TextSize size) { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[static_cast<int>(size)]); }
+  explicit TextOfSize(TextSize size) { push_font(*ImGui::GetIO().Fonts->Fonts[static_cast<int>(size)]); }
   ~TextOfSize() { ImGui::PopFont(); }
   TextOfSize(const TextOfSize&) = delete;
   TextOfSize& operator=(const TextOfSize&) = delete;

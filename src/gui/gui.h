@@ -18,9 +18,9 @@ struct WidgetPlace {
 };
 
 /// Function that renders a picture for the map widget: draws the view into a texture of that width and
-/// returns its id for ImGui. Each picture shown has its own texture: 0 for the first view, and 1 for the
+/// returns its number in OpenGL. Each picture shown has its own texture: 0 for the first view, and 1 for the
 /// second.
-using DrawMap = std::function<void*(const render::FrameView& view, int width, std::size_t texture)>;
+using DrawMap = std::function<unsigned(const render::FrameView& view, int width, std::size_t texture)>;
 
 /// Requests from the widgets to the surrounding program.
 struct GuiRequests {

@@ -7,8 +7,7 @@
 
 namespace talus::gui {
 
-/// Key codes of GLFW: printable keys have their ASCII code, letters as capitals. They are the indices of
-/// io.KeysDown.
+/// Key codes of GLFW: printable keys have their ASCII code, letters as capitals.
 enum KeyCode : int {
   key_space = 32,
   key_escape = 256,
@@ -56,8 +55,5 @@ class InputQueue {
  private:
   std::deque<InputEvent> events_;
 };
-
-/// Registers the key codes in a new ImGui context.
-void name_keys(ImGuiIO& io);
 
 }  // namespace talus::gui

@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
-#include "gui/input.h"
 #include "gui/panels.h"
 #include "pictures/map_kind.h"
 #include "render/colour_map.h"
@@ -350,7 +349,7 @@ void handle_keys(Gui& gui) {
   if (io.WantTextInput) return;
   for (const ImWchar character : io.InputQueueCharacters) act(gui, std::min<ImWchar>(character, 127));
   for (const int key : {key_right, key_left, key_home, key_end, key_escape})
-    if (ImGui::IsKeyPressed(key)) act(gui, static_cast<ImWchar>(key));
+    if (key_pressed(static_cast<KeyCode>(key))) act(gui, static_cast<ImWchar>(key));
 }
 
 void draw_help(Gui& gui) {

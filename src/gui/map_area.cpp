@@ -197,7 +197,7 @@ void draw_map_pane(Gui& gui, const view::View& pane, const ImVec2& room, bool wi
                          ImGuiButtonFlags_MouseButtonLeft);
   note_place(gui, name);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddImage(gui.draw_map(view, pixels, pane.second ? 1 : 0), shown.corner, end, {0.0f, 0.0f},
+  list.AddImage(texture_id(gui.draw_map(view, pixels, pane.second ? 1 : 0)), shown.corner, end, {0.0f, 0.0f},
                 {1.0f, (end.y - shown.corner.y) / shown_height});
   const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
   if (shows_gravity(room.x, gui.em) && with_gravity) {

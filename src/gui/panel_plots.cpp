@@ -97,7 +97,7 @@ void draw_more(Gui& gui) {
       ImGui::EndTooltip();
     }
   }
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  if (key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
   ImGui::EndCombo();
 }
 
@@ -106,10 +106,10 @@ bool draw_path_field(Gui& gui, const char* field, std::string& path, const char*
                      const char* label) {
   ImGui::SetNextItemWidth(22.0f * gui.em);
   named_text(gui, field, "", path, tip);
-  bool taken = ImGui::IsItemFocused() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  bool taken = ImGui::IsItemFocused() && key_pressed(key_enter, false);
   ImGui::SameLine();
   taken = named_button(gui, button, label) || taken;
-  if (taken || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  if (taken || key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
   return taken && !path.empty();
 }
 

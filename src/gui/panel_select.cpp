@@ -30,7 +30,7 @@ void offer_names(Gui& gui) {
     note_place(gui, "name " + name);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(number.quantity->definition).c_str());
   }
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  if (key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
   ImGui::EndCombo();
 }
 

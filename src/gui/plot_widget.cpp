@@ -1,5 +1,3 @@
-#include <imgui_internal.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
@@ -292,7 +290,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   ImGui::InvisibleButton(std::string("plot ").append(plot.name).c_str(), size);
   note_place(gui, std::string("plot ").append(plot.name));
   if (!ImGui::IsItemVisible()) return std::nullopt;
-  if (ImGui::IsItemHovered()) ImGui::SetItemUsingMouseWheel();  // prevents the plots from scrolling as well
+  if (ImGui::IsItemHovered()) keep_wheel();  // prevents the plots from scrolling as well
   const view::PlotOptions options = gui.model.state.plot_options[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "gui/font.h"
+#include "gui/imgui_versions.h"
 #include "gui/map_texture.h"
 #include "gui/theme.h"
 
 namespace talus::gui {
 namespace {
-
-/// Converts a texture to the id that ImGui uses.
-void* texture_id(GLuint texture) { return reinterpret_cast<void*>(static_cast<std::uintptr_t>(texture)); }
 
 /// Current context owned by another object.
 class SameContext final : public render::Context {
@@ -58,7 +55,7 @@ GuiScreen::GuiScreen(std::unique_ptr<render::Context> context, float scale)
   own.LogFilename = nullptr;
   own.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   own.MousePos = {-1.0f, -1.0f};
-  name_keys(own);
+  prepare_input(own);
   apply_appearance({view::Theme::light, scale, 1.0f});
 }
 
@@ -74,8 +71,8 @@ void GuiScreen::apply_appearance(const Appearance& appearance) {
     gl_.DeleteTextures(1, &font_texture_);
     font_texture_ = upload_font(gl_, *own.Fonts);
   }
-  own.FontGlobalScale = 1.0f / appearance.fineness;
   ImGui::GetStyle() = style_of(appearance.theme, appearance.scale);
+  scale_fonts(1.0f / appearance.fineness);
   appearance_ = appearance;
 }
 
@@ -100,7 +97,7 @@ GuiRequests GuiScreen::draw(view::ViewModel& model, const Surface& surface, int 
     if (texture > 0 && !map_of_second_)
       map_of_second_ = std::make_unique<MapTexture>(std::make_unique<SameContext>(*context_), gl_);
     MapTexture& map = texture > 0 ? *map_of_second_ : *map_;
-    return texture_id(map.draw(view, static_cast<int>(static_cast<float>(map_width) * pixels)));
+    return map.draw(view, static_cast<int>(static_cast<float>(map_width) * pixels));
   };
   places_.clear();
   GuiRequests requests = draw_gui(model, draw_map, places_);

@@ -179,7 +179,7 @@ void draw_bookmark_note(Gui& gui) {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(20.0f * gui.em);
   named_text(gui, "note", "", model.state.bookmark_note, "note on this frame; may be empty");
-  const bool entered = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  const bool entered = key_pressed(key_enter);
   if (named_button(gui, "keep bookmark", "keep", "enter") || entered) {
     model.set_bookmark(model.state.bookmark_note);
     ImGui::CloseCurrentPopup();
@@ -191,7 +191,7 @@ void draw_bookmark_note(Gui& gui) {
     ImGui::CloseCurrentPopup();
   }
   ImGui::EndDisabled();
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  if (key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
 }
 

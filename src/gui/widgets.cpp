@@ -162,7 +162,7 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
     }
     note_place(gui, std::string(name).append(": ").append(texts[static_cast<std::size_t>(k)]));
   }
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+  if (key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
   ImGui::EndCombo();
   return changed;
 }

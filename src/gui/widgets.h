@@ -1,8 +1,6 @@
 #pragma once
 /// Helpers of the panels: named widgets, numbers and texts.
 
-#include <imgui.h>
-
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +9,7 @@
 
 #include "gui/font.h"
 #include "gui/gui.h"
+#include "gui/imgui_versions.h"
 #include "gui/theme.h"
 
 namespace talus::gui {

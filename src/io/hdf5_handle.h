@@ -109,6 +109,26 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
   return require_open({H5Fopen(memory_name(name).c_str(), access_flags, access.get()), H5Fclose}, name);
 }
 
+/// What HDF5 calls differently before and since version 1.12: information about an object, without its
+/// timestamps and sizes.
+#if H5_VERSION_GE(1, 12, 0)
+using ObjectInfo = H5O_info2_t;
+inline herr_t object_info(hid_t group, const char* name, ObjectInfo& info) {
+  return H5Oget_info_by_name3(group, name, &info, H5O_INFO_BASIC, H5P_DEFAULT);
+}
+inline herr_t visit_objects(hid_t file, herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*)) {
+  return H5Ovisit3(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr, H5O_INFO_BASIC);
+}
+#else
+using ObjectInfo = H5O_info_t;
+inline herr_t object_info(hid_t group, const char* name, ObjectInfo& info) {
+  return H5Oget_info_by_name(group, name, &info, H5P_DEFAULT);
+}
+inline herr_t visit_objects(hid_t file, herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*)) {
+  return H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr);
+}
+#endif
+
 /// The target of a path.
 enum class PathTarget { nothing, an_object, a_link_elsewhere };
 

@@ -234,7 +234,7 @@ std::vector<std::string> Reader::data_sets(const std::string& group) const {
 namespace {
 
 /// Opens an object of a file, and what belongs to it; a failure of HDF5 is reported when the object is read.
-herr_t look_at(hid_t file, const char* name, const H5O_info_t*, void*) {
+herr_t look_at(hid_t file, const char* name, const ObjectInfo*, void*) {
   const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
   const int attributes = object.get() < 0 ? 0 : H5Aget_num_attrs(object.get());
   for (int k = 0; k < attributes; ++k) {
@@ -255,7 +255,7 @@ herr_t look_at(hid_t file, const char* name, const H5O_info_t*, void*) {
 
 void Reader::walk() const {
   const FileInUse in_use(name_);
-  H5Ovisit(file_.get(), H5_INDEX_NAME, H5_ITER_NATIVE, look_at, nullptr);
+  visit_objects(file_.get(), look_at);
 }
 
 std::string Reader::attribute(const std::string& path, const char* name) const {
@@ -283,11 +283,11 @@ std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind
   for (hsize_t k = 0; k < info.nlinks; ++k) {
     std::array<char, 256> name{};
     H5L_info_t link{};
-    H5O_info_t object{};
+    ObjectInfo object{};
     if (H5Lget_name_by_idx(id.get(), ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, k, name.data(), name.size(),
                            H5P_DEFAULT) < 0 ||
         H5Lget_info(id.get(), name.data(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
-        H5Oget_info_by_name(id.get(), name.data(), &object, H5P_DEFAULT) < 0)
+        object_info(id.get(), name.data(), object) < 0)
       refuse(group, "(a group) cannot be listed");
     if (object.type == kind) names.emplace_back(name.data());
   }

@@ -96,7 +96,7 @@ void measure_solver(const io::RunFile& run, StudyFigures& figures) {
 const std::vector<StudyField>& study_fields() {
   static const std::vector<StudyField> fields = [] {
     using enum StudyGroup;
-    const analysis::Quantity& repose = analysis::quantity_of(&analysis::Analysis::theta_c);
+    const analysis::Quantity repose = analysis::quantity_of(&analysis::Analysis::theta_c);
     std::vector<StudyField> all = {
         {"theta_c_deg", analysis::shown_title(repose), slope, 1.0, repose.definition}};
     for (const StudyGroup group : {at_reference, at_theta_c})

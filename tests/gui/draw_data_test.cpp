@@ -24,7 +24,7 @@ constexpr Pixel white_pixel{255, 255, 255}, red{255, 0, 0}, black_pixel{0, 0, 0}
 /// Context, ImGui without widgets, and a surface of 40 x 20 px.
 class DrawData : public testing::Test {
  protected:
-  DrawData() : context_(render::make_context(render::ContextKind::osmesa)), gl_(render::load_gl(*context_)) {
+  DrawData() : context_(render::make_context(std::nullopt)), gl_(render::load_gl(*context_)) {
     painter_ = std::make_unique<gui::DrawDataPainter>(gl_);
     imgui_ = ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
@@ -42,19 +42,18 @@ class DrawData : public testing::Test {
     surface_.height = height;
     surface_.top_row_first = true;
     ImGui::NewFrame();
-    list()->PushTextureID(id(plain_));
+    list()->PushTextureID(gui::texture_id(plain_));
   }
   ~DrawData() override {
     ImGui::DestroyContext(imgui_);
     painter_.reset();
   }
 
-  static ImTextureID id(GLuint texture) { return reinterpret_cast<ImTextureID>(std::uintptr_t{texture}); }
   static ImDrawList* list() { return ImGui::GetForegroundDrawList(); }
 
   /// Adds two triangles that show an entire texture.
   static void add_picture(GLuint texture, ImVec2 low, ImVec2 high) {
-    list()->AddImage(id(texture), low, high);
+    list()->AddImage(gui::texture_id(texture), low, high);
   }
   /// Adds a rectangle without soft edges.
   static void add_rectangle(ImVec2 low, ImVec2 high, ImU32 colour) {
@@ -141,7 +140,7 @@ TEST_F(DrawData, shows_one_channel_as_alpha) {
   const std::uint8_t half = 128;
   const GLuint glyph = render::make_texture(gl_, 1, 1, 1, &half, GL_NEAREST);
   gui::widen(gl_, glyph, gui::OneChannel::alpha);
-  list()->AddImage(id(glyph), {10, 4}, {14, 8}, {0, 0}, {1, 1}, IM_COL32(255, 0, 0, 255));
+  list()->AddImage(gui::texture_id(glyph), {10, 4}, {14, 8}, {0, 0}, {1, 1}, IM_COL32(255, 0, 0, 255));
   draw();
   EXPECT_EQ(at(11, 5), (Pixel{255, 127, 127})) << "red ink, half covered";
 }
@@ -161,7 +160,7 @@ TEST_F(DrawData, a_finer_surface_has_the_same_picture_larger) {
   ImGui::EndFrame();
   ImGui::GetIO().DisplayFramebufferScale = {2.0f, 2.0f};
   ImGui::NewFrame();
-  list()->PushTextureID(id(plain_));
+  list()->PushTextureID(gui::texture_id(plain_));
   list()->PushClipRect({0, 0}, {11, 20});
   add_rectangle({4, 2}, {12, 7}, IM_COL32(255, 0, 0, 255));
   list()->PopClipRect();
@@ -192,7 +191,7 @@ TEST_F(DrawData, draws_more_corners_than_16_bits_count) {
   ImGui::EndFrame();
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   ImGui::NewFrame();
-  list()->PushTextureID(id(plain_));
+  list()->PushTextureID(gui::texture_id(plain_));
   for (int k = 0; k < 20000; ++k) add_rectangle({0, 0}, {4, 4}, IM_COL32(0, 0, 0, 255));
   add_rectangle({10, 10}, {14, 14}, IM_COL32(255, 0, 0, 255));
   draw();
@@ -205,19 +204,21 @@ TEST_F(DrawData, draws_more_corners_than_16_bits_count) {
 TEST(GuiFont, has_what_pictures_say) {
   ImFontAtlas atlas;
   gui::add_embedded_font(atlas, 1.0f);
-  const ImFont* font = atlas.Fonts[0];
-  EXPECT_EQ(font->FontSize, gui::type_scale[0]);
+  ImFont& font = *atlas.Fonts[0];
+  EXPECT_EQ(gui::font_size(font), gui::type_scale[0]);
   for (const char32_t code : render::font_code_points())
-    EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(code)), nullptr) << std::hex << unsigned{code};
+    EXPECT_TRUE(gui::has_letter(font, static_cast<ImWchar>(code))) << std::hex << unsigned{code};
 }
 
 TEST(GuiFont, grows_with_the_display) {
   ImFontAtlas atlas;
   gui::add_embedded_font(atlas, 2.0f);
   ASSERT_EQ(atlas.Fonts.Size, 3);
-  EXPECT_EQ(atlas.Fonts[0]->FontSize, 2.0f * gui::type_scale[0]);
-  EXPECT_LT(atlas.Fonts[static_cast<int>(gui::TextSize::small)]->FontSize, atlas.Fonts[0]->FontSize);
-  EXPECT_GT(atlas.Fonts[static_cast<int>(gui::TextSize::heading)]->FontSize, atlas.Fonts[0]->FontSize);
+  EXPECT_EQ(gui::font_size(*atlas.Fonts[0]), 2.0f * gui::type_scale[0]);
+  EXPECT_LT(gui::font_size(*atlas.Fonts[static_cast<int>(gui::TextSize::small)]),
+            gui::font_size(*atlas.Fonts[0]));
+  EXPECT_GT(gui::font_size(*atlas.Fonts[static_cast<int>(gui::TextSize::heading)]),
+            gui::font_size(*atlas.Fonts[0]));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 /// Clicks and keys are not lost, however fast they are.
 
-#include "gui/input.h"
-
 #include <gtest/gtest.h>
+
+#include "gui/imgui_versions.h"
 
 namespace talus {
 namespace {
@@ -16,7 +16,7 @@ class Input : public testing::Test {
     io.IniFilename = nullptr;
     io.DisplaySize = {100, 100};
     io.Fonts->Build();
-    gui::name_keys(io);
+    gui::prepare_input(io);
   }
   ~Input() override { ImGui::DestroyContext(imgui_); }
 
@@ -29,7 +29,7 @@ class Input : public testing::Test {
     queue_.forward_events(ImGui::GetIO());
     ImGui::NewFrame();
     clicks_ += ImGui::IsMouseClicked(0) ? 1 : 0;
-    enters_ += ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false) ? 1 : 0;
+    enters_ += gui::key_pressed(gui::key_enter, false) ? 1 : 0;
     for (const ImWchar c : ImGui::GetIO().InputQueueCharacters) typed_.push_back(static_cast<char>(c));
     ImGui::EndFrame();
   }
@@ -89,8 +89,10 @@ TEST_F(Input, wheel_steps_add_up) {
   queue_.add({Kind::wheel, 0.0f, 1.0f, 0, false});
   queue_.add({Kind::wheel, 0.5f, 2.0f, 0, false});
   queue_.forward_events(ImGui::GetIO());
+  ImGui::NewFrame();
   EXPECT_EQ(ImGui::GetIO().MouseWheel, 3.0f);
   EXPECT_EQ(ImGui::GetIO().MouseWheelH, 0.5f);
+  ImGui::EndFrame();
 }
 
 TEST_F(Input, unknown_keys_do_no_harm) {

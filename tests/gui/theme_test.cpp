@@ -100,7 +100,7 @@ double rim_contrast(render::Renderer& renderer, const render::FrameView& view, c
 }
 
 TEST(Contrast, of_the_rims_of_spanning_clusters_is_enough_on_every_colour) {
-  render::Renderer renderer(render::make_context(render::ContextKind::osmesa));
+  render::Renderer renderer(render::make_context(std::nullopt));
   std::vector<render::Colour> fills = {render::gray(0.4)};  // clusters without a colour
   for (const pictures::ClusterPalette palette : pictures::cluster_palettes)
     for (const render::Colour& fill : pictures::cluster_palette(palette)) fills.push_back(fill);

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "gui/imgui_versions.h"
 #include "gui/offscreen_fixture.h"
 
 namespace talus {
@@ -86,7 +87,8 @@ class TidyWindow : public Replay {
   void expect_tidy(const std::string& what) {
     gui_.frame();
     const ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-    const std::vector<Letter> letters = letters_of(*ImGui::GetDrawData(), fonts.TexID, fonts.TexUvWhitePixel);
+    const std::vector<Letter> letters =
+        letters_of(*ImGui::GetDrawData(), gui::font_texture(fonts), fonts.TexUvWhitePixel);
     EXPECT_GT(letters.size(), 100u) << what << ": every layout has this much text";
     EXPECT_EQ(untidy(letters), "") << what;
   }

@@ -1,9 +1,11 @@
+#include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "base/errors.h"
 #include "render/context.h"
@@ -42,7 +44,29 @@ class BrokenLibraries {
   test::TemporaryFolder folder_;
 };
 
+/// Whether the system has OSMesa; Mesa 25.1 and later have not.
+bool has_osmesa() {
+  void* const library = dlopen("libOSMesa.so.8", RTLD_LAZY);
+  if (library) dlclose(library);
+  return library != nullptr;
+}
+
+/// The kinds that the system has.
+std::vector<std::string> kinds() {
+  return has_osmesa() ? std::vector<std::string>{"osmesa", "egl"} : std::vector<std::string>{"egl"};
+}
+
+TEST(Context, WithoutOSMesaTheSystemIsSaidToHaveNone) {
+  if (has_osmesa()) GTEST_SKIP() << "this system has OSMesa";
+  const Outcome osmesa = picture_hash("", "osmesa");
+  EXPECT_EQ(osmesa.exit_code, static_cast<int>(ExitCode::unavailable));
+  EXPECT_NE(osmesa.text.find("Mesa 25.1 or later"), std::string::npos) << osmesa.text;
+}
+
+TEST(Context, TheDefaultIsNamed) { EXPECT_EQ(default_context(), kinds()[0]); }
+
 TEST(Context, DrawsTheSameBitsInEveryKind) {
+  if (!has_osmesa()) GTEST_SKIP() << "this system has no OSMesa";
   const Outcome osmesa = picture_hash("", "osmesa"), egl = picture_hash("", "egl");
   ASSERT_EQ(osmesa.exit_code, 0) << osmesa.text;
   ASSERT_EQ(egl.exit_code, 0) << egl.text;
@@ -51,10 +75,10 @@ TEST(Context, DrawsTheSameBitsInEveryKind) {
 }
 
 TEST(Context, DrawsTheSameBitsWithAnyNumberOfThreads) {
-  const Outcome first = picture_hash("LP_NUM_THREADS=0", "osmesa");
+  const Outcome first = picture_hash("LP_NUM_THREADS=0", "auto");
   ASSERT_EQ(first.exit_code, 0) << first.text;
   for (const char* threads : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NUM_THREADS=4"})
-    EXPECT_EQ(picture_hash(threads, "osmesa").text, first.text) << threads;
+    EXPECT_EQ(picture_hash(threads, "auto").text, first.text) << threads;
 }
 
 TEST(Context, WithoutOSMesaEglDraws) {
@@ -126,7 +150,8 @@ const std::vector<std::vector<std::string>> driver_settings = {
 };
 
 TEST(Context, NoVariableChangesWhatIsDrawn) {
-  for (const char* kind : {"osmesa 2>&1", "egl 2>&1"}) {
+  for (const std::string& name : kinds()) {
+    const std::string kind = name + " 2>&1";
     const Outcome plain = picture_hash("", kind);
     ASSERT_EQ(plain.exit_code, 0) << plain.text;
     const auto is_as_plain = [&](const std::string& environment) {

@@ -59,7 +59,7 @@ Scene make_scene() {
 
 TEST(MapPictures, LookAsBefore) {
   const Scene scene = make_scene();
-  Renderer renderer(make_context(ContextKind::osmesa));
+  Renderer renderer(make_context(std::nullopt));
   for (const char* name : {"gamma",
                            "overloaded",
                            "clusters",

@@ -42,10 +42,10 @@ Disc shaded(float x, float y, double shade) {
   return {x, y, 1.0f, gray(shade), gray(std::max(shade, 0.45)), 0.0f};
 }
 
-Renderer osmesa_renderer() { return Renderer(make_context(ContextKind::osmesa)); }
+Renderer renderer_in_memory() { return Renderer(make_context(std::nullopt)); }
 
 TEST(Renderer, FillsDiscsWithTheirColour) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   const Colour orange{230, 120, 10, 255};
   const FrameView view = view_of({shaded(2, 2, 0.0), {5, 2, 1, orange, black, 0.0f}, shaded(8, 2, 1.0)});
   const Image image = renderer.draw(view, 1000);
@@ -66,7 +66,7 @@ TEST(Renderer, FillsDiscsWithTheirColour) {
 }
 
 TEST(Renderer, TakesOneChannelWhereAllIsGray) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({shaded(2, 2, 0.5)});
   const Image gray_image = renderer.draw(view, 600);
   EXPECT_EQ(gray_image.channels, 1);
@@ -79,7 +79,7 @@ TEST(Renderer, TakesOneChannelWhereAllIsGray) {
 }
 
 TEST(Renderer, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
   view.lines = {{-1, 1, 11, 1, 0.1f, black}};
   const Image image = renderer.draw(view, 1000);
@@ -95,7 +95,7 @@ TEST(Renderer, CutsDiscsAndLinesAtTheEdgesOfTheBed) {
 }
 
 TEST(Renderer, CutsATurnedBedAtItsOwnEdges) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({shaded(0, 2, 1.0), shaded(10, 2, 1.0), shaded(5, 4, 1.0)});
   view.lines = {{-1, 1, 11, 1, 0.1f, black}};
   view.turn = view.turn_max = 0.4;
@@ -116,7 +116,7 @@ TEST(Renderer, CutsATurnedBedAtItsOwnEdges) {
 }
 
 TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({shaded(5, 2, 0.0)});
   view.lines = {{4, 2, 6, 2, 0.2f, gray(0.8)}, {1, 0.5f, 9, 0.5f, 0.0f, black}};
   const Image image = renderer.draw(view, 1000);
@@ -136,7 +136,7 @@ TEST(Renderer, DrawsLinesAboveDiscsInTheirWidth) {
 }
 
 TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({shaded(0, 2, 1.0)});
   view.furniture = false;
   view.left_wall = view.right_wall = view.floor_line = true;
@@ -152,7 +152,7 @@ TEST(Renderer, DrawsTheBedAloneWithoutFurniture) {
 }
 
 TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = view_of({});
   view.left_wall = view.right_wall = view.floor_line = true;
   const Image image = renderer.draw(view, 1000);
@@ -167,7 +167,7 @@ TEST(Renderer, DrawsWallsAndFloorOutsideTheBed) {
 }
 
 TEST(Renderer, BarRunsThroughItsColours) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   for (ColourMap map : {ColourMap::gray, ColourMap::viridis, ColourMap::diverging}) {
     const FrameView view = sample_view(40, 10, map);
     const Image image = renderer.draw(view, 1000);
@@ -183,7 +183,7 @@ TEST(Renderer, BarRunsThroughItsColours) {
 }
 
 TEST(Renderer, EveryTextLeavesInk) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   for (int width : {400, 1600}) {
     const FrameView view = full_view();
     const Image image = renderer.draw(view, width);
@@ -198,7 +198,7 @@ TEST(Renderer, EveryTextLeavesInk) {
 }
 
 TEST(Renderer, MarksTheFrameOnItsTrace) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = sample_view();
   view.traces = {test::sample_trace("p_o")};
   const Image image = renderer.draw(view, 1600);
@@ -210,7 +210,7 @@ TEST(Renderer, MarksTheFrameOnItsTrace) {
 }
 
 TEST(Renderer, ClearGroundUnderTheSamePicture) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView view = full_view();
   view.turn = view.turn_max = 0.1;
   const Image opaque = renderer.draw(view, 700);
@@ -288,7 +288,7 @@ std::vector<Colour> drawn_by_cairo(const FrameView& view, const Window& bed) {
 
 /// Returns the mean absolute difference between the bed and cairo's drawing, as a share of the range.
 double difference_to_cairo(const FrameView& view, int width) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   const Image image = renderer.draw(view, width);
   const Window bed = lay_out(view, width, renderer.font()).bed;
   const std::vector<Colour> wanted = drawn_by_cairo(view, bed);
@@ -329,7 +329,7 @@ TEST(Renderer, DrawsTheSameBitsAgain) {
   const FrameView view = full_view();
   std::vector<std::uint8_t> first;
   for (int context = 0; context < 2; ++context) {
-    Renderer renderer = osmesa_renderer();
+    Renderer renderer = renderer_in_memory();
     renderer.draw(sample_view(), 640);  // earlier drawings leave no trace
     const Image image = renderer.draw(view, 800);
     if (context == 0) first = image.pixels;
@@ -369,7 +369,7 @@ TEST(Renderer, AsksItsTargetForOneWholePicture) {
 }
 
 TEST(Renderer, LooksAsBefore) {
-  Renderer renderer = osmesa_renderer();
+  Renderer renderer = renderer_in_memory();
   FrameView turned = full_view(60, 12);
   turned.turn = 0.15;
   turned.turn_max = 0.2;
@@ -379,7 +379,7 @@ TEST(Renderer, LooksAsBefore) {
 }
 
 TEST(GlObjects, SayWhichShaderDoesNotCompile) {
-  const std::unique_ptr<Context> context = make_context(ContextKind::osmesa);
+  const std::unique_ptr<Context> context = make_context(std::nullopt);
   const Gl gl = load_gl(*context);
   const std::string good = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
   const std::string bad = "#version 330 core\nvoid main() { no such thing; }\n";

@@ -298,7 +298,7 @@ Ink ink_of(const Image& image, const Layout& layout) {
 }
 
 TEST(TidyPictures, the_ink_is_where_the_boxes_are) {
-  Renderer renderer(make_context(ContextKind::osmesa));
+  Renderer renderer(make_context(std::nullopt));
   for (const auto& [length, depth] : {std::pair{10.0, 5.0}, {200.0, 40.0}})
     for (const char* layers : {"gamma+forces", "clusters+displacement", "dyed", "temperature"}) {
       const pictures::MapSettings settings = longest_settings(layers);

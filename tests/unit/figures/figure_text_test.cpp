@@ -43,7 +43,7 @@ TEST(GnuplotText, HasVariablesThenStyleThenScript) {
             at("gamma_c = 0.25\n"));
   EXPECT_LT(at("label_1 = 'PBC'\n"), at("set terminal pdfcairo"));
   EXPECT_LT(at("set terminal pdfcairo"), at("x_title = \"tan"));
-  EXPECT_TRUE(text.ends_with("\nunset output\npass = pass + 1\nif (pass <= 3) reread\n"));
+  EXPECT_TRUE(text.ends_with("\nunset output\npass = pass + 1\nif (pass <= 3) load figure . \".gp\"\n"));
 }
 
 TEST(FigureWidth, IsThatOfOneOrTwoColumnsUnlessItIsAskedFor) {

@@ -63,7 +63,6 @@ const std::vector<Home> homes = {
     {"EGL/", "render/context_egl.cpp"},
     {"Eigen/", "src/core/tensor"},
     {"GL/glcorearb.h", "render/gl_loader.h"},
-    {"GL/osmesa.h", "render/context_osmesa.cpp"},
     {"GLFW/", "src/gui/window.cpp"},
     {"cairo-", "render/pdf_target.cpp"},
     {"fmt/core.h", ""},  // any folder
