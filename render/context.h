@@ -1,5 +1,6 @@
 #pragma once
-/// Rendering contexts, one file per kind (context_<kind>.cpp). All of them produce bit-identical pictures.
+/// Rendering contexts, one file per kind (context_<kind>.cpp). With the same version of Mesa all of them
+/// produce bit-identical pictures.
 
 #include <functional>
 #include <memory>

@@ -64,15 +64,14 @@ void draw_head(const PaneHead& head, float width, int lines) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   float y = corner.y;
-  for (const HeadLine& text_line : head) {
-    if (text_line.is_name)
-      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), text_line.text.c_str());
-    else if (text_line.second_name)
-      add_rich_text(list, {corner.x + width - rich_width(font, size, text_line.text), corner.y}, ink,
-                    text_line.text);
+  for (const HeadLine& entry : head) {
+    if (entry.is_name)
+      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), entry.text.c_str());
+    else if (entry.second_name)
+      add_rich_text(list, {corner.x + width - rich_width(font, size, entry.text), corner.y}, ink, entry.text);
     else
-      add_rich_text(list, {corner.x, y}, ink, text_line.text);
-    if (!text_line.second_name) y += line;
+      add_rich_text(list, {corner.x, y}, ink, entry.text);
+    if (!entry.second_name) y += line;
   }
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }

@@ -193,7 +193,7 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
   }
   if (!options.chosen) return;
   const auto [low, high] = *options.chosen;
-  const auto [left_end, right_end] = std::minmax(axes.px(low), axes.px(high));
+  const auto [left_end, right_end] = std::minmax({axes.px(low), axes.px(high)});
   list.AddRectFilled({left_end, axes.low.y}, {right_end, axes.high.y}, packed(colours.range));
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
