@@ -1,5 +1,5 @@
-/// Runs in tests/runs, one complete and one interrupted, written with the current version of the schema. A
-/// change of their meaning requires another version.
+/// Runs in tests/runs, complete and interrupted ones, written with the current version of the schema, under
+/// several versions of HDF5. A change of their meaning requires another version of the schema.
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,7 @@ namespace {
 
 const std::filesystem::path kept_runs = std::filesystem::path(source_folder()) / "tests/runs";
 
-const std::string kept_name = "schema_" + std::to_string(io::run_schema_version);
-
-std::string kept_run() { return (kept_runs / (kept_name + ".h5")).string(); }
+const std::string schema = "schema_" + std::to_string(io::run_schema_version);
 
 Outcome succeed(const std::vector<std::string>& arguments, const TemporaryFolder& folder) {
   Outcome outcome = run_talus(arguments, folder.path());
@@ -26,12 +24,18 @@ std::string state_hash(const std::string& run, const TemporaryFolder& folder) {
   return json_value(succeed({"info", "--json", run}, folder).out, "state_hash");
 }
 
-class KeptRun : public testing::Test {
+class KeptRun : public testing::TestWithParam<std::string> {
  protected:
+  std::string kept_run() const { return (kept_runs / (GetParam() + ".h5")).string(); }
+
   const TemporaryFolder folder_;
 };
 
-TEST_F(KeptRun, opens_in_every_command) {
+// HDF5 1.10 of Debian 12, and its versions of Debian 13 and of testing.
+INSTANTIATE_TEST_SUITE_P(WrittenUnder, KeptRun,
+                         testing::Values(schema, schema + "_hdf5_1.14", schema + "_hdf5_2.2"));
+
+TEST_P(KeptRun, opens_in_every_command) {
   ASSERT_TRUE(std::filesystem::exists(kept_run()))
       << "each version of the schema keeps a small run (docs/file_format.md, Versions)";
   const std::string run = folder_.path("run.h5");
@@ -43,9 +47,9 @@ TEST_F(KeptRun, opens_in_every_command) {
   EXPECT_EQ(json_value(succeed({"info", "--json", run}, folder_).out, "frames"), "5");
 }
 
-TEST_F(KeptRun, that_was_stopped_goes_on_to_the_same_end) {
+TEST_P(KeptRun, that_was_stopped_goes_on_to_the_same_end) {
   const std::string run = folder_.path("run.h5");
-  std::filesystem::copy(kept_runs / (kept_name + "_stopped.h5.run"), run + ".run");
+  std::filesystem::copy(kept_runs / (GetParam() + "_stopped.h5.run"), run + ".run");
   succeed({"check", run}, folder_);
   const Outcome resumed = succeed({"run", "--quiet", "--resume", run}, folder_);
   EXPECT_NE(resumed.err.find("was started by version"), std::string::npos) << resumed.err;
