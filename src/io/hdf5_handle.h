@@ -116,16 +116,18 @@ using ObjectInfo = H5O_info2_t;
 inline herr_t object_info(hid_t group, const char* name, ObjectInfo& info) {
   return H5Oget_info_by_name3(group, name, &info, H5O_INFO_BASIC, H5P_DEFAULT);
 }
-inline herr_t visit_objects(hid_t file, herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*)) {
-  return H5Ovisit3(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr, H5O_INFO_BASIC);
+inline herr_t visit_objects(hid_t file, H5_iter_order_t order,
+                            herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*), void* data) {
+  return H5Ovisit3(file, H5_INDEX_NAME, order, look, data, H5O_INFO_BASIC);
 }
 #else
 using ObjectInfo = H5O_info_t;
 inline herr_t object_info(hid_t group, const char* name, ObjectInfo& info) {
   return H5Oget_info_by_name(group, name, &info, H5P_DEFAULT);
 }
-inline herr_t visit_objects(hid_t file, herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*)) {
-  return H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, nullptr);
+inline herr_t visit_objects(hid_t file, H5_iter_order_t order,
+                            herr_t (*look)(hid_t, const char*, const ObjectInfo*, void*), void* data) {
+  return H5Ovisit(file, H5_INDEX_NAME, order, look, data);
 }
 #endif
 

@@ -255,7 +255,7 @@ herr_t look_at(hid_t file, const char* name, const ObjectInfo*, void*) {
 
 void Reader::walk() const {
   const FileInUse in_use(name_);
-  visit_objects(file_.get(), look_at);
+  visit_objects(file_.get(), H5_ITER_NATIVE, look_at, nullptr);
 }
 
 std::string Reader::attribute(const std::string& path, const char* name) const {

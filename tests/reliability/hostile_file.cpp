@@ -179,7 +179,7 @@ Bytes image_of(hid_t file, std::size_t before) {
   return image;
 }
 
-herr_t note_data_set(hid_t, const char* name, const H5O_info_t* info, void* found) {
+herr_t note_data_set(hid_t, const char* name, const io::hdf5::ObjectInfo* info, void* found) {
   if (info->type == H5O_TYPE_DATASET)
     static_cast<std::vector<std::string>*>(found)->push_back(std::string("/").append(name));
   return 0;
@@ -193,7 +193,7 @@ std::vector<std::string> data_sets(const Bytes& file) {
   Bytes bytes = file;
   const Handle open = io::hdf5::open_image(bytes, "listed", H5F_ACC_RDONLY);
   std::vector<std::string> found;
-  H5Ovisit(open.get(), H5_INDEX_NAME, H5_ITER_INC, note_data_set, &found);
+  io::hdf5::visit_objects(open.get(), H5_ITER_INC, note_data_set, &found);
   return found;
 }
 
