@@ -39,7 +39,7 @@ def never(*values):
 CALLS = {
     "frames[]": (lambda run, x: run.frames[x], NOTHING),
     "frames.index": (lambda run, x: run.frames.index(x), NOTHING),
-    "frame_at": (lambda run, x: run.frame_at(x), [x for x in NOTHING if repr(x) not in ("1.7", "1.0", "array(1.5)")]),
+    "frame_at": (lambda run, x: run.frame_at(x), [x for x in NOTHING if repr(x) not in ("1.7", "1.0", "np.float64(1.0)", "array(1.5)")]),
     "frame_index": (lambda run, x: run.frame_index(x), NOTHING),
     "Frame": (lambda run, x: talus.Frame(run, x), NOTHING),
     "read_frame name": (lambda run, x: run.read_frame(x, 0), NOTHING + [

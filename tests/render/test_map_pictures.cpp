@@ -97,6 +97,28 @@ TEST(MapPictures, LookAsBefore) {
   }
 }
 
+/// The comparison itself: what another version of Mesa may draw passes, what another position of a grain draws
+/// does not.
+TEST(MapPictures, AreOthersIfOneGrainIsDisplacedByHalfAPixel) {
+  const Scene scene = make_scene();
+  Renderer renderer(make_context(std::nullopt));
+  const FrameView view = test::map_of(scene.packing, test::settings_of("gamma"), nullptr);
+  constexpr int width = 500;
+  const Image image = renderer.draw(view, width);
+  EXPECT_EQ(test::difference_of(image, renderer.draw(view, width)).pixels, 0u);
+  const auto half_pixel = static_cast<float>(0.5 * (view.x_max - view.x_min) / width);
+  int displaced = 0;
+  for (std::size_t k = 0; k < view.discs.size(); k += 17) {
+    FrameView other = view;
+    other.discs[k].x += half_pixel;
+    const test::PictureDifference found = test::difference_of(image, renderer.draw(other, width));
+    EXPECT_FALSE(test::is_rounding(found))
+        << "grain " << k << ": " << found.pixels << " pixels, at most by " << found.largest;
+    ++displaced;
+  }
+  EXPECT_GT(displaced, 10);
+}
+
 TEST(MapPictures, HaveRoomForAllTheirTexts) {
   const Scene scene = make_scene();
   const Font font = embedded_font();
