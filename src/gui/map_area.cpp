@@ -19,7 +19,7 @@ constexpr float caption_line = 1.2f;  ///< em
 /// Returns the height (px) of the title with the caption to its right, or below it if there is no room for
 /// both.
 float caption_height(const render::FrameView& view, float width, float em) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const bool both = rich_width(font, em, view.caption) + rich_width(font, em, view.title) + em < width;
   const std::size_t lines =
       both ? 1 : wrapped_text(view.title, width).size() + wrapped_text(view.caption, width).size();
@@ -27,7 +27,7 @@ float caption_height(const render::FrameView& view, float width, float em) {
 }
 
 void draw_caption(const render::FrameView& view, float width) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float em = ImGui::GetFontSize(), height = caption_height(view, width, em);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -25,7 +25,7 @@ using PaneHead = std::vector<HeadLine>;
 
 /// Shortens a name to a width (px) by leaving out its middle.
 std::string shortened(const std::string& name, float width) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   std::string shorter = name;
   for (std::size_t kept = name.size(); kept > 0 && rich_width(font, size, shorter) > width; --kept) {
@@ -42,7 +42,7 @@ std::string shortened(const std::string& name, float width) {
 /// Lays out name and angle, in one line if both have room.
 PaneHead head_of(const view::View& pane, float width) {
   const render::FrameView& annotated = pane.annotated_map();
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   const std::string name = shortened(std::filesystem::path(pane.run.path()).filename().string(), width);
   const bool both =
@@ -58,7 +58,7 @@ int lines_of(const PaneHead& head) {
 }
 
 void draw_head(const PaneHead& head, float width, int lines) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize(), line = 1.2f * size;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();

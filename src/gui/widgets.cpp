@@ -167,7 +167,7 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
   return changed;
 }
 
-float rich_width(const ImFont& font, float size, std::string_view text) {
+float rich_width(ImFont& font, float size, std::string_view text) {
   float width = 0.0f;
   for_pieces(text, [&](std::string_view piece, bool subscript) {
     const float piece_size = subscript ? static_cast<float>(render::subscript_size) * size : size;
@@ -177,7 +177,7 @@ float rich_width(const ImFont& font, float size, std::string_view text) {
 }
 
 std::vector<std::string> wrapped_text(std::string_view text, float width) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   std::vector<std::string> lines = render::broken_lines(
       text, [&](const std::string& line) { return rich_width(font, size, line) <= width; });
@@ -186,7 +186,7 @@ std::vector<std::string> wrapped_text(std::string_view text, float width) {
 }
 
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text) {
-  const ImFont& font = *ImGui::GetFont();
+  ImFont& font = *ImGui::GetFont();
   const float size = ImGui::GetFontSize();
   ImVec2 pen = place;
   for_pieces(text, [&](std::string_view piece, bool subscript) {

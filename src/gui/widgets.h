@@ -58,7 +58,7 @@ bool icon_button(Gui& gui, const char* name, Icon icon, const char* tip);
 
 /// Draws a line of text in the syntax of pictures: "_c" sets c as a subscript.
 void rich_text(std::string_view text);
-float rich_width(const ImFont& font, float size, std::string_view text);
+float rich_width(ImFont& font, float size, std::string_view text);
 /// Returns the text in lines of at most that width (px), at least one; only a single piece (breakable_pieces)
 /// may be wider.
 std::vector<std::string> wrapped_text(std::string_view text, float width);
