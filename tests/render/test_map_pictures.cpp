@@ -108,7 +108,7 @@ TEST(MapPictures, AreOthersIfOneGrainIsDisplacedByHalfAPixel) {
   EXPECT_EQ(test::difference_of(image, renderer.draw(view, width)).pixels, 0u);
   const auto half_pixel = static_cast<float>(0.5 * (view.x_max - view.x_min) / width);
   int displaced = 0;
-  for (std::size_t k = 0; k < view.discs.size(); k += 17) {
+  for (std::size_t k = 0; k < view.discs.size(); k += 7) {
     FrameView other = view;
     other.discs[k].x += half_pixel;
     const test::PictureDifference found = test::difference_of(image, renderer.draw(other, width));
@@ -116,7 +116,7 @@ TEST(MapPictures, AreOthersIfOneGrainIsDisplacedByHalfAPixel) {
         << "grain " << k << ": " << found.pixels << " pixels, at most by " << found.largest;
     ++displaced;
   }
-  EXPECT_GT(displaced, 10);
+  EXPECT_GT(displaced, 30);
 }
 
 TEST(MapPictures, HaveRoomForAllTheirTexts) {
