@@ -95,7 +95,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
 
 namespace {
 
-/// Returns the row of an option or a command: its name, and beside or below it the lines of its description.
+/// Returns the row of an option or a command: its name, and the lines of its description next to or below it.
 /// Versions of CLI11 lay these out differently.
 std::string help_row(const std::string& name, const std::string& description) {
   std::string row = fmt::format("{:<{}}", "  " + name, name_width);

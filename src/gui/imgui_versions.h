@@ -1,5 +1,5 @@
 #pragma once
-/// What differs between the versions of Dear ImGui, from 1.86 to 1.92: keys, input, textures and fonts. The
+/// Differences between the versions of Dear ImGui, from 1.86 to 1.92: keys, input, textures and fonts. The
 /// rest of the window uses what they have in common.
 
 #include <imgui.h>

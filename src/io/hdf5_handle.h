@@ -109,8 +109,8 @@ inline Handle open_image(std::vector<std::byte>& image, const std::string& name,
   return require_open({H5Fopen(memory_name(name).c_str(), access_flags, access.get()), H5Fclose}, name);
 }
 
-/// What HDF5 calls differently before and since version 1.12: information about an object, without its
-/// timestamps and sizes.
+/// Information about an object, without its timestamps and sizes; HDF5 1.12 has changed its type and the
+/// calls.
 #if H5_VERSION_GE(1, 12, 0)
 using ObjectInfo = H5O_info2_t;
 inline herr_t object_info(hid_t group, const char* name, ObjectInfo& info) {
