@@ -23,7 +23,7 @@ struct PictureDifference {
   std::size_t pixels = 0;  ///< pixels that differ at all
   std::size_t clear = 0;   ///< pixels that differ by more than `clear_step`
   int largest = 0;         ///< largest difference, of 255
-  static constexpr int clear_step = 8;
+  static constexpr int clear_step = 4;
 };
 
 inline PictureDifference difference_of(const render::Image& one, const render::Image& other) {
