@@ -98,13 +98,22 @@ inline Handle require_open(Handle file, const std::string& name) {
   return file;
 }
 
+/// Returns the properties by which HDF5 opens or makes a file in memory: it grows by `growth` bytes at a
+/// time, and keeps to the format that every version reads and extends, which HDF5 2 does not do by itself.
+inline Handle in_memory(std::size_t growth) {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_fapl_core(access.get(), growth, false) < 0 ||
+      H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST) < 0)
+    throw std::bad_alloc();
+  return access;
+}
+
 /// Opens a file in memory. HDF5 copies the image and never writes to the given bytes. Throws
 /// Error(out_of_memory), and the errors of require_open.
 inline Handle open_image(std::vector<std::byte>& image, const std::string& name, unsigned access_flags) {
   set_library_policy();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  if (H5Pset_fapl_core(access.get(), 1 << 20, false) < 0 ||
-      H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
+  const Handle access = in_memory(1 << 20);
+  if (H5Pset_file_image(access.get(), image.data(), image.size()) < 0)
     throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
   return require_open({H5Fopen(memory_name(name).c_str(), access_flags, access.get()), H5Fclose}, name);
 }

@@ -119,8 +119,7 @@ Handle access_properties(ElementType type, const std::vector<hsize_t>& chunk) {
 Writer::Writer(Sizes sizes, std::size_t user_block, Storage storage)
     : sizes_(std::move(sizes)), user_block_(user_block), storage_(storage) {
   set_library_policy();
-  const Handle access = properties(H5P_FILE_ACCESS);
-  checked(H5Pset_fapl_core(access.get(), growth, false), "choose memory");
+  const Handle access = in_memory(growth);
   const Handle creation = properties(H5P_FILE_CREATE);
   checked(H5Pset_userblock(creation.get(), user_block), "keep a user block");
   keep_names_in_order(creation, "/");
