@@ -45,6 +45,9 @@ constexpr const char* without_display =
 class Glfw {
  public:
   Glfw() {
+#ifdef GLFW_PLATFORM  // since 3.4: without a display of Wayland its library would write to the terminal
+    if (std::getenv("WAYLAND_DISPLAY") == nullptr) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (glfwInit()) return;
     const char* reason = nullptr;
     glfwGetError(&reason);
