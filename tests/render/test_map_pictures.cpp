@@ -97,8 +97,8 @@ TEST(MapPictures, LookAsBefore) {
   }
 }
 
-/// The comparison itself: what another version of Mesa may draw passes, what another position of a grain draws
-/// does not.
+/// The comparison itself: what another version of Mesa may draw passes, what another position of a grain
+/// draws does not.
 TEST(MapPictures, AreOthersIfOneGrainIsDisplacedByHalfAPixel) {
   const Scene scene = make_scene();
   Renderer renderer(make_context(std::nullopt));
