@@ -37,8 +37,7 @@ struct BranchOrigin {
   std::int64_t frame = 0;  ///< frame of that run, from 0
   std::string run_hash;    ///< state hash of its end at that time
   Checkpoint start;        ///< state from which the branch continues, without results and timing
-  std::string
-      history{};  ///< what was done before to the run (session/run_identity.h), kept in the provenance
+  std::string history{};   ///< departures of the run before the frame, kept in the provenance
 };
 
 /// Name of the history of a branch in the provenance.

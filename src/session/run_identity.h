@@ -22,7 +22,7 @@ std::vector<std::string> departures(const io::RunFile& run, const scenario::Scen
 /// tilt began.
 std::string departure_text(const Command& command, double tilt, double time);
 
-/// Returns departures in the form in which a branch stores them; many are told apart by a hash.
+/// Returns departures in the form in which a branch stores them; a hash represents many.
 std::string history_text(const std::vector<std::string>& departures);
 
 /// Returns the first departures as a phrase: "friction 0.1 at 5.00 deg, 5.00 s and 2 more".
