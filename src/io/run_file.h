@@ -55,8 +55,8 @@ class RunFile {
   Frame instant(std::size_t k) const;
   /// Returns frame k, k < all_frame_tilts().size(). Values are those of the file (single precision if it
   /// stores floats); contacts that carry no force, which earlier versions stored, are left out
-  /// (remove_open_contacts). Not safe for several threads at once. Throws Error(missing_input) if the file has
-  /// no frames.
+  /// (remove_open_contacts). Not safe for several threads at once. Throws Error(missing_input) if the file
+  /// has no frames.
   Frame frame(std::size_t k) const;
   /// Returns frame k with everything stored; otherwise as frame.
   Frame stored_frame(std::size_t k) const;

@@ -52,7 +52,8 @@ std::vector<DataSetField> frame_fields() {
       {"/frames/time", float64, "T", "s",
        "simulated time; also linked as `time` next to each `value` of /particles/grains"},
       {"/frames/tilt", float64, "T", "rad",
-       "angle of the bed to the horizontal, theta; the last checkpoint/integers/flow_steps steps, if any, are the "
+       "angle of the bed to the horizontal, theta; the last checkpoint/integers/flow_steps steps, if any, "
+       "are the "
        "flow that follows failure"},
       {"/particles/grains/position/value", float32, "T N 2", "m",
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "

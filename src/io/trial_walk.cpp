@@ -64,9 +64,11 @@ void try_run(const std::string& run, const std::vector<std::string>& files) {
     in_child_process(run, bytes, walk);
   } catch (const Error& error) {
     if (error.code() != ExitCode::bad_data) return;  // there is no child process
-    throw Error(ExitCode::bad_data,
-                run + ": HDF5 crashes or hangs on this run: it is malformed, although its hash is right; restore it "
-                      "from a copy");
+    throw Error(
+        ExitCode::bad_data,
+        run +
+            ": HDF5 crashes or hangs on this run: it is malformed, although its hash is right; restore it "
+            "from a copy");
   }
   const std::scoped_lock lock(tried_mutex);
   tried.insert(identities.begin(), identities.end());

@@ -25,10 +25,10 @@ struct Simulation::State {
   std::function<bool()> interrupts;
   analysis::AnalysisParameters parameters;
   std::vector<std::string> departures{};  ///< commands given so far, for the history of a branch
-  bool is_new = true;            ///< neither stepped nor changed
-  double owed_steps = 0.0;       ///< fraction of a step that Simulation::steps_in carries over
+  bool is_new = true;                     ///< neither stepped nor changed
+  double owed_steps = 0.0;                ///< fraction of a step that Simulation::steps_in carries over
   std::optional<double> aimed{};  ///< tilt (deg) that the last step has reached for Simulation::tilt_to
-  std::optional<Frame> begin{};  ///< frame at the start of the tilt, if the simulation reached it
+  std::optional<Frame> begin{};   ///< frame at the start of the tilt, if the simulation reached it
 
   std::optional<MeasuredFrame> measured{};  ///< measurements of the state after the last step, if requested
 

@@ -157,8 +157,7 @@ void check_contacts(const BedFrame& bed, double overlap_allowed, const std::stri
     deepest = std::max(deepest, overlap(bed, c));
     if (contacts.fn[c] < 0.0) ++pulling;
     // Forces far below the weight of a grain have few significant digits in single precision.
-    const double limit =
-        friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + least;
+    const double limit = friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + least;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
   RunCheck& check = found.check;

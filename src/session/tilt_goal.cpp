@@ -98,8 +98,7 @@ std::string why_never(const TiltGoal& goal, const Session& session) {
 }
 
 TiltGoal aim(double tilt, const Session& session, const std::function<void(const Command&)>& apply) {
-  const bool rises =
-      is_just_passed(tilt, session) ? session.tilt_rate() > 0.0 : session.world().tilt <= tilt;
+  const bool rises = is_just_passed(tilt, session) ? session.tilt_rate() > 0.0 : session.world().tilt <= tilt;
   const TiltGoal goal{tilt, rises};
   if (needs_turn(goal, session)) apply({0, CommandKind::tilt_rate, -1, -as_given(session.tilt_rate())});
   if (const std::string reason = why_never(goal, session); !reason.empty())

@@ -23,9 +23,9 @@ bool is_passed(const TiltGoal& goal, const Session& session);
 std::string why_never(const TiltGoal& goal, const Session& session);
 
 /// Returns the goal of a run in its present state; `tilt` in rad. A goal that lies behind the tilt, on its
-/// course, by less than one step is passed: the last step has reached it. If the tilt leads away from it, `apply`
-/// receives a command that turns it: its present rate with the other sign. A programme is left as it is.
-/// Throws Error(usage) with the reason if the tilt never passes the goal (why_never).
+/// course, by less than one step is passed: the last step has reached it. If the tilt leads away from it,
+/// `apply` receives a command that turns it: its present rate with the other sign. A programme is left as it
+/// is. Throws Error(usage) with the reason if the tilt never passes the goal (why_never).
 TiltGoal aim(double tilt, const Session& session, const std::function<void(const Command&)>& apply);
 
 /// Whether the tilt is held, and no command of the scenario will set its rate at a later time.
