@@ -122,7 +122,8 @@ TEST(MeasuredFrame, draws_within_the_ranges_of_the_options) {
   Simulation sim(test::small_tilted_bed(10.0));
   sim.step(3);
   using pictures::MapOptions;
-  constexpr double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  constexpr double infinite = std::numeric_limits<double>::infinity(),
+                   nan = std::numeric_limits<double>::quiet_NaN();
   const auto code = [&sim](const char* map, auto member, auto value) {
     MapOptions options;
     options.*member = value;

@@ -14,8 +14,6 @@ namespace {
 using test::add_grain;
 using test::empty_bed;
 
-constexpr double r = test::unit_radius;
-
 TEST(Bed, area_and_height_are_those_of_the_free_grains) {
   World world = empty_bed(10.0, true);
   add_grain(world, 1.0, 1.0, 1.0);
