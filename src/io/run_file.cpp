@@ -319,24 +319,10 @@ RunFile RunFile::open_folder(const std::string& folder) {
   return RunFile(std::move(state));
 }
 
-namespace {
-
-/// Returns the paths of the files of a folder; none if its manifest cannot be read.
-std::vector<std::string> files_in(const std::string& folder) try {
-  std::vector<std::string> paths;
-  for (const StoredFile& file : files_of(read_manifest(folder)))
-    paths.push_back((fs::path(folder) / file.name).string());
-  return paths;
-} catch (const Error&) {
-  return {};
-}
-
-}  // namespace
-
 RunFile RunFile::open(const std::string& path) {
   for (int attempts_left = 20;; --attempts_left) {
     const std::optional<std::string> folder = folder_to_read(path);
-    try_run(folder.value_or(path), folder ? files_in(*folder) : std::vector{path});
+    try_run(folder.value_or(path));
     if (!folder) return open_packed(path);
     const std::string before = find_manifest(*folder);
     try {

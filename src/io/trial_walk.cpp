@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
 #include <mutex>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "base/errors.h"
 #include "io/child_process.h"
 #include "io/hdf5_reader.h"
+#include "io/manifest.h"
 #include "io/run_file.h"
 
 namespace talus::io {
@@ -23,6 +26,18 @@ using Identity = std::tuple<dev_t, ino_t, off_t, time_t, long>;
 
 std::mutex tried_mutex;
 std::set<Identity> tried;  // guarded by tried_mutex
+
+/// Returns the files of a run; none if the manifest of its folder cannot be read.
+std::vector<std::string> files_of_run(const std::string& run) try {
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(run, unknown)) return {run};
+  std::vector<std::string> paths;
+  for (const StoredFile& file : files_of(read_manifest(run)))
+    paths.push_back((std::filesystem::path(run) / file.name).string());
+  return paths;
+} catch (const Error&) {
+  return {};
+}
 
 /// Returns the identities of the files that exist, and adds their sizes to `bytes`.
 std::set<Identity> identities_of(const std::vector<std::string>& files, std::size_t& bytes) {
@@ -46,9 +61,10 @@ bool were_tried(const std::set<Identity>& identities) {
 
 bool walk_before_opening() { return walks_first = true; }
 
-void try_run(const std::string& run, const std::vector<std::string>& files) {
-  std::size_t bytes = 0;
+void try_run(const std::string& run) {
   if (!walks_first) return;
+  std::size_t bytes = 0;
+  const std::vector<std::string> files = files_of_run(run);
   const std::set<Identity> identities = identities_of(files, bytes);
   if (were_tried(identities)) return;
   const auto walk = [&] {

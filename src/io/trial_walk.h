@@ -3,7 +3,6 @@
 /// except for walk_before_opening.
 
 #include <string>
-#include <vector>
 
 namespace talus::io {
 
@@ -16,6 +15,6 @@ bool walk_before_opening();
 /// the files have not been tried before. `run`: its packed file or its folder. Throws Error(bad_data) if HDF5
 /// crashes or hangs; errors in the run are left to the code that opens it, and without a child process there
 /// is no trial.
-void try_run(const std::string& run, const std::vector<std::string>& files);
+void try_run(const std::string& run);
 
 }  // namespace talus::io
