@@ -36,13 +36,6 @@ double weight(const World& world) {
   return mass * world.gravity;
 }
 
-/// Returns the number of steps before the first one of the tilt.
-std::int64_t first_step(const io::RunFile& run) {
-  if (!run.header().branch) return run.frame(0).step;
-  const io::Checkpoint& start = run.header().branch->start;
-  return start.world.step - find_value(start.integers, "tilt_steps").value_or(0);
-}
-
 /// Returns the tilt of the step after a frame. With a programme it follows from the number of the step;
 /// otherwise, unless a command has changed the rate, it is an integer multiple of the step of the tilt, as in
 /// a run. The first frame is the one before the first step of the tilt.
@@ -50,7 +43,8 @@ double next_tilt(const io::RunFile& run, const World& world, const scenario::Sce
                  const session::Schedule& now) {
   const double tilt = world.tilt;
   if (now.course) return tilt + now.course->rate * scenario::time_step(scenario);
-  if (run.has_program()) return scenario::TiltProgram(scenario).tilt(world.step - first_step(run) + 1);
+  if (run.has_program())
+    return scenario::TiltProgram(scenario).tilt(world.step - session::steps_before_tilt(run) + 1);
   const double step_angle = radians(scenario.tilt.step);
   return static_cast<double>(std::llround(tilt / step_angle) + 1) * step_angle;
 }

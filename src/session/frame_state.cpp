@@ -233,6 +233,15 @@ bool may_lack_commands(const io::RunFile& run) {
                              [&lost](const char* name) { return lost.find(name) != std::string::npos; });
 }
 
+std::int64_t steps_before_tilt(const io::RunFile& run) {
+  if (run.header().branch) {
+    const io::Checkpoint& start = run.header().branch->start;
+    return start.world.step - find_value(start.integers, "tilt_steps").value_or(0) -
+           find_value(start.integers, "flow_steps").value_or(0);
+  }
+  return run.all_frame_tilts().empty() ? 0 : run.instant(0).step;
+}
+
 World world_at_frame(const io::RunFile& run, std::size_t k) {
   if (!run.has_state())
     throw Error(ExitCode::bad_data,

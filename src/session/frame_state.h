@@ -15,6 +15,9 @@ World world_at_frame(const io::RunFile& run, std::size_t k);
 /// unknown.
 bool may_lack_commands(const io::RunFile& run);
 
+/// Returns the number of steps before the first one of the tilt, also of the run that a branch left.
+std::int64_t steps_before_tilt(const io::RunFile& run);
+
 /// Returns a schedule with only the settings of commands given before a step, including those before the run
 /// started: friction, rate of the tilt, drag.
 Schedule commanded_schedule(const io::RunFile& run, std::int64_t step);

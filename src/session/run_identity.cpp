@@ -22,16 +22,6 @@ struct Given {
   double time = 0.0;  ///< s since the tilt began
 };
 
-/// Returns the number of steps before the first one of the tilt.
-std::int64_t steps_before_tilt(const io::RunFile& run) {
-  if (run.header().branch) {
-    const io::Checkpoint& start = run.header().branch->start;
-    return start.world.step - find_value(start.integers, "tilt_steps").value_or(0) -
-           find_value(start.integers, "flow_steps").value_or(0);
-  }
-  return run.all_frame_tilts().empty() ? 0 : run.instant(0).step;
-}
-
 std::vector<Given> commands_given(const io::RunFile& run, const scenario::Scenario& scenario) {
   std::vector<Given> all;
   if (run.commands().empty()) return all;

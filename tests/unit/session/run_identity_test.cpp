@@ -38,6 +38,31 @@ io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path
   return io::RunFile::open(path);
 }
 
+/// Records a branch to its end, and returns it.
+io::RunFile recorded_branch(const scenario::Scenario& scenario, const io::BranchOrigin& origin,
+                            const std::string& path) {
+  Session session(scenario, origin.start);
+  io::RunStore store = io::RunStore::create(path, run_header(session, {"", "", "", 1, origin}), false);
+  session.record_start();
+  while (session.phase() != Phase::done) session.advance();
+  store.commit(session.segment(), session.checkpoint(0.0));
+  store.pack();
+  return io::RunFile::open(path);
+}
+
+/// Returns the origin of a branch from frame k of a run.
+io::BranchOrigin origin_at(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k) {
+  return {"run.h5", static_cast<std::int64_t>(k), "0123456789abcdef", checkpoint_at_frame(run, k),
+          history_text(departures(run, scenario, run.instant(k).step))};
+}
+
+/// Returns the first frame from a tilt (deg) on.
+std::size_t frame_from(const io::RunFile& run, double tilt) {
+  std::size_t k = 0;
+  while (degrees(run.frame_tilts()[k]) < tilt) ++k;
+  return k;
+}
+
 /// Returns the largest |f_t| / f_n, and the share of contacts at which it reaches mu, counted by hand.
 struct Counted {
   double largest = 0.0, sliding = 0.0;
@@ -87,10 +112,7 @@ TEST(FrictionInForce, of_a_branch_is_in_its_scenario) {
   const test::TemporaryFolder folder;
   const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"),
                                    {{1.0, {0, CommandKind::friction, -1, 0.2}}});
-  std::size_t k = 0;
-  while (degrees(run.frame_tilts()[k]) < 1.4) ++k;
-  io::BranchOrigin origin{"run.h5", static_cast<std::int64_t>(k), "0123456789abcdef",
-                          checkpoint_at_frame(run, k)};
+  io::BranchOrigin origin = origin_at(run, test::small_tilted_bed(3.0), frame_from(run, 1.4));
   Session branch(test::small_tilted_bed(3.0), origin.start);
   EXPECT_EQ(branch.law().friction, 0.2);
   EXPECT_TRUE(branch.adopt_friction());
@@ -102,14 +124,7 @@ TEST(FrictionInForce, of_a_branch_is_in_its_scenario) {
   origin.start = start_of(branch.checkpoint(0.0));
   scenario::Scenario other = branch.scenario();
   other.contact.friction = 0.9;
-  Session session(other, origin.start);
-  io::RunStore store =
-      io::RunStore::create(folder.path("b.h5"), run_header(session, {"", "", "", 1, origin}), false);
-  session.record_start();
-  while (session.phase() != Phase::done) session.advance();
-  store.commit(session.segment(), session.checkpoint(0.0));
-  store.pack();
-  const io::RunFile read = io::RunFile::open(folder.path("b.h5"));
+  const io::RunFile read = recorded_branch(other, origin, folder.path("b.h5"));
   EXPECT_EQ(read.header().friction.grains, 0.9);
   EXPECT_EQ(read.frame(0).friction.grains, 0.2);
   EXPECT_EQ(read.frame(1).friction.grains, 0.9);
@@ -162,19 +177,8 @@ TEST(Departures, of_a_branch_tell_the_history_of_its_run) {
   const scenario::Scenario scenario = test::small_tilted_bed(2.0);
   const auto branch_of = [&](const std::string& name, std::vector<std::pair<double, Command>> commands) {
     const io::RunFile run = recorded(scenario, folder.path(name), std::move(commands));
-    std::size_t k = 0;
-    while (degrees(run.frame_tilts()[k]) < 1.4) ++k;
-    const io::BranchOrigin origin{name, static_cast<std::int64_t>(k), "0123456789abcdef",
-                                  checkpoint_at_frame(run, k),
-                                  history_text(departures(run, scenario, run.instant(k).step))};
-    Session session(scenario, origin.start);
-    const std::string path = folder.path("branch-" + name);
-    io::RunStore store = io::RunStore::create(path, run_header(session, {"", "", "", 1, origin}), false);
-    session.record_start();
-    while (session.phase() != Phase::done) session.advance();
-    store.commit(session.segment(), session.checkpoint(0.0));
-    store.pack();
-    return departures(io::RunFile::open(path), scenario);
+    const io::BranchOrigin origin = origin_at(run, scenario, frame_from(run, 1.4));
+    return departures(recorded_branch(scenario, origin, folder.path("branch-" + name)), scenario);
   };
   const Command push = {0, CommandKind::push, 3, 0.1, 0.0};
   const auto plain = branch_of("plain.h5", {}), pushed = branch_of("pushed.h5", {{0.5, push}}),
@@ -203,15 +207,10 @@ TEST(Departures, tell_a_branch) {
   const scenario::Scenario scenario = test::small_tilted_bed(2.0);
   const io::RunFile run =
       recorded(scenario, folder.path("run.h5"), {{0.9, {0, CommandKind::tilt_rate, -1, 5.0}}});
-  const io::BranchOrigin origin{"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)};
-  Session session(scenario, origin.start);
-  io::RunStore store =
-      io::RunStore::create(folder.path("b.h5"), run_header(session, {"", "", "", 1, origin}), false);
-  session.record_start();
-  while (session.phase() != Phase::done) session.advance();
-  store.commit(session.segment(), session.checkpoint(0.0));
-  store.pack();
-  const auto found = departures(io::RunFile::open(folder.path("b.h5")), scenario);
+  const auto found =
+      departures(recorded_branch(scenario, {"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)},
+                                 folder.path("b.h5")),
+                 scenario);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].find("branch at 0.93 deg with a tilt rate of 5 deg/s"), std::string::npos) << found[0];
 }
