@@ -10,6 +10,7 @@
 #include "analysis/contacts/contact_network.h"
 #include "core/bed_frame.h"
 #include "core/trigonometry.h"
+#include "problems/step_problem.h"
 #include "session/frame_state.h"
 #include "session/run.h"
 #include "session/run_check.h"
@@ -106,6 +107,9 @@ TEST(FrictionInForce, is_that_of_the_step_which_gave_the_forces_of_a_frame) {
   const std::vector<ObservableRow> rows = run.observables();
   EXPECT_NEAR(at(rows[0], Observable::critical_fraction), counted(run.frame(0), 2.0).sliding, 1e-9);
   EXPECT_TRUE(check_run(run, {}).faults.empty());
+  const problems::FrozenBed at_rest = problems::frozen_frame(run, 0);
+  EXPECT_EQ(at_rest.law.friction, 2.0) << "other forces of this frame, not of the next step";
+  EXPECT_EQ(at_rest.law.wall_friction, 0.5);
 }
 
 TEST(FrictionInForce, of_a_branch_is_in_its_scenario) {
