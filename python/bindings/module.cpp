@@ -207,12 +207,12 @@ class Driven {
     return use(py::none(), std::forward<Work>(work));
   }
 
-  /// Runs `work`, which steps the simulation, as `use` does. An exception of a signal or of `tick` leaves the
-  /// recorded data committed.
+  /// Runs `work`, which steps the simulation, as `use` does. An exception of a signal, even before the first
+  /// step, or of `tick` leaves the recorded data committed.
   template <typename Work>
   auto step(const py::object& tick, Work&& work) {
-    const AttentiveCall call;
     try {
+      const AttentiveCall call;
       return use(tick, std::forward<Work>(work));
     } catch (py::error_already_set&) {
       try {
