@@ -204,6 +204,21 @@ INTERRUPTED = {
         thread.start()
         thread.join()
         """, ""),
+    "between two calls": ("""
+        interrupted = threading.Event()
+        def work():
+            interrupted.wait(0.5)
+            sims[0].step(1)
+            interrupted.wait()
+            sims[0].step(1)
+            print("not reached")
+        thread = threading.Thread(target=work)
+        thread.start()
+        try:
+            thread.join()
+        finally:
+            interrupted.set()
+        """, ""),
     "asyncio": ("""
         import asyncio
         async def work():
