@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <fmt/core.h>
 #include <fstream>
 #include <new>
 #include <optional>
+#include <thread>
 
 #include "base/descriptor.h"
 #include "base/errors.h"
@@ -100,10 +102,21 @@ struct Child {
   Descriptor pipe;  ///< receives the child's output
 };
 
-/// Forks while this thread holds the lock of HDF5, so that the child can use the library even if another
-/// thread of this process does at this moment. HDF5 holds it while it calls back.
-pid_t fork_between_calls() {
-  hdf5::set_library_policy();
+#if H5_VERSION_GE(2, 0, 0)
+
+// The lock of HDF5 2 belongs to a thread of the kernel: a child could never take one that its parent holds.
+pid_t fork_for_hdf5() { return ::fork(); }
+
+bool may_use_hdf5() {
+  bool acquired = false;
+  unsigned count = 0;
+  return H5TSmutex_acquire(1, &acquired) >= 0 && acquired && H5TSmutex_release(&count) >= 0;
+}
+
+#else
+
+/// Forks while this thread holds the lock of HDF5, which it holds while it calls back.
+pid_t fork_for_hdf5() {
   pid_t child = -1;
   int property = 0;
   H5Piterate(
@@ -116,6 +129,12 @@ pid_t fork_between_calls() {
   return child;
 }
 
+bool may_use_hdf5() { return true; }
+
+#endif
+
+constexpr int another_thread_uses_hdf5 = 75;  ///< exit code of a child that was forked at a wrong moment
+
 /// Starts a restricted child that calls `speak` with its pipe, and ends.
 Child start(const std::string& path, std::size_t input, const std::function<void(int)>& speak) {
   int ends[2] = {-1, -1};
@@ -123,9 +142,11 @@ Child start(const std::string& path, std::size_t input, const std::function<void
   Child child{-1, Descriptor(ends[0])};
   Descriptor to(ends[1]);
   const pid_t parent = ::getpid();
-  child.process = fork_between_calls();
+  hdf5::set_library_policy();
+  child.process = fork_for_hdf5();
   if (child.process < 0) throw system_error(ExitCode::io_error, "start a process for", path, errno);
   if (child.process == 0) {
+    if (!may_use_hdf5()) _exit(another_thread_uses_hdf5);
     const int pipe = close_all_but(to.get());
     restrict_child(parent, input);
     speak(pipe);
@@ -202,9 +223,15 @@ Parcels decode(std::span<const std::byte> bytes, const std::string& path) {
 }
 
 Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work) {
-  const Child child = start(path, input, [&](int pipe) { send(pipe, outcome_of(path, work)); });
-  Bytes message = read_all(child.pipe, path);
-  const int status = wait_for(child.process);
+  Bytes message;
+  int status = 0;
+  while (true) {
+    const Child child = start(path, input, [&](int pipe) { send(pipe, outcome_of(path, work)); });
+    message = read_all(child.pipe, path);
+    status = wait_for(child.process);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != another_thread_uses_hdf5) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || message.empty()) refuse(path, status);
   const auto code = static_cast<ExitCode>(message.back());
   message.pop_back();
