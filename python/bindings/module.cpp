@@ -22,6 +22,7 @@
 
 #include "analysis/frame_quantities.h"
 #include "base/errors.h"
+#include "io/child_process.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
 
@@ -633,5 +634,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("_end_steps", &end_steps);
   module.def("_require_files", &require_files);
   module.def("_departures", &departures);
+  module.def("_may_use_hdf5", &io::may_use_hdf5);
   module.attr("version") = version_text();
 }

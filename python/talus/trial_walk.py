@@ -4,6 +4,8 @@ reading program, so a child process walks through each file first."""
 import contextlib
 import os
 import signal
+import sys
+import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -17,8 +19,8 @@ from talus.errors import Error
 
 #: Time limit; a walk takes a few milliseconds.
 MAX_SECONDS = 60.0
-#: Exit codes of the child: the file is sound, h5py rejects it, or the system lacks a resource.
-WALKED, MALFORMED, NOT_KNOWN = 0, 1, 2
+#: Exit codes of the child: the file is sound, h5py rejects it, the system lacks a resource, or another thread was using HDF5.
+WALKED, MALFORMED, NOT_KNOWN, BUSY = 0, 1, 2, 3
 _walked: set[Identity] = set()
 
 
@@ -71,8 +73,8 @@ def end_children(children: list[int]) -> None:
 
 
 def fork_within_hdf5(run_child: Callable[[], NoReturn]) -> int:
-    """Forks a child that calls a function, and returns its id. Other threads may use HDF5, whose lock would remain taken in
-    the child. In a function that HDF5 itself calls, this thread holds the lock. Raises OSError."""
+    """Forks a child that calls a function, in a function that HDF5 itself calls: while this thread holds its lock, which no
+    other thread can have taken. Returns the id of the child. Raises OSError."""
     children: list[int] = []
     failures: list[OSError] = []
 
@@ -101,17 +103,33 @@ def fork_within_hdf5(run_child: Callable[[], NoReturn]) -> int:
     return children[0]
 
 
+def fork_without_hdf5(run_child: Callable[[], NoReturn]) -> int:
+    """The same for HDF5 2, whose lock belongs to a thread of the kernel, so that a child could never take one that its parent
+    holds. The child ends with BUSY if a thread of the extension has it; those of h5py wait, because this thread holds phil."""
+    child = os.fork()
+    if child == 0:
+        extension = sys.modules.get("talus._core")
+        if extension is not None and not extension._may_use_hdf5():
+            os._exit(BUSY)
+        run_child()
+    return child
+
+
+def _fork_for_hdf5(run_child: Callable[[], NoReturn]) -> int:
+    with phil, warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # the child calls only HDF5, which no other thread is using
+        return (fork_without_hdf5 if h5py.version.hdf5_version_tuple >= (2, 0, 0) else fork_within_hdf5)(run_child)
+
+
 def require_walkable(path: Path, identity: Identity) -> None:
     """Raises Error if HDF5 crashes or hangs on the file. Each file is tested once while its identity stays the same;
     not on systems without fork."""
     if identity in _walked or not hasattr(os, "fork"):
         return
-    with phil, warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # the child calls only HDF5, whose lock we hold
-        try:
-            child = fork_within_hdf5(lambda: _in_child(path))
-        except OSError:  # too many processes, or too little memory
-            return
+    try:
+        child = _fork_for_hdf5(lambda: _in_child(path))
+    except OSError:  # too many processes, or too little memory
+        return
     try:
         _, status = os.waitpid(child, 0)
     except ChildProcessError:  # the program reaps its children itself, so the status is unknown
@@ -119,6 +137,9 @@ def require_walkable(path: Path, identity: Identity) -> None:
     except BaseException:  # Ctrl-C
         end_children([child])
         raise
+    if os.WIFEXITED(status) and os.WEXITSTATUS(status) == BUSY:
+        time.sleep(0.001)
+        return require_walkable(path, identity)
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) == NOT_KNOWN:
         return  # opening the file will report the missing resource
     if status != 0:

@@ -1,7 +1,9 @@
 #include "app/help_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/core.h>
+#include <vector>
 
 namespace talus::app {
 namespace {
@@ -96,44 +98,86 @@ std::string wrapped(const std::string& text, std::size_t width) {
 namespace {
 
 /// Returns the row of an option or a command: its name, and the lines of its description next to or below it.
-/// Versions of CLI11 lay these out differently.
 std::string help_row(const std::string& name, const std::string& description) {
   std::string row = fmt::format("{:<{}}", "  " + name, name_width);
   const std::string next = "\n" + std::string(name_width, ' ');
   if (!description.empty() && name.size() + 2 >= name_width) row += next;
-  for (const char c : description) row += c == '\n' ? next : std::string(1, c);
+  for (const char c : wrapped(description, line_width - name_width))
+    row += c == '\n' ? next : std::string(1, c);
   return row + "\n";
+}
+
+std::string option_name(const CLI::Option& option) {
+  const bool positional = option.get_positional();
+  return option.get_name(positional, !positional);
+}
+
+/// Returns the name of an argument, in brackets unless it is required.
+std::string argument_usage(const CLI::Option& argument) {
+  const bool many = argument.get_expected_max() >= CLI::detail::expected_max_vector_size;
+  const std::string name = option_name(argument) + (many ? "..." : "");
+  return argument.get_required() ? " " + name : " [" + name + "]";
+}
+
+std::string option_row(const CLI::Option& option) {
+  std::string text = option_name(option);
+  if (option.get_type_size() != 0) {
+    if (const std::string value = value_text(option); !value.empty()) text += " " + value;
+    if (const std::string standard = without_brackets(option.get_default_str()); !standard.empty())
+      text += fmt::format(" [{}]", standard);
+    if (option.get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
+    if (option.get_required()) text += " (required)";
+  }
+  for (const CLI::Option* other : option.get_needs()) text += " with " + other->get_name();
+  for (const CLI::Option* other : option.get_excludes()) text += " without " + other->get_name();
+  return help_row(text, option.get_description());
+}
+
+/// Versions of CLI11 call the group of items that are given none "Options" or "OPTIONS".
+std::string title(std::string group) {
+  if (group == "OPTIONS" || group == "SUBCOMMANDS")
+    std::transform(group.begin() + 1, group.end(), group.begin() + 1,
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return "\n" + group + ":\n";
+}
+
+/// Returns the rows of the items below the titles of their groups, in the order in which groups begin; the
+/// group "" is hidden.
+template <typename Items, typename Row>
+std::string grouped(const Items& items, const Row& row) {
+  std::string text;
+  std::vector<std::string> groups = {""};
+  for (const auto* first : items) {
+    const std::string group = first->get_group();
+    if (std::ranges::find(groups, group) != groups.end()) continue;
+    groups.push_back(group);
+    text += title(group);
+    for (const auto* item : items)
+      if (item->get_group() == group) text += row(*item);
+  }
+  return text;
+}
+
+std::string command_row(const CLI::App& command) {
+  return help_row(command.get_name(), command.get_description());
 }
 
 }  // namespace
 
-HelpText::HelpText() { column_width(name_width); }
+std::string HelpText::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
+  const auto arguments = app->get_options([](const CLI::Option* option) { return option->get_positional(); });
+  const auto options = app->get_options([](const CLI::Option* option) { return option->nonpositional(); });
+  const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
 
-std::string HelpText::make_option(const CLI::Option* option, bool is_positional) const {
-  return help_row(make_option_name(option, is_positional) + make_option_opts(option),
-                  make_option_desc(option));
-}
-
-std::string HelpText::make_option_opts(const CLI::Option* option) const {
-  std::string text;
-  if (option->get_type_size() != 0) {
-    if (const std::string value = value_text(*option); !value.empty()) text = " " + value;
-    if (const std::string standard = without_brackets(option->get_default_str()); !standard.empty())
-      text += fmt::format(" [{}]", standard);
-    if (option->get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
-    if (option->get_required()) text += " (required)";
-  }
-  for (const CLI::Option* other : option->get_needs()) text += " with " + other->get_name();
-  for (const CLI::Option* other : option->get_excludes()) text += " without " + other->get_name();
-  return text;
-}
-
-std::string HelpText::make_option_desc(const CLI::Option* option) const {
-  return wrapped(option->get_description(), line_width - name_width);
-}
-
-std::string HelpText::make_subcommand(const CLI::App* command) const {
-  return help_row(command->get_name(), wrapped(command->get_description(), line_width - name_width));
+  std::string text = app->get_description() + "\nUsage: " + name + (options.empty() ? "" : " [OPTIONS]");
+  for (const CLI::Option* argument : arguments) text += argument_usage(*argument);
+  if (!commands.empty()) text += app->get_require_subcommand_min() == 0 ? " [SUBCOMMAND]" : " SUBCOMMAND";
+  text += "\n";
+  if (!arguments.empty()) text += title("Positionals");
+  for (const CLI::Option* argument : arguments) text += option_row(*argument);
+  text += grouped(options, option_row) + grouped(commands, command_row);
+  const std::string footer = app->get_footer();
+  return text + "\n" + footer + (footer.empty() ? "" : "\n");
 }
 
 void add_examples(CLI::App& app) { add_examples_below(app, ""); }

@@ -9,14 +9,10 @@ namespace talus::app {
 /// Wraps text at blanks to lines of at most `width` characters, if possible; keeps existing line breaks.
 std::string wrapped(const std::string& text, std::size_t width);
 
-/// Formatter of help for terminals of 80 columns that shows each range once.
-class HelpText : public CLI::Formatter {
+/// Help for terminals of 80 columns that shows each range once, the same with all versions of CLI11.
+class HelpText : public CLI::FormatterBase {
  public:
-  HelpText();
-  std::string make_option(const CLI::Option* option, bool is_positional) const override;
-  std::string make_option_opts(const CLI::Option* option) const override;
-  std::string make_option_desc(const CLI::Option* option) const override;
-  std::string make_subcommand(const CLI::App* command) const override;
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;
 };
 
 /// Commands for the first steps.

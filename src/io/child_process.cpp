@@ -102,21 +102,13 @@ struct Child {
   Descriptor pipe;  ///< receives the child's output
 };
 
-#if H5_VERSION_GE(2, 0, 0)
-
-// The lock of HDF5 2 belongs to a thread of the kernel: a child could never take one that its parent holds.
-pid_t fork_for_hdf5() { return ::fork(); }
-
-bool may_use_hdf5() {
-  bool acquired = false;
-  unsigned count = 0;
-  return H5TSmutex_acquire(1, &acquired) >= 0 && acquired && H5TSmutex_release(&count) >= 0;
-}
-
-#else
-
-/// Forks while this thread holds the lock of HDF5, which it holds while it calls back.
+/// Forks a child for which may_use_hdf5 holds, unless another thread uses HDF5 now. HDF5 before 2 holds its
+/// lock while it calls back, and gives it to the child; the lock of HDF5 2 belongs to a thread of the kernel,
+/// and a child could never take one that its parent holds.
 pid_t fork_for_hdf5() {
+#if H5_VERSION_GE(2, 0, 0)
+  return ::fork();
+#else
   pid_t child = -1;
   int property = 0;
   H5Piterate(
@@ -127,11 +119,8 @@ pid_t fork_for_hdf5() {
       },
       &child);
   return child;
-}
-
-bool may_use_hdf5() { return true; }
-
 #endif
+}
 
 constexpr int another_thread_uses_hdf5 = 75;  ///< exit code of a child that was forked at a wrong moment
 
@@ -201,6 +190,16 @@ std::optional<Bytes> take(std::span<const std::byte>& from) {
 }
 
 }  // namespace
+
+bool may_use_hdf5() {
+#if H5_VERSION_GE(2, 0, 0)
+  bool acquired = false;
+  unsigned count = 0;
+  return H5TSmutex_acquire(1, &acquired) >= 0 && acquired && H5TSmutex_release(&count) >= 0;
+#else
+  return true;
+#endif
+}
 
 Bytes encode(const Parcels& parcels) {
   Bytes bytes;

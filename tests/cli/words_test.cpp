@@ -55,8 +55,10 @@ TEST_F(TypedWords, a_command_is_suggested) {
 }
 
 TEST_F(TypedWords, a_number_out_of_its_range_is_told_with_the_range) {
-  expect_refused({"animate", "x.h5", "--fps", "abc"}, "--fps: expected a number from 0.1 to 120, found abc;");
-  expect_refused({"animate", "x.h5", "--fps", "nan"}, "--fps: expected a number from 0.1 to 120, found nan;");
+  expect_refused({"animate", "x.h5", "-o", "m.mp4", "--fps", "abc"},
+                 "--fps: expected a number from 0.1 to 120, found abc;");
+  expect_refused({"animate", "x.h5", "-o", "m.mp4", "--fps", "nan"},
+                 "--fps: expected a number from 0.1 to 120, found nan;");
   expect_refused({"ensemble", "x.toml", "--jobs", "1.5"},
                  "--jobs: expected a whole number from 0 to 256, found 1.5; see talus ensemble --help");
   expect_refused({"figures", "x.h5", "-o", "x", "--size", "3"},

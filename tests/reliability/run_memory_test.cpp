@@ -37,7 +37,7 @@ void fail_every_allocation(const std::string& kind) {
     EXPECT_EQ(after.exit_code, 0) << after.err;
     EXPECT_EQ(digest(folder.path("run.h5")), reference);
   }
-  EXPECT_GT(reported, 5) << "no fault occurred, so nothing was tested";
+  EXPECT_GT(reported, 3) << "no fault occurred, so nothing was tested";
   std::printf("%s: %d allocations, %d tried: %d reported, %d harmless\n", kind.c_str(), allocations, tried,
               reported, tried - reported);
 }

@@ -45,8 +45,9 @@ Index add_floor_grain(Packing& packing, double x, double y, double radius) {
 
 void add_contact(Packing& packing, Index a, Index b, double fn, double ft, int shift) {
   const Frame& frame = packing.frame;
-  const double dx = frame.x[b] + shift * packing.statics.length - frame.x[a];
-  const double dy = frame.y[b] - frame.y[a];
+  const bool with_wall = b >= frame.grain_count();
+  const double dx = with_wall ? 1.0 : frame.x[b] + shift * packing.statics.length - frame.x[a];
+  const double dy = with_wall ? 0.0 : frame.y[b] - frame.y[a];
   const double distance = std::hypot(dx, dy);
   FrameContacts& contacts = packing.frame.contacts;
   contacts.a.push_back(a);

@@ -20,7 +20,8 @@ Packing empty_packing(double length, bool periodic);
 Index add_grain(Packing& packing, double x, double y, double radius = 0.5, Tensor2 moment = {});
 /// Appends a floor grain; must follow all free grains.
 Index add_floor_grain(Packing& packing, double x, double y, double radius = 0.5);
-/// Appends a contact; the normal points to b, and the force (fn, ft) acts on b. Sliding if |ft| = mu fn.
+/// Appends a contact; the normal points to b, and the force (fn, ft) acts on b. Sliding if |ft| = mu fn. A b
+/// after all grains is a wall on the right.
 void add_contact(Packing& packing, Index a, Index b, double fn, double ft = 0.0, int shift = 0);
 /// Computes internal moments from the contacts, with talus_stress.
 void moments_from_contacts(Packing& packing);

@@ -117,6 +117,9 @@ void run(Scene& scene, const SweepKernels& kernels) {
   }
 }
 
+/// Returns the value within its bounds; the bounds of chance may cross, which std::clamp does not permit.
+float within(float value, float low, float high) { return std::min(std::max(value, low), high); }
+
 /// Solves the contact in a lane, with the velocities left by the preceding contacts.
 void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
   const ContactGroup& group = scene.contacts[g];
@@ -131,7 +134,7 @@ void plain_contact(Scene& scene, Index g, int k, SweepSums& sums) {
   float &last_n = scene.last_move[g].n[k], &last_t = scene.last_move[g].t[k];
   const float yn = n + beta * last_n, yt = t + beta * last_t;
   const float pn = std::max(yn - un * group.wn[k], group.least[k]);
-  const float pt = std::clamp(yt - ut * group.wt[k], group.below[k] - mu * pn, group.above[k] + mu * pn);
+  const float pt = within(yt - ut * group.wt[k], group.below[k] - mu * pn, group.above[k] + mu * pn);
   const float en = pn - yn, et = pt - yt;
   last_n = pn - n;
   last_t = pt - t;
@@ -290,7 +293,7 @@ TEST(SweepKernels, rolling_contacts_do_what_the_plain_arithmetic_does_one_by_one
       const float ur = group.length[k] * (turn_b - turn_a) + group.ur[k] + group.coupling[k] * et;
       const float old = before.increment[g].r[k], y = old + beta * before.last_move[g].r[k];
       const float more = group.mu[k] * plain.increment[g].n[k];
-      const float p = std::clamp(y - ur * group.w[k], group.below[k] - more, group.above[k] + more);
+      const float p = within(y - ur * group.w[k], group.below[k] - more, group.above[k] + more);
       const float moment = group.length[k] * (p - y);
       const float da = -group.inertia_a[k] * (group.lever_a[k] * et + moment);
       const float db = group.inertia_b[k] * (moment - group.lever_b[k] * et);
