@@ -19,7 +19,7 @@ from talus.places import numbers_at_places
 from talus.run import Run, as_path
 from talus.run import open as open_run
 from talus.schema import DATA_SETS
-from talus.storage import unreadable
+from talus.storage import is_file, unreadable
 from talus.table import numbered
 from talus.units import Units, check_units
 
@@ -83,7 +83,7 @@ def read_member(variant: str, seed: int, path: Path, scenario_of: Callable[[str]
     """Reads a member from its run file, or its stage from the files next to it. `scenario_of`: returns the scenario of
     a variant; `bed`: the hash of its bed, if known. Raises as talus.open does, and Error if the run belongs to another
     member, or its analysis has a version that this package does not read."""
-    if not path.is_file():
+    if not is_file(path):
         failed = path.with_suffix(".failed").is_file()
         claimed = any(path.parent.glob(path.stem + ".claim-*"))
         return Member(variant, seed, path, "failed" if failed else "claimed" if claimed else "waiting")
@@ -163,7 +163,7 @@ class Ensemble(Closed):
 
     def _read_manifest(self) -> None:
         path = self.folder / "ensemble.manifest"
-        if not path.is_file():
+        if not is_file(path):
             raise MissingFile(f"{self.folder}: no ensemble here; start one with: talus ensemble SCENARIO --seeds 1-50 -o "
                         f"{self.folder}")
         try:

@@ -1,6 +1,7 @@
 """Storage of the data sets of a run: its packed file, or its folder while it is being computed."""
 
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,11 +19,20 @@ SERIES = ("frames/", "contacts/", "observables/", "steps/", "commands/")
 STATE = ("checkpoint/", "results/", "provenance/timing/")
 
 
+def is_file(path: Path) -> bool:
+    """Returns whether there is a file. Raises OSError if the system cannot tell, as for a name that is too long; Path.is_file
+    of Python 3.14 returns False then."""
+    try:
+        return stat.S_ISREG(path.stat().st_mode)
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+
+
 def find_run(path: Path) -> Path:
     """Returns the packed file of the run called `path`, or its folder while it is being computed. Raises Error if
     neither exists."""
     folder_of_run = path.parent / (path.name + ".run")
-    if path.is_file() and not hides_packed(manifest_text(folder_of_run), path):
+    if is_file(path) and not hides_packed(manifest_text(folder_of_run), path):
         return path
     for folder in (path, folder_of_run):
         if (folder / NAME).is_file():
