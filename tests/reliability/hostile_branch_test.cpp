@@ -91,9 +91,9 @@ TEST_F(HostileBranch, that_was_stopped_goes_on_to_the_end_of_one_that_was_not) {
 TEST_F(HostileBranch, each_data_set_of_another_make_is_refused_by_name) {
   // Without one of these the start is different but valid; only the hashes of the parts reveal it.
   const auto may_be_missing = [](const std::string& path) {
-    for (const char* name :
-         {"/friction", "/drag_grain", "/tilt_rate", "/unconverged_in_a_row", "/last_largest_overlap",
-          "/last_residual", "/last_converged", "/last_friction", "/last_wall_friction"})
+    for (const char* name : {"/friction", "/deposition_friction", "/drag_grain", "/tilt_rate",
+                             "/unconverged_in_a_row", "/last_largest_overlap", "/last_residual",
+                             "/last_converged", "/last_friction", "/last_wall_friction"})
       if (path.ends_with(name)) return true;
     return false;
   };
@@ -119,7 +119,8 @@ TEST_F(HostileBranch, each_data_set_of_another_make_is_refused_by_name) {
 }
 
 TEST_F(HostileBranch, one_value_less_is_told_by_check) {
-  for (const char* path : {"/branch/reals/friction", "/branch/integers/drag_grain"}) {
+  for (const char* path :
+       {"/branch/reals/friction", "/branch/reals/deposition_friction", "/branch/integers/drag_grain"}) {
     const io::RunFile run =
         io::RunFile::open(bad(spoilt(good, std::vector<Spoil>{{path, Harm::missing, 0, 0, {}}})));
     const session::RunCheck check = session::check_run(run, {});

@@ -53,8 +53,9 @@ bool is_read(const std::string& path) {
 
 /// Returns whether a name is optional: without it the run is different but valid.
 bool may_be_missing(const std::string& path) {
-  for (const char* family : {"/provenance/", "/results/", "/analysis/parameters/",
-                             "/checkpoint/reals/friction", "/checkpoint/reals/last_"})
+  for (const char* family :
+       {"/provenance/", "/results/", "/analysis/parameters/", "/checkpoint/reals/friction",
+        "/checkpoint/reals/deposition_friction", "/checkpoint/reals/last_"})
     if (path.starts_with(family)) return true;
   return false;
 }
