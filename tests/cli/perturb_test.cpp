@@ -6,7 +6,6 @@
 #include <csignal>
 #include <thread>
 
-#include "base/sanitizers.h"
 #include "io/run_file.h"
 #include "support/places.h"
 #include "support/process.h"
@@ -18,13 +17,10 @@ namespace {
 /// Bed of 40 grains that is tilted to 20 deg in one second and remains stable.
 const char* const tiny_bed = "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 20\n";
 
-/// The command needs the Python package with its extension, which no sanitizer can be in.
 class Perturb : public testing::Test {
  protected:
   void SetUp() override {
-    const std::filesystem::path package = std::filesystem::path(talus_program()).parent_path() / "python";
-    if (sanitizes_addresses || sanitizes_threads || !std::filesystem::exists(package / "talus" / "start.py"))
-      GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
+    if (!has_python_package()) GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
   }
 };
 
