@@ -297,6 +297,7 @@ def symmetric(axes: Axes) -> None:
     axes.axhline(0, **AXIS)
     axes.set_yscale("function", functions=(lambda y: np.arcsinh(0.5 * y), lambda y: 2 * np.sinh(y)))
     powers = np.arange(np.floor(np.log10(largest)), -0.5, -max(1, np.ceil(np.log10(largest) / 3)))
+    powers = [power for power in powers if np.arcsinh(0.5 * 10**power) > 0.18 * np.arcsinh(0.5 * largest)]  # far enough from 0
     axes.set_yticks([0, *(sign * 10.0**power for sign in (1, -1) for power in powers)],
                     ["0", *(f"{sign}$10^{{{int(power)}}}$" if power else f"{sign}1" for sign in ("", "−") for power in powers)])
     axes.set_ylim(-largest, largest)
