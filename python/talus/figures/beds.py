@@ -430,7 +430,7 @@ def gray_scale(axes: Axes, white: float, gamma_c: float) -> None:
     """Draws the gray scale of gamma below a picture: white below `white`, black from 2 Gamma_c."""
     scale = axes.inset_axes((0.22, -0.06, 0.56, 0.035))
     scale.imshow(np.linspace(1, 0, 256)[None, :], cmap="gray", vmin=0, vmax=1, aspect="auto", extent=(white, 2 * gamma_c, 0, 1))
-    scale.set_xticks([white, 2 * gamma_c], [f"{white:.2f}", f"2 Γ$_c$ = {2 * gamma_c:.2f}"])
+    scale.set_xticks([white, gamma_c, 2 * gamma_c], [f"{white:.2f}", "Γ$_c$", f"2 Γ$_c$ = {2 * gamma_c:.2f}"])
     scale.set_yticks([])
     scale.tick_params(top=False, direction="out", pad=1)
     scale.set_ylabel("$γ$", rotation=0, va="center", ha="right")

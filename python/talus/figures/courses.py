@@ -149,10 +149,10 @@ def draw_cycles(data: Data, page: Page) -> Figure:
     key = key_of_groups(data)
     key.line("end of the cycle (g, h, i)", **END)
     key.line("highest tilt (g, h, i)", **TOP)
-    figure = arrange(axes, key, page=page, above=0.8 if count > 1 else 0)
+    figure = arrange(axes, key, page=page, above=1.0 if count > 1 else 0)
     if count > 1:
         width = min(6, 0.5 * page.width)
-        scale = free_axes(figure, 0.5 * (page.width - width), figure.get_size_inches()[1] / CM - figure.talus_top - 0.25, width, 0.2)
+        scale = free_axes(figure, 0.5 * (page.width - width), figure.get_size_inches()[1] / CM - figure.talus_top - 0.45, width, 0.2)
         bar = figure.colorbar(colours, cax=scale, orientation="horizontal", ticks=MaxNLocator(integer=True, nbins=8))
         bar.ax.tick_params(length=0, pad=1.5)
         bar.ax.text(-0.03, 0.5, "cycle", transform=bar.ax.transAxes, ha="right", va="center", fontsize=7)
