@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "analysis/contacts/weak_contacts.h"
 #include "analysis/events/power_law.h"
@@ -14,6 +15,7 @@
 #include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/output_file.h"
 #include "base/version.h"
 #include "core/trigonometry.h"
 #include "ensemble/averages_reader.h"
@@ -31,6 +33,7 @@
 #include "render/renderer.h"
 #include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
+#include "runs/event_catalogue.h"
 #include "runs/run_view.h"
 #include "session/run_identity.h"
 #include "stress/free_surface.h"
@@ -259,11 +262,24 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("scenario_hash", [](const AnalysedRun& run) {
     return hash_text(hash_bytes(std::as_bytes(std::span(run.view.scenario_text))));
   });
+  type.def_property_readonly("seed", [](const AnalysedRun& run) { return run.view.scenario.seed; });
   type.def_property_readonly("state_hash", [](const AnalysedRun& run) { return run.view.state_hash; });
   type.def_property_readonly("theta_r", [](const AnalysedRun& run) { return degrees(run.view.theta_r); });
   type.def_property_readonly("analysis_key", [](const AnalysedRun& run) { return run.view.analysis.key; });
-  type.def_property_readonly("parameters",
-                             [](const AnalysedRun& run) { return run.view.analysis.parameters; });
+  type.def_property_readonly("parameters", [](const AnalysedRun& run) {
+    py::dict parameters;
+    for (const auto& [name, value] : run.view.analysis.parameters) parameters[py::str(name)] = value;
+    return parameters;
+  });
+  // SI units: D, gravity, and the mass of all free grains and of one in the mean.
+  type.def_property_readonly("diameter", &AnalysedRun::diameter);
+  type.def_property_readonly("gravity", [](const AnalysedRun& run) { return run.statics().gravity; });
+  type.def_property_readonly("mass", [](const AnalysedRun& run) {
+    const RunStatics& statics = run.statics();
+    return std::accumulate(statics.mass.begin(), statics.mass.begin() + statics.free_count, 0.0);
+  });
+  type.def_property_readonly("mean_mass",
+                             [](const AnalysedRun& run) { return runs::mean_grain_mass(run.statics()); });
   type.def_property_readonly("departures", departures_of);
   type.def_property_readonly(
       "tilts", [](const AnalysedRun& run) { return array_of(in_degrees(tilts_of(run))); });
@@ -316,6 +332,12 @@ void bind_figures(py::module_& module) {
   module.def("_parse_settings", [](const std::vector<std::string>& settings) {
     runs::parse_analysis_settings(settings);
   });
+  module.def("_prepare_folder", prepare_folder);
+  module.def("_publish_file", publish_file);
+  module.def("_output_target",
+             [](const std::string& path, bool overwrite, const std::vector<std::string>& inputs) {
+               output_target(path, {overwrite, inputs});
+             });
   module.def("_departures_text", session::departures_text);
   module.def("_plus_minus", [](double mean, double width) { return ensemble::plus_minus(mean, width); });
   // Exponent, its error, the minimum of the law, and the number of values from there on.
