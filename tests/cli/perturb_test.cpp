@@ -57,6 +57,19 @@ TEST_F(Perturb, leaves_the_run_as_it_is_without) {
       std::string::npos);
 }
 
+TEST_F(Perturb, of_a_programme_pushes_a_tilt_once_that_is_held_and_comes_back) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml",
+             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nrate = 4\nstep = 0.004\n"
+             "program = [\"to 8 deg\", \"hold 0.1 s\", \"to 6 deg\", \"to 9 deg\"]\n");
+  const Outcome outcome = run_talus(perturb("p", {"--seed", "1"}), folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<TrialRow> trials = io::RunFile::open(folder.path("p/seed-1.h5")).trials();
+  EXPECT_EQ(
+      std::ranges::count_if(trials, [](const TrialRow& row) { return at(row, TrialField::velocity) == 0.0; }),
+      1);
+}
+
 TEST_F(Perturb, reports_its_seeds_and_computes_none_again) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
