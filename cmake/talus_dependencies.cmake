@@ -12,3 +12,8 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(FMT REQUIRED IMPORTED_TARGET fmt>=9)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo-pdf cairo-ft)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+
+# Python, for the extension of the package and for the commands that the package carries out.
+set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the extension is for")
+find_package(Python 3.11 COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module QUIET)
+set(TALUS_PYTHON_FOLDER "" CACHE STRING "Where cmake --install puts the Python package; empty: where Debian's Python looks")

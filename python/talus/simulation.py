@@ -301,9 +301,10 @@ class Simulation(Closed):
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
         core, threads = _extension(), _threads(threads)
-        of_keys = scenario is None or isinstance(scenario, Mapping)
-        tables, keys = _tables({**(scenario or {}), **settings} if of_keys else settings)
-        self._begin(core.Simulation(b"" if of_keys else _path(scenario), _settings(keys), tables), progress)
+        given: Mapping[str, Any] = scenario if isinstance(scenario, Mapping) else {}
+        path = b"" if scenario is None or scenario is given else _path(scenario)
+        tables, keys = _tables({**given, **settings})
+        self._begin(core.Simulation(path, _settings(keys), tables), progress)
         if threads != 1:
             self._core._use_threads(threads)
 
@@ -527,6 +528,18 @@ class Simulation(Closed):
         return self._core.scenario
 
     # Measures.
+
+    @property
+    def surface_velocity(self) -> float:
+        """Mean velocity along x of the surface layer, the free grains above the depth of 3 D below the mean free surface,
+        m/s: by it a slope is said to flow."""
+        return self._core._surface_velocity
+
+    def surface_height(self, x: float | None = None, width: float | None = None) -> float:
+        """Mean height of the free surface above y = 0 over a width around x, m; by default over the whole bed, from its
+        middle. A periodic bed continues at its ends."""
+        return self._core._surface_height(0.5 * self.length if x is None else _number(x, "surface_height: x"),
+                                          self.length if width is None else _number(width, "surface_height: width"))
 
     def __getitem__(self, name: str) -> float:
         """Returns a scalar of the current state: a quantity of a frame (docs/analysis.md), "overloaded/fraction", or at

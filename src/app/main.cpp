@@ -73,6 +73,8 @@ int run_command_line(int argc, char** argv) {
       "talus"};
   try {
     run(words_of(argc, argv), app);
+  } catch (const CLI::RuntimeError& error) {  // of a Python module, which has printed its message
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {  // includes --help and --version, which are no errors
     if (error.get_exit_code() != 0)
       throw talus::Error(talus::ExitCode::usage, talus::app::usage_message(app, error));

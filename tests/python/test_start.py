@@ -1,0 +1,67 @@
+"""start.py, with which the program carries out commands by modules of this package: messages, exit codes and signals."""
+
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from conftest import PACKAGE
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Returns a function that starts a module of a package talus with this text."""
+    package = tmp_path / "talus"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    shutil.copy(PACKAGE / "talus/start.py", package)
+    shutil.copy(PACKAGE / "talus/errors.py", package)
+
+    def started(text, *words, out=subprocess.PIPE):
+        (package / "example.py").write_text(text)
+        return subprocess.Popen([sys.executable, "-P", package / "start.py", "example", *words], cwd=tmp_path, text=True,
+                                stdout=out, stderr=subprocess.PIPE)
+
+    return started
+
+
+def outcome(process):
+    out, err = process.communicate(timeout=30)
+    return process.returncode, out, err
+
+
+def test_a_module_gets_the_arguments_and_ends_with_its_code(start):
+    assert outcome(start("def main(words):\n print(words)\n return 3\n", "a b", "--x")) == (3, "['a b', '--x']\n", "")
+    assert outcome(start("def main(words): pass\n"))[0] == 0
+
+
+@pytest.mark.parametrize(("text", "code", "message"), [
+    ("from talus.errors import MissingFile\nraise MissingFile('a.h5: not there')", 66, "a.h5: not there"),
+    ("import no_such_package.inner", 69, "this command needs the Python module no_such_package: "
+                                         "apt-get install python3-no_such_package"),
+    ("open('missing/file', 'w')", 74, "missing/file: cannot read or write: No such file or directory"),
+    ("open('.', 'w')", 73, ".: cannot read or write: Is a directory"),
+    ("raise MemoryError", 71, "out of memory"),
+])
+def test_an_error_is_one_line_with_a_code_of_the_program(start, text, code, message):
+    ended, out, err = outcome(start("def main(words):\n " + text.replace("\n", "\n ") + "\n"))
+    assert (ended, out, err) == (code, "", f"talus: error: {message}\n")
+
+
+def test_a_full_disk_fails_the_output(start):
+    with open("/dev/full", "w") as full:
+        process = start("def main(words): print('result')\n", out=full)
+    assert outcome(process) == (74, None, "talus: error: standard output: cannot read or write: No space left on device\n")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("work", ["time.sleep(30)", "hashlib.pbkdf2_hmac('sha256', b'', b'', 10**8)"])  # the second in C
+def test_a_signal_stops_it(start, number, work):
+    process = start(f"import hashlib, time\ndef main(words):\n print('begun', flush=True)\n {work}\n")
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(number)
+    began = time.monotonic()
+    assert outcome(process) == (75, "", "Stopped; unfinished results are not kept.\n")
+    assert time.monotonic() - began < 5
