@@ -22,6 +22,7 @@
 
 #include "analysis/frame_quantities.h"
 #include "base/errors.h"
+#include "figures.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
 
@@ -629,6 +630,7 @@ PYBIND11_MODULE(_core, module) {
   type.def("commit", [](Driven& driven) { driven.use([](Simulation& simulation) { simulation.commit(); }); });
   bind_options(module);
   bind_frames(module);
+  bind_figures(module);
   module.def("_png", &png_of);
   module.def("_end_steps", &end_steps);
   module.def("_require_files", &require_files);

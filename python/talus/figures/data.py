@@ -1,0 +1,138 @@
+"""Data of a figure: tables for each group of runs, the runs that they come from, and the caption."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from talus.errors import Error, WrongValue
+from talus.figures.groups import Group
+from talus.figures.means import MOST_RUNS, Abscissa, Series, mean_columns, mean_rows, run_columns, run_curve
+from talus.figures.runs import AnalysedRun
+from talus.figures.tables import Column, Table, column
+from talus.simulation import _extension
+
+
+@dataclass
+class GroupTable:
+    """The data of a group of runs."""
+
+    legend: str  #: "μ = 0.2 (4 runs)"
+    table: Table
+    runs: Table | None = None  #: the single runs, in blocks
+    count: int = 1  #: number of runs
+    facts: dict[str, Any] = field(default_factory=dict)  #: further numbers that the drawing needs
+
+
+@dataclass
+class Data:
+    """What a figure shows: everything that is drawn is in its tables and facts."""
+
+    caption: str = ""
+    groups: list[GroupTable] = field(default_factory=list)
+    tables: list[Table] = field(default_factory=list)  #: all tables, in the order of their files
+    runs: list[AnalysedRun] = field(default_factory=list)  #: sources
+    facts: dict[str, Any] = field(default_factory=dict)  #: further numbers and texts that the drawing needs
+    title: str = ""  #: instead of that of the catalogue
+
+    def add_group(self, group: Group, runs: Sequence[AnalysedRun], columns: list[Column]) -> GroupTable:
+        """Adds the table of a group, named after its label."""
+        added = GroupTable(f"{group.legend or group.label} ({runs_text(len(runs))})", Table(group.name, columns), count=len(runs))
+        self.groups.append(added)
+        self.tables.append(added.table)
+        self.runs += runs
+        return added
+
+    def add_curves(self, group: Group, runs: Sequence[AnalysedRun], columns: Sequence[Series],
+                   abscissa: Abscissa = "theta") -> GroupTable:
+        """Adds the means of these columns over the runs of a group, and the single runs if there are several."""
+        curves = [run_curve(run, columns, abscissa) for run in runs]
+        added = self.add_group(group, runs, mean_columns(curves, columns, abscissa))
+        if len(runs) > 1:
+            added.runs = Table(group.name + "-runs", run_columns(runs, curves, columns, abscissa), in_blocks=True)
+            self.tables.append(added.runs)
+        return added
+
+    @property
+    def has_spread(self) -> bool:
+        """Whether any group has several runs."""
+        return any(group.runs is not None for group in self.groups)
+
+
+def runs_text(count: int) -> str:
+    return f"{count} run{'' if count == 1 else 's'}"
+
+
+def reading(run: AnalysedRun) -> str:
+    """Returns a sentence for captions with the neighbourhood of a grain to which gamma refers."""
+    l_min = float(run.core.parameters["l_min"])
+    if l_min == 0:
+        return "gamma is that of single grains."
+    who = "its first neighbours" if l_min == _extension()._default_l_min else "its neighbours"
+    return f"gamma of a grain is that of the grain together with {who}, a neighbourhood of diameter {l_min:g} D."
+
+
+def rounded(value: float, decimals: int = 2) -> str:
+    """Returns a value with at most this many decimals: "13.25", "0"."""
+    text = f"{value:.{decimals}f}"
+    return "0" if float(text) == 0 else text.rstrip("0").rstrip(".") if "." in text else text
+
+
+@dataclass
+class ShownFrames:
+    """Frames that a figure shows together, one for each run that has it."""
+
+    name: str  #: for columns: "10", "repose", "start" for the first frame, "frame42"
+    label: str  #: for the legend: "θ = 10°", "before failure"
+    text: str  #: for captions: "at 10 deg", "in the last frame before failure"
+    runs: list[AnalysedRun]
+    frames: list[int]
+
+    @property
+    def tilt(self) -> float:
+        """Mean tilt of the frames, deg."""
+        return float(np.mean([run.tilts[k] for run, k in zip(self.runs, self.frames)]))
+
+    def mean(self, quantity: str, name: str, unit: str, meaning: str) -> list[Column]:
+        """Returns the columns NAME and NAME_error with the means over the runs of a list in each frame."""
+        mean, error = mean_rows([run.values(quantity)[k] for run, k in zip(self.runs, self.frames)])
+        return [column(name, unit, meaning, mean), column(name + "_error", unit, "its standard error over the runs", error)]
+
+
+def named_frames(word: str) -> ShownFrames:
+    if word == "repose":
+        return ShownFrames(word, "before failure", "in the last frame before failure", [], [])
+    if word == "frame0":
+        return ShownFrames("start", "start of the tilt", "at the start of the tilt", [], [])
+    if word.startswith("frame"):
+        return ShownFrames(word, f"frame {word[5:]}", f"in frame {word[5:]}", [], [])
+    return ShownFrames(word, f"$θ$ = {word}°", f"at {word} deg", [], [])
+
+
+def frames_of(run: AnalysedRun, at: Sequence[str]) -> list[int]:
+    """Returns the frames of `--at` in one run, ascending. Raises Error for invalid words, and for frames that it lacks."""
+    return list(run.core.frames_at(list(at)))
+
+
+def shown_frames(runs: Sequence[AnalysedRun], at: Sequence[str], usual: Sequence[str]) -> list[ShownFrames]:
+    """Returns the frames of `at` or, if it is empty, those of `usual`; a usual angle is shown for the runs that reach it.
+    Raises Error if a word is invalid, or if no run has its frame."""
+    shown = []
+    for word in at or usual:
+        frames = named_frames(word)
+        if not at and word.isdigit():
+            frames.runs = [run for run in runs if run.reaches(float(word))]
+            frames.frames = [run.frame_nearest(float(word)) for run in frames.runs]
+        else:
+            for run in runs:
+                try:
+                    frames.frames.append(frames_of(run, [word])[0])
+                    frames.runs.append(run)
+                except WrongValue as error:
+                    if error.exit_code != 65:
+                        raise
+            if not frames.runs:
+                raise Error(f"--at {word}: no run of {runs[0].path} has such a frame")
+        shown.append(frames)
+    return shown

@@ -1,0 +1,247 @@
+"""Panels of a figure: their arrangement with room for their texts, the legend above them, and curves of groups."""
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from talus.figures.data import Data, GroupTable
+from talus.figures.style import CM, COLOURS, NARROW, as_math, curve_style, letter, new_figure
+from talus.figures.tables import Table
+
+GAP = 0.2  # cm, between panels and at the edges
+SYMBOLS_OF_A_CURVE = 16
+SMALLEST = 4.5  # points, of letters that do not fit otherwise
+#: Groups up to which bands of the deviation and thin lines of the single runs are drawn without being asked for.
+MOST_GROUPS_WITH_SPREAD = 2
+
+
+@dataclass(frozen=True)
+class Page:
+    """Size of a figure in cm, and what is added to it."""
+
+    width: float
+    height: float = 0  #: 0: as high as its panels require
+    add: frozenset[str] = frozenset()  #: "paper", "spread"
+    ax: Axes | None = None  #: drawn there, for a figure of one panel
+
+    @property
+    def narrow(self) -> bool:
+        return self.width <= NARROW
+
+
+def panels(page: Page, count: int, *, row: float, wide: int = 3, narrow: int = 2, share_x: bool = False,
+           share_y: bool = False, **options: Any) -> list[Axes]:
+    """Returns `count` panels of a new figure, or the one of the page: `wide` in a row, `narrow` on a narrow page, in rows of
+    a height of `row` cm. With `share_x` (`share_y`) only the lowest (first) panels have numbers."""
+    if page.ax is not None:
+        if count != 1:
+            raise ValueError(f"ax: this figure has {count} panels, and needs a figure of its own")
+        return [page.ax]
+    columns = min(count, narrow if page.narrow else wide)
+    rows = -(-count // columns)
+    figure = new_figure(page.width, max(page.height, 2.5 * rows) if page.height else row * rows)
+    found: list[Axes] = []
+    for k in range(count):
+        first = found[0] if found else None
+        axes = figure.add_subplot(rows, columns, k + 1, sharex=first if share_x else None, sharey=first if share_y else None, **options)
+        axes.tick_params(labelbottom=not share_x or k + columns >= count, labelleft=not share_y or k % columns == 0)
+        found.append(axes)
+    return found
+
+
+def mark_panels(axes: Sequence[Axes]) -> None:
+    """Puts letters above the panels, (a), (b), ...; none if there is one panel."""
+    for k, each in enumerate(axes):
+        if len(axes) > 1:
+            each.set_title(letter(k), loc="left")
+
+
+def has_numbers(axes: Axes, which: str) -> bool:
+    """Whether a panel has the numbers, and thus the title, of its horizontal ("x") or vertical axis."""
+    side, axis = ("labelbottom", axes.xaxis) if which == "x" else ("labelleft", axes.yaxis)
+    return bool(axis._major_tick_kw.get(side, True))
+
+
+def text_width(figure: Figure, text: str, points: float) -> float:
+    """Returns the width of a text in cm."""
+    from matplotlib.font_manager import FontProperties
+
+    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    is_math = text.count("$") >= 2
+    width: float = renderer.get_text_width_height_descent(text, FontProperties(size=points), is_math)[0]
+    return width / figure.dpi / CM
+
+
+def broken(figure: Figure, text: str, points: float, room: float) -> str:
+    """Returns the text in lines of at most `room` cm, broken at blanks, and in longer words anywhere."""
+    width = text_width(figure, text, points)
+    if width <= room:
+        return text
+    plain = text.replace("$", "")
+    while True:
+        lines = textwrap.wrap(plain, max(4, int(0.97 * len(plain) * room / width)), break_on_hyphens=False)
+        widest = max(text_width(figure, line, points) for line in lines)
+        if widest <= room:
+            return "\n".join(lines)
+        width *= 1.05
+
+
+class Key:
+    """Entries of the legend above the panels."""
+
+    def __init__(self) -> None:
+        self.handles: list[Artist] = []
+        self.labels: list[str] = []
+
+    def line(self, label: str, **look: Any) -> None:
+        self.handles.append(Line2D([], [], **look))
+        self.labels.append(label)
+
+    def box(self, label: str, **look: Any) -> None:
+        self.handles.append(Patch(linewidth=0, **look))
+        self.labels.append(label)
+
+    def draw(self, figure: Figure, width: float) -> float:
+        """Draws the legend at the top, in as many columns as fit into the width of the figure (cm), and returns its height."""
+        if not self.labels:
+            return 0.0
+        import matplotlib
+
+        points = matplotlib.rcParams["legend.fontsize"]
+        points = points if isinstance(points, (int, float)) else 7
+        room = width - 2 * GAP
+        handle = (matplotlib.rcParams["legend.handlelength"] + matplotlib.rcParams["legend.handletextpad"]) * points / 72 * 2.54
+        spacing = matplotlib.rcParams["legend.columnspacing"] * points / 72 * 2.54
+        labels = [broken(figure, as_math(label), points, room - handle) for label in self.labels]
+        widths = [handle + max(text_width(figure, line, points) for line in label.split("\n")) for label in labels]
+        columns = next(n for n in range(len(labels), 0, -1) if n == 1 or fits(widths, n, spacing, room))
+        rows = -(-len(labels) // columns)
+        legend = figure.legend(self.handles, labels, ncol=-(-len(labels) // rows), loc="upper left", bbox_to_anchor=(0, 1))
+        renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+        height = legend.get_window_extent(renderer).height / figure.dpi / CM
+        figure.talus_legend = legend
+        return float(height)
+
+
+def fits(widths: Sequence[float], columns: int, spacing: float, room: float) -> bool:
+    """Whether entries of these widths fit into columns, filled one after another."""
+    rows = -(-len(widths) // columns)
+    parts = [max(widths[k : k + rows]) for k in range(0, len(widths), rows)]
+    return sum(parts) + spacing * (len(parts) - 1) <= room
+
+
+def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page) -> Figure:
+    """Gives each panel the room that its texts need, and draws the legend above them."""
+    figure = axes[0].figure
+    if page.ax is not None:
+        if key is not None and key.labels:
+            page.ax.legend(key.handles, [as_math(label) for label in key.labels])
+        return figure
+    width, height = (side / CM for side in figure.get_size_inches())
+    top = key.draw(figure, width) if key is not None else 0.0
+    if top:
+        top += GAP
+    if not page.height:
+        height += top
+        figure.set_size_inches(width * CM, height * CM)
+    if top:
+        figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
+    for _ in range(2):  # the numbers of an axis depend on its length
+        place(figure, axes, width, height, top)
+    shrink_texts(figure, axes)
+    return figure
+
+
+def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float) -> None:
+    """Moves the panels of a grid such that all are equally large and their texts have room; sizes in cm."""
+    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    spec = axes[0].get_subplotspec().get_gridspec()
+    rows, columns = spec.nrows, spec.ncols
+    left, right = np.zeros(columns), np.zeros(columns)
+    above, below = np.zeros(rows), np.zeros(rows)
+    for each in axes:
+        r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
+        box, outer = each.bbox, each.get_tightbbox(renderer)
+        left[c], right[c] = max(left[c], box.x0 - outer.x0), max(right[c], outer.x1 - box.x1)
+        below[r], above[r] = max(below[r], box.y0 - outer.y0), max(above[r], outer.y1 - box.y1)
+    to_cm = 1 / figure.dpi / CM
+    left, right, above, below = (side * to_cm for side in (left, right, above, below))
+    inner_width = (width - left.sum() - right.sum() - GAP * (columns + 1)) / columns
+    inner_height = (height - top - above.sum() - below.sum() - GAP * (rows + 1)) / rows
+    inner_width, inner_height = max(inner_width, 0.5), max(inner_height, 0.5)
+    for each in axes:
+        r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
+        x = GAP + (GAP + inner_width) * c + left[: c + 1].sum() + right[:c].sum()
+        y = height - top - GAP - (GAP + inner_height) * r - above[: r + 1].sum() - below[:r].sum() - inner_height
+        each.set_position((x / width, y / height, inner_width / width, inner_height / height))
+
+
+def shrink_texts(figure: Figure, axes: Sequence[Axes]) -> None:
+    """Makes letters of titles smaller if they are longer than their panel."""
+    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    for each in axes:
+        box = each.bbox
+        for text, room in ((each.xaxis.label, box.width), (each.yaxis.label, box.height), (each._left_title, box.width)):
+            if not text.get_text():
+                continue
+            extent = text.get_window_extent(renderer)
+            long = extent.height if text is each.yaxis.label else extent.width
+            if long > room + 0.3 / 2.54 * figure.dpi:
+                text.set_fontsize(max(SMALLEST, text.get_fontsize() * room / long))
+
+
+def shows_spread(data: Data, page: Page) -> bool:
+    return data.has_spread and (len(data.groups) <= MOST_GROUPS_WITH_SPREAD or "spread" in page.add)
+
+
+def draw_curves(axes: Axes, data: Data, name: str, page: Page, *, x: Any = None, scale: float = 1,
+                symbols: bool = True) -> None:
+    """Draws the means of a column of each group over the first column, or over x(values of it); behind them the single runs
+    and bands of the deviation, and bands of the error."""
+    over = x or (lambda values: values)
+    spread = shows_spread(data, page)
+    for k, group in enumerate(data.groups):
+        table = group.table
+        if name not in table:
+            continue
+        at, mean = over(table.columns[0].values), scale * table[name]
+        error, deviation = scale * table[name + "_error"], scale * table[name + "_deviation"]
+        colour = COLOURS[k % len(COLOURS)]
+        if spread and group.runs is not None:
+            axes.fill_between(at, mean - deviation, mean + deviation, color=colour, alpha=0.13, linewidth=0)
+            axes.add_collection(thin_lines(group, name, over, scale, colour))
+        if group.runs is not None:
+            axes.fill_between(at, mean - error, mean + error, color=colour, alpha=0.35, linewidth=0)
+        every = max(1, len(at) // SYMBOLS_OF_A_CURVE)
+        axes.plot(at, mean, **curve_style(k, symbols or every == 1), markevery=every)
+
+
+def thin_lines(group: GroupTable, name: str, over: Any, scale: float, colour: str) -> LineCollection:
+    assert group.runs is not None
+    blocks = group.runs.blocks()
+    at, values = over(group.runs.columns[1].values), scale * group.runs[name]
+    return LineCollection([np.column_stack([at[rows], values[rows]]) for rows in blocks], colors=colour, linewidths=0.3,
+                          alpha=5 / len(blocks) if len(blocks) > 14 else 0.35)
+
+
+def key_of_curves(data: Data, page: Page, symbols: bool = True) -> Key:
+    """Returns the entries of all groups, and those of the bands."""
+    key = Key()
+    for k, group in enumerate(data.groups):
+        key.line(group.legend, **curve_style(k, symbols or len(group.table) < 2 * SYMBOLS_OF_A_CURVE))
+    if shows_spread(data, page):
+        key.line("runs", color="#999999", linewidth=0.4)
+    if data.has_spread:
+        key.box("± standard error", color="#000000", alpha=0.35)
+    if shows_spread(data, page):
+        key.box("± standard deviation", color="#000000", alpha=0.13)
+    return key
