@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "analysis/contacts/weak_contacts.h"
 #include "analysis/events/power_law.h"
@@ -31,6 +32,7 @@
 #include "render/renderer.h"
 #include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
+#include "runs/event_catalogue.h"
 #include "runs/run_view.h"
 #include "session/run_identity.h"
 #include "stress/free_surface.h"
@@ -259,11 +261,24 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("scenario_hash", [](const AnalysedRun& run) {
     return hash_text(hash_bytes(std::as_bytes(std::span(run.view.scenario_text))));
   });
+  type.def_property_readonly("seed", [](const AnalysedRun& run) { return run.view.scenario.seed; });
   type.def_property_readonly("state_hash", [](const AnalysedRun& run) { return run.view.state_hash; });
   type.def_property_readonly("theta_r", [](const AnalysedRun& run) { return degrees(run.view.theta_r); });
   type.def_property_readonly("analysis_key", [](const AnalysedRun& run) { return run.view.analysis.key; });
-  type.def_property_readonly("parameters",
-                             [](const AnalysedRun& run) { return run.view.analysis.parameters; });
+  type.def_property_readonly("parameters", [](const AnalysedRun& run) {
+    py::dict parameters;
+    for (const auto& [name, value] : run.view.analysis.parameters) parameters[py::str(name)] = value;
+    return parameters;
+  });
+  // SI units: D, gravity, and the mass of all free grains and of one in the mean.
+  type.def_property_readonly("diameter", &AnalysedRun::diameter);
+  type.def_property_readonly("gravity", [](const AnalysedRun& run) { return run.statics().gravity; });
+  type.def_property_readonly("mass", [](const AnalysedRun& run) {
+    const RunStatics& statics = run.statics();
+    return std::accumulate(statics.mass.begin(), statics.mass.begin() + statics.free_count, 0.0);
+  });
+  type.def_property_readonly("mean_mass",
+                             [](const AnalysedRun& run) { return runs::mean_grain_mass(run.statics()); });
   type.def_property_readonly("departures", departures_of);
   type.def_property_readonly(
       "tilts", [](const AnalysedRun& run) { return array_of(in_degrees(tilts_of(run))); });

@@ -7,11 +7,35 @@ from typing import Any
 import numpy as np
 
 from talus.errors import Error, WrongValue
-from talus.figures.groups import Group
-from talus.figures.means import MOST_RUNS, Abscissa, Series, mean_columns, mean_rows, run_columns, run_curve
+from talus.figures.groups import Group, flat
+from talus.figures.means import Abscissa, Series, mean_columns, mean_rows, run_columns, run_curve
 from talus.figures.runs import AnalysedRun
 from talus.figures.tables import Column, Table, column
 from talus.simulation import _extension
+
+#: Groups up to which standard deviations and single runs are drawn without being asked for.
+MOST_GROUPS_WITH_SPREAD = 2
+MEANS = ("Means over the runs of each group at the same tilt, as long as at least half of them have not failed. The dark band "
+         "is the standard error of the mean.")
+SPREAD = " The light band is the standard deviation of the runs; thin lines are the single runs, at most 100 of them."
+#: Settings of the paper's beds.
+PAPER = {"bed.depth": 40, "bed.floor": "rough", "contact.friction": 0.5, "contact.rolling_friction": 0, "grains.size_ratio": 1.5}
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a figure is to show besides its default."""
+
+    at: Sequence[str] = ()  #: frames instead of those of the paper: "10" (deg), "repose", "frame42"
+    paper: bool = False  #: the paper's values also for other beds than the paper's
+    spread: bool = False  #: standard deviations and single runs also of more than two groups
+
+
+def shows_paper(groups: Sequence[Group], wanted: Wanted) -> bool:
+    """Whether the paper's values are shown: those of a bed of the paper, or of any bed if wanted."""
+    beds = [flat(group.runs[0].scenario) for group in groups]
+    return wanted.paper or any(all(bed[name] == value for name, value in PAPER.items()) and
+                               (bed["bed.boundary"] == "walls" or bed["bed.length"] == 200) for bed in beds)
 
 
 @dataclass
@@ -55,9 +79,14 @@ class Data:
         return added
 
     @property
-    def has_spread(self) -> bool:
+    def has_errors(self) -> bool:
         """Whether any group has several runs."""
         return any(group.runs is not None for group in self.groups)
+
+    def describe_means(self, wanted: Wanted) -> None:
+        """Decides whether deviations and single runs are shown, and adds a sentence about the means to the caption."""
+        self.facts["spread"] = self.has_errors and (wanted.spread or len(self.groups) <= MOST_GROUPS_WITH_SPREAD)
+        self.caption += " " + MEANS + (SPREAD if self.facts["spread"] else "") + " A single run has no band."
 
 
 def runs_text(count: int) -> str:

@@ -17,10 +17,6 @@ MOST_RUNS = 100
 #: Abscissa of curves: the tilt theta, or theta_c - theta, the angle left to the failure of each run.
 Abscissa = Literal["theta", "angle_left"]
 
-CAPTION = ("Means over the runs of each group at the same tilt, as long as at least half of them have not failed. The dark "
-           "band is the standard error of the mean, the light one the standard deviation of the runs; thin lines are the "
-           "single runs, at most 100 of them. A single run has none of these.")
-
 
 def student_t(freedom: int) -> float:
     """Returns the two-sided quantile of Student's t distribution at 95 %, freedom >= 1 (Abramowitz and Stegun 1964, table

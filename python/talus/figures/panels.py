@@ -13,24 +13,21 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from talus.figures.data import Data, GroupTable
+from talus.figures.data import Data
 from talus.figures.style import CM, COLOURS, NARROW, as_math, curve_style, letter, new_figure
 from talus.figures.tables import Table
 
 GAP = 0.2  # cm, between panels and at the edges
 SYMBOLS_OF_A_CURVE = 16
 SMALLEST = 4.5  # points, of letters that do not fit otherwise
-#: Groups up to which bands of the deviation and thin lines of the single runs are drawn without being asked for.
-MOST_GROUPS_WITH_SPREAD = 2
 
 
 @dataclass(frozen=True)
 class Page:
-    """Size of a figure in cm, and what is added to it."""
+    """Size of a figure in cm."""
 
     width: float
     height: float = 0  #: 0: as high as its panels require
-    add: frozenset[str] = frozenset()  #: "paper", "spread"
     ax: Axes | None = None  #: drawn there, for a figure of one panel
 
     @property
@@ -121,7 +118,7 @@ class Key:
         room = width - 2 * GAP
         handle = (matplotlib.rcParams["legend.handlelength"] + matplotlib.rcParams["legend.handletextpad"]) * points / 72 * 2.54
         spacing = matplotlib.rcParams["legend.columnspacing"] * points / 72 * 2.54
-        labels = [broken(figure, as_math(label), points, room - handle) for label in self.labels]
+        labels = [broken(figure, label, points, room - handle) for label in self.labels]
         widths = [handle + max(text_width(figure, line, points) for line in label.split("\n")) for label in labels]
         columns = next(n for n in range(len(labels), 0, -1) if n == 1 or fits(widths, n, spacing, room))
         rows = -(-len(labels) // columns)
@@ -139,29 +136,47 @@ def fits(widths: Sequence[float], columns: int, spacing: float, room: float) -> 
     return sum(parts) + spacing * (len(parts) - 1) <= room
 
 
-def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page) -> Figure:
-    """Gives each panel the room that its texts need, and draws the legend above them."""
+def free_axes(figure: Figure, x: float, y: float, width: float, height: float, **options: Any) -> Axes:
+    """Returns axes at a place in cm from the lower left corner of the figure."""
+    whole, high = figure.get_size_inches() / CM
+    return figure.add_axes((x / whole, y / high, width / whole, height / high), **options)
+
+
+def strip(figure: Figure, bottom: float, height: float) -> Axes:
+    """Returns a strip over the full width of the figure whose coordinates are cm from its lower left corner."""
+    width = figure.get_size_inches()[0] / CM
+    axes = free_axes(figure, 0, bottom, width, height)
+    axes.set_xlim(0, width)
+    axes.set_ylim(0, height)
+    axes.set_axis_off()
+    return axes
+
+
+def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: float = 0, below: float = 0) -> Figure:
+    """Gives each panel the room that its texts need, and draws the legend above them. `above`, `below`: room in cm for more
+    than the panels; `figure.talus_top` is the distance of the first from the top of the figure."""
     figure = axes[0].figure
     if page.ax is not None:
         if key is not None and key.labels:
-            page.ax.legend(key.handles, [as_math(label) for label in key.labels])
+            page.ax.legend(key.handles, key.labels)
         return figure
     width, height = (side / CM for side in figure.get_size_inches())
     top = key.draw(figure, width) if key is not None else 0.0
     if top:
         top += GAP
     if not page.height:
-        height += top
+        height += top + above + below
         figure.set_size_inches(width * CM, height * CM)
     if top:
         figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
+    figure.talus_top = top
     for _ in range(2):  # the numbers of an axis depend on its length
-        place(figure, axes, width, height, top)
+        place(figure, axes, width, height, top + above, below)
     shrink_texts(figure, axes)
     return figure
 
 
-def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float) -> None:
+def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float, bottom: float) -> None:
     """Moves the panels of a grid such that all are equally large and their texts have room; sizes in cm."""
     renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
     spec = axes[0].get_subplotspec().get_gridspec()
@@ -176,7 +191,7 @@ def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top
     to_cm = 1 / figure.dpi / CM
     left, right, above, below = (side * to_cm for side in (left, right, above, below))
     inner_width = (width - left.sum() - right.sum() - GAP * (columns + 1)) / columns
-    inner_height = (height - top - above.sum() - below.sum() - GAP * (rows + 1)) / rows
+    inner_height = (height - top - bottom - above.sum() - below.sum() - GAP * (rows + 1)) / rows
     inner_width, inner_height = max(inner_width, 0.5), max(inner_height, 0.5)
     for each in axes:
         r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
@@ -199,49 +214,56 @@ def shrink_texts(figure: Figure, axes: Sequence[Axes]) -> None:
                 text.set_fontsize(max(SMALLEST, text.get_fontsize() * room / long))
 
 
-def shows_spread(data: Data, page: Page) -> bool:
-    return data.has_spread and (len(data.groups) <= MOST_GROUPS_WITH_SPREAD or "spread" in page.add)
-
-
-def draw_curves(axes: Axes, data: Data, name: str, page: Page, *, x: Any = None, scale: float = 1,
-                symbols: bool = True) -> None:
+def draw_curves(axes: Axes, data: Data, name: str, *, x: Any = None, scale: float = 1, symbols: bool = True) -> None:
     """Draws the means of a column of each group over the first column, or over x(values of it); behind them the single runs
     and bands of the deviation, and bands of the error."""
     over = x or (lambda values: values)
-    spread = shows_spread(data, page)
     for k, group in enumerate(data.groups):
-        table = group.table
-        if name not in table:
+        if name not in group.table:
             continue
-        at, mean = over(table.columns[0].values), scale * table[name]
-        error, deviation = scale * table[name + "_error"], scale * table[name + "_deviation"]
+        at, mean = over(group.table.columns[0].values), scale * group.table[name]
         colour = COLOURS[k % len(COLOURS)]
-        if spread and group.runs is not None:
-            axes.fill_between(at, mean - deviation, mean + deviation, color=colour, alpha=0.13, linewidth=0)
-            axes.add_collection(thin_lines(group, name, over, scale, colour))
         if group.runs is not None:
-            axes.fill_between(at, mean - error, mean + error, color=colour, alpha=0.35, linewidth=0)
+            if data.facts["spread"]:
+                band(axes, at, mean, scale * group.table[name + "_deviation"], color=colour, alpha=0.13)
+                axes.add_collection(thin_lines(group.runs, name, over, scale, colour))
+            band(axes, at, mean, scale * group.table[name + "_error"], color=colour, alpha=0.35)
         every = max(1, len(at) // SYMBOLS_OF_A_CURVE)
         axes.plot(at, mean, **curve_style(k, symbols or every == 1), markevery=every)
 
 
-def thin_lines(group: GroupTable, name: str, over: Any, scale: float, colour: str) -> LineCollection:
-    assert group.runs is not None
-    blocks = group.runs.blocks()
-    at, values = over(group.runs.columns[1].values), scale * group.runs[name]
+def band(axes: Axes, at: np.ndarray, mean: np.ndarray, width: np.ndarray, **look: Any) -> None:
+    axes.fill_between(at, mean - width, mean + width, linewidth=0, **look)
+
+
+def thin_lines(runs: Table, name: str, over: Any, scale: float, colour: str) -> LineCollection:
+    blocks = runs.blocks()
+    at, values = over(runs.columns[1].values), scale * runs[name]
     return LineCollection([np.column_stack([at[rows], values[rows]]) for rows in blocks], colors=colour, linewidths=0.3,
                           alpha=5 / len(blocks) if len(blocks) > 14 else 0.35)
 
 
-def key_of_curves(data: Data, page: Page, symbols: bool = True) -> Key:
+def key_of_curves(data: Data, symbols: bool = True) -> Key:
     """Returns the entries of all groups, and those of the bands."""
     key = Key()
     for k, group in enumerate(data.groups):
-        key.line(group.legend, **curve_style(k, symbols or len(group.table) < 2 * SYMBOLS_OF_A_CURVE))
-    if shows_spread(data, page):
+        key.line(as_math(group.legend), **curve_style(k, symbols or len(group.table) < 2 * SYMBOLS_OF_A_CURVE))
+    if data.facts["spread"]:
         key.line("runs", color="#999999", linewidth=0.4)
-    if data.has_spread:
+    if data.has_errors:
         key.box("± standard error", color="#000000", alpha=0.35)
-    if shows_spread(data, page):
+    if data.facts["spread"]:
         key.box("± standard deviation", color="#000000", alpha=0.13)
     return key
+
+
+def set_range(axes: Axes, top: float | None = None) -> None:
+    """Ends the vertical axis slightly beyond its data, but not below 0 if no number is, and not above a limit that all means
+    respect: 1, or `top`."""
+    low, high = axes.dataLim.intervaly
+    if not np.isfinite([low, high]).all():
+        return
+    room = 0.05 * (high - low) if high > low else 0.1 * abs(high) or 1
+    bottom = 0 if 0 <= low < room else low - room
+    above = (1 if high == low else 0) if -room < high <= 0 else 1 if high <= 1 < high + room else high + room
+    axes.set_ylim(bottom, above if top is None else min(above, top))

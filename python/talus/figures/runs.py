@@ -45,6 +45,7 @@ class AnalysedRun:
     def __init__(self, core: Any) -> None:
         self.core = core  #: its measures that only figures need (python/bindings/figures.cpp)
         self.path: str = core.path  #: that of the run file, or "FOLDER/ensemble.h5#seed-7"
+        self.seed: int = core.seed
         self.state_hash: str = core.state_hash  #: hash of its last state
         self.has_file: bool = core.has_file  #: False: only scalars of the run and of its frames are known
         self.has_frames: bool = core.has_frames  #: False also for a file that was kept for its analysis alone
@@ -61,10 +62,6 @@ class AnalysedRun:
     def scenario(self) -> dict[str, Any]:
         """The scenario with every key, in the units of the scenario."""
         return tomllib.loads(self.core.scenario_text)
-
-    @property
-    def seed(self) -> int:
-        return int(self.scenario["seed"])
 
     @property
     def periodic(self) -> bool:

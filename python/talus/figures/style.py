@@ -88,17 +88,19 @@ def letter(k: int) -> str:
     return f"({letters[k // 26 - 1] if k >= 26 else ''}{letters[k % 26]})"
 
 
-def as_math(text: str) -> str:
-    """Returns a text with its symbols set as in formulas: Greek and single letters in italics, what follows _ below the
-    line, as in "ν_max" or "l_c"."""
-    def formula(found: "re.Match[str]") -> str:
-        base, _, below = found[0].partition("_")
-        prefix, base = base[:-1], base[-1]
-        if below:
-            below = rf"_\mathrm{{{below}}}"
-        return rf"{prefix.replace('Δ', '$Δ$')}${base}{below}$"
+#: What follows a symbol below the line; other words with _ are names.
+SYMBOL = re.compile(r"(?<![\w.$])([A-Za-zα-ωΓℓ])_(o|c|d|r|t|w|T|N|V|y|max)(?![\w.])|(?<![\w.$])([α-ω])(?![\w.])")
+WORDS = {"ΔV/V": "$ΔV/V$", "Δy/y": "$Δy/y$", "Q/P": "$Q/P$", "z, ": "$z$, "}
 
-    return re.sub(r"(?<![\w$])(?:Δ?[A-Za-zα-ωΓℓ]_\w+|Δ?[α-ωΓℓ](?!\w)|Δ?[VyzLHDQPrn](?!\w)(?=[ ,/)=]|$)(?<!^[A-Z]))", formula, text)
+
+def as_math(text: str) -> str:
+    """Returns a text with its symbols set as in formulas, "ν_max" or "p_o", unless it has formulas already."""
+    if "$" in text:
+        return text
+    for word, formula in WORDS.items():
+        text = text.replace(word, formula)
+    return SYMBOL.sub(lambda found: f"${found[3]}$" if found[3] else rf"${found[1]}_{{\mathrm{{{found[2]}}}}}$"
+                      if len(found[2]) > 1 else f"${found[1]}_{found[2]}$", text)
 
 
 def with_unit(title: str, unit: str = "1", power: int = 0) -> str:
@@ -118,19 +120,16 @@ def common_power(low: float, high: float) -> int:
 
 def set_title(axes: Axes, which: str, title: str, unit: str = "1", heading: str | None = None) -> None:
     """Sets the title of the axis "x" or "y" with its unit, once its range is known: numbers that are small or large are
-    divided by a power of ten, which the title states. `heading`: above the panel instead, after this letter."""
+    divided by a power of ten, which the title states. `heading`: the title is above the panel, after this letter."""
     axis = axes.xaxis if which == "x" else axes.yaxis
-    power = 0
-    if axis.get_scale() == "linear":
-        low, high = sorted(axis.get_view_interval())
-        power = common_power(low, high)
-        if power:
-            axis.set_major_formatter(FuncFormatter(PowerFormat(power)))
+    power = common_power(*sorted(axis.get_view_interval())) if axis.get_scale() == "linear" else 0
+    if power:
+        axis.set_major_formatter(FuncFormatter(PowerFormat(power)))
     text = with_unit(title, unit, power)
     if heading is None:
         axis.set_label_text(text)
     else:
-        axes.set_title(f"{heading} {text}".strip(), loc="left")
+        axes.set_title(f"{heading} {text}", loc="left")
 
 
 class PowerFormat:

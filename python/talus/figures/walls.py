@@ -1,0 +1,147 @@
+"""Effect of side walls on the stress of a bed (paper, section IV)."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from talus.ensemble import mean_of
+from talus.figures.data import Data, Wanted, rounded, runs_text, shown_frames, shows_paper
+from talus.figures.groups import Group
+from talus.figures.means import mean_rows
+from talus.figures.panels import Key, Page, arrange, panels
+from talus.figures.runs import AnalysedRun
+from talus.figures.style import LAW, as_math, curve_style, set_title
+from talus.figures.tables import Table, column
+
+#: k_L - k_0 of the paper's Fig. 7.
+ITS_K = 2.5
+
+
+def mean_weight(run: AnalysedRun) -> float:
+    """Returns M g / (2 L), Pa, the mean of sigma_yy in the horizontal bed at rest; M is the mass of its free grains."""
+    return float(run.core.mass * run.core.gravity / (2 * run.length * run.core.diameter))
+
+
+def wall_stress(groups: Sequence[Group], wanted: Wanted) -> Data | None:
+    chosen = [(group, runs) for group in groups if not group.periodic and (runs := group.select(lambda run: run.failed and run.has_file))]
+    if not chosen:
+        return None
+    group, runs = chosen[0]  # the shortest bed
+    data = Data(f"Normal stress sigma_xx of sections along the bed over their distance x from the upper wall, {group.label}, in units "
+                "of M g / (2 L), the mean of sigma_yy in the horizontal bed (M: mass of the grains). Means over "
+                f"{runs_text(len(runs))}, error bars: standard errors over these runs, none for a single run.", runs=list(runs))
+    edges = runs[0].values("sections/edge")
+    table = Table("", [column("x", "D", "middle of the section, from the upper wall downslope", 0.5 * (edges[1:] + edges[:-1]))])
+    shown = [frames for frames in shown_frames(runs, wanted.at, ("0", "10", "repose")) if len(frames.runs) == len(runs)]
+    for frames in shown:
+        mean, error = mean_rows([run.values("sections/sigma_xx")[k] / mean_weight(run) for run, k in zip(runs, frames.frames)])
+        name = "sigma_xx_" + frames.name
+        table.columns += [column(name, "M g / (2 L)", "mean sigma_xx of the section", mean),
+                          column(name + "_error", "M g / (2 L)", "its standard error over the runs", error)]
+    data.caption += f" Shown {', '.join(frames.text for frames in shown)}."
+    data.tables = [table]
+    data.facts = {"shown": [(frames.name, frames.label) for frames in shown], "length": runs[0].length,
+                  "bed": f"{group.label} ({runs_text(len(runs))})"}
+    return data
+
+
+def draw_wall_stress(data: Data, page: Page) -> Figure:
+    axes = panels(page, 1, row=0.75 * page.width)
+    table, key = data.tables[0], Key()
+    key.line(data.facts["bed"], linestyle="none")
+    for k, (name, label) in enumerate(data.facts["shown"]):
+        name = "sigma_xx_" + name
+        axes[0].errorbar(table["x"], table[name], yerr=np.nan_to_num(table[name + "_error"]), **curve_style(k), elinewidth=0.6)
+        key.line(label, **curve_style(k))
+    axes[0].set_xlim(0, data.facts["length"])
+    axes[0].set_ylim(0)
+    set_title(axes[0], "x", "$x$", "D")
+    set_title(axes[0], "y", "$σ_{xx}$ / ($M g$ / 2$L$)")
+    return arrange(axes, key, page=page)
+
+
+@dataclass(frozen=True)
+class WallFit:
+    """k_L - k_0 of the law 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted by least squares, and its standard error."""
+
+    k: float
+    error: float  #: NaN for a single point
+
+    def __str__(self) -> str:
+        return rounded(self.k) + ("" if np.isnan(self.error) else f" ± {rounded(self.error)}")
+
+
+def wall_law(k: float, depth_over_length: np.ndarray) -> np.ndarray:
+    return 1 - k / 3 * depth_over_length
+
+
+def fit_wall_law(depth_over_length: np.ndarray, ratio: np.ndarray) -> WallFit:
+    """Fits the law to the ratios (sigma_T / sigma_N) / tan(theta) of beds."""
+    x = depth_over_length
+    k = float(3 * (x @ (1 - ratio)) / (x @ x))
+    residual = ratio - wall_law(k, x)
+    return WallFit(k, float(3 * np.sqrt(residual @ residual / (len(x) - 1) / (x @ x))) if len(x) > 1 else np.nan)
+
+
+def mean_depth(run: AnalysedRun) -> float:
+    """Returns the mean height V / L of a bed just before failure, D."""
+    return float(run.series("packing/volume")[run.repose] / run.core.diameter**2 / run.length)
+
+
+def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
+    data = Data()
+    rows, depths, ratios, walled = [], [], [], []
+    for group in groups:
+        # Sparse rows may leave none in the last 0.5 deg.
+        runs = group.select(lambda run: run.failed and not np.isnan(run.number("packing/failure_ratio")))
+        if group.periodic or not runs:
+            continue
+        walled.append(group)
+        heights = [mean_depth(run) for run in runs]
+        each = [run.number("packing/failure_ratio") for run in runs]
+        spread = np.sqrt(np.mean([run.number("packing/failure_ratio_spread") ** 2 for run in runs]))
+        mean = mean_of(each)
+        rows.append((runs[0].length, len(runs), mean.mean, mean.error, spread, mean.error if len(runs) > 1 else spread, np.mean(heights)))
+        depths += [height / run.length for height, run in zip(heights, runs)]
+        ratios += each
+        data.runs += runs
+    if not rows:
+        return None
+    names = (("L", "D", "length of the bed"), ("n", "1", "number of runs in the row"),
+             ("ratio", "1", "(sigma_T / sigma_N) / tan(theta), mean over the last 0.5 deg before theta_c and over runs"),
+             ("ratio_error", "1", "its standard error over the runs"),
+             ("ratio_spread", "1", "standard deviation within these 0.5 deg, rms over the runs"),
+             ("bar", "1", "what the error bar shows: ratio_error, or ratio_spread for a single run"),
+             ("H", "D", "mean height V / L of the bed before failure"))
+    data.tables = [Table("", [column(*name, values) for name, values in zip(names, np.transpose(rows))])]
+    fit, depth = fit_wall_law(np.array(depths), np.array(ratios)), float(np.mean([row[-1] for row in rows]))
+    paper = shows_paper(walled, wanted)
+    its = ", and with the paper's 2.5" if paper else ""
+    data.caption = (
+        "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 deg before theta_c and "
+        f"over the runs of each length ({runs_text(len(ratios))} in total). Error bars: standard error over the runs; for a single "
+        "run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted to all runs by least "
+        f"squares, k_L - k_0 = {fit} (standard error){its}. H is the mean height V/L of each bed before failure, as in the paper's "
+        f"integral over the depth; the lines use its mean, H = {rounded(depth, 1)} D.")
+    data.facts = {"k": fit.k, "k_text": str(fit), "depth": depth, "paper": paper}
+    return data
+
+
+def draw_wall_ratio(data: Data, page: Page) -> Figure:
+    axes = panels(page, 1, row=0.75 * page.width)
+    table, key = data.tables[0], Key()
+    at = np.linspace(0.8 * table["L"].min(), 1.1 * table["L"].max(), 200)
+    key.line("beds between walls", **curve_style(0) | {"linestyle": "none"})
+    key.line(f"fit, $k_L − k_0$ = {data.facts['k_text']}", **curve_style(1, symbols=False))
+    axes[0].plot(at, wall_law(data.facts["k"], data.facts["depth"] / at), **curve_style(1, symbols=False))
+    if data.facts["paper"]:
+        key.line(f"paper, $k_L − k_0$ = {ITS_K}", **LAW)
+        axes[0].plot(at, wall_law(ITS_K, data.facts["depth"] / at), **LAW)
+    axes[0].errorbar(table["L"], table["ratio"], yerr=np.nan_to_num(table["bar"]), **curve_style(0) | {"linestyle": "none"}, elinewidth=0.6)
+    axes[0].set_xlim(at[0], at[-1])
+    axes[0].set_ylim(0)
+    set_title(axes[0], "x", "$L$", "D")
+    set_title(axes[0], "y", r"($σ_T / σ_N$) / $\mathrm{tan}\ θ$ at $θ_c$")
+    return arrange(axes, key, page=page)
