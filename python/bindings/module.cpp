@@ -22,9 +22,11 @@
 
 #include "analysis/frame_quantities.h"
 #include "base/errors.h"
+#include "dynamics/failure.h"
 #include "figures.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
+#include "stress/free_surface.h"
 
 namespace py = pybind11;
 
@@ -550,6 +552,31 @@ void bind_measures(py::class_<Driven, Holder>& type) {
   });
 }
 
+/// Binds what a script needs at each step to judge rest and failure as a run does.
+void bind_motion(py::module_& module, py::class_<Driven, Holder>& type) {
+  type.def("_surface_height", [](const Driven& driven, double centre, double width) {
+    const World& world = driven.seen().world();
+    return stress::mean_height(world.grains, world.boundary, centre, 0.5 * width);
+  });
+  type.def_property_readonly("_surface_velocity", [](const Driven& driven) {
+    const World& world = driven.seen().world();
+    const double height = stress::bed_volume(world.grains, world.boundary) / world.boundary.length;
+    const double depth = dynamics::surface_layer_depth * driven.seen().statics().mean_diameter;
+    return dynamics::surface_velocity(world.grains, height - depth);
+  });
+  type.def_property_readonly("_rms_velocity",
+                             [](const Driven& driven) { return rms_velocity(driven.seen().world().grains); });
+  type.def_property_readonly(
+      "_kinetic_energy", [](const Driven& driven) { return kinetic_energy(driven.seen().world().grains); });
+  type.def_property_readonly("_flow_rule", [](const Driven& driven) {
+    const World& world = driven.seen().world();
+    const dynamics::FlowRule rule =
+        dynamics::flow_rule(driven.seen().statics().mean_diameter, world.gravity, world.boundary);
+    return std::pair(rule.velocity, rule.distance);
+  });
+  module.attr("rest_steps") = dynamics::rest_steps;
+}
+
 /// Binds the options of maps.
 void bind_options(py::module_& module) {
   py::class_<pictures::MapOptions>(module, "MapOptions")
@@ -619,6 +646,7 @@ PYBIND11_MODULE(_core, module) {
   bind_state(type);
   bind_arrays(type);
   bind_measures(type);
+  bind_motion(module, type);
   type.def("_save", [](Driven& driven, const std::string& path, bool overwrite) {
     require_files();
     driven.use([&](Simulation& simulation) { simulation.save(path, overwrite); });

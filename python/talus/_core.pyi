@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 version: str
+rest_steps: int
 
 class MapOptions: ...
 

@@ -528,6 +528,18 @@ class Simulation(Closed):
 
     # Measures.
 
+    @property
+    def surface_velocity(self) -> float:
+        """Mean velocity along x of the surface layer, the free grains above the depth of 3 D below the mean free surface,
+        m/s: by it a slope is said to flow."""
+        return self._core._surface_velocity
+
+    def surface_height(self, x: float | None = None, width: float | None = None) -> float:
+        """Mean height of the free surface above y = 0 over a width around x, m; by default over the whole bed, from its
+        middle. A periodic bed continues at its ends."""
+        return self._core._surface_height(0.5 * self.length if x is None else _number(x, "surface_height: x"),
+                                          self.length if width is None else _number(width, "surface_height: width"))
+
     def __getitem__(self, name: str) -> float:
         """Returns a scalar of the current state: a quantity of a frame (docs/analysis.md), "overloaded/fraction", or at
         the second threshold "overloaded/fraction[1]"; or an observable (docs/file_format.md), "kinetic_energy". SI

@@ -14,8 +14,8 @@
 #include "app/ensemble_submit.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
+#include "app/member_trials.h"
 #include "app/open_run.h"
-#include "app/perturbed_run.h"
 #include "app/progress.h"
 #include "app/stop_signals.h"
 #include "app/terminal.h"
@@ -112,13 +112,11 @@ void compute_member(const EnsembleArguments& arguments) {
   request.command_line = command_line();
   request.bed = member->origin.bed;
   request.settings.push_back(fmt::format("seed={}", member->seed));
-  const auto* trials = std::get_if<session::PerturbationPlan>(&manifest.task);
-  if (trials != nullptr) request.facts = {{session::trials_fact, session::plan_text(*trials)}};
+  const auto* trials = std::get_if<ensemble::TrialsTask>(&manifest.task);
+  if (trials != nullptr) request.facts = {{trials_fact, ensemble::plan_text(*trials)}};
   OpenRun open =
       io::run_presence(member->path) == io::RunPresence::folder ? resume_run(request) : start_run(request);
-  if (trials != nullptr)
-    control.trials = intermediate_trials(
-        session::table_of(io::RunFile::open(member->path), *trials, member->path), stop_request());
+  if (trials != nullptr) control.trials = member_trials(*trials, member->path);
   open.session.use_threads(1);
   const CommitOnSignals commit;
   if (session::run_to_end(open.session, open.store, control) == session::RunEnd::stopped)

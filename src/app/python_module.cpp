@@ -20,8 +20,8 @@ namespace {
 /// No useful output is longer.
 constexpr std::size_t longest = std::size_t{1} << 28;
 
-/// Returns the script that starts the modules of the package beside this program: in a build, or where it was
-/// installed (python/CMakeLists.txt).
+/// Returns the script that starts the modules of the package that belongs to this program: in a build, or
+/// where it was installed (python/CMakeLists.txt).
 std::string start_script() {
   const std::filesystem::path program = resolved_path("/proc/self/exe"), folder = program.parent_path(),
                               prefix = folder.parent_path();
@@ -31,9 +31,10 @@ std::string start_script() {
     if (const std::string script = packages / "talus" / "start.py"; is_there(script)) return script;
   throw Error(
       ExitCode::unavailable,
-      fmt::format("this command needs the Python package talus, which is not beside {}: apt-get install "
-                  "python3-dev pybind11-dev, and build and install Talus again",
-                  program.string()));
+      fmt::format(
+          "this command needs the Python package talus, which was not installed with {}: apt-get install "
+          "python3-dev pybind11-dev, and build and install Talus again",
+          program.string()));
 }
 
 /// Returns the command line of a module. The interpreter is that of the extension, if it is there.

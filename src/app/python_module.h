@@ -6,8 +6,8 @@
 
 namespace talus::app {
 
-/// Replaces this process by the module talus.NAME of the package beside this program, which parses the
-/// arguments: streams, signals and the exit code are those of the module. Call last. Throws
+/// Replaces this process by the module talus.NAME of the package of this program, which parses the arguments:
+/// streams, signals and the exit code are those of the module. Call last. Throws
 /// Error(unavailable), which says what to install, if there is no Python or no package; the module itself
 /// says so, with the same code, if a package that it needs is missing (python/talus/start.py).
 [[noreturn]] void become_python_module(const std::string& name, const std::vector<std::string>& arguments);

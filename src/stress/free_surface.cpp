@@ -210,6 +210,21 @@ double bed_volume(const Grains& grains, const Boundary& boundary) {
   return area_below(free_surface(grains, boundary), 0.0, boundary.length);
 }
 
+double mean_height(const Grains& grains, const Boundary& boundary, double centre, double half_width) {
+  const std::vector<SurfaceArc> surface = free_surface(grains, boundary);
+  const double half = boundary.periodic ? std::min(half_width, 0.5 * boundary.length) : half_width;
+  double area = 0.0, width = 0.0;
+  for (const int image : {-1, 0, 1}) {
+    if (image != 0 && !boundary.periodic) continue;
+    const double from = std::max(0.0, centre - half + image * boundary.length);
+    const double to = std::min(boundary.length, centre + half + image * boundary.length);
+    if (!(to > from)) continue;
+    area += area_below(surface, from, to);
+    width += to - from;
+  }
+  return width > 0.0 ? area / width : 0.0;
+}
+
 double surface_inclination(const Grains& grains, const Boundary& boundary) {
   const double length = boundary.length;
   if (boundary.periodic || !(length > 0.0)) return 0.0;

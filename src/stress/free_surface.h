@@ -29,6 +29,10 @@ double area_below(const std::vector<SurfaceArc>& surface, double from, double to
 /// Returns the area below the free surface and above y = 0, m^2, the volume V of a bed in two dimensions.
 double bed_volume(const Grains& grains, const Boundary& boundary);
 
+/// Returns the mean height of the free surface above y = 0 within `half_width` of a position, m, continued
+/// periodically in a periodic bed; 0 outside a bed between walls.
+double mean_height(const Grains& grains, const Boundary& boundary, double centre, double half_width);
+
 /// Returns the slope of the free surface relative to the floor, rad, positive if it rises along x: that of
 /// the least-squares line through the middle half of the bed, L/4 ... 3 L/4, away from the walls. 0 in a
 /// periodic bed, whose surface has the same height at both ends.

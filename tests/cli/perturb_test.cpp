@@ -6,7 +6,9 @@
 #include <csignal>
 #include <thread>
 
+#include "base/sanitizers.h"
 #include "io/run_file.h"
+#include "support/places.h"
 #include "support/process.h"
 #include "support/runs.h"
 
@@ -15,6 +17,16 @@ namespace {
 
 /// Bed of 40 grains that is tilted to 20 deg in one second and remains stable.
 const char* const tiny_bed = "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 20\n";
+
+/// The command needs the Python package with its extension, which no sanitizer can be in.
+class Perturb : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::filesystem::path package = std::filesystem::path(talus_program()).parent_path() / "python";
+    if (sanitizes_addresses || sanitizes_threads || !std::filesystem::exists(package / "talus" / "start.py"))
+      GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
+  }
+};
 
 std::vector<std::string> perturb(const std::string& folder, const std::vector<std::string>& more = {}) {
   std::vector<std::string> words = {"perturb", "bed.toml", "-o", folder,    "--from",
@@ -27,7 +39,7 @@ std::string hash_of(const std::string& run, const TemporaryFolder& folder) {
   return json_value(run_talus({"info", run, "--json"}, folder.path()).out, "state_hash");
 }
 
-TEST(Perturb, leaves_the_run_as_it_is_without) {
+TEST_F(Perturb, leaves_the_run_as_it_is_without) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   take_run(folder, "plain.h5", tiny_bed, {"--seed", "2"});
@@ -49,7 +61,7 @@ TEST(Perturb, leaves_the_run_as_it_is_without) {
       std::string::npos);
 }
 
-TEST(Perturb, reports_its_seeds_and_computes_none_again) {
+TEST_F(Perturb, reports_its_seeds_and_computes_none_again) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   const Outcome first = run_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
@@ -65,7 +77,7 @@ TEST(Perturb, reports_its_seeds_and_computes_none_again) {
   EXPECT_EQ(std::filesystem::last_write_time(folder.path("p/seed-1.h5")), written);
 }
 
-TEST(Perturb, says_so_where_no_copy_was_pushed) {
+TEST_F(Perturb, says_so_where_no_copy_was_pushed) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   const Outcome outcome =
@@ -77,17 +89,51 @@ TEST(Perturb, says_so_where_no_copy_was_pushed) {
       << outcome.err;
 }
 
-TEST(Perturb, draws_its_figure_where_there_is_a_gnuplot) {
+TEST_F(Perturb, draws_its_figure_where_there_is_matplotlib) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
+  std::filesystem::create_directory(folder.path("without"));
+  write_file(folder, "without/matplotlib.py",
+             "raise ModuleNotFoundError(\"No module named 'matplotlib'\", name='matplotlib')\n");
+  const Outcome without =
+      run_talus(perturb("p", {"--seeds", "1"}), folder.path(), {"PYTHONPATH=" + folder.path("without")});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_NE(without.err.find("warning: the figure is left out"), std::string::npos) << without.err;
+  EXPECT_NE(without.err.find("python3-matplotlib"), std::string::npos) << without.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p/perturb.pdf")));
   const Outcome outcome = run_talus(perturb("p", {"--seeds", "1"}), folder.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const bool drawn = std::filesystem::exists(folder.path("p/perturb.pdf"));
-  EXPECT_NE(drawn, outcome.err.find("the figure is left out") != std::string::npos) << outcome.err;
-  EXPECT_EQ(drawn, std::filesystem::exists(folder.path("p/perturb.png")));
+  for (const char* drawn : {"perturb.pdf", "perturb.svg", "perturb.png", "perturb.json"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path("p") + "/" + drawn)) << drawn << outcome.err;
 }
 
-class InterruptedPerturb : public testing::TestWithParam<int> {};
+TEST_F(Perturb, says_what_to_install_before_anything_is_done) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::filesystem::create_directory(folder.path("without"));
+  write_file(folder, "without/numpy.py",
+             "raise ModuleNotFoundError(\"No module named 'numpy'\", name='numpy')\n");
+  const Outcome outcome =
+      run_talus(perturb("p", {"--seeds", "1"}), folder.path(), {"PYTHONPATH=" + folder.path("without")});
+  EXPECT_EQ(outcome.exit_code, 69);
+  EXPECT_EQ(outcome.err,
+            "talus: error: this command needs the Python module numpy: apt-get install python3-numpy\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("p")));
+}
+
+// The package is looked for next to the program.
+TEST_F(Perturb, without_the_package_says_so) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml", tiny_bed);
+  std::filesystem::copy_file(talus_program(), folder.path("talus"));
+  const std::string command = "cd " + folder.path().string() + " && ./talus perturb bed.toml -o p 2> said";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 69);
+  EXPECT_NE(text_of(folder.path("said")).find("needs the Python package talus, which was not installed with"),
+            std::string::npos)
+      << text_of(folder.path("said"));
+}
+
+class InterruptedPerturb : public Perturb, public testing::WithParamInterface<int> {};
 
 TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
   const TemporaryFolder folder;
@@ -111,7 +157,7 @@ TEST_P(InterruptedPerturb, goes_on_to_the_same_table) {
 INSTANTIATE_TEST_SUITE_P(Signals, InterruptedPerturb, testing::Values(SIGTERM, SIGKILL));
 
 // Trials are committed together with the state at which they were made.
-TEST(Perturb, pushes_no_copy_again_whose_trials_are_stored) {
+TEST_F(Perturb, pushes_no_copy_again_whose_trials_are_stored) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   const std::string log = folder.path("p/seed-1.log");
@@ -131,7 +177,7 @@ TEST(Perturb, pushes_no_copy_again_whose_trials_are_stored) {
   EXPECT_EQ(count_of_states(), 3u) << text_of(log);
 }
 
-TEST(Perturb, that_is_stopped_stops_its_seeds) {
+TEST_F(Perturb, that_is_stopped_stops_its_seeds) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n");
   const pid_t process = start_talus(perturb("p", {"--seeds", "1-2"}), folder.path());
@@ -142,7 +188,7 @@ TEST(Perturb, that_is_stopped_stops_its_seeds) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("p/perturb.md")));
 }
 
-TEST(Perturb, of_a_bad_form_leaves_with_64_before_anything_runs) {
+TEST_F(Perturb, of_a_bad_form_leaves_with_64_before_anything_runs) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
@@ -158,7 +204,7 @@ TEST(Perturb, of_a_bad_form_leaves_with_64_before_anything_runs) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("p")));
 }
 
-TEST(Perturb, does_not_mix_plans_or_scenarios_in_a_folder) {
+TEST_F(Perturb, does_not_mix_plans_or_scenarios_in_a_folder) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   ASSERT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
@@ -172,7 +218,7 @@ TEST(Perturb, does_not_mix_plans_or_scenarios_in_a_folder) {
   EXPECT_NE(scenario.err.find("contact.friction is 0.5 there, 0.3 here"), std::string::npos) << scenario.err;
 }
 
-TEST(Perturb, takes_no_run_that_lacks_its_trials) {
+TEST_F(Perturb, takes_no_run_that_lacks_its_trials) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   std::filesystem::create_directory(folder.path("p"));
@@ -187,7 +233,7 @@ TEST(Perturb, takes_no_run_that_lacks_its_trials) {
   EXPECT_EQ(run_talus(perturb("p", {"--seed", "1"}), folder.path()).exit_code, 0);
 }
 
-TEST(Perturb, of_one_seed_computes_no_other_and_is_an_ensemble_that_others_may_compute) {
+TEST_F(Perturb, of_one_seed_computes_no_other_and_is_an_ensemble_that_others_may_compute) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", tiny_bed);
   const Outcome begun = run_talus(perturb("p", {"--seeds", "1-3", "--jobs", "0"}), folder.path());

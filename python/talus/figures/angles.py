@@ -13,7 +13,7 @@ from talus.ensemble import mean_of
 from talus.figures.data import Data, Wanted
 from talus.figures.groups import Group
 from talus.figures.means import correlation_of
-from talus.figures.panels import Key, Page, arrange, has_numbers, panels
+from talus.figures.panels import ABOVE, Key, Page, arrange, has_numbers, panels
 from talus.figures.runs import AnalysedRun
 from talus.figures.style import COLOURS, as_math, curve_style, letter, set_title
 from talus.figures.tables import Column, Table, column, short_text
@@ -161,7 +161,7 @@ def draw_angle_distributions(data: Data, page: Page) -> Figure:
                 each.axvline(np.nanmean(values), **curve_style(g, symbols=False) | {"linewidth": 0.6})
             lines.append(summary(values))
         place_lines(each, lines, f"{letter(k)} " if count > 1 else "")
-        each.set_xlim(bins["from"][0], bins["to"][-1])
+        each.set_xlim(max(0, bins["from"][0]) if bins["to"][0] >= 0 else bins["from"][0], bins["to"][-1])
         set_title(each, "x", label, "deg")
         if has_numbers(each, "y"):
             set_title(each, "y", "share of the runs")
@@ -174,7 +174,7 @@ def place_lines(axes, lines: Sequence[str], mark: str) -> None:
     for g, line in enumerate(lines):
         above = 3 + 8.5 * (len(lines) - 1 - g)
         axes.annotate(mark + line if g == 0 else line, (0, 1), (0, above), xycoords="axes fraction", textcoords="offset points",
-                      fontsize=6, color=COLOURS[g % len(COLOURS)], gid="fitted")
+                      fontsize=6, color=COLOURS[g % len(COLOURS)], gid=ABOVE)
 
 
 def key_of_groups(data: Data, symbols: bool = False, **look) -> Key:
@@ -234,7 +234,7 @@ def draw_angle_correlations(data: Data, page: Page) -> Figure:
         for row, g in enumerate(shown):
             r = table[f"r_{g + 1}"][k]
             each.annotate("" if np.isnan(r) else f"$r$ = {r:.2f}".replace("-", "−"), (0, 1), (0, 2 + 8.5 * (len(shown) - 1 - row)),
-                          xycoords="axes fraction", textcoords="offset points", fontsize=6.5, color=COLOURS[g % len(COLOURS)])
+                          xycoords="axes fraction", textcoords="offset points", fontsize=6.5, color=COLOURS[g % len(COLOURS)], gid=ABOVE)
         each.set_xlim(limits(data, angles[first][0]))
         each.set_ylim(limits(data, angles[second][0]))
         each.locator_params(nbins=4)

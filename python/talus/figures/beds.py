@@ -223,8 +223,7 @@ def draw_force_chains(data: Data, page: Page) -> Figure:
         axes.add_collection(line_collection(table, classes == c, **look))
     below = strip(figure, 0, legend)
     bed_left = 0.5 * (page.width - diameter * data.facts["length"])
-    end = scale_bar(below, bed_left, legend - 0.5 if two_lines else 0.6, data)
-    del end
+    scale_bar(below, bed_left, legend - 0.5 if two_lines else 0.6, data)
     samples = (1, 2, 4, 6, 8, 10)
     x = page.width - GAP - 1.15 * len(samples)
     below.text(x - 0.15, 0.55, "$f$ / ⟨$f$⟩", ha="right", va="center")
@@ -235,8 +234,8 @@ def draw_force_chains(data: Data, page: Page) -> Figure:
     return figure
 
 
-def scale_bar(axes: Axes, x: float, y: float, data: Data) -> float:
-    """Draws a scale bar, the direction of gravity and the tilt from (x, y), in cm. Returns the end of the bar."""
+def scale_bar(axes: Axes, x: float, y: float, data: Data) -> None:
+    """Draws a scale bar, the direction of gravity and the tilt from (x, y), in cm."""
     length = data.facts["length"]
     bar = next(bar for limit, bar in ((12, 1), (25, 2), (40, 5), (300, 10), (1000, 50), (np.inf, 100)) if length < limit)
     width = axes.get_xlim()[1]
@@ -249,7 +248,6 @@ def scale_bar(axes: Axes, x: float, y: float, data: Data) -> float:
                   arrowprops={"arrowstyle": "-|>", "linewidth": 0.5, "color": "#000000", "shrinkA": 0, "shrinkB": 0, "mutation_scale": 5})
     axes.text(x + 0.25, y, r"$\mathbf{g}$", va="center", fontsize=7)
     axes.text(x + 0.8, y, f"$θ$ = {rounded(data.facts['tilt'])}°", va="center")
-    return end
 
 
 def critical_contacts(groups: Sequence[Group], wanted: Wanted) -> Data | None:
@@ -287,15 +285,14 @@ def draw_critical_contacts(data: Data, page: Page) -> Figure:
         key.line("other contacts", color="#bbbbbb", linewidth=0.6)
     largest = max(group.table["theta"].max(initial=0) for group in data.groups) or 1.0
     for k, (each, name, title) in enumerate(zip(axes, ("share", "largest", "correlation_length"), (
-            "critical share of the contacts", "contacts in the largest cluster", "correlation length"))):
+            "Critical share of the contacts", "Contacts in the largest cluster", "Correlation length"))):
         draw_curves(each, data, name, symbols=False)
         each.set_xlim(0, 1.04 * largest)
         set_range(each)
         each.set_ylim(0)
-        set_title(each, "y", title, "D" if k == 2 else "1")
+        set_title(each, "y", title, "D" if k == 2 else "1", heading=letter(k + data.facts["has_map"]))
         if has_numbers(each, "x"):
             set_title(each, "x", "$θ$", "deg")
-        each.set_title(letter(k + data.facts["has_map"]), loc="left")
     figure = arrange(axes, key, page=page, above=above)
     if data.facts["has_map"]:
         top = figure.get_size_inches()[1] / CM - figure.talus_top
@@ -433,7 +430,7 @@ def gray_scale(axes: Axes, white: float, gamma_c: float) -> None:
     """Draws the gray scale of gamma below a picture: white below `white`, black from 2 Gamma_c."""
     scale = axes.inset_axes((0.22, -0.06, 0.56, 0.035))
     scale.imshow(np.linspace(1, 0, 256)[None, :], cmap="gray", vmin=0, vmax=1, aspect="auto", extent=(white, 2 * gamma_c, 0, 1))
-    scale.set_xticks([white, 2 * gamma_c], [f"{white:.2f}", f"2 Γ$_c$ = {2 * gamma_c:.2f}"])
+    scale.set_xticks([white, gamma_c, 2 * gamma_c], [f"{white:.2f}", "Γ$_c$", f"2 Γ$_c$ = {2 * gamma_c:.2f}"])
     scale.set_yticks([])
     scale.tick_params(top=False, direction="out", pad=1)
     scale.set_ylabel("$γ$", rotation=0, va="center", ha="right")

@@ -149,10 +149,10 @@ def draw_cycles(data: Data, page: Page) -> Figure:
     key = key_of_groups(data)
     key.line("end of the cycle (g, h, i)", **END)
     key.line("highest tilt (g, h, i)", **TOP)
-    figure = arrange(axes, key, page=page, above=0.8 if count > 1 else 0)
+    figure = arrange(axes, key, page=page, above=1.0 if count > 1 else 0)
     if count > 1:
         width = min(6, 0.5 * page.width)
-        scale = free_axes(figure, 0.5 * (page.width - width), figure.get_size_inches()[1] / CM - figure.talus_top - 0.25, width, 0.2)
+        scale = free_axes(figure, 0.5 * (page.width - width), figure.get_size_inches()[1] / CM - figure.talus_top - 0.45, width, 0.2)
         bar = figure.colorbar(colours, cax=scale, orientation="horizontal", ticks=MaxNLocator(integer=True, nbins=8))
         bar.ax.tick_params(length=0, pad=1.5)
         bar.ax.text(-0.03, 0.5, "cycle", transform=bar.ax.transAxes, ha="right", va="center", fontsize=7)
@@ -297,6 +297,7 @@ def symmetric(axes: Axes) -> None:
     axes.axhline(0, **AXIS)
     axes.set_yscale("function", functions=(lambda y: np.arcsinh(0.5 * y), lambda y: 2 * np.sinh(y)))
     powers = np.arange(np.floor(np.log10(largest)), -0.5, -max(1, np.ceil(np.log10(largest) / 3)))
+    powers = [power for power in powers if np.arcsinh(0.5 * 10**power) > 0.18 * np.arcsinh(0.5 * largest)]  # far enough from 0
     axes.set_yticks([0, *(sign * 10.0**power for sign in (1, -1) for power in powers)],
                     ["0", *(f"{sign}$10^{{{int(power)}}}$" if power else f"{sign}1" for sign in ("", "−") for power in powers)])
     axes.set_ylim(-largest, largest)

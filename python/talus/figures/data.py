@@ -10,7 +10,7 @@ from talus.errors import Error, WrongValue
 from talus.figures.groups import Group, flat
 from talus.figures.means import Abscissa, Series, mean_columns, mean_rows, run_columns, run_curve
 from talus.figures.runs import AnalysedRun
-from talus.figures.tables import Column, Table, column
+from talus.figures.tables import Column, Table, column, short_text
 from talus.simulation import _extension
 
 #: Groups up to which standard deviations and single runs are drawn without being asked for.
@@ -104,8 +104,8 @@ def reading(run: AnalysedRun) -> str:
 
 def rounded(value: float, decimals: int = 2) -> str:
     """Returns a value with at most this many decimals: "13.25", "0"."""
-    text = f"{value:.{decimals}f}"
-    return "0" if float(text) == 0 else text.rstrip("0").rstrip(".") if "." in text else text
+    scale = 10.0**decimals
+    return short_text(np.copysign(np.floor(np.abs(value) * scale + 0.5), value) / scale + 0.0)
 
 
 @dataclass

@@ -1,6 +1,6 @@
 """Panels of a figure: their arrangement with room for their texts, the legend above them, and curves of groups."""
 
-import textwrap
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -64,32 +64,35 @@ def mark_panels(axes: Sequence[Axes]) -> None:
 
 def has_numbers(axes: Axes, which: str) -> bool:
     """Whether a panel has the numbers, and thus the title, of its horizontal ("x") or vertical axis."""
-    side, axis = ("labelbottom", axes.xaxis) if which == "x" else ("labelleft", axes.yaxis)
-    return bool(axis._major_tick_kw.get(side, True))
+    axis = axes.xaxis if which == "x" else axes.yaxis
+    return bool(axis._major_tick_kw.get("label1On", True))
 
 
 def text_width(figure: Figure, text: str, points: float) -> float:
     """Returns the width of a text in cm."""
     from matplotlib.font_manager import FontProperties
 
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    renderer = figure.canvas.get_renderer()
     is_math = text.count("$") >= 2
     width: float = renderer.get_text_width_height_descent(text, FontProperties(size=points), is_math)[0]
     return width / figure.dpi / CM
 
 
 def broken(figure: Figure, text: str, points: float, room: float) -> str:
-    """Returns the text in lines of at most `room` cm, broken at blanks, and in longer words anywhere."""
-    width = text_width(figure, text, points)
-    if width <= room:
+    """Returns the text in lines of at most `room` cm, broken at blanks outside of formulas, and in long words anywhere."""
+    if text_width(figure, text, points) <= room:
         return text
-    plain = text.replace("$", "")
-    while True:
-        lines = textwrap.wrap(plain, max(4, int(0.97 * len(plain) * room / width)), break_on_hyphens=False)
-        widest = max(text_width(figure, line, points) for line in lines)
-        if widest <= room:
-            return "\n".join(lines)
-        width *= 1.05
+    lines = [""]
+    for word in re.findall(r"(?:\$[^$]*\$|[^\s$])+", text):
+        longer = f"{lines[-1]} {word}".strip()
+        if not lines[-1] or text_width(figure, longer, points) <= room:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+        while "$" not in lines[-1] and len(lines[-1]) > 1 and (wide := text_width(figure, lines[-1], points)) > room:
+            cut = max(1, int(0.95 * len(lines[-1]) * room / wide))
+            lines[-1:] = [lines[-1][:cut], lines[-1][cut:]]
+    return "\n".join(lines)
 
 
 class Key:
@@ -123,7 +126,7 @@ class Key:
         columns = next(n for n in range(len(labels), 0, -1) if n == 1 or fits(widths, n, spacing, room))
         rows = -(-len(labels) // columns)
         legend = figure.legend(self.handles, labels, ncol=-(-len(labels) // rows), loc="upper left", bbox_to_anchor=(0, 1))
-        renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+        renderer = figure.canvas.get_renderer()
         height = legend.get_window_extent(renderer).height / figure.dpi / CM
         figure.talus_legend = legend
         return float(height)
@@ -170,48 +173,66 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
     if top:
         figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
     figure.talus_top = top
-    for _ in range(2):  # the numbers of an axis depend on its length
+    titles = [each.get_title("left") for each in axes]
+    for _ in range(2):  # the numbers of an axis, and the lines of a title, depend on its length
         place(figure, axes, width, height, top + above, below)
+        for each, title in zip(axes, titles):
+            room = each.bbox.width / figure.dpi / CM + GAP
+            each._left_title.set_text(broken(figure, title, each._left_title.get_fontsize(), room))
+    place(figure, axes, width, height, top + above, below)
     shrink_texts(figure, axes)
     return figure
 
 
+#: Mark (gid) of lines of text above a panel.
+ABOVE = "above"
+
+
+def texts_above(axes: Axes) -> list[Any]:
+    """Returns the title of a panel and other lines above it, which need room above but not on the sides."""
+    return [text for text in (axes._left_title, *(text for text in axes.texts if text.get_gid() == ABOVE)) if text.get_text()]
+
+
 def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float, bottom: float) -> None:
     """Moves the panels of a grid such that all are equally large and their texts have room; sizes in cm."""
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    renderer = figure.canvas.get_renderer()
     spec = axes[0].get_subplotspec().get_gridspec()
     rows, columns = spec.nrows, spec.ncols
-    left, right = np.zeros(columns), np.zeros(columns)
-    above, below = np.zeros(rows), np.zeros(rows)
+    left, right, over, under = np.zeros(columns), np.zeros(columns), np.zeros(rows), np.zeros(rows)
     for each in axes:
         r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
+        for text in texts_above(each):
+            text.set_in_layout(False)
         box, outer = each.bbox, each.get_tightbbox(renderer)
         left[c], right[c] = max(left[c], box.x0 - outer.x0), max(right[c], outer.x1 - box.x1)
-        below[r], above[r] = max(below[r], box.y0 - outer.y0), max(above[r], outer.y1 - box.y1)
-    to_cm = 1 / figure.dpi / CM
-    left, right, above, below = (side * to_cm for side in (left, right, above, below))
-    inner_width = (width - left.sum() - right.sum() - GAP * (columns + 1)) / columns
-    inner_height = (height - top - bottom - above.sum() - below.sum() - GAP * (rows + 1)) / rows
-    inner_width, inner_height = max(inner_width, 0.5), max(inner_height, 0.5)
+        highest = max([outer.y1, *(text.get_window_extent(renderer).y1 for text in texts_above(each))])
+        under[r], over[r] = max(under[r], box.y0 - outer.y0), max(over[r], highest - box.y1)
+    left, right, over, under = (side / figure.dpi / CM for side in (left, right, over, under))
+    inner_width = max(0.5, (width - left.sum() - right.sum() - GAP * (columns + 1)) / columns)
+    inner_height = max(0.5, (height - top - bottom - over.sum() - under.sum() - GAP * (rows + 1)) / rows)
     for each in axes:
         r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
         x = GAP + (GAP + inner_width) * c + left[: c + 1].sum() + right[:c].sum()
-        y = height - top - GAP - (GAP + inner_height) * r - above[: r + 1].sum() - below[:r].sum() - inner_height
+        y = height - top - GAP - (GAP + inner_height) * r - over[: r + 1].sum() - under[:r].sum() - inner_height
         each.set_position((x / width, y / height, inner_width / width, inner_height / height))
 
 
 def shrink_texts(figure: Figure, axes: Sequence[Axes]) -> None:
-    """Makes letters of titles smaller if they are longer than their panel."""
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    """Makes letters of titles smaller if they are longer than their axis, and those of the lines above all panels alike."""
+    renderer = figure.canvas.get_renderer()
+    lines, ratio = [], 1.0
     for each in axes:
         box = each.bbox
-        for text, room in ((each.xaxis.label, box.width), (each.yaxis.label, box.height), (each._left_title, box.width)):
-            if not text.get_text():
-                continue
+        for text, room in ((each.xaxis.label, box.width), (each.yaxis.label, box.height)):
             extent = text.get_window_extent(renderer)
             long = extent.height if text is each.yaxis.label else extent.width
-            if long > room + 0.3 / 2.54 * figure.dpi:
+            if long > room + GAP * CM * figure.dpi:
                 text.set_fontsize(max(SMALLEST, text.get_fontsize() * room / long))
+        for text in texts_above(each)[bool(each._left_title.get_text()):]:
+            lines.append(text)
+            ratio = min(ratio, (box.width + GAP * CM * figure.dpi) / text.get_window_extent(renderer).width)
+    for text in lines:
+        text.set_fontsize(max(SMALLEST, text.get_fontsize() * ratio))
 
 
 def draw_curves(axes: Axes, data: Data, name: str, *, x: Any = None, scale: float = 1, symbols: bool = True) -> None:

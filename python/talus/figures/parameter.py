@@ -47,8 +47,8 @@ def results() -> list[Result]:
         Result("theta_d/dilation", "deg", "$θ_d$ (dilation)", "theta_d by the onset of dilation, free surface",
                lambda run: run.number("theta_d/dilation")),
         Result("theta_r", "deg", "$θ_r$", "angle at rest after failure", lambda run: run.theta_r),
-        at_start("packing/solid_fraction", "solid fraction"), at_start("contacts/coordination_number", "$z$"),
-        at_failure("packing/stress_ratio", "Γ"), at_failure("overloaded/fraction", "$p_o$"), at_failure("lc/max", "largest $ℓ_c$"),
+        at_start("packing/solid_fraction", "Solid fraction"), at_start("contacts/coordination_number", "$z$"),
+        at_failure("packing/stress_ratio", "Γ"), at_failure("overloaded/fraction", "$p_o$"), at_failure("lc/max", "Largest $ℓ_c$"),
         at_failure("contacts/critical_share", "$ν$"), at_failure("texture/contacts", "$a_c$")]
 
 

@@ -18,7 +18,7 @@ import matplotlib.style  # noqa: E402
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, LogLocator, NullFormatter  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator  # noqa: E402
 
 CM = 1 / 2.54  # inches
 #: Widths of one and of two columns of a journal, cm.
@@ -143,17 +143,22 @@ class PowerFormat:
 
 
 def logarithmic(axis: Any) -> None:
-    """Makes the axis logarithmic, with few numbers."""
+    """Makes the axis logarithmic: numbers at powers of ten or, if these are few, also between them."""
     (axis.axes.set_xscale if axis.axis_name == "x" else axis.axes.set_yscale)("log")
     low, high = sorted(axis.get_view_interval())
     decades = math.log10(high / low) if low > 0 else 1
-    if decades < 1:
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter(FuncFormatter(lambda value, place=None: f"{value:g}"))
-    else:
-        axis.set_major_locator(LogLocator(numticks=6))
-        axis.set_major_formatter(LogFormatterSciNotation())
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5) if decades < 1 else (1, 3) if decades < 2 else (1,), numticks=7))
+    axis.set_minor_locator(LogLocator(subs=range(2, 10), numticks=99) if decades < 5 else NullLocator())
+    axis.set_major_formatter(FuncFormatter(logarithmic_number))
     axis.set_minor_formatter(NullFormatter())
+
+
+def logarithmic_number(value: float, place: int | None = None) -> str:
+    power = math.floor(math.log10(value) + 1e-9)
+    times = round(value / 10.0**power)
+    if power in (0, 1) or times > 1 and -3 < power < 4:
+        return f"{value:g}"
+    return f"${'' if times == 1 else f'{times}·'}10^{{{power}}}$"
 
 
 def write(figure: Figure, paths: Sequence[Path], title: str, dpi: int = 300, style: Any = None) -> None:

@@ -117,11 +117,11 @@ def draw_over_sine(data: Data, page: Page, function: Callable[[np.ndarray], np.n
 
 
 def draw_shear_stress(data: Data, page: Page) -> Figure:
-    return draw_over_sine(data, page, np.tan, (r"$\mathrm{tan}\ θ$", "$σ_T / σ_N$"), r"$σ_T / σ_N = \mathrm{tan}\ θ$")
+    return draw_over_sine(data, page, np.tan, (r"$\mathrm{tan}\ θ$", "$σ_T$ / $σ_N$"), r"$σ_T$ / $σ_N$ = $\mathrm{tan}\ θ$")
 
 
 def draw_stress_ratio(data: Data, page: Page) -> Figure:
-    return draw_over_sine(data, page, np.sin, (r"$\mathrm{sin}\ θ$", "Γ"), r"Γ $= \mathrm{sin}\ θ$")
+    return draw_over_sine(data, page, np.sin, (r"$\mathrm{sin}\ θ$", "Γ"), r"Γ = $\mathrm{sin}\ θ$")
 
 
 def largest_angle(data: Data) -> float:

@@ -140,12 +140,30 @@ TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
 
 TEST_F(EnsembleManifestTest, keeps_the_plan_of_trials_to_the_last_bit) {
   EnsembleManifest asked = wanted({1});
-  const session::PerturbationPlan plan = {1.0 / 3.0, 0.1, {10.5, 2.0}};
+  const TrialsTask plan = {1.0 / 3.0, 0.1, {10.5, 2.0}};
   asked.task = plan;
   extend_ensemble(ensemble, asked);
   EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(plan));
-  asked.task = session::PerturbationPlan{1.0 / 3.0, 0.1, {10.5, 2.5}};
+  asked.task = TrialsTask{1.0 / 3.0, 0.1, {10.5, 2.5}};
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, asked); }), ExitCode::bad_data);
+}
+
+TEST(TrialsTask, is_read_back_from_its_text_alone) {
+  const TrialsTask trials = {12.5, 0.25, {10.0, 1.5}};
+  const std::string text = "--from 12.5 --every 0.25 --patch 10x1.5";
+  EXPECT_EQ(plan_text(trials), text);
+  EXPECT_EQ(parse_task("trials " + text, "e"), MemberTask(trials));
+  for (const std::string& other : {text + " --all", std::string("--from 12.5 --each 0.25 --patch 10x1.5"),
+                                   std::string("--from 12.50 --every 0.25 --patch 10x1.5")})
+    EXPECT_EQ(test::exit_code_of([&] { parse_task("trials " + other, "e"); }), ExitCode::bad_data) << other;
+}
+
+TEST(Patch, is_read_as_width_by_depth) {
+  EXPECT_EQ(parse_patch("10x2"), (SurfacePatch{10.0, 2.0}));
+  EXPECT_EQ(parse_patch("2.5x0.5"), (SurfacePatch{2.5, 0.5}));
+  EXPECT_EQ(patch_text({2.5, 0.5}), "2.5x0.5");
+  for (const char* bad : {"", "10", "10x", "x2", "10x2x3", "0x2", "10x-1", "nanx2", "1e9x1", "10 x 2"})
+    EXPECT_FALSE(parse_patch(bad).has_value()) << bad;
 }
 
 TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {

@@ -30,7 +30,6 @@ const std::vector<std::string> of_a_run = {
     "src/session/frame_state",
     "src/session/guards",
     "src/session/measure",
-    "src/session/perturbation.",
     "src/session/schedule",
     "src/session/session",
 };

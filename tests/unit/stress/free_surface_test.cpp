@@ -219,6 +219,23 @@ TEST(BedVolume, is_the_sum_of_its_parts) {
 
 // n = 20 bumps lie in the middle half. Each is symmetric about its grain, so the fit sees a staircase of n
 // steps, whose slope is smaller than that of its line by a fraction 1/n^2.
+// Touching disks of diameter 1 fill pi / 4 of the square above the lowest line of their tops.
+TEST(MeanHeight, is_that_of_the_part_around_a_place) {
+  for (const bool periodic : {true, false}) {
+    World world = bed(10.0, periodic, 1.0, 0.0);
+    const double flat = bed_volume(world.grains, world.boundary) / 10.0;
+    for (const double x : {0.5, 1.5, 2.5, 3.5, 4.5}) add_grain(world, x, 4.5);
+    const auto height = [&](double centre, double half_width) {
+      return mean_height(world.grains, world.boundary, centre, half_width);
+    };
+    EXPECT_NEAR(height(2.0, 1.0), flat + 4.0, 1e-9) << "the mound";
+    EXPECT_NEAR(height(7.0, 1.0), flat, 1e-9) << "the flat part next to it";
+    EXPECT_NEAR(height(0.0, 2.0), periodic ? flat + 2.0 : flat + 4.0, 1e-9) << "across the edge, or to it";
+    EXPECT_NEAR(height(10.0, 2.0), periodic ? flat + 2.0 : flat, 1e-9);
+    EXPECT_NEAR(height(5.0, 50.0), flat + 2.0, 1e-9) << "the whole bed, once";
+  }
+}
+
 TEST(SurfaceInclination, is_the_slope_of_a_straight_surface) {
   for (const double slope : {0.0, 0.1, 0.3, -0.2})
     EXPECT_NEAR(std::tan(inclination(bed(40.0, false, 20.0, slope))), slope * (1.0 - 1.0 / 400.0),
