@@ -15,6 +15,7 @@
 #include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "base/hash.h"
+#include "base/output_file.h"
 #include "base/version.h"
 #include "core/trigonometry.h"
 #include "ensemble/averages_reader.h"
@@ -331,6 +332,12 @@ void bind_figures(py::module_& module) {
   module.def("_parse_settings", [](const std::vector<std::string>& settings) {
     runs::parse_analysis_settings(settings);
   });
+  module.def("_prepare_folder", prepare_folder);
+  module.def("_publish_file", publish_file);
+  module.def("_output_target",
+             [](const std::string& path, bool overwrite, const std::vector<std::string>& inputs) {
+               output_target(path, {overwrite, inputs});
+             });
   module.def("_departures_text", session::departures_text);
   module.def("_plus_minus", [](double mean, double width) { return ensemble::plus_minus(mean, width); });
   // Exponent, its error, the minimum of the law, and the number of values from there on.

@@ -4,11 +4,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
+import talus.figures.angles as angles
+import talus.figures.beds as beds
+import talus.figures.courses as courses
+import talus.figures.distributions as distributions
+import talus.figures.parameter as parameter
+import talus.figures.tilt as tilt
+import talus.figures.walls as walls
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from talus.errors import MissingName, WrongValue, suggestion
-from talus.figures import angles, beds, courses, distributions, parameter, tilt, walls
 from talus.figures.data import Data, Wanted
 from talus.figures.groups import Group
 from talus.figures.panels import Page

@@ -1,13 +1,15 @@
 """Files of figures: pictures, CSV tables, and the provenance, which appear together when all are complete."""
 
+import fcntl
 import json
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from talus.errors import Error, FailedFile
+from talus.errors import FailedFile
 from talus.figures.catalogue import Recipe
 from talus.figures.data import Data
 from talus.figures.groups import Group
@@ -16,7 +18,7 @@ from talus.figures.style import styled, write
 from talus.figures.tables import Table, csv_text
 from talus.simulation import _extension
 
-TEMPORARY = ".talus_temporary"
+TEMPORARY = ".talus.part"
 
 
 def table_file(recipe: Recipe, table: Table) -> str:
@@ -34,46 +36,65 @@ def earlier_files(folder: Path, recipe: Recipe) -> list[str]:
     name = recipe.name
     try:
         provenance = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
-        tables = [table["file"] for table in provenance["tables"]] if provenance["figure"] == name else None
+        if provenance["figure"] != name:
+            return []
+        tables = [str(table["file"]) for table in provenance["tables"]]
     except (OSError, ValueError, KeyError, TypeError):
-        return []
-    if tables is None:
         return []
     mine = [file for file in tables if file.startswith(f"{name}-") and file.endswith(".csv") and "/" not in file]
     return [*mine, *(f"{name}.{ending}" for ending in ("csv", "pdf", "svg", "png", "gp", "json"))]
 
 
-def remove_files(folder: Path, names: Sequence[str], keep: Sequence[str] = ()) -> None:
+def remove_files(folder: Path, names: Sequence[str]) -> None:
     for name in names:
-        if name not in keep:
-            (folder / name).unlink(missing_ok=True)
+        (folder / name).unlink(missing_ok=True)
 
 
 def provenance(recipe: Recipe, data: Data, groups: Sequence[Group], command: str) -> dict[str, Any]:
     """Returns contents and sources of a figure: title, caption, version, command; path, seed, hashes and parameters of the
     analysis of each run; name, unit and meaning of each column."""
-    sources = {id(run) for run in data.runs}
+    sources = {run.path for run in data.runs}
     runs = [{"path": run.path, "group": group.label, "seed": run.seed, "state_hash": run.state_hash,
-             "scenario_hash": run.core.scenario_hash, "analysis_key": run.core.analysis_key, "analysis": dict(run.core.parameters)}
-            for group in groups for run in group.runs if id(run) in sources]
+             "scenario_hash": run.core.scenario_hash, "analysis_key": run.core.analysis_key, "analysis": run.core.parameters}
+            for group in groups for run in group.runs if run.path in sources]
     tables = [{"file": table_file(recipe, table), "columns": [{"name": each.name, "unit": each.unit, "meaning": each.meaning}
                                                               for each in table.columns]} for table in data.tables]
     return {"figure": recipe.name, "title": data.title or recipe.title, "caption": data.caption, "version": _extension().version_text,
             "command": command, "runs": runs, "tables": tables}
 
 
+@contextmanager
+def workshop(path: Path, what: str) -> Iterator[None]:
+    """Provides an empty temporary folder, which is removed at the end. One that a killed process has left is emptied. Raises
+    FailedFile if another process uses it."""
+    path.mkdir(exist_ok=True)
+    lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            used = FailedFile(f"{what} is being drawn by another process in the same folder; wait for it to end, or choose another "
+                              "folder with -o")
+            used.exit_code = 73
+            raise used from None
+        try:
+            remove_files(path, os.listdir(path))
+            yield
+        finally:
+            shutil.rmtree(path, ignore_errors=True)
+    finally:
+        os.close(lock)
+
+
 def write_figure(recipe: Recipe, data: Data, groups: Sequence[Group], folder: Path, *, formats: Sequence[str] = ("pdf", "png"),
                  width: float = 0, height: float = 0, style: Any = None, command: str = "") -> None:
     """Writes all files of a figure into a folder. They are made in a temporary folder and renamed when all are complete, the
-    provenance last; further files of an earlier figure of this name are removed. Raises FailedFile if another process draws
-    the same figure there, or a file cannot be written."""
-    page = Page(width or recipe.width, height)
-    workshop = folder / (recipe.name + TEMPORARY)
-    shutil.rmtree(workshop, ignore_errors=True)  # of a process that was killed
-    workshop.mkdir()
-    try:
-        pictures = [workshop / f"{recipe.name}.{ending}" for ending in formats]
-        title = data.title or recipe.title
+    provenance last; further files of an earlier figure of this name are removed. Raises FailedFile if a file cannot be
+    written."""
+    page, title = Page(width or recipe.width, height), data.title or recipe.title
+    part = folder / (recipe.name + TEMPORARY)
+    with workshop(part, recipe.name):
+        pictures = [part / f"{recipe.name}.{ending}" for ending in formats]
         if recipe.write is not None:
             recipe.write(data, page, pictures, title)
         else:
@@ -81,12 +102,10 @@ def write_figure(recipe: Recipe, data: Data, groups: Sequence[Group], folder: Pa
                 figure = recipe.draw(data, page)
             write(figure, pictures, title, recipe.dpi, style)
         for table in data.tables:
-            (workshop / table_file(recipe, table)).write_text(csv_text(table), encoding="utf-8")
+            (part / table_file(recipe, table)).write_text(csv_text(table), encoding="utf-8")
         text = json.dumps(provenance(recipe, data, groups, command), indent=2, ensure_ascii=False) + "\n"
-        (workshop / f"{recipe.name}.json").write_text(text, encoding="utf-8", errors="surrogateescape")
+        (part / f"{recipe.name}.json").write_text(text, encoding="utf-8", errors="surrogateescape")
         earlier, names = earlier_files(folder, recipe), figure_files(recipe, data, formats)
         for name in names:
-            os.replace(workshop / name, folder / name)
-        remove_files(folder, earlier, names)
-    finally:
-        shutil.rmtree(workshop, ignore_errors=True)
+            _extension()._publish_file(os.fsencode(part / name), os.fsencode(folder / name))
+        remove_files(folder, [name for name in earlier if name not in names])

@@ -1,0 +1,213 @@
+"""`talus figures`: draws figures of runs, with their data."""
+
+import argparse
+import multiprocessing
+import os
+import re
+import shlex
+import sys
+import time
+from collections.abc import Callable, Sequence
+from multiprocessing.connection import wait
+from pathlib import Path
+from typing import Any
+
+from talus.errors import Error, WrongValue
+from talus.figures.catalogue import CATALOGUE, Recipe, find
+from talus.figures.data import Data, Wanted
+from talus.figures.files import earlier_files, figure_files, remove_files, write_figure
+from talus.figures.groups import Group, group_runs
+from talus.figures.runs import AnalysedRun, read_runs
+from talus.simulation import _extension
+
+#: Values of --add.
+ADDITIONS = {"paper": "the paper's values also for other beds than the paper's",
+             "spread": "standard deviations and single runs also of more than two groups", "svg": "a picture as SVG"}
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser("talus figures", description="Draws the paper's figures of runs, with their data.")
+    parser.add_argument("runs", nargs="+", metavar="RUNS", help="run files, folders of ensembles, or an ensemble.h5")
+    parser.add_argument("-o", "--output", required=True, metavar="FOLDER", help="folder of the figures, created if missing")
+    parser.add_argument("--only", action="append", default=[], metavar="NAME,...", help="figures by name or number [all]")
+    parser.add_argument("--at", action="append", default=[], metavar="DEG,...", help="frames instead of those of the paper")
+    parser.add_argument("--size", default="", metavar="CM", help="width in cm, or WIDTHxHEIGHT")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a parameter of the analysis")
+    parser.add_argument("--add", action="append", default=[], metavar="WHAT,...",
+                        help="; ".join(f"{name}: {text}" for name, text in ADDITIONS.items()))
+    parser.add_argument("--style", metavar="FILE", help="style sheet of matplotlib")
+    parser.add_argument("--threads", type=int, default=min(2, os.cpu_count() or 1), help="number of processes that draw")
+    parser.add_argument("--overwrite", action="store_true", help="replace existing files")
+    parser.add_argument("-q", "--quiet", action="store_true", help="show no progress")
+    parser.add_argument("--command", default="", help=argparse.SUPPRESS)
+    found = parser.parse_intermixed_args(words)
+    for name in ("only", "at", "add"):
+        setattr(found, name, [part for text in getattr(found, name) for part in text.split(",")])
+    return found
+
+
+def parse_size(text: str) -> tuple[float, float]:
+    """Parses "8.6" or "17.8x10", cm; 0 stands for the default of each figure."""
+    narrowest, lowest, largest = 8, 4, 60
+    if not text:
+        return 0, 0
+    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)(?:x(\d+\.?\d*|\.\d+))?", text)
+    width, height = (float(part or 0) for part in found.groups()) if found else (0, 0)
+    if not narrowest <= width <= largest or height and not lowest <= height <= largest or found and found[2] and not height:
+        raise WrongValue(f"--size {text}: expected a width in cm from {narrowest} to {largest}, or WIDTHxHEIGHT with a height from {lowest}")
+    return width, height
+
+
+def usage_error(text: str) -> Error:
+    error = WrongValue(text)
+    error.exit_code = 64
+    return error
+
+
+def report(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
+
+
+class Count:
+    """Shows a count on a line of standard error: at once on a terminal, every five seconds in a log."""
+
+    def __init__(self, label: str, quiet: bool) -> None:
+        self.label, self.quiet, self.terminal = label, quiet, sys.stderr.isatty()
+        self.began = self.shown = time.monotonic()
+
+    def __call__(self, done: int, count: int) -> None:
+        now, last = time.monotonic(), 0 < done == count
+        if self.quiet or now - self.shown < (0.1 if self.terminal else 5) and not (last and self.terminal):
+            return
+        self.shown = now
+        text = f"{self.label} {done}/{count}, {now - self.began:.0f} s"
+        if self.terminal:
+            print(f"\r{text}\033[K", end="\n" if last else "", file=sys.stderr, flush=True)
+        else:
+            report(text)
+
+
+def has_material(recipe: Recipe, runs: Sequence[AnalysedRun]) -> bool:
+    """Whether any run has the kind of data that a figure needs."""
+    return any(recipe.material == "values" or run.has_frames or (recipe.material == "distributions" and run.has_distributions)
+               for run in runs)
+
+
+def make_data(recipes: Sequence[Recipe], groups: Sequence[Group], wanted: Wanted) -> list[tuple[Recipe, Data]]:
+    """Returns the data of the figures that can be made of the runs, and reports the requirements of the others."""
+    made = []
+    for recipe in recipes:
+        data = recipe.data(groups, wanted)
+        if data is not None:
+            made.append((recipe, data))
+            continue
+        lacking = "" if has_material(recipe, [run for group in groups for run in group.runs]) else (
+            "; the input has only values of members, without frames of their runs")
+        report(f"left out: {recipe.name} needs {recipe.needs}{lacking}")
+    if not made:
+        raise Error("no figure can be made of these runs")
+    return made
+
+
+def check_targets(folder: Path, made: Sequence[tuple[Recipe, Data]], recipes: Sequence[Recipe], formats: Sequence[str], overwrite: bool,
+                  inputs: Sequence[str]) -> None:
+    """Raises Error if a file exists and is not to be replaced, or is read by this command."""
+    names = [name for recipe, data in made for name in figure_files(recipe, data, formats)]
+    if overwrite:
+        names += [name for recipe in recipes for name in earlier_files(folder, recipe)]
+    for name in names:
+        _extension()._output_target(os.fsencode(folder / name), overwrite, [os.fsencode(path) for path in inputs])
+
+
+def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: Callable[[int, int], None]) -> None:
+    """Carries out jobs in forked processes, and raises the first error of one of them."""
+    context = multiprocessing.get_context("fork")
+    following = context.Value("i", 0)
+
+    def work(answers: Any) -> None:
+        while True:
+            with following.get_lock():
+                k, following.value = following.value, following.value + 1
+            if k >= len(jobs):
+                break
+            try:
+                jobs[k]()
+                answers.send(None)
+            except KeyboardInterrupt:
+                break
+            except BaseException as error:
+                answers.send(error)
+                break
+        answers.close()
+
+    pipes, workers = [], []
+    try:
+        for _ in range(min(processes, len(jobs))):
+            ours, theirs = context.Pipe(duplex=False)
+            workers.append(context.Process(target=work, args=(theirs,)))
+            workers[-1].start()
+            theirs.close()
+            pipes.append(ours)
+        done = 0
+        progress(done, len(jobs))
+        while pipes:
+            for pipe in wait(pipes):
+                try:
+                    answer = pipe.recv()  # type: ignore[union-attr]
+                except EOFError:
+                    pipes.remove(pipe)  # type: ignore[arg-type]
+                    continue
+                if answer is not None:
+                    raise answer
+                done += 1
+                progress(done, len(jobs))
+        if done < len(jobs):
+            raise Error("a process that draws figures has ended early; is there enough memory?")
+    finally:
+        for worker in workers:
+            worker.terminate()
+        for worker in workers:
+            worker.join()
+
+
+def main(words: Sequence[str]) -> None:
+    """Carries out `talus figures`."""
+    asked = parse(words)
+    chosen = [find(word) for word in asked.only]
+    recipes = [recipe for recipe in CATALOGUE if recipe in chosen or not chosen]
+    width, height = parse_size(asked.size)
+    if asked.at and not any(recipe.shows_frames for recipe in recipes):
+        raise usage_error("--at: no requested figure shows single frames")
+    for word in asked.add:
+        if word not in ADDITIONS:
+            raise usage_error(f"--add {word}: expected one of {', '.join(ADDITIONS)}")
+    formats = ("pdf", "png", "svg") if "svg" in asked.add else ("pdf", "png")
+    progress = None if asked.quiet else Count("analysis", False)
+    runs = read_runs(asked.runs, asked.set, threads=asked.threads, progress=progress, report=report)
+    groups = group_runs(runs)
+    made = make_data(recipes, groups, Wanted(asked.at, "paper" in asked.add, "spread" in asked.add))
+    folder = Path(asked.output)
+    check_targets(folder, made, recipes, formats, asked.overwrite, [run.path.partition("#")[0] for run in runs])
+    _extension()._prepare_folder(os.fsencode(folder))
+    command = asked.command or f"talus figures {shlex.join(words)}"
+
+    def job(recipe: Recipe, data: Data) -> Callable[[], None]:
+        return lambda: write_figure(recipe, data, groups, folder, formats=formats, width=width, height=height, style=asked.style,
+                                    command=command)
+
+    in_processes([job(*each) for each in made], asked.threads, Count("figures", asked.quiet))
+    if asked.overwrite:
+        remove_left_out(folder, [recipe for recipe in recipes if recipe not in [each for each, _ in made]])
+    for recipe, data in made:
+        print(f"{recipe.name:<34} {data.title or recipe.title}")
+    print(f"{len(made)} figure{'' if len(made) == 1 else 's'} in {asked.output}: {', '.join('.' + each for each in formats)}; data in .csv, "
+          "provenance in .json")
+
+
+def remove_left_out(folder: Path, recipes: Sequence[Recipe]) -> None:
+    """Removes earlier figures that were asked for and cannot be made of these runs."""
+    for recipe in recipes:
+        earlier = earlier_files(folder, recipe)
+        remove_files(folder, earlier)
+        if earlier:
+            report(f"removed: {recipe.name} of an earlier command")
