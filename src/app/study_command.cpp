@@ -1,5 +1,5 @@
-/// `talus study`: varies one setting of a scenario at a time, with the same seeds for each variation. The module
-/// talus.study of the Python package compares the results.
+/// `talus study`: varies one setting of a scenario at a time, with the same seeds for each variation. The
+/// module talus.study of the Python package compares the results.
 
 #include <filesystem>
 #include <fmt/core.h>
@@ -44,8 +44,8 @@ void study(const StudyArguments& arguments) {
   std::vector<ensemble::Variant> variants =
       ensemble::plan_one_at_a_time(arguments.scenario, arguments.settings, arguments.axes);
   ensemble::take_earlier_names(variants, arguments.folder);
-  const ensemble::EnsemblePlan plan = ensemble::plan_ensemble(ensemble::parse_seeds(arguments.seeds),
-                                                              std::move(variants), arguments.folder);
+  const ensemble::EnsemblePlan plan =
+      ensemble::plan_ensemble(ensemble::parse_seeds(arguments.seeds), std::move(variants), arguments.folder);
   for (const char* table : {"study.csv", "study.md"})
     output_target((std::filesystem::path(arguments.folder) / table).string(), {true, {arguments.scenario}});
   output_of_python_module("study", {"--help"});  // before runs that take hours: is everything installed?

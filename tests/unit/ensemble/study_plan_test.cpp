@@ -54,8 +54,7 @@ TEST(StudyAxis, takes_a_value_of_toml_for_one_value) {
             (std::vector<Settings>{{"a.b=1979-05-27T07:32:00Z"}, {"a.b=07:32:00"}, {"a.b=c:d"}}));
   EXPECT_EQ(parse_axis(R"(a:b="x:y,z":[1,2], 1979-05-27 07:32:00.5-07:00 : 2 )"),
             (std::vector<Settings>{{R"(a="x:y,z")", "b=[1,2]"}, {"a=1979-05-27 07:32:00.5-07:00", "b=2"}}));
-  EXPECT_EQ(parse_axis("a.b=it's.csv,x[1.csv"),
-            (std::vector<Settings>{{"a.b=it's.csv"}, {"a.b=x[1.csv"}}))
+  EXPECT_EQ(parse_axis("a.b=it's.csv,x[1.csv"), (std::vector<Settings>{{"a.b=it's.csv"}, {"a.b=x[1.csv"}}))
       << "quotes and brackets within a word";
   EXPECT_EQ(parse_axis(" a.b = 1 , 2"), (std::vector<Settings>{{"a.b=1"}, {"a.b=2"}}));
 }
@@ -87,8 +86,7 @@ TEST_F(StudyPlanTest, changes_joined_keys_together) {
 }
 
 TEST_F(StudyPlanTest, runs_nothing_twice) {
-  const std::vector<Variant> study =
-      plan({}, {"solver.tolerance=0.000001,1e-7", "solver.tolerance=1.0e-7"});
+  const std::vector<Variant> study = plan({}, {"solver.tolerance=0.000001,1e-7", "solver.tolerance=1.0e-7"});
   ASSERT_EQ(study.size(), 2u);
   EXPECT_EQ(study[1].name, "solver.tolerance=1e-07");
 }

@@ -1,11 +1,11 @@
-#include "studies/wall_fit.h"
+#include "figures/wall_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-namespace talus::studies {
+namespace talus::figures {
 namespace {
 
 TEST(WallFit, GivesTheCoefficientOfPointsOnTheLaw) {
@@ -40,4 +40,4 @@ TEST(WallFit, OnePointHasNoErrorAndNoPointNoCoefficient) {
 }
 
 }  // namespace
-}  // namespace talus::studies
+}  // namespace talus::figures

@@ -5,7 +5,7 @@
 
 #include "core/observables.h"
 
-namespace talus::studies {
+namespace talus::figures {
 
 /// A bed between walls at failure.
 struct WallPoint {
@@ -25,4 +25,4 @@ WallFit fit_wall_law(std::span<const WallPoint> points);
 /// Returns (sigma_T / sigma_N) / tan(theta) of the law.
 double wall_law(double k, double depth_over_length);
 
-}  // namespace talus::studies
+}  // namespace talus::figures

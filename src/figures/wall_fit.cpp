@@ -1,10 +1,10 @@
-#include "studies/wall_fit.h"
+#include "figures/wall_fit.h"
 
 #include <cmath>
 
 #include "core/tensor.h"
 
-namespace talus::studies {
+namespace talus::figures {
 
 double wall_law(double k, double depth_over_length) { return 1.0 - k / 3.0 * depth_over_length; }
 
@@ -20,4 +20,4 @@ WallFit fit_wall_law(std::span<const WallPoint> points) {
   return {k, 3.0 * std::sqrt(residual.squaredNorm() / static_cast<double>(count - 1) / x.squaredNorm())};
 }
 
-}  // namespace talus::studies
+}  // namespace talus::figures
