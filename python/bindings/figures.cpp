@@ -76,9 +76,9 @@ const analysis::Quantity& quantity_called(const std::string& name) {
 /// Returns all values of a quantity in the units of tables.
 py::array_t<double> values_of(const AnalysedRun& run, const std::string& name) {
   const analysis::Quantity& quantity = quantity_called(name);
-  std::vector<double> numbers = std::visit(
-      [](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
-      analysis::values_of(quantity, run.view.analysis));
+  std::vector<double> numbers =
+      std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); },
+                 analysis::values_of(quantity, run.view.analysis));
   for (double& number : numbers) number = analysis::scaled(quantity.unit, number, run.diameter());
   return array_of(numbers);
 }
@@ -120,8 +120,7 @@ std::vector<std::unique_ptr<AnalysedRun>> stored_runs(const std::string& path) {
   std::vector<std::unique_ptr<AnalysedRun>> runs;
   for (const ensemble::StoredVariant& variant : ensemble::read_averages(path))
     for (std::size_t m = 0; m < variant.seeds.size(); ++m)
-      runs.push_back(
-          std::make_unique<AnalysedRun>(AnalysedRun{ensemble::view_of_values(path, variant, m)}));
+      runs.push_back(std::make_unique<AnalysedRun>(AnalysedRun{ensemble::view_of_values(path, variant, m)}));
   return runs;
 }
 
@@ -231,7 +230,8 @@ render::Sheet panel_of(const AnalysedRun& run, const std::vector<std::size_t>& f
   return pictures::panel_sheet(views, "", pixels(width), pixels(height), render::embedded_font());
 }
 
-/// Writes a panel to files, each a PNG, PDF or SVG by its ending. `source`: what it shows, for its properties.
+/// Writes a panel to files, each a PNG, PDF or SVG by its ending. `source`: what it shows, for its
+/// properties.
 void write_panel(const AnalysedRun& run, const std::vector<std::size_t>& frames,
                  const std::vector<std::pair<std::string, double>>& maps, double width, double height,
                  const std::vector<std::string>& paths, const std::string& source) {
@@ -249,11 +249,9 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("path", [](const AnalysedRun& run) { return run.view.path; });
   type.def_property_readonly("kept", [](const AnalysedRun& run) { return run.view.kept; });
   type.def_property_readonly("is_kept", [](const AnalysedRun& run) { return run.view.is_kept; });
-  type.def_property_readonly("has_file",
-                             [](const AnalysedRun& run) { return run.view.file.has_value(); });
-  type.def_property_readonly("has_frames", [](const AnalysedRun& run) {
-    return run.view.file && run.view.file->has_frames();
-  });
+  type.def_property_readonly("has_file", [](const AnalysedRun& run) { return run.view.file.has_value(); });
+  type.def_property_readonly(
+      "has_frames", [](const AnalysedRun& run) { return run.view.file && run.view.file->has_frames(); });
   type.def_property_readonly("has_distributions",
                              [](const AnalysedRun& run) { return !run.view.analysis.gamma_edge.empty(); });
   type.def_property_readonly("thresholds",
@@ -281,13 +279,14 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("mean_mass",
                              [](const AnalysedRun& run) { return runs::mean_grain_mass(run.statics()); });
   type.def_property_readonly("departures", departures_of);
-  type.def_property_readonly(
-      "tilts", [](const AnalysedRun& run) { return array_of(in_degrees(tilts_of(run))); });
+  type.def_property_readonly("tilts",
+                             [](const AnalysedRun& run) { return array_of(in_degrees(tilts_of(run))); });
   type.def("values", values_of);
 }
 
 void bind_choices(py::class_<AnalysedRun>& type) {
-  // The frames of the last rise: the first, the magnitudes of their tilts, and whether the bed slopes backwards.
+  // The frames of the last rise: the first, the magnitudes of their tilts, and whether the bed slopes
+  // backwards.
   type.def_property_readonly("rise", [](const AnalysedRun& run) {
     const analysis::FramesOfRise rise = runs::last_rise_of(run.view);
     return py::make_tuple(rise.first, array_of(in_degrees(rise.tilts)), rise.mirrored_slope);
@@ -305,15 +304,15 @@ void bind_measures(py::class_<AnalysedRun>& type) {
   type.def("overloaded_over_scale", overloaded_over_scale);
   type.def("force_components", force_components);
   type.def("surface", surface_of);
-  type.def("gamma", [](const AnalysedRun& run, std::size_t k) { return array_of(analysed_frame(run, k).gamma); });
+  type.def("gamma",
+           [](const AnalysedRun& run, std::size_t k) { return array_of(analysed_frame(run, k).gamma); });
   // The share of the grains that carry something with gamma at or above a value.
   type.def("share_from", [](const AnalysedRun& run, std::size_t k, double gamma) {
     const Frame frame = analysed_frame(run, k);
     return stress::count_overloaded({frame, run.statics()}, gamma).fraction();
   });
-  type.def("length_cut", [](const AnalysedRun& run) {
-    return analysis::length_cut(run.statics(), 0.0) / run.diameter();
-  });
+  type.def("length_cut",
+           [](const AnalysedRun& run) { return analysis::length_cut(run.statics(), 0.0) / run.diameter(); });
   type.def("write_panel", write_panel);
 }
 
@@ -329,9 +328,8 @@ void bind_figures(py::module_& module) {
   module.def("_member_runs", member_runs);
   module.def("_holds_averages", ensemble::holds_averages);
   module.def("_begins_as_run", io::begins_as_run);
-  module.def("_parse_settings", [](const std::vector<std::string>& settings) {
-    runs::parse_analysis_settings(settings);
-  });
+  module.def("_parse_settings",
+             [](const std::vector<std::string>& settings) { runs::parse_analysis_settings(settings); });
   module.def("_prepare_folder", prepare_folder);
   module.def("_publish_file", publish_file);
   module.def("_output_target",
@@ -350,8 +348,8 @@ void bind_figures(py::module_& module) {
     const analysis::ExponentialLaw law = analysis::exponential_law(values, minimum);
     return py::make_tuple(law.mean, law.error, law.count);
   });
-  // Name, shape, unit of tables, definition, symbol, title, whether in percent in curves, and whether the sign
-  // changes if the bed slopes backwards.
+  // Name, shape, unit of tables, definition, symbol, title, whether in percent in curves, and whether the
+  // sign changes if the bed slopes backwards.
   module.def("_quantities", [] {
     py::list rows;
     for (const analysis::Quantity& row : analysis::quantities())
