@@ -24,6 +24,7 @@
 #include "base/errors.h"
 #include "dynamics/failure.h"
 #include "figures.h"
+#include "forces.h"
 #include "library/talus.h"
 #include "scenario/scenario.h"
 #include "stress/free_surface.h"
@@ -659,6 +660,7 @@ PYBIND11_MODULE(_core, module) {
   bind_options(module);
   bind_frames(module);
   bind_figures(module);
+  bind_forces(module);
   module.def("_png", &png_of);
   module.def("_end_steps", &end_steps);
   module.def("_require_files", &require_files);

@@ -9,7 +9,6 @@ Strengths are velocities over sqrt(g D), energies are over m g D, m the mass of 
 sqrt(D / g), so that beds of any grain size can be compared."""
 
 import math
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -186,11 +185,11 @@ def stored_states(path: str) -> list[State]:
 
 
 def print_trials(path: str, patch: str) -> None:
-    """Prints a line for each trial on the last state of a run, whose tilt must be held, as /trials stores it."""
+    """Prints the bracket, and a line for each trial, as /trials stores it, on the last state of a run, whose tilt must be held."""
     sim = talus.resume(path, progress=False)
     width, depth = map(float, patch.split("x"))
     trials = perturb(sim, (width, depth))
-    print(f"{sim.tilt:.3f} deg: {bracket(trials)}", file=sys.stderr)
+    print(bracket(trials))
     for trial in trials:
         print(trial.strength, trial.energy, ENDS.index(trial.end), trial.time, trial.moved, trial.displacement)
 

@@ -20,7 +20,7 @@ PLACES = {
 #: Scalar of the run, or of each threshold, that gives the tilt of a place.
 TILTS = {"theta_c": "theta_c", "theta_d": "theta_d/lc_jump", "before_theta_d": "theta_d/lc_jump",
          "percolation": "theta_d/percolation"}
-SAME_TILT = 1e-9  # rad
+SAME_TILT = 1e-9
 
 
 def numbers_at_places(run: Run) -> dict[str, tuple[float, str]]:
@@ -53,7 +53,12 @@ def _frame_at(run: Run, rise: np.ndarray, place: str, f: int) -> int:
     tilt = tilts[min(f, len(tilts) - 1)] if len(tilts) else np.nan
     if np.isnan(tilt):
         return -1
-    last = int(np.searchsorted(rise, tilt + SAME_TILT, side="right")) - 1
-    if last < 0:
-        return -1
-    return int(np.searchsorted(rise, rise[last] - SAME_TILT)) - (place == "before_theta_d")
+    k = frame_not_after(rise, tilt)
+    return k - (place == "before_theta_d") if k >= 0 else -1
+
+
+def frame_not_after(tilts: np.ndarray, tilt: float) -> int:
+    """Returns the last of the ascending tilts that is not above `tilt`, the first of several equal ones; -1: none. The
+    tolerance suits deg and rad, because tilts are multiples of a step up to rounding."""
+    last = int(np.searchsorted(tilts, tilt + SAME_TILT, side="right")) - 1
+    return int(np.searchsorted(tilts, tilts[last] - SAME_TILT)) if last >= 0 else -1

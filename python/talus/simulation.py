@@ -301,9 +301,10 @@ class Simulation(Closed):
     def __init__(self, scenario: str | os.PathLike[str] | Mapping[str, Any] | None = None, /, *, threads: int = 1,
                  progress: bool | None = None, **settings: Any) -> None:
         core, threads = _extension(), _threads(threads)
-        of_keys = scenario is None or isinstance(scenario, Mapping)
-        tables, keys = _tables({**(scenario or {}), **settings} if of_keys else settings)
-        self._begin(core.Simulation(b"" if of_keys else _path(scenario), _settings(keys), tables), progress)
+        given: Mapping[str, Any] = scenario if isinstance(scenario, Mapping) else {}
+        path = b"" if scenario is None or scenario is given else _path(scenario)
+        tables, keys = _tables({**given, **settings})
+        self._begin(core.Simulation(path, _settings(keys), tables), progress)
         if threads != 1:
             self._core._use_threads(threads)
 

@@ -25,12 +25,12 @@
 #include "base/text.h"
 #include "ensemble/kept_runs.h"
 #include "ensemble/pool.h"
+#include "ensemble/readings.h"
 #include "ensemble/until.h"
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "runs/analysis_run.h"
-#include "studies/reproduction_values.h"
 
 namespace talus::app {
 namespace {
@@ -83,7 +83,7 @@ bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifes
   const analysis::Analysis analysis = runs::analyse_run(run, analysis::AnalysisParameters(), 1, progress);
   parts.analysis = &analysis;
   if (std::holds_alternative<ensemble::ReadingsTask>(manifest.task))
-    parts.readings = studies::make_readings(member, run, progress);
+    parts.readings = ensemble::make_readings(member, run, progress);
   parts.frames = ensemble::keeps_frames(manifest, member.seed) || !ensemble::is_in_folder(member, folder);
   return store.pack(should_continue, parts);
 }

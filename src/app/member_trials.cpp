@@ -4,8 +4,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
+#include <string>
 
 #include "app/python_module.h"
+#include "app/terminal.h"
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/text_stream.h"
@@ -35,19 +37,20 @@ bool is_due(const session::Session& session, const ensemble::TrialsTask& plan) {
 class HeldBed {
  public:
   HeldBed(const session::Session& session, std::string path) : path_(std::move(path)) {
+    session::Session held = session.copy();
+    held.apply({0, CommandKind::tilt_rate, -1, 0.0});
+    if (held.schedule().drag) held.apply({0, CommandKind::release});
+    const io::Checkpoint state = held.checkpoint(0.0);
     scenario::Scenario scenario = session.scenario();
     scenario.commands.clear();
     scenario.guards.action = scenario::GuardAction::warn;
+    scenario.tilt.program.clear();
     scenario.tilt.after_failure = scenario::AfterFailure::stop;
     scenario.tilt.end_angle = session::steepest_tilt;
-    session::Session held(scenario, session.checkpoint(0.0));
-    held.apply({0, CommandKind::tilt_rate, -1, 0.0});
-    if (held.schedule().drag) held.apply({0, CommandKind::release});
-    held.clear_segment();
     session::RunOrigin origin{scenario::resolved_toml(scenario), "", "", 1};
-    origin.branch =
-        io::BranchOrigin{"a program", 0, hash_text(state_hash(held.world())), held.checkpoint(0.0), ""};
-    io::RunStore::create(path_, session::run_header(held, origin), true).commit({}, held.checkpoint(0.0));
+    origin.branch = io::BranchOrigin{"a program", 0, hash_text(state_hash(held.world())), state, ""};
+    const io::RunHeader header = session::run_header(session::Session(scenario, state), origin);
+    io::RunStore::create(path_, header, true).commit({}, state);
   }
   ~HeldBed() {
     std::error_code ignored;
@@ -75,14 +78,18 @@ std::function<std::vector<TrialRow>(const session::Session&)> member_trials(cons
   const io::RunFile run = io::RunFile::open(path);
   require_trials(run, plan, path);
   const std::vector<TrialRow> known = run.trials();
-  const double last = known.empty() ? -1.0 : at(known.back(), TrialField::tilt);
-  return [plan, last, bed = path + ".trials"](const session::Session& session) {
+  double reached = known.empty() ? -1.0 : at(known.back(), TrialField::tilt);
+  return [plan, reached, bed = path + ".trials"](const session::Session& session) mutable {
     const double tilt = tilt_of(session);
     std::vector<TrialRow> rows;
-    if (tilt <= last || !is_due(session, plan)) return rows;
+    if (tilt <= reached || !is_due(session, plan)) return rows;  // a tilt may be held, or fall
+    reached = tilt;
     const HeldBed held(session, bed);
     std::istringstream numbers =
         text_stream(output_of_python_module("perturb", {"trials", bed, ensemble::patch_text(plan.patch)}));
+    std::string bracket;
+    std::getline(numbers, bracket);
+    print_error("%.3f deg: %s\n", tilt, bracket.c_str());
     TrialRow row{static_cast<double>(session.world().step), tilt};
     constexpr auto first = static_cast<std::size_t>(TrialField::velocity);
     for (std::size_t k = first; numbers >> row[k]; k = k + 1 < row.size() ? k + 1 : first)

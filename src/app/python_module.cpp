@@ -39,8 +39,8 @@ std::string start_script() {
 
 /// Returns the command line of a module. The interpreter is that of the extension, if it is there.
 std::vector<std::string> words_of(const std::string& name, const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {is_there(TALUS_PYTHON) ? TALUS_PYTHON : "python3", "-P", start_script(),
-                                    name};
+  std::vector<std::string> words = {
+      is_there(TALUS_PYTHON) ? TALUS_PYTHON : "python3", "-P", "-X", "utf8", start_script(), name};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return words;
 }

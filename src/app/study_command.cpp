@@ -1,7 +1,8 @@
-/// `talus study`: varies one setting of a scenario at a time, with the same seeds for each variation.
+/// `talus study`: varies one setting of a scenario at a time, with the same seeds for each variation. The
+/// module talus.study of the Python package compares the results.
 
-#include <cstdio>
 #include <filesystem>
+#include <fmt/core.h>
 #include <memory>
 #include <optional>
 
@@ -9,11 +10,11 @@
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
 #include "app/jobs_option.h"
-#include "app/json.h"
+#include "app/python_module.h"
 #include "app/terminal.h"
 #include "base/output_file.h"
-#include "io/durable_file.h"
-#include "studies/study_report.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_state.h"
 
 namespace talus::app {
 namespace {
@@ -29,46 +30,25 @@ struct StudyArguments {
   bool json = false;
 };
 
-Json runs_json(const studies::StudyResult& result) {
-  Json runs = Json::object();
-  for (const studies::StudyOutcome& outcome : result.outcomes) {
-    Json& run = runs[result.plan.members[outcome.member].name];
-    for (std::size_t k = 0; k < studies::study_quantity_count; ++k)
-      run[studies::study_fields()[k].name] = outcome.figures[k];
-    run["state_hash"] = outcome.state_hash;
-    run["version"] = outcome.version;
-  }
-  return runs;
-}
-
-Json comparison_json(const studies::Comparison& found) {
-  static const char* const words[] = {"unknown", "within error", "differs"};
-  return {{"seeds", found.value.count},
-          {"mean", found.value.mean},
-          {"error", found.value.error},
-          {"difference", found.difference.mean},
-          {"difference_error", found.difference.error},
-          {"verdict", words[static_cast<int>(verdict(found.difference))]}};
-}
-
-std::string study_json(const studies::StudyResult& result) {
-  Json variations = Json::object();
-  for (std::size_t v = 0; v < result.plan.variants.size(); ++v)
-    for (std::size_t k = 0; k < studies::study_quantity_count; ++k)
-      variations[result.plan.variants[v].name][studies::study_fields()[k].name] =
-          comparison_json(studies::compare(result, v, static_cast<studies::StudyQuantity>(k)));
-  return json_text({{"scenario", result.plan.scenario_file},
-                    {"reference_deg", result.reference},
-                    {"variations", variations},
-                    {"runs", runs_json(result)}});
+/// Returns the tables of a study, which the module also writes into its folder.
+std::string make_tables(const StudyArguments& arguments, const ensemble::EnsemblePlan& plan) {
+  std::vector<std::string> words = {"--scenario=" + arguments.scenario, "--seeds=" + arguments.seeds};
+  for (const ensemble::Variant& variant : plan.variants) words.push_back("--variant=" + variant.name);
+  if (arguments.reference) words.push_back(fmt::format("--reference={}", *arguments.reference));
+  if (arguments.json) words.emplace_back("--json");
+  words.insert(words.end(), {"--", arguments.folder});
+  return output_of_python_module("study", words);
 }
 
 void study(const StudyArguments& arguments) {
-  const studies::StudyPlan plan = studies::plan_study(arguments.scenario, arguments.settings, arguments.axes,
-                                                      arguments.seeds, arguments.folder);
-  const std::filesystem::path folder = arguments.folder;
+  std::vector<ensemble::Variant> variants =
+      ensemble::plan_one_at_a_time(arguments.scenario, arguments.settings, arguments.axes);
+  ensemble::take_earlier_names(variants, arguments.folder);
+  const ensemble::EnsemblePlan plan =
+      ensemble::plan_ensemble(ensemble::parse_seeds(arguments.seeds), std::move(variants), arguments.folder);
   for (const char* table : {"study.csv", "study.md"})
-    output_target((folder / table).string(), {true, {arguments.scenario}});
+    output_target((std::filesystem::path(arguments.folder) / table).string(), {true, {arguments.scenario}});
+  output_of_python_module("study", {"--help"});  // before runs that take hours: is everything installed?
   const EnsembleView view =
       compute_ensemble({.seeds = plan.seeds, .variants = plan.variants},
                        {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
@@ -77,10 +57,7 @@ void study(const StudyArguments& arguments) {
     print_text(ensemble_text(view));  // other workers compute it
     return;
   }
-  const studies::StudyResult result = studies::read_study(plan, arguments.reference);
-  io::write_text(folder / "study.csv", studies::study_csv(result));
-  io::write_text(folder / "study.md", studies::study_markdown(result));
-  print("%s\n", (arguments.json ? study_json(result) : studies::study_markdown(result)).c_str());
+  print_text(make_tables(arguments, plan));
   refuse_failures(plan, "left out of the tables");
 }
 

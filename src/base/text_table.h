@@ -1,6 +1,5 @@
 #pragma once
-/// A table of words and numbers as aligned text, CSV or Markdown. Reports print it as HTML
-/// (studies/report_document.h).
+/// A table of words and numbers as aligned text, CSV or Markdown.
 
 #include <string>
 #include <string_view>

@@ -80,20 +80,6 @@ Correlation correlation_of(std::span<const double> left, std::span<const double>
   return found;
 }
 
-Statistics paired_difference(std::span<const double> values, std::span<const double> baseline) {
-  std::vector<double> differences(values.size());
-  double largest = 0.0;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    differences[k] = values[k] - baseline[k];
-    if (!std::isnan(differences[k]))
-      largest = std::max({largest, std::abs(values[k]), std::abs(baseline[k])});
-  }
-  Statistics result = statistics_of(differences);
-  constexpr double round_off = 1e-13;  // relative error of a subtraction, with a margin for the sum
-  if (result.deviation <= round_off * largest) result.deviation = result.error = 0.0;
-  return result;
-}
-
 double student_t(int freedom) {
   constexpr std::array<double, 30> table = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306,
                                             2.262,  2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120,
@@ -105,12 +91,6 @@ double student_t(int freedom) {
   const double z5 = z3 * z * z;
   const double n = freedom;
   return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n);
-}
-
-Verdict verdict(const Statistics& difference) {
-  if (difference.count < 2) return Verdict::unknown;
-  if (difference.error == 0.0 && difference.mean != 0.0) return Verdict::unknown;
-  return std::abs(difference.mean) <= difference.interval() ? Verdict::within_error : Verdict::differs;
 }
 
 }  // namespace talus

@@ -35,20 +35,8 @@ struct Correlation {
 };
 Correlation correlation_of(std::span<const double> left, std::span<const double> right);
 
-/// Returns the statistics of values[k] - baseline[k] over the pairs without NaN. Both arrays have the same
-/// length, one value for each seed. If the deviation is within round-off, deviation and error are 0.
-Statistics paired_difference(std::span<const double> values, std::span<const double> baseline);
-
 /// Returns the two-sided quantile of Student's t distribution at 95 %, freedom >= 1 (Abramowitz and Stegun
 /// 1964, table 26.10; from 31 degrees of freedom on their expansion 26.7.5 to n^-2, within 1e-4).
 double student_t(int freedom);
-
-/// Significance of a difference at 95 % confidence.
-enum class Verdict {
-  unknown,       ///< fewer than two pairs, or all differ by the same amount, so that the error is unknown
-  within_error,  ///< zero lies in the interval
-  differs,
-};
-Verdict verdict(const Statistics& difference);
 
 }  // namespace talus

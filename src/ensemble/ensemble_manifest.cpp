@@ -351,6 +351,18 @@ std::vector<Variant> plan_variants(const std::string& scenario_file, const std::
   return variants;
 }
 
+std::vector<Variant> plan_one_at_a_time(const std::string& scenario_file,
+                                        const std::vector<std::string>& settings,
+                                        const std::vector<std::string>& axes) {
+  std::vector<Variant> variants = plan_variants(scenario_file, settings, {});
+  variants.front().name = "baseline";
+  for (const std::string& axis : axes)
+    for (Variant& variant : plan_variants(scenario_file, settings, {axis}))
+      if (std::ranges::find(variants, variant.scenario, &Variant::scenario) == variants.end())
+        variants.push_back(std::move(variant));
+  return variants;
+}
+
 void take_earlier_names(std::vector<Variant>& variants, const std::string& folder) {
   if (!is_ensemble(folder)) return;
   const EnsembleManifest found = read_ensemble(folder);

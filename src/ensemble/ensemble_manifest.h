@@ -42,6 +42,13 @@ EnsembleManifest read_ensemble(const std::string& folder);
 std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
                                    const std::vector<std::string>& axes);
 
+/// Returns the variants of a study: the scenario itself, called "baseline", and each value of each axis alone
+/// ("tilt.step=0.002", "tilt.rate=2,tilt.step=0.002"), without those that equal an earlier one. An axis
+/// overrides `settings`. Throws as plan_variants does.
+std::vector<Variant> plan_one_at_a_time(const std::string& scenario_file,
+                                        const std::vector<std::string>& settings,
+                                        const std::vector<std::string>& axes);
+
 /// Replaces the names of variants that an ensemble already contains by their stored names, because earlier
 /// versions named variants differently.
 void take_earlier_names(std::vector<Variant>& variants, const std::string& folder);

@@ -12,7 +12,7 @@ struct PlainTask {
   bool operator==(const PlainTask&) const = default;
 };
 
-/// Analyses periodic beds again for each reading of the paper's definitions (reproduction_values.h).
+/// Analyses periodic beds again for each reading of the paper's definitions (readings.h).
 struct ReadingsTask {
   bool operator==(const ReadingsTask&) const = default;
 };

@@ -1,17 +1,13 @@
 #include <algorithm>
-#include <array>
 #include <fmt/core.h>
 
 #include "figures/group_table.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
 #include "scenario/text.h"
-#include "studies/paper_values.h"
 
 namespace talus::figures {
 namespace {
-
-using enum studies::PaperQuantity;
 
 /// Returns the factors of the thresholds over Gamma_c as text; they are the same in all runs.
 std::vector<std::string> factors_of(const runs::RunView& run) {
@@ -55,21 +51,7 @@ void add_periodic_groups(Figure& figure, std::span<const RunGroup> groups, const
   }
 }
 
-/// Returns the paper's values of a quantity at 0, theta_d and theta_c.
-Column paper_column(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const std::array<studies::PaperQuantity, 3>& quantities) {
-  Column column{name, unit, meaning, {}};
-  for (const studies::PaperQuantity quantity : quantities)
-    column.values.push_back(studies::paper_value(quantity).value);
-  return column;
-}
-
-Column tilts_of_the_paper() {
-  return {"theta",
-          "deg",
-          "tilt",
-          {0.0, studies::paper_value(theta_d_by_jump).value, studies::paper_value(theta_c).value}};
-}
+Column tilts_of_the_paper() { return {"theta", "deg", "tilt", {0.0, 15.0, 20.0}}; }
 
 constexpr std::string_view paper_text =
     " Crosses: the paper's values at 0, theta_d = 15 deg and theta_c = 20 deg, the middle of its range of "
@@ -89,10 +71,8 @@ std::optional<Figure> overloaded_fraction_figure(std::span<const RunGroup> group
   figure.caption.append(paper_text).append(" ").append(means_caption);
   add_periodic_groups(figure, groups, {{"p_o", &analysis::FrameThreshold::overloaded_fraction}});
   if (figure.tables.empty()) return std::nullopt;
-  figure.tables.push_back({"paper",
-                           {tilts_of_the_paper(),
-                            paper_column("p_o", "1", "overloaded fraction",
-                                         {overloaded_at_0, overloaded_at_theta_d, overloaded_at_theta_c})}});
+  figure.tables.push_back(
+      {"paper", {tilts_of_the_paper(), {"p_o", "1", "overloaded fraction", {0.30, 0.45, 0.60}}}});
   return figure;
 }
 
@@ -111,10 +91,7 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
       figure, groups,
       {{"mean", &analysis::FrameThreshold::lc_mean}, {"max", &analysis::FrameThreshold::lc_max}});
   if (figure.tables.empty()) return std::nullopt;
-  const std::array<studies::PaperQuantity, 3> largest = {lc_max_at_0, lc_max_before_jump, lc_max_after_jump};
-  double top = 0.0;  // upper end of the axis of the largest lengths
-  for (const studies::PaperQuantity quantity : largest)
-    top = std::max(top, studies::paper_value(quantity).value);
+  double top = 30.0;  // upper end of the axis of the largest lengths
   int shown = 0;
   for (const RunGroup& group : groups) {
     const RunChoice runs = group.periodic() ? runs_with_threshold(group) : RunChoice{};
@@ -126,11 +103,10 @@ std::optional<Figure> length_figure(std::span<const RunGroup> groups) {
     top = std::max(top, cut);
   }
   set_variable(figure, "top", top);
-  figure.tables.push_back(
-      {"paper",
-       {tilts_of_the_paper(),
-        paper_column("mean", "D", "mean l_c", {lc_mean_at_0, lc_mean_at_theta_d, lc_mean_at_theta_c}),
-        paper_column("max", "D", "largest l_c", largest)}});
+  figure.tables.push_back({"paper",
+                           {tilts_of_the_paper(),
+                            {"mean", "D", "mean l_c", {4.0, 5.0, 7.0}},
+                            {"max", "D", "largest l_c", {5.0, 15.0, 30.0}}}});
   return figure;
 }
 

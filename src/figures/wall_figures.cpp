@@ -8,7 +8,7 @@
 #include "figures/failed_group.h"
 #include "figures/recipes.h"
 #include "figures/run_means.h"
-#include "studies/wall_fit.h"
+#include "figures/wall_fit.h"
 
 namespace talus::figures {
 namespace {
@@ -59,7 +59,7 @@ double mean_depth(const runs::RunView& run) {
   return run.analysis.frames.at(repose_frame(run)).volume / length / run.statics.mean_diameter;
 }
 
-WallGroup wall_group(const RunChoice& runs, std::vector<studies::WallPoint>& points) {
+WallGroup wall_group(const RunChoice& runs, std::vector<WallPoint>& points) {
   WallGroup result;
   std::vector<double> ratios, squares;
   for (const runs::RunView* run : runs) {
@@ -91,7 +91,7 @@ void add_row(Table& table, const std::vector<double>& row) {
   for (std::size_t c = 0; c < row.size(); ++c) table.columns[c].values.push_back(row[c]);
 }
 
-std::string plus_minus(const studies::WallFit& fit) {
+std::string plus_minus(const WallFit& fit) {
   return rounded_text(fit.k, 2) + (std::isnan(fit.error) ? "" : " ± " + rounded_text(fit.error, 2));
 }
 
@@ -132,7 +132,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
   figure.name = "fig07-wall-ratio";
   figure.title = "Shear stress at failure over the length between walls (paper, Fig. 7)";
   Table table = empty_wall_table();
-  std::vector<studies::WallPoint> points;
+  std::vector<WallPoint> points;
   std::vector<double> depths;
   for (const RunGroup& group : groups) {
     RunChoice runs = failed_runs(group);
@@ -147,7 +147,7 @@ std::optional<Figure> wall_ratio_figure(std::span<const RunGroup> groups) {
     for (const runs::RunView* run : runs) figure.runs.push_back(run->path);
   }
   if (points.empty()) return std::nullopt;
-  const studies::WallFit fit = studies::fit_wall_law(points);
+  const WallFit fit = fit_wall_law(points);
   const double depth = statistics_of(depths).mean;
   figure.caption = fmt::format(
       "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 "

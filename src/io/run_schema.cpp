@@ -167,9 +167,9 @@ std::vector<DataSetField> reading_fields() {
       {"/readings/key/*", text, "", "1",
        "key of an analysis with the parameters of the name, of which only these values are kept"},
       {"/readings/value/*", float64, "F W", "by quantity",
-       "what it gives at each threshold for the quantities of the paper, in their order in the program and "
-       "in "
-       "the units of the paper; NaN if there is none"},
+       "what it gives at each threshold for the values of the paper's chain, in the order of "
+       "docs/reproduce.md "
+       "and in deg and D; NaN if there is none"},
       {"/readings/at_most/*", int8, "F W", "1", "1 if the value is only an upper bound"},
   };
 }

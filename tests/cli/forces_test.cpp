@@ -19,6 +19,7 @@ int count_of(const std::string& text, const std::string& part) {
 }
 
 TEST(Forces, of_a_run_are_compared) {
+  if (!has_python_package()) GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
   const TemporaryFolder folder;
   const auto talus = [&](const std::vector<std::string>& arguments) {
     return run_talus(arguments, folder.path());

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <thread>
 
-#include "base/sanitizers.h"
 #include "io/run_file.h"
 #include "support/places.h"
 #include "support/process.h"
@@ -18,13 +17,10 @@ namespace {
 /// Bed of 40 grains that is tilted to 20 deg in one second and remains stable.
 const char* const tiny_bed = "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 20\n";
 
-/// The command needs the Python package with its extension, which no sanitizer can be in.
 class Perturb : public testing::Test {
  protected:
   void SetUp() override {
-    const std::filesystem::path package = std::filesystem::path(talus_program()).parent_path() / "python";
-    if (sanitizes_addresses || sanitizes_threads || !std::filesystem::exists(package / "talus" / "start.py"))
-      GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
+    if (!has_python_package()) GTEST_SKIP() << "the Python package was not built: python3-dev, pybind11-dev";
   }
 };
 
@@ -59,6 +55,19 @@ TEST_F(Perturb, leaves_the_run_as_it_is_without) {
   EXPECT_NE(
       run_talus({"info", "p/seed-2.h5", "--json"}, folder.path()).out.find("--from 8 --every 5 --patch 4x1"),
       std::string::npos);
+}
+
+TEST_F(Perturb, of_a_programme_pushes_a_tilt_once_that_is_held_and_comes_back) {
+  const TemporaryFolder folder;
+  write_file(folder, "bed.toml",
+             "[bed]\nlength = 10\ndepth = 4\n[tilt]\nrate = 4\nstep = 0.004\n"
+             "program = [\"to 8 deg\", \"hold 0.1 s\", \"to 6 deg\", \"to 9 deg\"]\n");
+  const Outcome outcome = run_talus(perturb("p", {"--seed", "1"}), folder.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<TrialRow> trials = io::RunFile::open(folder.path("p/seed-1.h5")).trials();
+  EXPECT_EQ(
+      std::ranges::count_if(trials, [](const TrialRow& row) { return at(row, TrialField::velocity) == 0.0; }),
+      1);
 }
 
 TEST_F(Perturb, reports_its_seeds_and_computes_none_again) {

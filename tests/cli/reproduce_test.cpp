@@ -38,6 +38,17 @@ TEST(Reproduce, of_a_bad_form_leaves_with_64_before_anything_is_written) {
   EXPECT_FALSE(std::filesystem::exists(folder.path("quick")));
 }
 
+TEST(Reproduce, needs_matplotlib_before_anything_is_done) {
+  const TemporaryFolder folder;
+  write_file(folder, "matplotlib.py", "raise ImportError('No module named matplotlib', name='matplotlib')\n");
+  const Outcome outcome = run_talus({"reproduce", "--quick", "-o", "quick"}, folder.path(),
+                                    {"PYTHONPATH=" + folder.path().string()});
+  EXPECT_EQ(outcome.exit_code, 69);
+  EXPECT_NE(outcome.err.find("matplotlib"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("apt"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("quick")));
+}
+
 TEST(Reproduce, that_is_stopped_leaves_with_75_and_goes_on_where_it_was) {
   const TemporaryFolder folder;
   const pid_t first = start_quick(folder);

@@ -9,6 +9,7 @@ pytest.importorskip("talus._core", reason="the extension is not built")
 
 import talus  # noqa: E402
 from talus.figures import weakest_push  # noqa: E402
+from talus.figures.data import Data  # noqa: E402
 from talus.perturb import (  # noqa: E402
     BISECTIONS, STRONGEST, WEAKEST, Bracket, State, Trial, bracket, follow, patch_grains, perturb, push_trial, search)
 
@@ -137,11 +138,14 @@ class MadeUpRun:
 @pytest.mark.parametrize("seeds", [2, 12])
 def test_the_figure_shows_brackets_and_states_with_one_end(seeds):
     style = pytest.importorskip("talus.figures.style", reason="matplotlib is not installed")
+    from talus.figures.panels import Page
+
     easy = [trial(0.0, "rest"), trial(5.0, "avalanche"), trial(0.05, "avalanche")]
     states = [State(12.0, NEVER), State(15.0, PUSHED), State(19.0, easy), State(19.5, NOT_AT_REST)]
     table = weakest_push.table_of_states([MadeUpRun(seed) for seed in range(seeds)], [states] * seeds)
+    data = Data(tables=[table], facts={"estimates": {"$l_c$": 4.0, "dilation": math.nan}})
     with style.styled():
-        figure = weakest_push.draw(table, {"$l_c$": 4.0, "dilation": math.nan})
+        figure = weakest_push.draw(data, Page(style.TWO_COLUMNS))
     panel = figure.axes[0]
     texts = [text.get_text() for text in figure.talus_legend.get_texts()]
     assert texts[:-3] == (["seed 0", "seed 1"] if seeds == 2 else ["12 beds"])

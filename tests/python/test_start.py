@@ -4,6 +4,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 from conftest import PACKAGE
@@ -56,8 +57,11 @@ def test_a_full_disk_fails_the_output(start):
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_stops_it(start, number):
-    process = start("import time\ndef main(words):\n print('begun', flush=True)\n time.sleep(30)\n")
+@pytest.mark.parametrize("work", ["time.sleep(30)", "hashlib.pbkdf2_hmac('sha256', b'', b'', 10**8)"])  # the second in C
+def test_a_signal_stops_it(start, number, work):
+    process = start(f"import hashlib, time\ndef main(words):\n print('begun', flush=True)\n {work}\n")
     assert process.stdout.readline() == "begun\n"
     process.send_signal(number)
+    began = time.monotonic()
     assert outcome(process) == (75, "", "Stopped; unfinished results are not kept.\n")
+    assert time.monotonic() - began < 5

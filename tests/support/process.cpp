@@ -15,6 +15,7 @@
 #include <sstream>
 #include <thread>
 
+#include "base/sanitizers.h"
 #include "support/places.h"
 
 namespace talus::test {
@@ -51,6 +52,11 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
 }
 
 }  // namespace
+
+bool has_python_package() {
+  const std::filesystem::path package = std::filesystem::path(talus_program()).parent_path() / "python";
+  return !sanitizes_addresses && !sanitizes_threads && std::filesystem::exists(package / "talus/start.py");
+}
 
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -41,6 +41,9 @@ void pause_before(int attempt, double milliseconds);
 std::vector<int> stop_until_done(const std::function<pid_t()>& start, int signal, double milliseconds,
                                  const std::filesystem::path& result);
 
+/// Whether the program finds its Python package, and can use the extension: not in a build with a sanitizer.
+bool has_python_package();
+
 /// Returns the content of a file; empty if it does not exist.
 std::string text_of(const std::filesystem::path& path);
 

@@ -163,9 +163,11 @@ def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: C
                 progress(done, len(jobs))
         if done < len(jobs):
             raise Error("a process that draws figures has ended early; is there enough memory?")
-    finally:
+    except BaseException:
         for worker in workers:
             worker.terminate()
+        raise
+    finally:
         for worker in workers:
             worker.join()
 

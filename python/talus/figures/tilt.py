@@ -16,6 +16,7 @@ from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import AXIS, COLOURS, CROSS, LAW, MARK, as_math, curve_style, letter, set_title
 from talus.figures.tables import Column, Table, column, short_text
 from talus.ensemble import mean_of
+from talus.paper import CHAIN, PACKING
 
 THETA = "$θ$"
 ANGLE_LEFT = "$θ_c − θ$"
@@ -72,9 +73,15 @@ class Curves:
 
 
 #: The paper's tilts 0, theta_d and theta_c, deg.
-ITS_TILTS = (0.0, 15.0, 20.0)
+ITS_TILTS = (0.0, CHAIN["theta_d_by_jump"].value, PACKING["theta_c"].value)
 PAPER_TEXT = (" Crosses: the paper's values at 0, theta_d = 15 deg and theta_c = 20 deg, the middle of its range of 19 to 21 deg, in "
               "each panel.")
+
+
+def its(*keys: str) -> tuple[float, ...]:
+    """Returns values of the paper."""
+    return tuple(CHAIN[key].value for key in keys)
+
 
 shear_stress = Curves(
     "Shear over normal stress of the packing, sigma_T / sigma_N, over the tangent of the tilt theta, up to theta_c. Dotted: sigma_T "
@@ -85,12 +92,13 @@ stress_ratio = Curves(
 overloaded_fraction = Curves(
     "Fraction p_o of overloaded grains among those that carry something over the tilt theta, for each threshold: gamma >= Gamma_c = "
     "sin(theta_c) as printed in the paper, and multiples of it.", (("p_o", "overloaded/fraction"),), overloaded_runs, True,
-    (("p_o", "1", "overloaded fraction", (0.30, 0.45, 0.60)),))
+    (("p_o", "1", "overloaded fraction", its("overloaded_at_0", "overloaded_at_theta_d", "overloaded_at_theta_c")),))
 _lengths = Curves(
     "Coarse-graining length l_c, a diameter, of the overloaded grains over the tilt theta, with a panel for each threshold: first "
     "the mean, then the largest. Dashed lines: the cut of each bed at which the search for l_c ends.",
     (("mean", "lc/mean"), ("max", "lc/max")), overloaded_runs, True,
-    (("mean", "D", "mean l_c", (4.0, 5.0, 7.0)), ("max", "D", "largest l_c", (5.0, 15.0, 30.0))))
+    (("mean", "D", "mean l_c", its("lc_mean_at_0", "lc_mean_at_theta_d", "lc_mean_at_theta_c")),
+     ("max", "D", "largest l_c", its("lc_max_at_0", "lc_max_before_jump", "lc_max_after_jump"))))
 
 
 def coarse_graining_length(groups: Sequence[Group], wanted: Wanted) -> Data | None:

@@ -14,9 +14,7 @@ from talus.figures.panels import Key, Page, arrange, panels
 from talus.figures.runs import AnalysedRun
 from talus.figures.style import LAW, as_math, curve_style, set_title
 from talus.figures.tables import Table, column
-
-#: k_L - k_0 of the paper's Fig. 7.
-ITS_K = 2.5
+from talus.paper import WALL_COEFFICIENT, wall_law
 
 
 def mean_weight(run: AnalysedRun) -> float:
@@ -71,10 +69,6 @@ class WallFit:
 
     def __str__(self) -> str:
         return rounded(self.k) + ("" if np.isnan(self.error) else f" ± {rounded(self.error)}")
-
-
-def wall_law(k: float, depth_over_length: np.ndarray) -> np.ndarray:
-    return 1 - k / 3 * depth_over_length
 
 
 def fit_wall_law(depth_over_length: np.ndarray, ratio: np.ndarray) -> WallFit:
@@ -137,8 +131,8 @@ def draw_wall_ratio(data: Data, page: Page) -> Figure:
     key.line(f"fit, $k_L − k_0$ = {data.facts['k_text']}", **curve_style(1, symbols=False))
     axes[0].plot(at, wall_law(data.facts["k"], data.facts["depth"] / at), **curve_style(1, symbols=False))
     if data.facts["paper"]:
-        key.line(f"paper, $k_L − k_0$ = {ITS_K}", **LAW)
-        axes[0].plot(at, wall_law(ITS_K, data.facts["depth"] / at), **LAW)
+        key.line(f"paper, $k_L − k_0$ = {WALL_COEFFICIENT}", **LAW)
+        axes[0].plot(at, wall_law(WALL_COEFFICIENT, data.facts["depth"] / at), **LAW)
     axes[0].errorbar(table["L"], table["ratio"], yerr=np.nan_to_num(table["bar"]), **curve_style(0) | {"linestyle": "none"}, elinewidth=0.6)
     axes[0].set_xlim(at[0], at[-1])
     axes[0].set_ylim(0)

@@ -1,10 +1,9 @@
 """Report and figure of `talus perturb`: the weakest push that starts an avalanche, over the distance to failure."""
 
-import json
 import math
 import os
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,15 +11,18 @@ import numpy as np
 
 import talus
 from talus.errors import MissingPackage
-from talus.figures.data import runs_text
-from talus.figures.groups import group_runs
+from talus.figures.data import Data, runs_text
+from talus.figures.groups import Group, group_runs
 from talus.figures.runs import AnalysedRun, read_runs
 from talus.figures.tables import Table, column, csv_text
+from talus.optional import need
 from talus.perturb import STRONGEST, WEAKEST, Bracket, State, bracket, stored_states
 from talus.simulation import _extension
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from talus.figures.panels import Page
 
 TITLE = "Weakest push that starts an avalanche"
 #: Seeds up to which each has its own symbol.
@@ -62,9 +64,9 @@ def table_of_states(runs: Sequence[AnalysedRun], states: Sequence[Sequence[State
 
 def write_text(path: Path, text: str) -> None:
     """Writes a file, which appears complete or not at all."""
-    part = path.with_name(path.name + ".part")
+    part = path.with_name(path.name + ".talus.part")
     part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
+    _extension()._publish_file(os.fsencode(part), os.fsencode(path))
 
 
 def push_text(strength: float) -> str:
@@ -146,22 +148,23 @@ def caption_of(label: str, patch: str, count: int) -> str:
             "its minimum by at most its noise.")
 
 
-def draw(table: Table, estimates: Mapping[str, float], width: float | None = None) -> "Figure":
+def draw(data: Data, page: "Page") -> "Figure":
     """Draws the thresholds of a table of states, as velocities and as energies, over theta_c - theta. Points are the middles of
-    the brackets. `estimates`: theta_c - theta_d (deg) by the name of its estimator; `width` in cm, by default two columns."""
+    the brackets. The fact "estimates" has theta_c - theta_d (deg) by the name of its estimator."""
     from talus.figures import style
-    from talus.figures.panels import Key, Page, arrange, mark_panels, panels
+    from talus.figures.panels import Key, arrange, mark_panels, panels
 
+    table = data.tables[0]
     seeds = list(dict.fromkeys(table["seed"].tolist()))
     many = len(seeds) > MOST_SEEDS
     looks: list[dict[str, Any]] = [{**style.curve_style(0 if many else k), "markersize": 2, "alpha": 0.4 if many else 1} for k in range(len(seeds))]
-    key, page = Key(), Page(width or style.TWO_COLUMNS)
+    key = Key()
     for seed, look in zip([seeds[0]] if many else seeds, looks):
         key.line(f"{len(seeds)} beds" if many else f"seed {seed:.0f}", **{**look, "linewidth": 0.7})
     hollow: dict[str, Any] = {"linestyle": "none", "markerfacecolor": "none", "markersize": 3.5}
     key.line("no avalanche", marker="^", color="#606060", **hollow)
     key.line("weakest push suffices", marker="v", color="#606060", **hollow)
-    lines = [(name, at, look) for (name, at), look in zip(estimates.items(), (style.LAW, style.MARK)) if at > 0]
+    lines = [(name, at, look) for (name, at), look in zip(data.facts["estimates"].items(), (style.LAW, style.MARK)) if at > 0]
     for name, _, look in lines:
         key.line(f"$θ_d$ ({name})", **look)
     axes = panels(page, 2, row=5.5, share_x=True)
@@ -186,30 +189,32 @@ def draw(table: Table, estimates: Mapping[str, float], width: float | None = Non
     return arrange(axes, key, page=page)
 
 
-def write_figure(folder: Path, table: Table, runs: Sequence[AnalysedRun], facts: dict[str, str]) -> None:
-    """Writes the figure as PDF, SVG and PNG, and its provenance. Raises MissingPackage without matplotlib."""
-    from talus.figures import style
+def mean_distance(runs: Sequence[AnalysedRun], estimator: str) -> float:
+    """Returns theta_c - theta_d, deg, as the mean over the runs that have it; NaN if none has."""
+    known = [each for run in runs if not math.isnan(each := run.theta_c - run.number(f"theta_d/{estimator}"))]
+    return sum(known) / len(known) if known else math.nan
 
-    def distance(name: str) -> float:
-        known = [each for run in runs if not math.isnan(each := run.theta_c - run.number(f"theta_d/{name}"))]
-        return sum(known) / len(known) if known else math.nan
 
-    with style.styled():
-        figure = draw(table, {"$l_c$": distance("lc_jump"), "dilation": distance("dilation_high")})
-        style.write(figure, [folder / f"perturb.{ending}" for ending in ("pdf", "svg", "png")], TITLE)
-    provenance = {"figure": "perturb", "title": TITLE, **facts, "version": _extension().version_text,
-                  "runs": [{"path": run.path, "seed": run.seed, "state_hash": run.state_hash} for run in runs],
-                  "tables": [{"file": "perturb.csv", "columns": [{"name": each.name, "unit": each.unit, "meaning": each.meaning}
-                                                                  for each in table.columns]}]}
-    write_text(folder / "perturb.json", json.dumps(provenance, indent=2, ensure_ascii=False) + "\n")
+def write_picture(folder: Path, table: Table, groups: Sequence[Group], patch: str, command: str) -> None:
+    """Writes the figure, its table and its provenance. Raises MissingPackage without matplotlib."""
+    need("matplotlib", "the figure")
+    from talus.figures.catalogue import Recipe
+    from talus.figures.files import write_figure
+    from talus.figures.style import TWO_COLUMNS
+
+    runs = [run for group in groups for run in group.runs]
+    data = Data(caption_of(groups[0].label, patch, len(runs)), tables=[table], runs=runs,
+                facts={"estimates": {"$l_c$": mean_distance(runs, "lc_jump"), "dilation": mean_distance(runs, "dilation_high")}})
+    recipe = Recipe("perturb", TITLE, "", "values", lambda groups, wanted: data, draw, TWO_COLUMNS)
+    write_figure(recipe, data, groups, folder, formats=("pdf", "svg", "png"), command=command)
 
 
 def report(folder: str, patch: str, first: str, command: str, *paths: str) -> None:
     """Reports the trials of runs: prints the tables, and writes them and the figure into a folder."""
     runs = read_runs(paths)
     states = [stored_states(run.path) for run in runs]
-    label, table = group_runs(runs)[0].label, table_of_states(runs, states)
-    text = report_text(label, patch, runs, states)
+    groups, table = group_runs(runs), table_of_states(runs, states)
+    text = report_text(groups[0].label, patch, runs, states)
     write_text(Path(folder) / "perturb.csv", csv_text(table))
     write_text(Path(folder) / "perturb.md", text)
     if not len(table):
@@ -217,6 +222,6 @@ def report(folder: str, patch: str, first: str, command: str, *paths: str) -> No
     sys.stdout.write(text)
     sys.stdout.flush()
     try:
-        write_figure(Path(folder), table, runs, {"caption": caption_of(label, patch, len(runs)), "command": command})
+        write_picture(Path(folder), table, groups, patch, command)
     except MissingPackage as missing:
         print(f"talus: warning: the figure is left out: {missing}", file=sys.stderr)

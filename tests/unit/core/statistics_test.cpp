@@ -40,13 +40,6 @@ TEST(Statistics, of_one_value_or_none_are_unknown) {
   EXPECT_TRUE(std::isnan(statistics_of(std::vector{none}).mean));
 }
 
-TEST(PairedDifference, does_not_see_what_seeds_have_in_common) {
-  const Statistics found = paired_difference(std::vector{11.0, 22.0, 33.0}, std::vector{10.0, 20.0, 30.0});
-  EXPECT_EQ(found.count, 3);
-  EXPECT_DOUBLE_EQ(found.mean, 2.0);
-  EXPECT_DOUBLE_EQ(found.error, 1.0 / std::sqrt(3.0));
-}
-
 TEST(Summary, has_quartiles_between_the_sorted_values) {
   const Summary found = summary_of(std::vector{4.0, 1.0, none, 2.0, 8.0, 3.0});
   EXPECT_DOUBLE_EQ(found.lower_quartile, 2.0);
@@ -100,43 +93,12 @@ TEST(Correlation, is_that_of_hand_made_pairs) {
   EXPECT_TRUE(std::isnan(correlation_of(std::vector{1.0, 2.0}, std::vector{2.0, 1.0}).coefficient));
 }
 
-TEST(PairedDifference, counts_pairs_of_two_numbers_only) {
-  const Statistics found =
-      paired_difference(std::vector{1.0, none, 3.0, 5.0}, std::vector{0.0, 1.0, none, 2.0});
-  EXPECT_EQ(found.count, 2);
-  EXPECT_DOUBLE_EQ(found.mean, 2.0);
-}
-
 TEST(StudentT, has_its_known_values) {
   EXPECT_DOUBLE_EQ(student_t(1), 12.706);
   EXPECT_DOUBLE_EQ(student_t(5), 2.571);
   EXPECT_DOUBLE_EQ(student_t(30), 2.042);
   EXPECT_NEAR(student_t(40), 2.02108, 1e-4);
   EXPECT_NEAR(student_t(120), 1.97993, 1e-4);
-}
-
-TEST(PairedDifference, of_round_off_has_no_error) {
-  // Fractions of 500 grains: each seed has 20 grains fewer, and each subtraction rounds differently.
-  const Statistics found =
-      paired_difference(std::vector{0.152, 0.164, 0.236, 0.31}, std::vector{0.192, 0.204, 0.276, 0.35});
-  EXPECT_NEAR(found.mean, -0.04, 1e-15);
-  EXPECT_EQ(found.error, 0.0);
-  EXPECT_EQ(verdict(found), Verdict::unknown);
-  EXPECT_GT(paired_difference(std::vector{1.0, 2.0}, std::vector{1.0, 2.0 - 1e-9}).error, 0.0);
-}
-
-TEST(Verdict, goes_by_the_interval_of_95_percent) {
-  const auto judge = [](int count, double mean, double error) {
-    return verdict({count, mean, error * std::sqrt(count), error});
-  };
-  EXPECT_EQ(judge(6, 2.5, 1.0), Verdict::within_error);
-  EXPECT_EQ(judge(6, -2.6, 1.0), Verdict::differs);
-  EXPECT_EQ(judge(2, 12.0, 1.0), Verdict::within_error) << "two seeds are too few";
-  EXPECT_EQ(judge(4, 0.0, 0.0), Verdict::within_error) << "the same bits";
-  EXPECT_EQ(judge(4, -0.04, 0.0), Verdict::unknown)
-      << "each seed differs by one step of the quantity, so there is no error";
-  EXPECT_EQ(judge(1, 5.0, none), Verdict::unknown);
-  EXPECT_EQ(judge(0, none, none), Verdict::unknown);
 }
 
 }  // namespace

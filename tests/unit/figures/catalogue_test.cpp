@@ -17,9 +17,8 @@
 namespace talus::figures {
 namespace {
 
-/// Scripts without a figure in the catalogue: common parts, the figure of `talus reproduce`, and plots of
-/// the window.
-const std::set<std::string_view> others = {"style", "text", "axes", "key", "maps", "agreement", "plot"};
+/// Scripts without a figure in the catalogue: common parts, and plots of the window.
+const std::set<std::string_view> others = {"style", "text", "axes", "key", "maps", "plot"};
 
 /// Figures that are panels of maps, drawn by the renderer.
 const std::set<std::string_view> panels = {"fig10-stress-ratio-maps", "fig13-overloaded-maps"};

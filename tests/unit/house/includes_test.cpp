@@ -32,14 +32,12 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"session", {"base/", "contact/", "core/", "dynamics/", "io/", "runs/", "scenario/", "stress/"}},
     {"library",
      {"analysis/", "base/", "core/", "io/", "pictures/", "render/", "runs/", "scenario/", "session/"}},
-    {"problems",
-     {"analysis/", "base/", "core/", "dynamics/", "io/", "runs/", "scenario/", "session/", "solver/"}},
+    {"problems", {"base/", "core/", "dynamics/", "io/", "scenario/", "session/", "solver/"}},
     {"pictures", {"analysis/", "base/", "core/", "io/", "render/", "stress/"}},
     {"ensemble", {"analysis/", "base/", "core/", "io/", "runs/", "scenario/", "session/"}},
-    {"studies", {"analysis/", "base/", "core/", "ensemble/", "io/", "runs/", "scenario/", "session/"}},
     {"figures",
      {"analysis/", "base/", "core/", "ensemble/", "pictures/", "render/frame_view.h", "runs/", "scenario/",
-      "session/", "stress/", "studies/"}},
+      "session/", "stress/"}},
     {"exports",
      {"analysis/", "base/", "core/", "io/", "pictures/", "runs/", "scenario/", "session/", "stress/",
       "view/"}},
@@ -50,7 +48,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"render", {"base/"}},
     {"app",
      {"analysis/", "base/", "core/", "ensemble/", "exports/", "figures/", "gui/", "io/", "pictures/",
-      "problems/", "render/", "runs/", "scenario/", "session/", "studies/", "view/"}},
+      "problems/", "render/", "runs/", "scenario/", "session/", "view/"}},
 };
 
 /// Header of another project, with the only place that includes it.
