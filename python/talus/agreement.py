@@ -13,7 +13,7 @@ from talus import paper
 from talus.figures.data import Data
 from talus.figures.panels import Page
 from talus.figures.style import CM, COLOURS, SYMBOLS, as_math, letter, new_figure
-from talus.figures.tables import Table, column, short_text
+from talus.figures.tables import Table, column
 from talus.paper import BASES, CHAIN, PACKING, STORED, WALLS, PaperValue, Spread
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def draw(data: Data, page: Page) -> Figure:
     rows = [max(len(chart.labels), 6) for chart, _, _ in shown]
     if not page.narrow:
         rows = [max(rows)] * len(rows)
-    key = KEY_ROW * (sum if page.narrow else max)(map(len, keys)) + 0.15
+    key = KEY_ROW * (sum(map(len, keys)) if page.narrow else max(map(len, keys))) + 0.15
     heights = [ROW * count + HEAD + FOOT for count in rows]
     least = sum(heights) if page.narrow else heights[0]
     height = max(page.height, key + least)
@@ -169,8 +169,8 @@ def draw_symbols(axes: Axes, table: Table, series: int) -> None:
             axes.plot(LIMIT + 0.2, y, marker="x", color=colour)
         elif abs(score) > LIMIT:
             side = math.copysign(1, score)
-            axes.annotate("", (side * (LIMIT + 0.4), y), (side * (LIMIT - 0.4), y),
-                          arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 5})
+            arrow = {"arrowstyle": "-|>", "color": colour, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 5}
+            axes.annotate("", (side * (LIMIT + 0.4), y), (side * (LIMIT - 0.4), y), arrowprops=arrow)
         else:
             axes.plot(score, y, marker=symbol, color=colour, markerfacecolor=colour if agrees else "white")
 

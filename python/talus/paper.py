@@ -18,6 +18,7 @@ DEPTH = 40.0  #: of the paper's beds, D
 LC_CUT = 30.0  #: largest l_c of its data processing, D
 #: k_L - k_0 of its Eq. 15, and its accuracy.
 WALL_COEFFICIENT, WALL_ACCURACY = 2.5, 0.25
+READING_VERSION = "2 "  #: beginning of the keys of further analyses (src/ensemble/readings.cpp)
 THRESHOLDS = 2  #: of the analysis with default parameters: Gamma_c and 2 Gamma_c
 
 
@@ -165,7 +166,8 @@ def measure(run: Run, numbers: Mapping[str, float]) -> dict[str, list[dict[str, 
                       for key, paper in (PACKING | CHAIN | WALLS).items()} for f in range(THRESHOLDS)]
               for name, of_all in (("stored", False), (OF_ALL, True))}
     dilation = derived["theta_d_by_dilation"]
-    names = [name.removeprefix("readings/value/") for name in run.quantities if name.startswith("readings/value/")]
+    names = [name.removeprefix("readings/key/") for name in run.quantities
+             if name.startswith("readings/key/") and run[name].startswith(READING_VERSION)]
     return stored | {name: [_chain_of(values, bounds, dilation) for values, bounds in zip(
         run["readings/value/" + name], run["readings/at_most/" + name])] for name in names}
 
@@ -379,8 +381,9 @@ class Conclusion:
     best: list[Result]  #: those with the highest score; of these, with the smallest deviation
     smallest_deviation: Result | None  #: of all
     complete: bool  #: a best result agrees in every comparable value
-    missed: list[tuple[PaperValue, Spread | None, Result | None]]
-    #: Values that no result brings within tolerance, with ours in the result that comes nearest, if the value occurs in any.
+    #: Values of CHAIN, by their places, that no result brings within tolerance, and the result that comes nearest; None if
+    #: the value occurs in none.
+    missed: list[tuple[int, Result | None]]
     reading_scores: dict[int, float]  #: mean score of each reading over preparations
     preparation_scores: dict[int, float]  #: mean score of each preparation over readings
 
@@ -389,19 +392,19 @@ def conclude(results: Sequence[Result]) -> Conclusion:
     """Draws the conclusions from at least one result."""
     first = min(results, key=lambda result: result.rank)
     best = [result for result in results if result.rank == first.rank]
-    missed = []
-    for v, paper in enumerate(CHAIN.values()):
+    missed: list[tuple[int, Result | None]] = []
+    for v in range(len(CHAIN)):
         judged = [(result, result.judgements[v]) for result in results if result.judgements[v].verdict != "not comparable"]
         if not judged or any(each.verdict == "agrees" for _, each in judged):
             continue
         occurring = [(result, each) for result, each in judged if each.verdict != "absent"]
         nearest = min(occurring, key=lambda found: abs(found[1].difference))[0] if occurring else None
-        missed.append((paper, nearest and nearest.spreads[v], nearest))
+        missed.append((v, nearest))
 
     def scores(keys: Sequence[int]) -> dict[int, float]:
         return {key: mean_of([result.agreeing for k, result in zip(keys, results) if k == key]).mean for key in sorted(set(keys))}
 
-    return Conclusion(best, min((result for result in results if not math.isnan(result.deviation)),
-                                key=lambda result: result.deviation, default=None),
-                      any(0 < result.agreeing == result.comparable for result in best), missed,
+    comparable = [result for result in results if not math.isnan(result.deviation)]
+    least = min(comparable, key=lambda result: result.deviation) if comparable else None
+    return Conclusion(best, least, any(0 < result.agreeing == result.comparable for result in best), missed,
                       scores([result.reading for result in results]), scores([result.preparation for result in results]))

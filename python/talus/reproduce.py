@@ -3,7 +3,7 @@
     from talus import reproduce
     found = reproduce.read("reproduction")
     reproduce.summary(found)
-    reproduce.agreement(found)                       # a figure of matplotlib
+    reproduce.agreement_figure(found)                # a figure of matplotlib
 
 The folder is that of an ensemble whose variants are the paper's beds. `python3 -m talus.reproduce FOLDER` writes values.csv,
 the figures and report.html, and prints the summary."""
@@ -36,7 +36,7 @@ from talus.figures.style import TWO_COLUMNS
 from talus.figures.tables import short_text
 from talus.figures.walls import fit_wall_law
 from talus.page import Cell, listed, plus_minus
-from talus.paper import BASES, CHAIN, PACKING, READINGS, STORED, WALLS, Judgement, Measured, PaperValue, Reading, Result, Spread
+from talus.paper import BASES, CHAIN, PACKING, READINGS, STORED, WALLS, Measured, PaperValue, Reading, Result, Spread
 from talus.simulation import _extension
 from talus.start import run as run_module
 
@@ -132,14 +132,14 @@ def read(folder: str | Path, seeds: Sequence[int] | None = None, variants: Seque
     outcomes = []
     for member in ensemble.done():
         if member.seed in seeds and member.variant in variants:
+            k = variants.index(member.variant)
+            needed = {paper.analysis_name(reading, beds[k].depth) for reading in READINGS if beds[k].periodic}
             with member.open() as run:
-                bed = beds[variants.index(member.variant)]
-                lacking = bed.periodic and not any(name.startswith("readings/value/") for name in run.quantities)
-                if lacking or not member.numbers:
+                values = paper.measure(run, member.numbers) if member.numbers else {}
+                if not values or values["stored"][0] and not needed <= values.keys():
                     raise Error(f"{member.path}: lacks analyses of this version of Talus; repeat `talus reproduce`, which adds "
                                 "them")
-                outcomes.append(Outcome(beds.index(bed), member, paper.measure(run, member.numbers),
-                                        paper.wall_point(run, member.numbers)))
+                outcomes.append(Outcome(k, member, values, paper.wall_point(run, member.numbers)))
     return Reproduction(Path(folder), beds, seeds, outcomes)
 
 
@@ -226,16 +226,20 @@ def wall_table(found: Reproduction) -> str:
         for k, bed in enumerate(found.beds):
             if not bed.periodic:
                 value = paper.wall_value(key, bed.depth / bed.length)
-                rows.append([bed.text, name_text(value), paper_cell(value), judged_cell(value, found.spread(k, key), bed.depth)])
+                ours = judged_cell(value, found.spread(k, key), bed.depth)
+                rows.append([bed.text, name_text(value), paper_cell(value), ours])
     value = paper.COEFFICIENT
     rows.append(["all between walls", value.name, paper_cell(value), judged_cell(value, found.wall_coefficient(), paper.DEPTH)])
     return page.Table(["bed", "quantity", "paper", "ours"], rows, frozenset({3})).html()
 
 
 def beds_table(found: Reproduction) -> str:
-    rows = [[bed.text, f"{short_text(bed.depth)} D", f"{bed.length * bed.depth:.0f}", bed.preparation,
-             f"{len(found.outcomes_of(k))} of {len(found.seeds)}", spread_text(found.spread(k, "theta_c")),
-             duration_text(sum(outcome.member.seconds for outcome in found.outcomes_of(k)))] for k, bed in enumerate(found.beds)]
+    rows = []
+    for k, bed in enumerate(found.beds):
+        runs = found.outcomes_of(k)
+        rows.append([bed.text, f"{short_text(bed.depth)} D", f"{bed.length * bed.depth:.0f}", bed.preparation,
+                     f"{len(runs)} of {len(found.seeds)}", spread_text(found.spread(k, "theta_c")),
+                     duration_text(sum(outcome.member.seconds for outcome in runs))])
     return page.Table(["bed", "H", "grains", "preparation", "seeds complete", "theta_c [deg]", "processor time"], rows,
                       frozenset({1, 2, 4, 5, 6})).html()
 
@@ -244,14 +248,16 @@ def chain_table(results: Sequence[Result], preparation: int) -> str:
     """Returns the chain of a preparation under every reading. A value has no count of its seeds: columns are narrow."""
     values = list(CHAIN.values())
     titles = ["reading", *(name_text(value) for value in values), "agree", "half within"]
-    rows: list[list[str | Cell]] = [[Cell("the paper", tone="muted"), *(Cell(f"{value.value:.3g}", tone="muted") for value in values), "", ""]]
+    its = [Cell(f"{value.value:.3g}", tone="muted") for value in values]
+    rows: list[list[str | Cell]] = [[Cell("the paper", tone="muted"), *its, "", ""]]
     for result in results:
         if result.preparation == preparation:
             reading = READINGS[result.reading]
             cells = [Cell(spread_text(spread), "agrees" if each.verdict == "agrees" else "",
                           {"agrees": "good", "not comparable": "muted"}.get(each.verdict, ""))
                      for spread, each in zip(result.spreads, result.judgements)]
-            rows.append([Cell("", reading.change) if reading.change else reading.base, *cells, score_text(result), deviation_text(result)])
+            name = Cell("", reading.change) if reading.change else Cell(reading.base)
+            rows.append([name, *cells, score_text(result), deviation_text(result)])
     return page.Table(titles, rows, frozenset(range(1, len(titles)))).html()
 
 
@@ -316,8 +322,11 @@ def conclusions(found: Reproduction, results: Sequence[Result]) -> list[str]:
         raised.append(f"no change raises that of `{READINGS[base].base}`" if best == base else
                       f"`{READINGS[best].change}` raises that of `{READINGS[base].base}` most, to {scores[best]:.1f}")
     more.append(f"Of the changes to a reading, {listed(raised)}.")
-    missed = [value.name + (f" (paper {value.value:.3g}, nearest {spread_text(spread)}, {result_text(found, nearest)})"
-                            if nearest and spread else " (occurs in none)") for value, spread, nearest in conclusion.missed]
+    missed, chain = [], list(CHAIN.values())
+    for v, nearest in conclusion.missed:
+        text = (f"paper {chain[v].value:.3g}, nearest {spread_text(nearest.spreads[v])}, {result_text(found, nearest)}" if nearest
+                else "occurs in none")
+        missed.append(f"{chain[v].name} ({text})")
     if missed:
         more.append(f"No combination reaches {listed(missed)}.")
     return [sentences[0], *more, sentences[1]]
@@ -483,15 +492,16 @@ def draw_figures(found: Reproduction, folder: Path, command: str, processes: int
 def main(arguments: list[str]) -> int:
     """Writes the figures, values.csv and report.html into the folder of a reproduction, and prints the summary."""
     _extension()  # is it there?
-    parser = argparse.ArgumentParser(prog="talus.reproduce", description="Report of a reproduction, from the complete runs in its folder")
+    parser = argparse.ArgumentParser(prog="talus.reproduce",
+                                     description="Report of a reproduction, from the complete runs in its folder")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--seeds", type=parse_seeds, help="only these, e.g. 1-2")
     parser.add_argument("--bed", action="append", help="only these variants, periodic ones first")
     parser.add_argument("--jobs", type=int, default=1, help="number of processes that draw")
     asked = parser.parse_args(arguments)
     found = read(asked.folder, asked.seeds, asked.bed)
-    command = shlex.join(["talus", "reproduce", *(["--quick"] if found.quick else []), "--seeds", ",".join(map(str, found.seeds)), "-o",
-                          str(asked.folder)])
+    command = shlex.join(["talus", "reproduce", *(["--quick"] if found.quick else []),
+                          "--seeds", ",".join(map(str, found.seeds)), "-o", str(asked.folder)])
     pictures = draw_figures(found, asked.folder / "figures", command, max(asked.jobs, 1))
     page.write_text(asked.folder / "values.csv", values_csv(found))
     page.write_text(asked.folder / "report.html", report(found, pictures, _extension().version_text))

@@ -20,11 +20,11 @@ STATE = ("checkpoint/", "results/", "provenance/timing/")
 
 
 def is_file(path: Path) -> bool:
-    """Returns whether there is a file. Raises OSError if the system cannot tell, as for a name that is too long; Path.is_file
+    """Returns whether there is a file. Raises OSError if the system cannot look, as for a name that is too long; Path.is_file
     of Python 3.14 returns False then."""
     try:
         return stat.S_ISREG(path.stat().st_mode)
-    except (FileNotFoundError, NotADirectoryError):
+    except (FileNotFoundError, NotADirectoryError, ValueError):  # the last for text that cannot be a name
         return False
 
 

@@ -127,11 +127,32 @@ def crosses(stroke, box):
     )
 
 
+def without_clipped(content):
+    """Returns the content stream of a page of matplotlib without the paths that are drawn in a clip: those of panels, which end
+    at the frame."""
+    lines, clipped, in_text = [], [False], False
+    for line in content.split(b"\n"):
+        words = line.split()
+        in_text = (in_text or words[:1] == [b"BT"]) and words[:1] != [b"ET"]
+        for word in [] if in_text else words:
+            if word == b"q":
+                clipped.append(clipped[-1])
+            elif word == b"Q":
+                clipped.pop()
+            elif word == b"W":
+                clipped[-1] = True
+        painted = not in_text and clipped[-1] and words and words[-1] in (b"S", b"s", b"f", b"f*", b"B", b"B*", b"b", b"b*")
+        lines.append(b"n" if painted else b"" if clipped[-1] and words[-1:] == [b"Do"] else line)
+    return b"\n".join(lines)
+
+
 def faults(pdf, svg=None):
     """Returns the faults of a figure's texts, in words; empty if all are legible."""
     with fitz.open(pdf) as document:
         page = document[0]
         glyphs = glyphs_of(page)
+        for content in page.get_contents():
+            document.update_stream(content, without_clipped(document.xref_stream(content)))
         strokes = segments_of(page)
         width, height = page.rect.width, page.rect.height
     found = []
@@ -161,11 +182,9 @@ def faults(pdf, svg=None):
     frames = frames_of(strokes)
     for stroke in strokes:
         x0, y0, x1, y1 = stroke
+        # A stroke that enters a panel is clipped at its frame.
         inside = any(
-            a - 0.1 < min(x0, x1) and max(x0, x1) < c + 0.1 and b - 0.1 < min(y0, y1) and max(y0, y1) < d + 0.1
-            and not (abs(x0 - x1) < 0.05 and min(abs(x0 - a), abs(x0 - c)) < 0.2)
-            and not (abs(y0 - y1) < 0.05 and min(abs(y0 - b), abs(y0 - d)) < 0.2)
-            for a, b, c, d in frames
+            min(x0, x1) < c - 0.2 and max(x0, x1) > a + 0.2 and min(y0, y1) < d - 0.2 and max(y0, y1) > b + 0.2 for a, b, c, d in frames
         )
         if inside:
             continue

@@ -206,10 +206,12 @@ def test_a_slope_that_stands_has_no_values():
 
 def test_further_analyses_have_the_values_of_the_chain():
     run = MadeUpRun()
-    run.quantities = ("theta_c", "readings/value/l_min=0")
-    values = {"readings/value/l_min=0": np.arange(24.0).reshape(2, 12) + 20, "readings/at_most/l_min=0": np.eye(2, 12, 11, dtype=np.int8),
+    run.quantities = ("theta_c", "readings/key/l_min=0", "readings/key/l_min=4")
+    values = {"readings/key/l_min=0": "2 0123", "readings/key/l_min=4": "1 of an earlier version", "readings/value/l_min=0": np.arange(24.0).reshape(2, 12) + 20, "readings/at_most/l_min=0": np.eye(2, 12, 11, dtype=np.int8),
               "frames/tilt": run.tilts}
-    found = paper.measure(SimpleNamespaceRun(run, values), NUMBERS)["l_min=0"]
+    found = paper.measure(SimpleNamespaceRun(run, values), NUMBERS)
+    assert list(found) == ["stored", paper.OF_ALL, "l_min=0"]
+    found = found["l_min=0"]
     assert list(found[0]) == list(CHAIN) and found[0]["overloaded_at_0"] == (20, False)
     assert found[0]["theta_d_by_percolation"] == (31, True) and found[1]["theta_d_by_percolation"] == (43, False)
     assert found[0]["lc_max_after_jump"].value == 29 and found[1]["lc_max_after_jump"].value == 30
@@ -297,8 +299,8 @@ def test_analyses_are_those_that_the_program_makes():
     source = (ROOT / "src/ensemble/readings.cpp").read_text()
     block = source[source.index("  return {\n", source.index("settings_of_readings")):]
     made = [re.sub(r'[{}" ]', "", line).strip(",").replace("cut", "lc_cut=CUT") for line in block[: block.index("};")].splitlines()[1:]]
-    made = [re.sub("joining=neighbours", "joining=neighbours", line) for line in made if line]
-    assert set(made) == {reading.analysis for reading in READINGS} - {"stored", paper.OF_ALL}
+    assert f"reading_version = {paper.READING_VERSION.strip()};" in source
+    assert set(filter(None, made)) == {reading.analysis for reading in READINGS} - {"stored", paper.OF_ALL}
 
 
 def result_of(values, preparation=0, reading=0, depth=40):
@@ -325,7 +327,7 @@ def test_conclusions_name_the_best_and_what_none_reaches():
     results = [result_of(far), result_of({"overloaded_at_0": 0.4} | common, 0, 1), result_of(far, 1, 0)]
     found = paper.conclude(results)
     assert found.best == [results[1]] and not found.complete
-    assert [(value.name, nearest) for value, _, nearest in found.missed] == [("p_o at 0 deg", results[1]), ("theta_d: percolation", None)]
+    assert [(list(CHAIN)[v], nearest) for v, nearest in found.missed] == [("overloaded_at_0", results[1]), ("theta_d_by_percolation", None)]
     assert found.reading_scores == {0: 10, 1: 11} and found.preparation_scores == {0: 10.5, 1: 10}
     far, near = ({key: value.value * factor for key, value in CHAIN.items()} for factor in (1.7, 1.6))
     tied = [result_of(far), result_of(near, 0, 1), result_of(near, 1, 1)]

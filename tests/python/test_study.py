@@ -9,11 +9,10 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import BED, PACKAGE, ROOT, run_talus
+from conftest import BED, ROOT, run_talus
 
 from talus import page, study
 from talus.ensemble import mean_of
-from talus.errors import Error
 
 REFERENCE = ROOT / "tests/python/reference"
 #: A slope that fails within a second, with two settings varied one at a time.

@@ -393,7 +393,8 @@ def draw_neighbourhoods(data: Data, page: Page) -> Figure:
     for radius in np.arange(1, int(shown / 2) + 1):
         ring(picture, radius, 0.5, "-")
     for k, length in enumerate(lengths["l_c"]):
-        ring(picture, 0.5 * length, 1.3, dashes[k % 4])
+        if 0.5 * length <= half:
+            ring(picture, 0.5 * length, 1.3, dashes[k % 4])
     ring(picture, data.facts["radius"], 1.3, "-")
     picture.set_xlim(-half, half)
     picture.set_ylim(-half, half)
@@ -402,12 +403,16 @@ def draw_neighbourhoods(data: Data, page: Page) -> Figure:
     gray_scale(picture, white, gamma_c)
     key = Key()
     plot.step(curve["l"], curve["gamma_l"], where="post", color="#000000")
+    named = -1.0
     for k, (factor, threshold, length) in enumerate(zip(lengths["factor"], lengths["threshold"], lengths["l_c"])):
         name = f"{'' if factor == 1 else short_text(factor) + ' '}Γ$_c$"
         key.line(f"$ℓ_c$ = {length:.2f} $D$ at {name}", color="#000000", linestyle=dashes[k % 4])
         if threshold <= 1.05:
             plot.axhline(threshold, **MARK)
-            plot.annotate(name, (1, threshold), (3, 0), xycoords=("axes fraction", "data"), textcoords="offset points", va="center", fontsize=7)
+            if abs(threshold - named) > 0.08:
+                named = threshold
+                plot.annotate(name, (1, threshold), (3, 0), xycoords=("axes fraction", "data"), textcoords="offset points", va="center",
+                              fontsize=7)
         plot.plot([length, length], [0, min(threshold, 1.05)], color="#000000", linestyle=dashes[k % 4])
     key.line("thresholds", **MARK)
     plot.set_xlim(0, shown)

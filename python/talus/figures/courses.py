@@ -15,7 +15,7 @@ from talus.figures.angles import key_of_groups, place_lines
 from talus.figures.data import Data, Wanted, runs_text
 from talus.figures.groups import Group
 from talus.figures.means import Series, mean_rows, series_of
-from talus.figures.panels import Page, arrange, free_axes, has_numbers, mark_panels, panels, set_range, strip
+from talus.figures.panels import Page, arrange, free_axes, has_numbers, mark_panels, panels, set_range, shrink_texts
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import (AXIS, CM, COLOURS, MARK, SYMBOLS, as_math, curve_style, letter, logarithmic, set_title)
 from talus.figures.tables import Column, Table, column, short_text
@@ -262,7 +262,7 @@ def draw_events(data: Data, page: Page) -> Figure:
         each.set_xlim(positive_range(each.dataLim.intervalx, each.dataLim.minposx))
         logarithmic(each.xaxis)
         logarithmic(each.yaxis)
-        place_lines(each, [group.facts[law] for group in groups], "")
+        place_lines(each, [group.facts[law] for group in groups], "(a) " if each is axes[0] else "(b) ")
     axes[2].set_ylim(positive_range(axes[2].dataLim.intervaly, axes[2].dataLim.minposy))
     logarithmic(axes[2].yaxis)
     symmetric(axes[3])
@@ -274,8 +274,8 @@ def draw_events(data: Data, page: Page) -> Figure:
     set_title(axes[1], "x", "waiting angle", "deg")
     for each, title in zip(axes, ("share with $E$ or more", "share with as long or longer", "$E$ / ($mgD$)", "$Δy/y$ ($10^{-6}$)")):
         set_title(each, "y", title)
-    for k, each in enumerate(axes):
-        each.annotate(letter(k), (0, 1), (-4, 3), xycoords="axes fraction", textcoords="offset points", ha="right", fontsize=7)
+    for k in (2, 3):
+        axes[k].set_title(letter(k), loc="left")
     key = key_of_groups(data, True)
     key.line("power law (a, b)", color="#000000", linewidth=0.8)
     key.line("exponential law (b)", color="#000000", linewidth=0.6, linestyle=(0, (2, 2)))
@@ -420,3 +420,4 @@ def draw_trace(axes: Axes, trace: Table) -> None:
     set_title(velocity, "y", "surface velocity / $(gD)^{1/2}$")
     velocity.yaxis.label.set_color(COLOURS[1])
     axes.set_title(letter(4), loc="left")
+    shrink_texts(axes.figure, [axes, velocity])

@@ -12,6 +12,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import AutoLocator, MaxNLocator
 
 from talus.figures.data import Data
 from talus.figures.style import CM, COLOURS, NARROW, as_math, curve_style, letter, new_figure
@@ -20,6 +21,7 @@ from talus.figures.tables import Table
 GAP = 0.2  # cm, between panels and at the edges
 SYMBOLS_OF_A_CURVE = 16
 SMALLEST = 4.5  # points, of letters that do not fit otherwise
+LOWEST = 1.8  # cm, height of a panel
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,7 @@ class Page:
 
 def panels(page: Page, count: int, *, row: float, wide: int = 3, narrow: int = 2, share_x: bool = False,
            share_y: bool = False, **options: Any) -> list[Axes]:
-    """Returns `count` panels of a new figure, or the one of the page: `wide` in a row, `narrow` on a narrow page, in rows of
+    """Returns `count` panels of a new figure, or that of the page: `wide` in a row, `narrow` on a narrow page, in rows of
     a height of `row` cm. With `share_x` (`share_y`) only the lowest (first) panels have numbers."""
     if page.ax is not None:
         if count != 1:
@@ -170,16 +172,17 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
     if not page.height:
         height += top + above + below
         figure.set_size_inches(width * CM, height * CM)
-    if top:
-        figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
     figure.talus_top = top
     titles = [each.get_title("left") for each in axes]
     for _ in range(2):  # the numbers of an axis, and the lines of a title, depend on its length
-        place(figure, axes, width, height, top + above, below)
+        height = place(figure, axes, width, height, top + above, below)
+        fix_numbers(axes)
         for each, title in zip(axes, titles):
             room = each.bbox.width / figure.dpi / CM + GAP
             each._left_title.set_text(broken(figure, title, each._left_title.get_fontsize(), room))
-    place(figure, axes, width, height, top + above, below)
+    height = place(figure, axes, width, height, top + above, below)
+    if top:
+        figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
     shrink_texts(figure, axes)
     return figure
 
@@ -193,8 +196,9 @@ def texts_above(axes: Axes) -> list[Any]:
     return [text for text in (axes._left_title, *(text for text in axes.texts if text.get_gid() == ABOVE)) if text.get_text()]
 
 
-def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float, bottom: float) -> None:
-    """Moves the panels of a grid such that all are equally large and their texts have room; sizes in cm."""
+def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float, bottom: float) -> float:
+    """Moves the panels of a grid such that all are equally large and their texts have room; sizes in cm. Returns the height of
+    the figure, which grows if its texts leave too little for the panels."""
     renderer = figure.canvas.get_renderer()
     spec = axes[0].get_subplotspec().get_gridspec()
     rows, columns = spec.nrows, spec.ncols
@@ -209,12 +213,32 @@ def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top
         under[r], over[r] = max(under[r], box.y0 - outer.y0), max(over[r], highest - box.y1)
     left, right, over, under = (side / figure.dpi / CM for side in (left, right, over, under))
     inner_width = max(0.5, (width - left.sum() - right.sum() - GAP * (columns + 1)) / columns)
-    inner_height = max(0.5, (height - top - bottom - over.sum() - under.sum() - GAP * (rows + 1)) / rows)
+    inner_height = (height - top - bottom - over.sum() - under.sum() - GAP * (rows + 1)) / rows
+    if inner_height < LOWEST:
+        height, inner_height = height + rows * (LOWEST - inner_height), LOWEST
+        figure.set_size_inches(width * CM, height * CM)
     for each in axes:
         r, c = each.get_subplotspec().rowspan.start, each.get_subplotspec().colspan.start
         x = GAP + (GAP + inner_width) * c + left[: c + 1].sum() + right[:c].sum()
         y = height - top - GAP - (GAP + inner_height) * r - over[: r + 1].sum() - under[:r].sum() - inner_height
         each.set_position((x / width, y / height, inner_width / width, inner_height / height))
+    return height
+
+
+def fix_numbers(axes: Sequence[Axes]) -> None:
+    """Fixes the largest number of ticks of each linear axis, such that their numbers do not overlap."""
+    for each in axes:
+        renderer = each.figure.canvas.get_renderer()
+        for axis in (each.xaxis, each.yaxis):
+            if not isinstance(axis.get_major_locator(), AutoLocator):
+                continue
+            for ticks in range(max(1, min(axis.get_tick_space(), 8)), 0, -1):
+                axis.set_major_locator(MaxNLocator(ticks, steps=[1, 2, 2.5, 5, 10]))
+                if axis is each.yaxis or not has_numbers(each, "x"):
+                    break
+                boxes = [tick.label1.get_window_extent(renderer) for tick in axis._update_ticks()]
+                if all(one.x1 + 2 < other.x0 for one, other in zip(boxes, boxes[1:])):
+                    break
 
 
 def shrink_texts(figure: Figure, axes: Sequence[Axes]) -> None:

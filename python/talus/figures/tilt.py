@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from talus.figures.angles import Estimator, estimators_of
@@ -167,7 +168,7 @@ def draw_overloaded_fraction(data: Data, page: Page) -> Figure:
     return arrange(axes, key_with_paper(data), page=page)
 
 
-def draw_thresholds(data: Data, axes: Sequence, name: str, factors: Sequence[str], first: int) -> None:
+def draw_thresholds(data: Data, axes: Sequence[Axes], name: str, factors: Sequence[str], first: int) -> None:
     """Draws a column at each threshold in a panel of its own, with the paper's values. `first`: number of panels before."""
     paper = paper_table(data)
     for k, (each, factor) in enumerate(zip(axes, factors), first):
@@ -327,7 +328,7 @@ def draw_quantities(data: Data, page: Page) -> Figure:
     return arrange(axes, key_of_curves(data, symbols=False), page=page)
 
 
-def finish_quantity(axes, name: str, abscissa: str, largest: float, mark: str) -> None:
+def finish_quantity(axes: Axes, name: str, abscissa: str, largest: float, mark: str) -> None:
     """Sets ranges and titles of the panel of a quantity, up to the failure of each run at the right."""
     row = quantities()[name]
     share = row.unit == "1" and "share of" in row.definition
