@@ -3,11 +3,17 @@
 #include <filesystem>
 #include <fmt/core.h>
 
-#include "app/figure_runs.h"
+#include "app/given_runs.h"
+#include "app/output_files.h"
 #include "app/progress.h"
+#include "app/terminal.h"
 #include "base/errors.h"
+#include "base/paths.h"
 #include "ensemble/averages_reader.h"
+#include "ensemble/ensemble_manifest.h"
+#include "ensemble/member_reader.h"
 #include "io/run_file.h"
+#include "runs/run_view.h"
 #include "session/run_identity.h"
 #include "view/frame_values.h"
 
@@ -23,6 +29,31 @@ void refuse_unanalysed(const std::string& path) {
   throw Error(ExitCode::bad_data, fmt::format("{} has no stored analysis, which is needed for curves behind "
                                               "others; make one first: talus analyze {}",
                                               path, path));
+}
+
+/// Reads a run, the finished members of an ensemble, or the values in an ensemble.h5; a run without a valid
+/// analysis is analysed.
+void add_runs(const std::string& path, std::vector<runs::RunView>& runs) {
+  const runs::AnalysisOptions options{.progress = count_shown("analysis", false)};
+  const auto add = [&](const std::string& run) {
+    runs.push_back(runs::analysed_run(run, {}, options));
+    if (!runs.back().is_kept)
+      print_error("talus: note: %s: %s\n", run.c_str(), runs.back().kept.c_str());
+  };
+  const std::string averages = (fs::path(path) / "ensemble.h5").string();
+  if (ensemble::is_ensemble(path)) {
+    for (const ensemble::Member& member : done_members(path)) {
+      add(member.path);
+      ensemble::require_own_run(member, *runs.back().file);
+    }
+  } else if (const bool is_file = ensemble::holds_averages(path); is_file || is_there(averages)) {
+    const std::string& file = is_file ? path : averages;
+    for (const ensemble::StoredVariant& variant : ensemble::read_averages(file))
+      for (std::size_t m = 0; m < variant.seeds.size(); ++m)
+        runs.push_back(ensemble::view_of_values(file, variant, m));
+  } else {
+    add(path);
+  }
 }
 
 view::GhostRun ghost_of(const runs::RunView& run) {
@@ -71,8 +102,8 @@ view::Ghost read_ghost(const std::vector<std::string>& paths, MissingAnalysis mi
   if (missing == MissingAnalysis::refused)
     for (const std::string& path : paths) refuse_unanalysed(path);
   view::Ghost ghost;
-  const std::vector<runs::RunView> runs =
-      read_figure_input(paths, {}, {.progress = count_shown("analysis", false)}).runs;
+  std::vector<runs::RunView> runs;
+  for (const std::string& path : runs_among(paths, ensemble::holds_averages)) add_runs(path, runs);
   refuse_other_departures(runs);
   for (const runs::RunView& run : runs) ghost.runs.push_back(ghost_of(run));
   ghost.name = name_of(paths.front());

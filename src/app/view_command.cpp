@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -13,11 +14,10 @@
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/figure_files.h"
 #include "app/ghost_runs.h"
-#include "app/gnuplot.h"
 #include "app/output_files.h"
-#include "app/plot_figure.h"
+#include "app/plot_export.h"
+#include "app/python_module.h"
 #include "app/seed_option.h"
 #include "app/stop_signals.h"
 #include "app/terminal.h"
@@ -216,24 +216,21 @@ void open(const std::string& path, std::optional<std::size_t> frame, view::ViewM
 /// Saves all plots as displayed, or the enlarged one, as figures with their data.
 void save_plots(const std::string& folder, view::ViewModel& model) {
   const view::Ghost* ghost = model.ghost();
-  std::vector<figures::Figure> figures;
+  Json plots = Json::array();
   for (const view::Plot& plot : model.plots()) {
     const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
     const bool empty =
         std::ranges::all_of(plot.series, [](const view::PlotSeries& series) { return series.x.empty(); });
     if (shown && !empty)
-      figures.push_back(plot_figure(plot, model.state.plot_options[plot.name], model.plot_marks(),
-                                    model.is_live() ? model.recording().output : model.path(),
-                                    ghost ? view::text_of(*ghost) : std::string()));
+      plots.push_back(plot_json(plot, model.state.plot_options[plot.name], model.plot_marks(),
+                                model.is_live() ? model.recording().output : model.path(),
+                                ghost ? view::text_of(*ghost) : std::string()));
   }
-  for (const figures::Figure& figure : figures)
-    for (const std::string& name : figure_files(figure))
-      output_target((std::filesystem::path(folder) / name).string(), {.overwrite = false});
-  require_gnuplot();
-  for (const figures::Figure& figure : figures)
-    write_figure(figure, {}, folder, {.command_line = command_line()});
+  const MemoryFile file("plots");
+  std::ofstream(file.path()) << json_text(plots);
+  output_of_python_module("figures.plots", {file.path(), folder, command_line()});
   model.state.message =
-      fmt::format("written: {} plot{} in {}", figures.size(), figures.size() == 1 ? "" : "s", folder);
+      fmt::format("written: {} plot{} in {}", plots.size(), plots.size() == 1 ? "" : "s", folder);
 }
 
 void show_ghost(const std::string& path, view::ViewModel& model) {

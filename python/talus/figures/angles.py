@@ -5,8 +5,10 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from talus.ensemble import mean_of
@@ -169,7 +171,7 @@ def draw_angle_distributions(data: Data, page: Page) -> Figure:
     return arrange(axes, key_of_groups(data), page=page)
 
 
-def place_lines(axes, lines: Sequence[str], mark: str) -> None:
+def place_lines(axes: Axes, lines: Sequence[str], mark: str) -> None:
     """Puts a line for each group above a panel, in its colour, and the letter of the panel before the first."""
     for g, line in enumerate(lines):
         above = 3 + 8.5 * (len(lines) - 1 - g)
@@ -177,7 +179,7 @@ def place_lines(axes, lines: Sequence[str], mark: str) -> None:
                       fontsize=6, color=COLOURS[g % len(COLOURS)], gid=ABOVE)
 
 
-def key_of_groups(data: Data, symbols: bool = False, **look) -> Key:
+def key_of_groups(data: Data, symbols: bool = False, **look: Any) -> Key:
     key = Key()
     for g, group in enumerate(data.groups):
         key.line(as_math(group.legend), **curve_style(g, symbols) | look)

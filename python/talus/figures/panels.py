@@ -39,7 +39,7 @@ class Page:
 
 def panels(page: Page, count: int, *, row: float, wide: int = 3, narrow: int = 2, share_x: bool = False,
            share_y: bool = False, **options: Any) -> list[Axes]:
-    """Returns `count` panels of a new figure, or the one of the page: `wide` in a row, `narrow` on a narrow page, in rows of
+    """Returns `count` panels of a new figure, or that of the page: `wide` in a row, `narrow` on a narrow page, in rows of
     a height of `row` cm. With `share_x` (`share_y`) only the lowest (first) panels have numbers."""
     if page.ax is not None:
         if count != 1:
@@ -276,6 +276,20 @@ def draw_curves(axes: Axes, data: Data, name: str, *, x: Any = None, scale: floa
 
 def band(axes: Axes, at: np.ndarray, mean: np.ndarray, width: np.ndarray, **look: Any) -> None:
     axes.fill_between(at, mean - width, mean + width, linewidth=0, **look)
+
+
+def points_with_errors(axes: Axes, x: np.ndarray, y: np.ndarray, *, dx: Any = None, dy: Any = None, bars: float = 0.6,
+                       **look: Any) -> None:
+    """Draws points with error bars along x or y: (n,), or (2, n) for two sides; NaN for none. `bars`: width of their lines."""
+    axes.plot(x, y, **look)
+    for error, lines in ((dx, axes.hlines), (dy, axes.vlines)):
+        if error is None:
+            continue
+        at, value = (y, x) if error is dx else (x, y)
+        low, high = value - (error[0] if np.ndim(error) == 2 else error), value + (error[1] if np.ndim(error) == 2 else error)
+        known = ~np.isnan(low) & ~np.isnan(high) & (high > low)
+        if known.any():
+            lines(at[known], low[known], high[known], colors=look["color"], linewidth=bars)
 
 
 def thin_lines(runs: Table, name: str, over: Any, scale: float, colour: str) -> LineCollection:

@@ -1,0 +1,18 @@
+#pragma once
+/// Plots of the window as JSON, from which the Python package draws figures.
+
+#include <string>
+
+#include "app/json.h"
+#include "view/plots.h"
+#include "view/view_state.h"
+
+namespace talus::app {
+
+/// Returns the plot as displayed, with its zoom, scale and the curves behind, as
+/// python/talus/figures/plots.py reads it. `run`: path of the run, empty if it is in no file; `behind`:
+/// description of the curves behind.
+Json plot_json(const view::Plot& plot, const view::PlotOptions& options, const view::PlotMarks& marks,
+               const std::string& run, const std::string& behind);
+
+}  // namespace talus::app

@@ -1,0 +1,211 @@
+"""Figures in Python: their numbers against stored tables, the same bytes for the same data, their arguments and messages."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib", reason="matplotlib is not installed: python3-matplotlib")
+
+import talus  # noqa: E402
+from conftest import BED, run_talus  # noqa: E402
+from talus import figures  # noqa: E402
+from talus.figures import means  # noqa: E402
+from talus.figures.catalogue import CATALOGUE, find  # noqa: E402
+from talus.figures.command import parse_size  # noqa: E402
+from talus.figures.data import Wanted, rounded, shows_paper  # noqa: E402
+from talus.figures.files import figure_files, table_file  # noqa: E402
+from talus.figures.tables import Table, column, csv_text, short_text  # noqa: E402
+
+SETS = {"two": "two", "walls": "walls", "flow": "flow.h5", "cycles": "cycles.h5"}
+
+
+@pytest.fixture(scope="session")
+def beds(tmp_path_factory):
+    """Returns a folder with two ensembles, of two frictions and of two lengths between walls, a flow and cycles."""
+    folder = tmp_path_factory.mktemp("beds")
+    (folder / "bed.toml").write_text(BED.replace("frame_every = 0.5", "frame_every = 2\nobservable_every = 0.2"))
+    walls = ["--set", "bed.boundary=walls", "--vary", "bed.length=12,15"]
+    run_talus("ensemble", "bed.toml", "--seeds", "1-3", "--vary", "contact.friction=0.3,0.5", "-o", "two", folder=folder)
+    run_talus("ensemble", "bed.toml", "--seeds", "1-2", *walls, "-o", "walls", folder=folder)
+    flow = ["--set", "tilt.after_failure=lower", "--set", "tilt.lowering_rate=2"]
+    run_talus("run", "bed.toml", "-q", *flow, "-o", "flow.h5", folder=folder)
+    run_talus("run", "bed.toml", "-q", "--set", "tilt.program=to 6, to 0, 2 times, to repose", "-o", "cycles.h5", folder=folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def groups(beds):
+    return {name: figures.read_groups(beds / path) for name, path in SETS.items()}
+
+
+def stored_tables():
+    """Returns the tables that the previous program made of these runs, up to 12 digits: those in figure_tables.txt, by the set
+    of runs and the name of the file, with their number of rows."""
+    tables = {}
+    for line in (Path(__file__).parent / "figure_tables.txt").read_text().splitlines():
+        if line.startswith("# "):
+            _, name, file, rows = line.split()
+            tables[name, file, int(rows)] = []
+        else:
+            tables[list(tables)[-1]].append(line)
+    return tables
+
+
+@pytest.mark.parametrize("name, file, rows", stored_tables())
+def test_numbers_are_those_of_the_stored_tables(groups, name, file, rows):
+    recipe = next(recipe for recipe in CATALOGUE if file.startswith(recipe.name))
+    data = recipe.data(groups[name], Wanted())
+    table = next(table for table in data.tables if table_file(recipe, table) == file + ".csv")
+    head, *expected = csv.reader(stored_tables()[name, file, rows])
+    assert [each.name for each in table.columns] == head
+    assert len(table) == rows
+    found = np.array([each.values for each in table.columns]).T[: len(expected)]
+    np.testing.assert_allclose(found, np.array(expected, dtype=float), rtol=1e-9, atol=1e-9)
+
+
+def test_the_same_runs_give_the_same_bytes(beds, tmp_path):
+    for folder in ("one", "two"):
+        done = run_figures(beds, "flow.h5", "-o", tmp_path / folder, "--only", "4,10,11,force-chains,events", "--add", "svg", "-q")
+        assert done is None
+    names = sorted(path.name for path in (tmp_path / "one").iterdir() if path.suffix != ".json")
+    assert {Path(name).suffix for name in names} == {".csv", ".pdf", ".png", ".svg"}
+    for name in names:
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes(), name
+
+
+def run_figures(folder, *words):
+    """Carries out `talus figures` in this process."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        return figures.main([str(word) for word in words])
+
+
+def test_files_have_their_data_and_their_sources(beds, tmp_path):
+    run_figures(beds, "two", "-o", tmp_path, "--only", "fig9", "-q", "--add", "paper", "--set", "lc_cut=5")
+    provenance = json.loads((tmp_path / "fig09-overloaded-fraction.json").read_text())
+    assert provenance["command"].startswith("talus figures two -o ")
+    assert {float(run["analysis"]["lc_cut"]) for run in provenance["runs"]} == {5}
+    assert len(provenance["runs"]) == 6
+    files = {table["file"] for table in provenance["tables"]}
+    assert files == {path.name for path in tmp_path.glob("*.csv")} and "fig09-overloaded-fraction-paper.csv" in files
+    assert b"/Type /Font" in (tmp_path / "fig09-overloaded-fraction.pdf").read_bytes()
+
+
+def test_existing_files_are_kept(beds, tmp_path):
+    run_figures(beds, "flow.h5", "-o", tmp_path, "--only", "4", "-q")
+    with pytest.raises(talus.Error, match="exists; give --overwrite") as refused:
+        run_figures(beds, "flow.h5", "-o", tmp_path, "--only", "4", "-q")
+    assert refused.value.exit_code == 73
+    command = [sys.executable, "-m", "talus.figures", "flow.h5", "-o", tmp_path, "--only", "4", "-q"]
+    refused = subprocess.run(command, cwd=beds, capture_output=True, text=True)
+    assert refused.returncode == 73 and refused.stderr.startswith("talus: error: ")
+    subprocess.run([*command, "--overwrite"], cwd=beds, check=True)
+    assert not list(tmp_path.glob("*.part"))
+
+
+@pytest.mark.parametrize("words, code, message", [
+    (["--only", "fig09-overloaded-friction"], 64, "did you mean 'fig09-overloaded-fraction'"),
+    (["--only", "5", "--at", "1"], 64, "--at: no requested figure shows single frames"),
+    (["--only", "8", "--at", "80"], 65, "--at 80: no run of .* has such a frame"),
+    (["--only", "6"], 65, "no figure can be made of these runs"),
+    (["--size", "3"], 64, "expected a width in cm from 8 to 60"),
+    (["--size", "12x6x"], 64, "expected a width"),
+    (["--set", "nothing=1"], 65, "nothing"),
+    (["--add", "papers"], 64, "--add papers: expected one of paper, spread, svg")])
+def test_requests_are_refused(beds, tmp_path, words, code, message):
+    with pytest.raises(talus.Error, match=message) as refused:
+        run_figures(beds, "flow.h5", "-o", tmp_path / "out", "-q", *words)
+    assert refused.value.exit_code == code
+    assert not (tmp_path / "out").exists()
+
+
+def test_figures_that_need_other_runs_are_left_out(beds, tmp_path, capsys):
+    run_figures(beds, "two/ensemble.h5", "-o", tmp_path, "--only", "4,7,force-chains", "-q")
+    said = capsys.readouterr()
+    assert said.err.splitlines() == [
+        "left out: fig07-wall-ratio needs a bed between walls that has failed",
+        "left out: force-chains needs a run that has failed; the input has only values of members, without frames of their runs"]
+    assert "1 figure in" in said.out
+
+
+def test_sizes():
+    assert parse_size("") == (0, 0) and parse_size("8.6") == (8.6, 0) and parse_size("17.8x10") == (17.8, 10)
+
+
+def test_groups_are_named_by_what_differs(groups):
+    assert [group.label for group in groups["two"]] == ["PBC, L = 15 D, contact.friction = 0.3", "PBC, L = 15 D, contact.friction = 0.5"]
+    assert [group.legend for group in groups["two"]] == ["μ = 0.3", "μ = 0.5"]
+    assert [group.label for group in groups["walls"]] == ["WBC, L = 12 D", "WBC, L = 15 D"]
+    assert groups["flow"][0].legend == "PBC, L = 15 D"
+    with pytest.raises(talus.Error, match="are the same run"):
+        figures.group_runs(groups["flow"][0].runs * 2)
+
+
+def test_a_figure_takes_axes_a_style_and_own_groups(groups):
+    from matplotlib.figure import Figure
+
+    axes = Figure().add_subplot()
+    mine = figures.Group("mine", groups["two"][0].runs)
+    assert figures.fig04([mine], ax=axes) is axes.figure
+    assert axes.get_legend().get_texts()[0].get_text() == "mine (3 runs)"
+    assert axes.get_ylabel() == "$σ_T$ / $σ_N$"
+    with pytest.raises(ValueError, match="this figure has 20 panels|panels, and needs a figure of its own"):
+        figures.over_tilt([mine], ax=axes)
+    figure = figures.over_parameter(groups["two"], width=8.6, style={"axes.labelsize": 5, "font.size": 5})
+    assert figure.get_size_inches()[0] == pytest.approx(8.6 / 2.54)
+    assert figure.axes[-1].xaxis.label.get_fontsize() == 5
+    with pytest.raises(talus.Error, match="fig06-wall-stress needs a bed between walls"):
+        figures.fig06(groups["two"])
+    assert set(figures.recipes()) <= set(dir(figures))
+
+
+def test_beyond_two_groups_there_are_no_deviations_unless_wanted(groups):
+    three = groups["two"] + groups["walls"]
+    for wanted, spread in ((Wanted(), False), (Wanted(spread=True), True)):
+        data = find("fig05").data(three, wanted)
+        assert data.facts["spread"] is spread and ("standard deviation" in data.caption) is spread
+    assert find("fig05").data(groups["two"], Wanted()).facts["spread"]
+
+
+def test_the_paper_is_shown_for_its_beds(groups):
+    assert not shows_paper(groups["two"], Wanted()) and shows_paper(groups["two"], Wanted(paper=True))
+    files = figure_files(find("12"), find("12").data(groups["two"], Wanted()), ("pdf",))
+    assert "fig12-coarse-graining-length-paper.csv" not in files
+
+
+def test_results_over_two_keys(groups):
+    data = find("over-parameter").data(groups["two"], Wanted())
+    table = data.tables[0]
+    assert [each.name for each in table.columns[:3]] == ["contact.friction", "n", "theta_c"] and table["n"].tolist() == [3, 3]
+    angles = [run.theta_c for run in groups["two"][1].runs]
+    assert table["theta_c"][1] == pytest.approx(np.mean(angles)) and table["theta_c_error"][1] == pytest.approx(np.std(angles, ddof=1) / 3**0.5)
+    assert find("over-parameter").data(groups["flow"], Wanted()) is None
+
+
+def test_means_end_with_half_of_the_runs():
+    curves = [means.RunCurve(np.arange(float(n)), np.array([np.full(n, float(n))])) for n in (2, 3, 5)]
+    found = means.means_of(curves)
+    assert found.at.tolist() == [0, 1, 2] and found.n.tolist() == [3, 3, 2]
+    assert found.mean[0].tolist() == [10 / 3, 10 / 3, 4] and found.deviation[0][2] == pytest.approx(2**0.5)
+    at = means.interpolated(np.array([0.0, 2, 4]), np.array([[0.0, 2, np.nan]]), np.array([-1, 0, 1, 2, 3, 5]))
+    np.testing.assert_equal(at, [[np.nan, 0, 1, 2, np.nan, np.nan]])
+
+
+def test_statistics():
+    assert means.student_t(1) == 12.706 and means.student_t(30) == 2.042 and means.student_t(60) == pytest.approx(2.0003, abs=1e-4)
+    assert means.half_interval(talus.mean_of([1, 2, 3])) == pytest.approx(4.303 / 3**0.5)
+    assert means.paired_difference([1.1, 2.1, np.nan], [1, 2, 3])[2:] == (0, 0)
+    assert means.correlation_of(np.array([1, 2, 3, np.nan]), np.array([3, 2, 1, 0])) == (pytest.approx(-1), 3)
+
+
+def test_numbers_are_written_with_all_their_digits():
+    numbers = [0.0, -0.0, 0.1, 1 / 3, 1e-5, 12345678.0, 1e22, np.nan, 20.0]
+    assert [short_text(number) for number in numbers] == ["0", "-0", "0.1", "0.3333333333333333", "1e-05", "12345678", "1e+22", "NaN", "20"]
+    table = Table("", [column("a", "1", "", [1, 1, 2]), column("b", "1", "", [1, 2, 3])], in_blocks=True)
+    assert csv_text(table) == "a,b\n1,1\n1,2\n\n2,3\n"
+    assert [rounded(21.625), rounded(-0.001), rounded(13.25), rounded(2.5, 0)] == ["21.63", "0", "13.25", "3"]
