@@ -10,7 +10,7 @@ FROM debian:12
 RUN apt-get update \
  && apt-get install -y --no-install-recommends \
       libcairo2 libfmt9 libfreetype6 libgcc-s1 libglfw3 libhdf5-103-1 libpng16-16 libstdc++6 libtomlplusplus3 libxxhash0 zlib1g \
-      libosmesa6 ffmpeg gnuplot-nox \
+      libosmesa6 ffmpeg \
       python3-h5py python3-numpy python3-xxhash python3-matplotlib \
  && rm -rf /var/lib/apt/lists/*
 COPY --from=build /usr/local /usr/local

@@ -63,6 +63,8 @@ constexpr ValueWord value_words[] = {
     {"--joined", "contacts|neighbours"},
     {"--context", "CONTEXT"},
     {"--only", "FIGURE,..."},
+    {"--add", "paper|spread|svg,..."},
+    {"--style", "FILE"},
     {"--second", "RUN"},
     {"--branch", "RUN"},
     {"--behind", "RUN|FOLDER"},

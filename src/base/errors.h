@@ -12,7 +12,7 @@ enum class ExitCode : int {
   usage = 64,          ///< unknown option, missing argument
   bad_data = 65,       ///< a scenario, run file or checkpoint that cannot be accepted
   missing_input = 66,  ///< an input file that does not exist or cannot be read
-  unavailable = 69,    ///< no rendering context, display, shader, ffmpeg, gnuplot, Python or Slurm
+  unavailable = 69,    ///< no rendering context, display, shader, ffmpeg, Python or Slurm
   internal = 70,       ///< a defect of Talus, or a state that is not finite
   out_of_memory = 71,
   cannot_create = 73,  ///< output exists already, is locked, or its folder cannot be written

@@ -60,14 +60,13 @@ TEST_F(Figures, of_one_tilt_alone_have_an_axis) {
 }
 
 TEST_F(Figures, are_files_of_each_kind) {
-  const Outcome outcome = figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3"});
+  const Outcome outcome = figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3", "--add", "svg,paper"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_parts(outcome.out, {"fig04-shear-stress ", "fig09-overloaded-fraction ", "2 figures in out"});
   EXPECT_EQ(names(), (std::vector<std::string>{
-                         "fig04-shear-stress-pbc-l-10-d.csv", "fig04-shear-stress.gp",
-                         "fig04-shear-stress.json", "fig04-shear-stress.pdf", "fig04-shear-stress.png",
-                         "fig04-shear-stress.svg", "fig09-overloaded-fraction-paper.csv",
-                         "fig09-overloaded-fraction-pbc-l-10-d.csv", "fig09-overloaded-fraction.gp",
+                         "fig04-shear-stress-pbc-l-10-d.csv", "fig04-shear-stress.json",
+                         "fig04-shear-stress.pdf", "fig04-shear-stress.png", "fig04-shear-stress.svg",
+                         "fig09-overloaded-fraction-paper.csv", "fig09-overloaded-fraction-pbc-l-10-d.csv",
                          "fig09-overloaded-fraction.json", "fig09-overloaded-fraction.pdf",
                          "fig09-overloaded-fraction.png", "fig09-overloaded-fraction.svg"}))
       << "no temporary files are left";
@@ -78,7 +77,8 @@ TEST_F(Figures, are_files_of_each_kind) {
                   .starts_with("theta,n,ratio,ratio_error,ratio_deviation\n0,1,"));
   expect_parts(
       content(out("fig04-shear-stress.json")),
-      {"\"command\": \"talus figures bed.h5 -o out --only 4,fig09-overloaded-fraction --set gamma_c=0.3\"",
+      {"\"command\": \"talus figures bed.h5 -o out --only 4,fig09-overloaded-fraction --set gamma_c=0.3 "
+       "--add svg,paper\"",
        "\"gamma_c\": \"0.3\"", "\"seed\": 1"});
 }
 
@@ -147,20 +147,24 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
   expect_parts(settings.err, {"--set gamma_c=0.3: moved/ensemble.h5 holds values of an analysis"});
 }
 
-TEST_F(Figures, are_drawn_again_by_their_script) {
+TEST_F(Figures, state_their_printed_size) {
   ASSERT_EQ(figures({"--only", "5", "--size", "17.8"}).exit_code, 0);
-  const std::string before = content(out("fig05-stress-ratio.png"));
-  for (const char* ending : {".pdf", ".svg", ".png"})
-    fs::remove(out(std::string("fig05-stress-ratio") + ending));
-  const std::string command = "cd " + folder_.path("out") + " && gnuplot fig05-stress-ratio.gp";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  const std::size_t resolution = before.find("pHYs");
+  const std::string picture = content(out("fig05-stress-ratio.png"));
+  const std::size_t resolution = picture.find("pHYs");
   ASSERT_NE(resolution, std::string::npos);
-  EXPECT_EQ(before.substr(resolution + 4, 4), std::string("\0\0\x2e\x21", 4)) << "11809 px per m";
-  std::string plain = before;  // gnuplot itself does not report this
-  EXPECT_EQ(content(out("fig05-stress-ratio.png")), plain.erase(resolution - 4, 21));
-  EXPECT_TRUE(fs::exists(out("fig05-stress-ratio.pdf")) && fs::exists(out("fig05-stress-ratio.svg")));
-  EXPECT_EQ(before.substr(16, 4), std::string("\0\0\x08\x36", 4)) << "17.8 cm at 300 dpi are 2102 px";
+  EXPECT_EQ(picture.substr(resolution + 4, 4), std::string("\0\0\x2e\x23", 4)) << "11811 px per m";
+  EXPECT_EQ(picture.substr(16, 4), std::string("\0\0\x08\x36", 4)) << "17.8 cm at 300 dpi are 2102 px";
+}
+
+TEST_F(Figures, follow_a_style_sheet) {
+  write_file(folder_, "small.mplstyle", "axes.labelsize: 4\n");
+  ASSERT_EQ(figures({"--only", "5"}).exit_code, 0);
+  const std::string before = content(out("fig05-stress-ratio.pdf"));
+  ASSERT_EQ(figures({"--only", "5", "--style", "small.mplstyle", "--overwrite"}).exit_code, 0);
+  EXPECT_NE(content(out("fig05-stress-ratio.pdf")), before);
+  const Outcome missing = figures({"--only", "5", "--style", "none.mplstyle", "--overwrite"});
+  EXPECT_EQ(missing.exit_code, 66);
+  expect_parts(missing.err, {"--style none.mplstyle"});
 }
 
 TEST_F(Figures, have_the_size_and_the_frames_that_are_asked_for) {
@@ -267,38 +271,28 @@ TEST_F(Figures, cannot_be_made_where_no_folder_can) {
   expect_parts(outcome.err, {"out"});
 }
 
-/// Sets PATH during its lifetime.
-class Path {
+/// Sets a variable of the environment during its lifetime.
+class Setting {
  public:
-  explicit Path(const std::string& value) : before_(getenv("PATH")) { setenv("PATH", value.c_str(), 1); }
-  ~Path() { setenv("PATH", before_.c_str(), 1); }
-  Path(const Path&) = delete;
-  Path& operator=(const Path&) = delete;
+  Setting(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+  ~Setting() { unsetenv(name_); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
 
  private:
-  std::string before_;
+  const char* name_;
 };
 
-TEST_F(Figures, need_gnuplot_before_anything_is_done) {
-  const Path path(folder_.path().string());
+TEST_F(Figures, need_matplotlib_before_anything_is_done) {
+  fs::create_directory(folder_.path("modules"));
+  write_file(folder_, "modules/matplotlib.py", "raise ImportError('no matplotlib', name='matplotlib')\n");
+  const Setting path("PYTHONPATH", folder_.path("modules"));
   const auto written = fs::last_write_time(folder_.path("bed.h5"));
   const Outcome outcome = figures();
   EXPECT_EQ(outcome.exit_code, 69);
-  expect_parts(outcome.err,
-               {"gnuplot, which draws the figures, is not installed", "apt-get install gnuplot-nox"});
+  expect_parts(outcome.err, {"needs the Python module matplotlib: apt-get install python3-matplotlib"});
   EXPECT_EQ(fs::last_write_time(folder_.path("bed.h5")), written) << "no analysis was stored";
   EXPECT_FALSE(fs::exists(out("")));
-}
-
-TEST_F(Figures, pass_on_what_gnuplot_says) {
-  write_file(folder_, "gnuplot",
-             "#!/bin/sh\n[ \"$1\" = --version ] && exit 0\necho 'line 7: no such thing' >&2\nexit 1\n");
-  fs::permissions(folder_.path("gnuplot"), fs::perms::owner_all);
-  const Path path(folder_.path().string() + ":/bin:/usr/bin");
-  const Outcome outcome = figures({"--only", "4"});
-  EXPECT_EQ(outcome.exit_code, 74);
-  expect_parts(outcome.err, {"fig04-shear-stress.gp: gnuplot failed: line 7: no such thing"});
-  EXPECT_TRUE(names().empty()) << "nothing half-made is left";
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST_F(TiltProgramCommands, cycles_are_a_figure_of_runs_that_have_them) {
   take_run(folder_, "bed.h5", cycled_bed);
   const Outcome figure = talus({"figures", "bed.h5", "--only", "cycles", "-o", "figures"});
   ASSERT_EQ(figure.exit_code, 0) << figure.err;
-  for (const char* file : {"cycles.png", "cycles.pdf", "cycles.svg", "cycles.csv", "cycles-ends.csv"})
+  for (const char* file : {"cycles.png", "cycles.pdf", "cycles.csv", "cycles-ends.csv"})
     EXPECT_TRUE(files_in("figures").contains(file)) << file;
   take_run(folder_, "plain.h5", cycled_bed, {"--set", "tilt.program=none", "--set", "tilt.end_angle=2"});
   EXPECT_NE(talus({"figures", "plain.h5", "--only", "cycles", "-o", "none"}).exit_code, 0);

@@ -198,7 +198,7 @@ TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
   std::ifstream file(strain);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(text.find("behind: other.h5"), std::string::npos) << text;
-  for (const char* ending : {".pdf", ".csv", "-behind.csv", ".gp"})
+  for (const char* ending : {".pdf", ".csv", "-behind.csv", ".svg"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path("talus-plots/plot-strain") + ending)) << ending;
   click("nothing behind");
   move_to("map");

@@ -72,10 +72,7 @@ def checkout(tmp_path):
 
 @pytest.mark.parametrize("page", PAGES)
 def test_page_can_be_typed_from_its_first_line_to_its_last(page, checkout):
-    if "matplotlib" in (ROOT / f"docs/{page}.md").read_text():
-        pytest.importorskip("matplotlib", reason="matplotlib is not installed: python3-matplotlib")
-    if shutil.which("gnuplot") is None:
-        pytest.skip("gnuplot is not installed: gnuplot-nox")
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: python3-matplotlib")
     if "talus.Simulation(" in (ROOT / f"docs/{page}.md").read_text():
         pytest.importorskip("talus._core", reason="the extension is not built: pybind11-dev, python3-dev")
     environment = os.environ | {"PATH": f"{checkout / 'bin'}:{checkout / 'build/release'}:{os.environ['PATH']}", "MPLBACKEND": "Agg"}

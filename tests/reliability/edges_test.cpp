@@ -123,32 +123,18 @@ TEST_F(Edges, a_pipe_or_a_device_is_no_run_and_no_problem) {
     }
 }
 
-/// A gnuplot that reports its presence and then takes a long time.
-TEST_F(Edges, programs_that_were_started_end_with_the_command) {
-  write_file(*folder, "gnuplot",
-             "#!/bin/sh\ncase $1 in --version) exit 0;; esac\necho $$ > " + folder->path("started") +
-                 "\nexec sleep 100\n");
-  fs::permissions(folder->path("gnuplot"), fs::perms::owner_all);
-  const std::string path = "PATH=" + folder->path().string() + ":" + std::getenv("PATH");
-  for (const int signal : {SIGTERM, SIGKILL}) {
-    fs::remove(folder->path("started"));
-    std::string before = std::getenv("PATH");
-    setenv("PATH", path.c_str() + 5, 1);
-    const pid_t process =
-        start_talus({"figures", "run.h5", "-o", "slow", "--only", "fig04", "--overwrite"}, folder->path());
-    setenv("PATH", before.c_str(), 1);
-    ASSERT_TRUE(wait_for_condition([] { return !text_of(folder->path("started")).empty(); }))
-        << errors_in(folder->path());
-    const pid_t gnuplot = std::stoi(text_of(folder->path("started")));
-    kill(process, signal);
-    EXPECT_EQ(wait_for(process), signal == SIGTERM ? 75 : -1);
-    EXPECT_TRUE(wait_for_condition([gnuplot] { return kill(gnuplot, 0) != 0; }))
-        << "gnuplot continues after signal " << signal;
-    if (signal == SIGTERM) {
-      EXPECT_TRUE(fs::is_empty(folder->path("slow"))) << "files were left behind";
-    }
-  }
-  fs::remove(folder->path("gnuplot"));
+TEST_F(Edges, figures_that_are_stopped_leave_no_files_behind) {
+  const auto has_part = [] {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder->path("slow"), none))
+      if (entry.path().extension() == ".part") return true;
+    return false;
+  };
+  const pid_t process = start_talus({"figures", "run.h5", "-o", "slow", "--overwrite"}, folder->path());
+  ASSERT_TRUE(wait_for_condition(has_part)) << errors_in(folder->path());
+  kill(process, SIGTERM);
+  EXPECT_EQ(wait_for(process), 75) << errors_in(folder->path());
+  EXPECT_FALSE(has_part());
 }
 
 TEST_F(Edges, a_run_that_is_packed_while_it_is_checked_is_whole) {
@@ -267,8 +253,8 @@ TEST_F(Edges, no_text_of_a_file_reaches_the_terminal_raw) {
 }
 
 TEST_F(Edges, settings_of_the_user_change_no_figure) {
-  write_file(*folder, ".gnuplot", "set decimalsign ','\nset linetype 1 linewidth 9\n");
-  const Words make = {"figures", "run.h5", "--only", "fig04", "--overwrite", "-o"};
+  write_file(*folder, "matplotlibrc", "lines.linewidth: 9\naxes.formatter.use_locale: True\n");
+  const Words make = {"figures", "run.h5", "--only", "fig04", "--add", "svg", "--overwrite", "-o"};
   const auto figure = [&](const std::string& into, const Words& environment) {
     Words words = make;
     words.push_back(into);
@@ -279,8 +265,8 @@ TEST_F(Edges, settings_of_the_user_change_no_figure) {
   const std::string usual = figure("usual", {"HOME=/nonexistent"});
   EXPECT_FALSE(usual.empty());
   const mode_t mask = umask(077);
-  EXPECT_EQ(figure("own", {"HOME=" + folder->path().string(), "LC_ALL=de_DE.UTF-8", "LANG=C", "GNUTERM=dumb",
-                           "GNUPLOT_DEFAULT_GDFONT=none", "GNUPLOT_FONTPATH=/tmp"}),
+  EXPECT_EQ(figure("own", {"HOME=" + folder->path().string(), "LC_ALL=de_DE.UTF-8", "LANG=C", "MPLBACKEND=tkagg",
+                           "MATPLOTLIBRC=" + folder->path("matplotlibrc")}),
             usual);
   umask(mask);
 }

@@ -1,5 +1,6 @@
 """Catalogue of the figures of runs, in the order of the paper, followed by further figures."""
 
+import difflib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -14,7 +15,7 @@ import talus.figures.walls as walls
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from talus.errors import MissingName, WrongValue, suggestion
+from talus.errors import MissingName, WrongValue
 from talus.figures.data import Data, Wanted
 from talus.figures.groups import Group
 from talus.figures.panels import Page
@@ -141,4 +142,5 @@ def find(word: str) -> Recipe:
         if name in (recipe.name, short_name(recipe.name)):
             return recipe
     names = dict.fromkeys(name for recipe in CATALOGUE for name in (recipe.name, short_name(recipe.name)))
-    raise MissingName(f"--only {word}: no such figure{suggestion(word, names)}")
+    near = difflib.get_close_matches(word, names, 1, 0.5)
+    raise MissingName(f"--only {word}: no such figure; " + (f"did you mean {near[0]!r}?" if near else "docs/figures.md lists them"))

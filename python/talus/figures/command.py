@@ -1,6 +1,7 @@
 """`talus figures`: draws figures of runs, with their data."""
 
 import argparse
+import logging
 import multiprocessing
 import os
 import re
@@ -12,12 +13,13 @@ from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
 
-from talus.errors import Error, WrongValue
+from talus.errors import Error, MissingFile, WrongValue
 from talus.figures.catalogue import CATALOGUE, Recipe, find
 from talus.figures.data import Data, Wanted
 from talus.figures.files import earlier_files, figure_files, remove_files, write_figure
 from talus.figures.groups import Group, group_runs
 from talus.figures.runs import AnalysedRun, read_runs
+from talus.figures.style import styled
 from talus.simulation import _extension
 
 #: Values of --add.
@@ -56,6 +58,15 @@ def parse_size(text: str) -> tuple[float, float]:
     if not narrowest <= width <= largest or height and not lowest <= height <= largest or found and found[2] and not height:
         raise WrongValue(f"--size {text}: expected a width in cm from {narrowest} to {largest}, or WIDTHxHEIGHT with a height from {lowest}")
     return width, height
+
+
+def check_style(style: str | None) -> None:
+    """Raises MissingFile if a style sheet cannot be read."""
+    try:
+        with styled(style):
+            pass
+    except OSError:
+        raise MissingFile(f"--style {style}: no such style sheet; expected a file such as journal.mplstyle, or a name of matplotlib") from None
 
 
 def usage_error(text: str) -> Error:
@@ -174,6 +185,7 @@ def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: C
 
 def main(words: Sequence[str]) -> None:
     """Carries out `talus figures`."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # such as that it has no folder for its settings
     asked = parse(words)
     chosen = [find(word) for word in asked.only]
     recipes = [recipe for recipe in CATALOGUE if recipe in chosen or not chosen]
@@ -183,6 +195,7 @@ def main(words: Sequence[str]) -> None:
     for word in asked.add:
         if word not in ADDITIONS:
             raise usage_error(f"--add {word}: expected one of {', '.join(ADDITIONS)}")
+    check_style(asked.style)
     formats = ("pdf", "png", "svg") if "svg" in asked.add else ("pdf", "png")
     progress = None if asked.quiet else Count("analysis", False)
     runs = read_runs(asked.runs, asked.set, threads=asked.threads, progress=progress, report=report)

@@ -15,7 +15,7 @@ from talus.figures.angles import key_of_groups, place_lines
 from talus.figures.data import Data, Wanted, runs_text
 from talus.figures.groups import Group
 from talus.figures.means import Series, mean_rows, series_of
-from talus.figures.panels import Page, arrange, free_axes, has_numbers, mark_panels, panels, set_range, shrink_texts
+from talus.figures.panels import Page, arrange, free_axes, has_numbers, mark_panels, panels, points_with_errors, set_range, shrink_texts
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import (AXIS, CM, COLOURS, MARK, SYMBOLS, as_math, curve_style, letter, logarithmic, set_title)
 from talus.figures.tables import Column, Table, column, short_text
@@ -139,8 +139,8 @@ def draw_cycles(data: Data, page: Page) -> Figure:
             each.autoscale_view()
         else:
             for place, shift, look in (("end", 0.0, END), ("top", 0.15, TOP)):
-                error = np.nan_to_num(factor * ends[f"{name}_{place}_error"])
-                each.errorbar(ends["cycle"] + shift, factor * ends[f"{name}_{place}"], yerr=error, elinewidth=0.5, **look)
+                points_with_errors(each, ends["cycle"] + shift, factor * ends[f"{name}_{place}"],
+                                   dy=factor * ends[f"{name}_{place}_error"], bars=0.5, **look)
             each.set_xlim(-0.5, ends["cycle"][-1] + 0.65)
             each.xaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
         set_range(each)
@@ -387,9 +387,9 @@ def draw_dynamic_angle(data: Data, page: Page) -> Figure:
         for g, group in enumerate(data.groups):
             table, colour = group.table, COLOURS[g % len(COLOURS)]
             for name, face, size in zip(names, (colour, "white"), (2.4, 3.0)):
-                bars = None if k == 0 else np.nan_to_num(np.abs([table[name] - table[name + "_low"], table[name + "_high"] - table[name]]))
-                each.errorbar(table[name], table["theta_r"], xerr=bars, linestyle="none", marker=SYMBOLS[g % len(SYMBOLS)], color=colour,
-                              markerfacecolor=face, markersize=size, markeredgewidth=0.6, elinewidth=0.5)
+                ends = None if k == 0 else np.array([table[name] - table[name + "_low"], table[name + "_high"] - table[name]])
+                points_with_errors(each, table[name], table["theta_r"], dx=ends, bars=0.5, linestyle="none", marker=SYMBOLS[g % len(SYMBOLS)],
+                                   color=colour, markerfacecolor=face, markersize=size, markeredgewidth=0.6)
         each.set_xlim(0, end)
         each.set_ylim(low, high)
         set_title(each, "x", title, "deg")

@@ -24,7 +24,7 @@ PAPER = {"bed.depth": 40, "bed.floor": "rough", "contact.friction": 0.5, "contac
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a figure is to show besides its default."""
+    """Choices of what a figure shows."""
 
     at: Sequence[str] = ()  #: frames instead of those of the paper: "10" (deg), "repose", "frame42"
     paper: bool = False  #: the paper's values also for other beds than the paper's

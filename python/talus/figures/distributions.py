@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from talus.figures.data import Data, ShownFrames, Wanted, reading, rounded, runs_text, shown_frames, shows_paper
 from talus.figures.groups import Group
 from talus.figures.means import mean_rows
-from talus.figures.panels import Key, Page, arrange, band, has_numbers, mark_panels, panels
+from talus.figures.panels import Key, Page, arrange, band, has_numbers, mark_panels, panels, points_with_errors
 from talus.figures.runs import AnalysedRun
 from talus.figures.style import AXIS, COLOURS, LAW, MARK, as_math, curve_style, letter, logarithmic, set_title
 from talus.figures.tables import Column, Table, column
@@ -128,8 +128,7 @@ def draw_overloaded_over_scale(data: Data, page: Page) -> Figure:
         key.line("paper, $p_o$ at $θ_c$", **MARK)
     for each, group in zip(axes, data.groups):
         for k, (name, _) in enumerate(data.facts["shown"]):
-            each.errorbar(group.table["l"], group.table["p_o_" + name], yerr=np.nan_to_num(group.table[f"p_o_{name}_error"]),
-                          **curve_style(k), elinewidth=0.6)
+            plot_with_errors(each, group.table["l"], group.table, "p_o_" + name, k)
         if data.facts["paper"]:
             each.axhline(0.6, **MARK)
         each.set_xlim(0, 1.03 * group.table["l"].max())
@@ -210,7 +209,7 @@ def key_of_states(data: Data) -> Key:
 
 
 def plot_with_errors(axes: Axes, at: np.ndarray, table: Table, name: str, k: int) -> None:
-    axes.errorbar(at, table[name], yerr=np.nan_to_num(table[name + "_error"]), **curve_style(k), elinewidth=0.6)
+    points_with_errors(axes, at, table[name], dy=table[name + "_error"], **curve_style(k))
 
 
 def draw_contact_directions(data: Data, page: Page) -> Figure:
@@ -246,8 +245,8 @@ def draw_force_distribution(data: Data, page: Page) -> Figure:
     for each, x in zip(axes, ((0, 10), (1e-3, 20))):
         for k, (name, _) in enumerate(data.facts["states"]):
             density = np.where(table["density_" + name] > 0, table["density_" + name], np.nan)
-            error = np.nan_to_num(table[f"density_{name}_error"])
-            each.errorbar(at, density, yerr=[np.minimum(error, 0.999 * np.nan_to_num(density)), error], **curve_style(k), elinewidth=0.6)
+            error = table[f"density_{name}_error"]
+            points_with_errors(each, at, density, dy=np.array([np.minimum(error, 0.999 * density), error]), **curve_style(k))
         each.set_xlim(x)
         each.set_ylim(1e-4, 10)
         logarithmic(each.yaxis)

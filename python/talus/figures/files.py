@@ -63,20 +63,27 @@ def provenance(recipe: Recipe, data: Data, groups: Sequence[Group], command: str
             "command": command, "runs": runs, "tables": tables}
 
 
+def creation_error(text: str) -> FailedFile:
+    error = FailedFile(text)
+    error.exit_code = 73
+    return error
+
+
 @contextmanager
 def workshop(path: Path, what: str) -> Iterator[None]:
     """Provides an empty temporary folder, which is removed at the end. One that a killed process has left is emptied. Raises
     FailedFile if another process uses it."""
-    path.mkdir(exist_ok=True)
-    lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    try:
+        path.mkdir(exist_ok=True)
+        lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+    except OSError as error:
+        raise creation_error(f"{path}: cannot be made: {error.strerror}") from None
     try:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            used = FailedFile(f"{what} is being drawn by another process in the same folder; wait for it to end, or choose another "
-                              "folder with -o")
-            used.exit_code = 73
-            raise used from None
+            raise creation_error(f"{what} is being drawn by another process in the same folder; wait for it to end, or choose "
+                                 "another folder with -o") from None
         try:
             remove_files(path, os.listdir(path))
             yield

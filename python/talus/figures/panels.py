@@ -278,6 +278,20 @@ def band(axes: Axes, at: np.ndarray, mean: np.ndarray, width: np.ndarray, **look
     axes.fill_between(at, mean - width, mean + width, linewidth=0, **look)
 
 
+def points_with_errors(axes: Axes, x: np.ndarray, y: np.ndarray, *, dx: Any = None, dy: Any = None, bars: float = 0.6,
+                       **look: Any) -> None:
+    """Draws points with error bars along x or y: (n,), or (2, n) for two sides; NaN for none. `bars`: width of their lines."""
+    axes.plot(x, y, **look)
+    for error, lines in ((dx, axes.hlines), (dy, axes.vlines)):
+        if error is None:
+            continue
+        at, value = (y, x) if error is dx else (x, y)
+        low, high = value - (error[0] if np.ndim(error) == 2 else error), value + (error[1] if np.ndim(error) == 2 else error)
+        known = ~np.isnan(low) & ~np.isnan(high) & (high > low)
+        if known.any():
+            lines(at[known], low[known], high[known], colors=look["color"], linewidth=bars)
+
+
 def thin_lines(runs: Table, name: str, over: Any, scale: float, colour: str) -> LineCollection:
     blocks = runs.blocks()
     at, values = over(runs.columns[1].values), scale * runs[name]

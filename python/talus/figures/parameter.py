@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from talus.ensemble import mean_of
 from talus.figures.data import Data, Wanted, runs_text
 from talus.figures.groups import SYMBOLS, UNITS, Group, essence, value_text
-from talus.figures.panels import Key, Page, arrange, has_numbers, panels
+from talus.figures.panels import Key, Page, arrange, has_numbers, panels, points_with_errors
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import as_math, curve_style, letter, set_title
 from talus.figures.tables import Table, column
@@ -112,7 +112,7 @@ def draw_over_parameter(data: Data, page: Page) -> Figure:
     for s, value in enumerate(np.unique(series)):
         rows = series == value
         for each, (name, _, _) in zip(axes, shown):
-            each.errorbar(at[rows], table[name][rows], yerr=np.nan_to_num(table[name + "_error"][rows]), **curve_style(s), elinewidth=0.6)
+            points_with_errors(each, at[rows], table[name][rows], dy=table[name + "_error"][rows], **curve_style(s))
         if len(keys) > 1:
             text = data.facts["texts"][1][int(value) - 1] if not data.facts["numeric"][1] else f"{value:g}"
             runs = runs_text(int(table["n"][rows].sum()))

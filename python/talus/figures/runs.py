@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from talus import run as run_files
-from talus.errors import MissingFile, WrongValue
+from talus.errors import Error, MissingFile, WrongValue
 from talus.simulation import _extension
 
 #: Called with the number of analysed frames and that of all frames of a run; None: no report.
@@ -148,7 +148,7 @@ def read_runs(paths: Iterable[str | Path] | str | Path, settings: Sequence[str] 
         for name in others:
             report(f"left out: {name} is not a run")
         if len(others) == len(names):
-            raise WrongValue(f"none of these {len(names)} files is a run")
+            raise Error(f"none of these {len(names)} files is a run")
         names = [name for name in names if name not in others]
     found: list[Any] = []
     for name in names:

@@ -18,7 +18,7 @@ class Column:
 
 @dataclass
 class Table:
-    """A CSV file next to the figure: FIGURE.csv, or FIGURE-NAME.csv if the table has a name."""
+    """A CSV file of a figure: FIGURE.csv, or FIGURE-NAME.csv if the table has a name."""
 
     name: str
     columns: list[Column]

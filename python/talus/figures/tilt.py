@@ -11,7 +11,7 @@ from talus.figures.angles import Estimator, estimators_of
 from talus.figures.data import Data, GroupTable, Wanted, reading, runs_text, shows_paper
 from talus.figures.groups import Group
 from talus.figures.means import SAME_ANGLE, Abscissa, Series, mean_columns, run_curve, series_of, shown_series
-from talus.figures.panels import Key, Page, arrange, band, draw_curves, has_numbers, key_of_curves, mark_panels, panels, set_range
+from talus.figures.panels import Key, Page, arrange, band, draw_curves, has_numbers, key_of_curves, mark_panels, panels, points_with_errors, set_range
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import AXIS, COLOURS, CROSS, LAW, MARK, as_math, curve_style, letter, set_title
 from talus.figures.tables import Column, Table, column, short_text
@@ -268,8 +268,7 @@ def draw_volume_strain(data: Data, page: Page) -> Figure:
     for k, group in enumerate(data.groups):
         table = group.facts["theta_d"]
         rows = table["estimator"] + 0.2 * (0.5 * (len(data.groups) - 1) - k)
-        axes[2].errorbar(table["theta_d"], rows, xerr=np.nan_to_num(table["theta_d_error"]),
-                         **curve_style(k) | {"linestyle": "none"}, elinewidth=0.6)
+        points_with_errors(axes[2], table["theta_d"], rows, dx=table["theta_d_error"], **curve_style(k) | {"linestyle": "none"})
     axes[2].set_ylim(0.4, len(names) + 0.6)
     axes[2].set_yticks(range(1, len(names) + 1), names)
     axes[2].tick_params(axis="y", length=0)

@@ -10,7 +10,7 @@ from talus.ensemble import mean_of
 from talus.figures.data import Data, Wanted, rounded, runs_text, shown_frames, shows_paper
 from talus.figures.groups import Group
 from talus.figures.means import mean_rows
-from talus.figures.panels import Key, Page, arrange, panels
+from talus.figures.panels import Key, Page, arrange, panels, points_with_errors
 from talus.figures.runs import AnalysedRun
 from talus.figures.style import LAW, as_math, curve_style, set_title
 from talus.figures.tables import Table, column
@@ -51,7 +51,7 @@ def draw_wall_stress(data: Data, page: Page) -> Figure:
     key.line(data.facts["bed"], linestyle="none")
     for k, (name, label) in enumerate(data.facts["shown"]):
         name = "sigma_xx_" + name
-        axes[0].errorbar(table["x"], table[name], yerr=np.nan_to_num(table[name + "_error"]), **curve_style(k), elinewidth=0.6)
+        points_with_errors(axes[0], table["x"], table[name], dy=table[name + "_error"], **curve_style(k))
         key.line(label, **curve_style(k))
     axes[0].set_xlim(0, data.facts["length"])
     axes[0].set_ylim(0)
@@ -62,7 +62,7 @@ def draw_wall_stress(data: Data, page: Page) -> Figure:
 
 @dataclass(frozen=True)
 class WallFit:
-    """k_L - k_0 of the law 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted by least squares, and its standard error."""
+    """k_L - k_0 of the law 1 - (k_L - k_0)/3 H/L (T26) (paper, Eq. 15), fitted by least squares, and its standard error."""
 
     k: float
     error: float  #: NaN for a single point
@@ -133,7 +133,7 @@ def draw_wall_ratio(data: Data, page: Page) -> Figure:
     if data.facts["paper"]:
         key.line(f"paper, $k_L − k_0$ = {WALL_COEFFICIENT}", **LAW)
         axes[0].plot(at, wall_law(WALL_COEFFICIENT, data.facts["depth"] / at), **LAW)
-    axes[0].errorbar(table["L"], table["ratio"], yerr=np.nan_to_num(table["bar"]), **curve_style(0) | {"linestyle": "none"}, elinewidth=0.6)
+    points_with_errors(axes[0], table["L"], table["ratio"], dy=table["bar"], **curve_style(0) | {"linestyle": "none"})
     axes[0].set_xlim(at[0], at[-1])
     axes[0].set_ylim(0)
     set_title(axes[0], "x", "$L$", "D")

@@ -35,9 +35,6 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"problems", {"base/", "core/", "dynamics/", "io/", "scenario/", "session/", "solver/"}},
     {"pictures", {"analysis/", "base/", "core/", "io/", "render/", "stress/"}},
     {"ensemble", {"analysis/", "base/", "core/", "io/", "runs/", "scenario/", "session/"}},
-    {"figures",
-     {"analysis/", "base/", "core/", "ensemble/", "pictures/", "render/frame_view.h", "runs/", "scenario/",
-      "session/", "stress/"}},
     {"exports",
      {"analysis/", "base/", "core/", "io/", "pictures/", "runs/", "scenario/", "session/", "stress/",
       "view/"}},
@@ -47,7 +44,7 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"gui", {"base/", "core/", "pictures/", "render/", "view/"}},
     {"render", {"base/"}},
     {"app",
-     {"analysis/", "base/", "core/", "ensemble/", "exports/", "figures/", "gui/", "io/", "pictures/",
+     {"analysis/", "base/", "core/", "ensemble/", "exports/", "gui/", "io/", "pictures/",
       "problems/", "render/", "runs/", "scenario/", "session/", "view/"}},
 };
 
