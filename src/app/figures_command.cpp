@@ -73,9 +73,10 @@ void add_figures_command(CLI::App& app) {
                    "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")
       ->allow_extra_args(false);
   command
-      ->add_option("--add", arguments->additions,
-                   "paper: its values for other beds too; spread: deviations and single runs of more than two "
-                   "groups; svg: a third file")
+      ->add_option(
+          "--add", arguments->additions,
+          "paper: its values for other beds too; spread: deviations and single runs of more than two "
+          "groups; svg: a third file")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(one_of({"paper", "spread", "svg"}));

@@ -37,8 +37,7 @@ void add_runs(const std::string& path, std::vector<runs::RunView>& runs) {
   const runs::AnalysisOptions options{.progress = count_shown("analysis", false)};
   const auto add = [&](const std::string& run) {
     runs.push_back(runs::analysed_run(run, {}, options));
-    if (!runs.back().is_kept)
-      print_error("talus: note: %s: %s\n", run.c_str(), runs.back().kept.c_str());
+    if (!runs.back().is_kept) print_error("talus: note: %s: %s\n", run.c_str(), runs.back().kept.c_str());
   };
   const std::string averages = (fs::path(path) / "ensemble.h5").string();
   if (ensemble::is_ensemble(path)) {

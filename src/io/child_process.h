@@ -22,7 +22,8 @@ using Parcels = std::map<std::string, std::vector<std::byte>>;
 /// threads do; no other resource that a thread may hold.
 Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work);
 
-/// Returns whether a child, just forked, can use HDF5: with HDF5 2 only if no thread of its parent was inside.
+/// Returns whether a child, just forked, can use HDF5: with HDF5 2 only if no thread of its parent was
+/// inside.
 bool may_use_hdf5();
 
 /// Convert parcels to a sequence of bytes and back. `decode` throws Error(bad_data), naming `path`, for bytes

@@ -60,7 +60,8 @@ TEST_F(Figures, of_one_tilt_alone_have_an_axis) {
 }
 
 TEST_F(Figures, are_files_of_each_kind) {
-  const Outcome outcome = figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3", "--add", "svg,paper"});
+  const Outcome outcome =
+      figures({"--only", "4,fig09-overloaded-fraction", "--set", "gamma_c=0.3", "--add", "svg,paper"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   expect_parts(outcome.out, {"fig04-shear-stress ", "fig09-overloaded-fraction ", "2 figures in out"});
   EXPECT_EQ(names(), (std::vector<std::string>{

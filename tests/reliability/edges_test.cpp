@@ -265,8 +265,8 @@ TEST_F(Edges, settings_of_the_user_change_no_figure) {
   const std::string usual = figure("usual", {"HOME=/nonexistent"});
   EXPECT_FALSE(usual.empty());
   const mode_t mask = umask(077);
-  EXPECT_EQ(figure("own", {"HOME=" + folder->path().string(), "LC_ALL=de_DE.UTF-8", "LANG=C", "MPLBACKEND=tkagg",
-                           "MATPLOTLIBRC=" + folder->path("matplotlibrc")}),
+  EXPECT_EQ(figure("own", {"HOME=" + folder->path().string(), "LC_ALL=de_DE.UTF-8", "LANG=C",
+                           "MPLBACKEND=tkagg", "MATPLOTLIBRC=" + folder->path("matplotlibrc")}),
             usual);
   umask(mask);
 }

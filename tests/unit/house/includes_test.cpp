@@ -44,8 +44,8 @@ const std::map<std::string, std::vector<std::string>> rooms = {
     {"gui", {"base/", "core/", "pictures/", "render/", "view/"}},
     {"render", {"base/"}},
     {"app",
-     {"analysis/", "base/", "core/", "ensemble/", "exports/", "gui/", "io/", "pictures/",
-      "problems/", "render/", "runs/", "scenario/", "session/", "view/"}},
+     {"analysis/", "base/", "core/", "ensemble/", "exports/", "gui/", "io/", "pictures/", "problems/",
+      "render/", "runs/", "scenario/", "session/", "view/"}},
 };
 
 /// Header of another project, with the only place that includes it.
