@@ -235,8 +235,9 @@ def main(words: Sequence[str]) -> None:
         return lambda: write_figure(recipe, data, groups, folder, formats=formats, width=width, height=height, style=asked.style,
                                     command=command)
 
+    longest_first = sorted(made, key=lambda each: -len(each[1].facts.get("panels", ())))
     try:
-        in_processes([job(*each) for each in made], asked.threads, Count("figures", asked.quiet))
+        in_processes([job(*each) for each in longest_first], asked.threads, Count("figures", asked.quiet))
     except BaseException:
         _extension()._prepare_folder(os.fsencode(folder))  # removes what processes that were stopped have left
         raise
