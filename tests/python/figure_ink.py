@@ -1,8 +1,6 @@
-"""Positions of the texts of a figure: the ink of each glyph on the page, from its PDF, and clipped
-letters, from its SVG."""
+"""Positions of the texts of a figure: the ink of each glyph on the page, from its PDF."""
 
 import re
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 
 import fitz
@@ -62,17 +60,6 @@ def glyphs_of(page):
             if not letter.isspace():
                 glyphs.append(Glyph(letter, label, glyph_box(letter, origin, box, size, direction), size))
     return glyphs
-
-
-def letters_of_svg(path):
-    """Returns the letters of an SVG without blanks; gnuplot writes all of them, including those outside
-    the page."""
-    letters = {}
-    for text in ElementTree.parse(path).iter("{http://www.w3.org/2000/svg}text"):
-        for letter in "".join(text.itertext()):
-            if not letter.isspace():
-                letters[letter] = letters.get(letter, 0) + 1
-    return letters
 
 
 def overlap(one, other, room):
@@ -146,7 +133,7 @@ def without_clipped(content):
     return b"\n".join(lines)
 
 
-def faults(pdf, svg=None):
+def faults(pdf):
     """Returns the faults of a figure's texts, in words; empty if all are legible."""
     with fitz.open(pdf) as document:
         page = document[0]
@@ -196,12 +183,4 @@ def faults(pdf, svg=None):
     expected = [chr(ord("a") + k) for k in range(max(2, len(panels)))] if panels else []
     if panels != expected:
         found.append(f"the panels are lettered {', '.join(panels)}, not {', '.join(expected)}")
-    if svg is not None:
-        drawn = {}
-        for glyph in glyphs:
-            for letter in {"ﬀ": "ff", "ﬁ": "fi", "ﬂ": "fl", "ﬃ": "ffi", "ﬄ": "ffl"}.get(glyph.letter, glyph.letter):
-                drawn[letter] = drawn.get(letter, 0) + 1
-        for letter, count in letters_of_svg(svg).items():
-            if drawn.get(letter, 0) < count:
-                found.append(f"{count - drawn.get(letter, 0)} of the letters '{letter}' are not on the page")
     return sorted(set(found))

@@ -253,7 +253,7 @@ TEST_F(Edges, no_text_of_a_file_reaches_the_terminal_raw) {
 }
 
 TEST_F(Edges, settings_of_the_user_change_no_figure) {
-  write_file(*folder, "matplotlibrc", "lines.linewidth: 9\naxes.formatter.use_locale: True\n");
+  write_file(*folder, "matplotlibrc", "lines.linewidth: 9\nfont.size: 20\n");
   const Words make = {"figures", "run.h5", "--only", "fig04", "--add", "svg", "--overwrite", "-o"};
   const auto figure = [&](const std::string& into, const Words& environment) {
     Words words = make;

@@ -6,9 +6,11 @@ import multiprocessing
 import os
 import re
 import shlex
+import signal
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
@@ -130,35 +132,58 @@ def check_targets(folder: Path, made: Sequence[tuple[Recipe, Data]], recipes: Se
         _extension()._output_target(os.fsencode(folder / name), overwrite, [os.fsencode(path) for path in inputs])
 
 
+@contextmanager
+def signals_wait() -> Iterator[Callable[[], None]]:
+    """Lets signals wait while processes start, because they would be lost in what Python does at a fork. A process that has
+    started calls the function that it gives, which restores the handlers."""
+    handlers = {number: handler for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+                if callable(handler := signal.getsignal(number))}
+    arrived: list[int] = []
+
+    def restore() -> None:
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        if arrived:
+            raise KeyboardInterrupt
+
+    for number in handlers:
+        signal.signal(number, lambda number, frame: arrived.append(number))
+    try:
+        yield restore
+    finally:
+        restore()
+
+
 def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: Callable[[int, int], None]) -> None:
     """Carries out jobs in forked processes, and raises the first error of one of them."""
     context = multiprocessing.get_context("fork")
     following = context.Value("i", 0)
 
     def work(answers: Any) -> None:
-        while True:
-            with following.get_lock():
-                k, following.value = following.value, following.value + 1
-            if k >= len(jobs):
-                break
-            try:
+        try:
+            restore()
+            while True:
+                with following.get_lock():
+                    k, following.value = following.value, following.value + 1
+                if k >= len(jobs):
+                    break
                 jobs[k]()
                 answers.send(None)
-            except KeyboardInterrupt:
-                break
-            except BaseException as error:
-                answers.send(error)
-                break
+        except KeyboardInterrupt:
+            pass
+        except BaseException as error:
+            answers.send(error)
         answers.close()
 
     pipes, workers = [], []
     try:
-        for _ in range(min(processes, len(jobs))):
-            ours, theirs = context.Pipe(duplex=False)
-            workers.append(context.Process(target=work, args=(theirs,)))
-            workers[-1].start()
-            theirs.close()
-            pipes.append(ours)
+        with signals_wait() as restore:
+            for _ in range(min(processes, len(jobs))):
+                ours, theirs = context.Pipe(duplex=False)
+                workers.append(context.Process(target=work, args=(theirs,)))
+                workers[-1].start()
+                theirs.close()
+                pipes.append(ours)
         done = 0
         progress(done, len(jobs))
         while pipes:
@@ -210,7 +235,12 @@ def main(words: Sequence[str]) -> None:
         return lambda: write_figure(recipe, data, groups, folder, formats=formats, width=width, height=height, style=asked.style,
                                     command=command)
 
-    in_processes([job(*each) for each in made], asked.threads, Count("figures", asked.quiet))
+    longest_first = sorted(made, key=lambda each: -len(each[1].facts.get("panels", ())))
+    try:
+        in_processes([job(*each) for each in longest_first], asked.threads, Count("figures", asked.quiet))
+    except BaseException:
+        _extension()._prepare_folder(os.fsencode(folder))  # removes what processes that were stopped have left
+        raise
     if asked.overwrite:
         remove_left_out(folder, [recipe for recipe in recipes if recipe not in [each for each, _ in made]])
     for recipe, data in made:
