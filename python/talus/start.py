@@ -20,9 +20,10 @@ def fail(code: int, text: str) -> int:
 
 
 def stop_on_signals() -> None:
-    """Makes SIGTERM and SIGHUP, unless it is ignored (nohup), raise KeyboardInterrupt as SIGINT does. A closed pipe ends the
-    process, as it ends the program."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    """Makes SIGTERM and SIGHUP, unless it is ignored (nohup), raise KeyboardInterrupt as SIGINT does; the program has let
+    them wait until here. A closed pipe ends the process, as it ends the program."""
+    stops = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    for number in stops:
         if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, signal.default_int_handler)
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)
@@ -30,6 +31,7 @@ def stop_on_signals() -> None:
     os.set_blocking(notify, False)
     signal.set_wakeup_fd(notify)
     threading.Thread(target=end_soon, args=(signals,), daemon=True).start()
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, stops)
 
 
 def end_soon(signals: int) -> None:
@@ -43,6 +45,7 @@ def end_soon(signals: int) -> None:
 def run(name: str, arguments: list[str]) -> int:
     """Runs a module and returns the exit code."""
     try:
+        stop_on_signals()
         code: Any = importlib.import_module(f"talus.{name}").main(arguments)
         sys.stdout.flush()
         return int(code or 0)
@@ -68,7 +71,6 @@ def run(name: str, arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":  # not in the processes of a pool, which start with this file as well
-    stop_on_signals()
     sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
     code = run(sys.argv[1], sys.argv[2:])
     if code == STOPPED:

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
@@ -61,6 +62,12 @@ void become_python_module(const std::string& name, const std::vector<std::string
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   std::fflush(stdout);
+  // Signals wait until the module handles them (start.py).
+  sigset_t stops;
+  ::sigemptyset(&stops);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::sigaddset(&stops, signal);
+  ::sigprocmask(SIG_BLOCK, &stops, nullptr);
+  stop_if_asked();
   ::execvp(pointers[0], pointers.data());
   refuse_start(errno);
 }
