@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "base/visible_text.h"
 
 namespace talus {
 namespace {
@@ -16,11 +15,10 @@ std::size_t width_of(const std::string& text) {
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
 }
 
-/// Returns the width of each column, at least `least`.
-std::vector<std::size_t> widths_of(const TextTable& table, std::size_t least) {
+std::vector<std::size_t> widths_of(const TextTable& table) {
   std::vector<std::size_t> widths;
   for (const TextColumn& column : table.columns)
-    widths.push_back(std::max({least, width_of(column.title), width_of(column.unit)}));
+    widths.push_back(std::max(width_of(column.title), width_of(column.unit)));
   for (const auto& row : table.rows)
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width_of(row[k].text));
   return widths;
@@ -72,7 +70,7 @@ std::string number_cell(std::string_view format, double value) {
 }
 
 std::string aligned_text(const TextTable& table, std::size_t indent) {
-  const std::vector<std::size_t> widths = widths_of(table, 0);
+  const std::vector<std::size_t> widths = widths_of(table);
   const std::vector<TextColumn>& columns = table.columns;
   const auto line = [&](const auto& text_of) { return line_of(table, widths, indent, text_of); };
   std::string text;
@@ -90,35 +88,6 @@ std::string csv_text(const TextTable& table, bool titles) {
   std::string text = titles ? fmt::format("{}\n", joined(table.columns, ",", &TextColumn::title)) : "";
   for (const auto& row : table.rows) text += joined(row, ",", &TextCell::text) + "\n";
   return text;
-}
-
-std::string markdown_text(const TextTable& table) {
-  const std::vector<std::size_t> widths = widths_of(table, 3);
-  std::string head, rule, body;
-  for (std::size_t k = 0; k < widths.size(); ++k) {
-    const bool numbers = table.columns[k].numbers;
-    head += fmt::format("| {} ", padded(table.columns[k].title, widths[k], numbers));
-    rule += fmt::format("|{:-<{}}{}", "", widths[k] + (numbers ? 1 : 2), numbers ? ":" : "");
-  }
-  for (const auto& row : table.rows) {
-    for (std::size_t k = 0; k < row.size(); ++k)
-      body += fmt::format("| {} ", padded(row[k].text, widths[k], table.columns[k].numbers));
-    body += "|\n";
-  }
-  return fmt::format("{}|\n{}|\n{}", head, rule, body);
-}
-
-std::string markdown_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : visible(text)) {
-    if (c == '<' || c == '&')
-      escaped += c == '<' ? "&lt;" : "&amp;";
-    else if (c == '\n')
-      escaped += ' ';
-    else
-      escaped.append(std::string_view("[]|*`").find(c) == std::string_view::npos ? "" : "\\").append(1, c);
-  }
-  return escaped;
 }
 
 }  // namespace talus

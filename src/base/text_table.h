@@ -1,5 +1,5 @@
 #pragma once
-/// A table of words and numbers as aligned text, CSV or Markdown.
+/// A table of words and numbers as aligned text or CSV.
 
 #include <string>
 #include <string_view>
@@ -7,13 +7,8 @@
 
 namespace talus {
 
-/// Highlighting of a cell in HTML.
-enum class Tone { plain, good, bad, muted };
-
 struct TextCell {
   std::string text;
-  std::string note = {};  ///< second, smaller line; in HTML only
-  Tone tone = Tone::plain;
 };
 
 struct TextColumn {
@@ -39,11 +34,5 @@ std::string aligned_text(const TextTable& table, std::size_t indent = 0);
 /// Returns CSV: a line of titles, if requested, and one line for each row. Texts that may contain commas must
 /// be quoted (csv_quoted).
 std::string csv_text(const TextTable& table, bool titles = true);
-
-/// Returns a Markdown table with aligned columns. Texts of a user must be escaped (markdown_escaped).
-std::string markdown_text(const TextTable& table);
-
-/// Escapes a text for a cell of a Markdown table, so that it contains no HTML, link or column separator.
-std::string markdown_escaped(std::string_view text);
 
 }  // namespace talus

@@ -124,8 +124,7 @@ class Key:
         labels = [broken(figure, label, points, room - handle) for label in self.labels]
         widths = [handle + max(text_width(figure, line, points) for line in label.split("\n")) for label in labels]
         columns = next(n for n in range(len(labels), 0, -1) if n == 1 or fits(widths, n, spacing, room))
-        rows = -(-len(labels) // columns)
-        legend = figure.legend(self.handles, labels, ncol=-(-len(labels) // rows), loc="upper left", bbox_to_anchor=(0, 1))
+        legend = figure.legend(self.handles, labels, ncol=columns, loc="upper left", bbox_to_anchor=(0, 1))
         renderer = figure.canvas.get_renderer()
         height = legend.get_window_extent(renderer).height / figure.dpi / CM
         figure.talus_legend = legend
@@ -133,10 +132,8 @@ class Key:
 
 
 def fits(widths: Sequence[float], columns: int, spacing: float, room: float) -> bool:
-    """Whether entries of these widths fit into columns, filled one after another."""
-    rows = -(-len(widths) // columns)
-    parts = [max(widths[k : k + rows]) for k in range(0, len(widths), rows)]
-    return sum(parts) + spacing * (len(parts) - 1) <= room
+    """Whether entries of these widths fit into columns, of which a legend gives the first ones one entry more."""
+    return bool(sum(max(part) for part in np.array_split(widths, columns)) + spacing * (columns - 1) <= room)
 
 
 def free_axes(figure: Figure, x: float, y: float, width: float, height: float, **options: Any) -> Axes:

@@ -1,4 +1,4 @@
-/// Tables as aligned text, CSV and Markdown.
+/// Tables as aligned text and CSV.
 
 #include "base/text_table.h"
 
@@ -26,15 +26,6 @@ TEST(TextTable, aligns_its_columns_under_their_groups_and_above_their_units) {
 TEST(TextTable, is_csv_with_titles_or_without) {
   EXPECT_EQ(csv_text(small), "bed,θ,p_o,\npoured,9.5,0.25,failed\nset,10.25\n");
   EXPECT_EQ(csv_text(small, false), "poured,9.5,0.25,failed\nset,10.25\n");
-}
-
-TEST(TextTable, is_markdown_with_its_columns_one_below_the_other) {
-  EXPECT_EQ(markdown_text({{{"bed"}, {"θ", true}}, {{{"poured"}, {"9.5"}}, {{"set"}, {"10.25"}}}}),
-            "| bed    |     θ |\n"
-            "|--------|------:|\n"
-            "| poured |   9.5 |\n"
-            "| set    | 10.25 |\n");
-  EXPECT_EQ(markdown_escaped("<b>&[a](b)|`c`*\n"), "&lt;b>&amp;\\[a\\](b)\\|\\`c\\`\\* ");
 }
 
 TEST(TextTable, has_numbers_by_their_format_and_a_dash_for_none) {
