@@ -5,15 +5,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import AutoLocator, MaxNLocator
 
+from talus.errors import WrongValue
 from talus.figures.data import Data
 from talus.figures.style import CM, COLOURS, NARROW, as_math, curve_style, letter, new_figure
 from talus.figures.tables import Table
@@ -43,7 +46,7 @@ def panels(page: Page, count: int, *, row: float, wide: int = 3, narrow: int = 2
     a height of `row` cm. With `share_x` (`share_y`) only the lowest (first) panels have numbers."""
     if page.ax is not None:
         if count != 1:
-            raise ValueError(f"ax: this figure has {count} panels, and needs a figure of its own")
+            raise WrongValue(f"ax: this figure has {count} panels, and needs a figure of its own")
         return [page.ax]
     columns = min(count, narrow if page.narrow else wide)
     rows = -(-count // columns)
@@ -72,8 +75,6 @@ def has_numbers(axes: Axes, which: str) -> bool:
 
 def text_width(figure: Figure, text: str, points: float) -> float:
     """Returns the width of a text in cm."""
-    from matplotlib.font_manager import FontProperties
-
     renderer = figure.canvas.get_renderer()
     is_math = text.count("$") >= 2
     width: float = renderer.get_text_width_height_descent(text, FontProperties(size=points), is_math)[0]
@@ -116,10 +117,7 @@ class Key:
         """Draws the legend at the top, in as many columns as fit into the width of the figure (cm), and returns its height."""
         if not self.labels:
             return 0.0
-        import matplotlib
-
-        points = matplotlib.rcParams["legend.fontsize"]
-        points = points if isinstance(points, (int, float)) else 7
+        points = FontProperties(size=matplotlib.rcParams["legend.fontsize"]).get_size_in_points()
         room = width - 2 * GAP
         handle = (matplotlib.rcParams["legend.handlelength"] + matplotlib.rcParams["legend.handletextpad"]) * points / 72 * 2.54
         spacing = matplotlib.rcParams["legend.columnspacing"] * points / 72 * 2.54
