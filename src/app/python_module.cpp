@@ -29,7 +29,7 @@ std::string start_script() {
   for (const std::filesystem::path& packages :
        {folder / "python", prefix / TALUS_PYTHON_FOLDER,
         prefix / "lib" / TALUS_PYTHON_VERSION / "dist-packages", prefix / "lib/python3/dist-packages"})
-    if (const std::string script = packages / "talus" / "start.py"; is_there(script)) return script;
+    if (std::string script = packages / "talus" / "start.py"; is_there(script)) return script;
   throw Error(
       ExitCode::unavailable,
       fmt::format(
