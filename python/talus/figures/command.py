@@ -10,7 +10,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import wait
 from pathlib import Path
 from typing import Any
@@ -157,33 +157,33 @@ def signals_wait() -> Iterator[Callable[[], None]]:
 def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: Callable[[int, int], None]) -> None:
     """Carries out jobs in forked processes, and raises the first error of one of them."""
     context = multiprocessing.get_context("fork")
-    following = context.Value("i", 0)
+    following = iter(range(len(jobs)))
 
-    def work(answers: Any) -> None:
+    def work(pipe: Any) -> None:
         try:
             restore()
-            while True:
-                with following.get_lock():
-                    k, following.value = following.value, following.value + 1
-                if k >= len(jobs):
-                    break
+            for inherited in pipes:  # otherwise the end of the parent would go unnoticed
+                inherited.close()
+            for k in iter(pipe.recv, None):
                 jobs[k]()
-                answers.send(None)
-        except KeyboardInterrupt:
+                pipe.send(None)
+        except (KeyboardInterrupt, EOFError):
             pass
         except BaseException as error:
-            answers.send(error)
-        answers.close()
+            pipe.send(error)
+        pipe.close()
 
-    pipes, workers = [], []
+    pipes: list[Any] = []
+    workers = []
     try:
         with signals_wait() as restore:
             for _ in range(min(processes, len(jobs))):
-                ours, theirs = context.Pipe(duplex=False)
+                ours, theirs = context.Pipe()
+                pipes.append(ours)
                 workers.append(context.Process(target=work, args=(theirs,)))
                 workers[-1].start()
                 theirs.close()
-                pipes.append(ours)
+                ours.send(next(following))
         done = 0
         progress(done, len(jobs))
         while pipes:
@@ -191,12 +191,14 @@ def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: C
                 try:
                     answer = pipe.recv()  # type: ignore[union-attr]
                 except EOFError:
-                    pipes.remove(pipe)  # type: ignore[arg-type]
+                    pipes.remove(pipe)
                     continue
                 if answer is not None:
                     raise answer
                 done += 1
                 progress(done, len(jobs))
+                with suppress(BrokenPipeError):  # of a process that has ended, which the next turn notices
+                    pipe.send(next(following, None))  # type: ignore[union-attr]
         if done < len(jobs):
             raise Error("a process that draws figures has ended early; is there enough memory?")
     except BaseException:
