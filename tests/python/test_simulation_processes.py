@@ -266,8 +266,8 @@ def test_ctrl_c_ends_simulations_in_all_threads(tmp_path, way):
     end = textwrap.dedent("""
         except KeyboardInterrupt:
             pass
-        for thread in threading.enumerate()[1:]:
-            thread.join()
+        while len(sys._current_frames()) > 1:  # Python 3.11 takes a thread for ended if a signal interrupts its join
+            time.sleep(0.01)
         print([talus.open(f"{k}.h5")["checkpoint/step"] == sim.step_count for k, sim in enumerate(sims)], flush=True)
         """)
     program = begin + "try:\n" + textwrap.indent(textwrap.dedent(text), "    ") + end
