@@ -200,9 +200,13 @@ TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
   EXPECT_NE(text.find("behind: other.h5"), std::string::npos) << text;
   for (const char* ending : {".pdf", ".csv", "-behind.csv", ".svg"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path("talus-plots/plot-strain") + ending)) << ending;
-  click("nothing behind");
-  move_to("map");
-  EXPECT_TRUE(wait_until_gone("nothing behind"));
+  bool gone = false;  // a click that comes before the window has ended its writing may be lost
+  for (int tries = 0; tries < 3 && !gone; ++tries) {
+    click("nothing behind");
+    move_to("map");
+    gone = wait_until_gone("nothing behind");
+  }
+  EXPECT_TRUE(gone);
   desktop_->key("q");
   EXPECT_EQ(end(), 0);
 }
