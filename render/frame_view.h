@@ -76,7 +76,7 @@ struct Trace {
   std::vector<double> x, y;  ///< equally long, x ascending; NaN in y breaks the line
   double x_min = 0.0, x_max = 1.0, y_min = 0.0, y_max = 1.0;
   std::vector<AxisTick> x_ticks, y_ticks;
-  std::string x_title;                                      ///< for example "θ in °"
+  std::string x_title;                                      ///< for example "θ (°)"
   double mark = 0.0;                                        ///< x of the frame shown
   double event = std::numeric_limits<double>::quiet_NaN();  ///< x of a dashed line at failure; NaN: none
   std::string event_label;                                  ///< for example "θ_c"

@@ -208,13 +208,17 @@ std::string scaled_unit(std::string_view unit) {
   return std::string(unit == "rad" ? "deg" : unit);
 }
 
+std::string axis_title(std::string_view text, std::string_view unit) {
+  if (unit == "1") return std::string(text);
+  return std::string(text) + " (" + std::string(unit == "deg" ? "°" : unit) + ")";
+}
+
 double shown(const Quantity& quantity, double value, double mean_diameter) {
   return quantity.display.percent ? 100.0 * value : scaled(quantity.unit, value, mean_diameter);
 }
 
 std::string shown_title(const Quantity& quantity) {
-  const std::string unit = quantity.display.percent ? "%" : scaled_unit(quantity.unit);
-  return quantity.display.title + (unit == "1" ? "" : " in " + unit);
+  return axis_title(quantity.display.title, quantity.display.percent ? "%" : scaled_unit(quantity.unit));
 }
 
 }  // namespace talus::analysis

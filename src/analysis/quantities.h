@@ -100,8 +100,12 @@ double unscaled(std::string_view unit, double value, double mean_diameter);
 /// Returns "D", "deg", or the unit itself.
 std::string scaled_unit(std::string_view unit);
 
+/// Returns the title of an axis, rich text with its unit: "θ (°)", "t (s)"; the text alone if the unit is
+/// "1".
+std::string axis_title(std::string_view text, std::string_view unit);
+
 /// Return the value in the unit of curves, which is that of tables except that small shares are in percent,
-/// and the title with this unit: "Volume strain ΔV/V in %".
+/// and the title with this unit: "Volume strain ΔV/V (%)".
 double shown(const Quantity& quantity, double value, double mean_diameter);
 std::string shown_title(const Quantity& quantity);
 

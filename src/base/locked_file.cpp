@@ -84,10 +84,11 @@ bool is_ours(const std::string& path, mode_t kind) {
 }
 
 /// Throws the error for an existing item that Talus has not created. The item is left in place.
-[[noreturn]] void refuse_foreign(const std::string& path, const char* expected) {
+[[noreturn]] void refuse_foreign(const std::string& path) {
   throw Error(ExitCode::cannot_create,
-              path + " is in the way: Talus needs this name for " + expected +
-                  ", and did not create the existing one; remove it, or choose another output");
+              path +
+                  " is in the way: Talus needs this name for a temporary file, and did not "
+                  "create the existing one; remove it, or choose another output");
 }
 
 /// Opens a path without following a link, and without waiting for the other end of a FIFO.
@@ -119,38 +120,25 @@ std::string fetch_lock_problem() {
   return std::generic_category().message(error);
 }
 
-namespace {
-
-/// Creates a file or folder and acquires its lock.
-std::optional<Descriptor> create(const std::string& path, bool is_folder) {
+std::optional<Descriptor> create_locked(const std::string& path) {
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    Descriptor made(is_folder ? -1 : ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    const bool is_new = is_folder ? ::mkdir(path.c_str(), 0777) == 0 : made.get() >= 0;
-    if (!is_new && errno != EEXIST)
-      throw creation_error(is_folder ? "create the folder" : "create", path, errno);
-    if (!is_new && !is_of_kind(path, is_folder ? S_IFDIR : S_IFREG)) {
+    Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    const bool is_new = made.get() >= 0;
+    if (!is_new && errno != EEXIST) throw creation_error("create", path, errno);
+    if (!is_new && !is_of_kind(path, S_IFREG)) {
       if (errno == ENOENT) continue;  // removed meanwhile
-      refuse_foreign(path, is_folder ? "a temporary folder" : "a temporary file");
+      refuse_foreign(path);
     }
-    Descriptor file =
-        made.get() >= 0 ? std::move(made) : open_found(path, is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR);
+    Descriptor file = is_new ? std::move(made) : open_found(path, O_RDWR);
     if (file.get() < 0 && errno == ENOENT) continue;
     if (file.get() < 0) throw creation_error("open", path, errno);
     if (!acquire_lock(file, path)) return std::nullopt;
     if (!is_named(path, file)) continue;  // its last holder has renamed or removed it
     if (is_new) return file;
-    std::error_code error;
-    fs::remove_all(path, error);
-    if (error) throw creation_error("replace", path, error.value());
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw creation_error("replace", path, errno);
   }
   throw_foreign_lock(path);
 }
-
-}  // namespace
-
-std::optional<Descriptor> create_locked(const std::string& path) { return create(path, false); }
-
-std::optional<Descriptor> create_locked_folder(const std::string& path) { return create(path, true); }
 
 void while_locked(const std::string& path, const std::function<void()>& work) {
   std::optional<Descriptor> file;

@@ -1,5 +1,5 @@
 #pragma once
-/// Files and folders that only one process writes at a time.
+/// Files that only one process writes at a time.
 
 #include <functional>
 #include <optional>
@@ -25,19 +25,15 @@ std::optional<Descriptor> create_locked(const std::string& path);
 /// removed afterwards, even if the work throws.
 void while_locked(const std::string& path, const std::function<void()>& work);
 
-/// Creates and locks an empty folder, open for reading, as create_locked does a file. A folder left by a
-/// killed process is removed with its contents.
-std::optional<Descriptor> create_locked_folder(const std::string& path);
-
 /// Ending of the names of temporary files and folders, after the final name.
 inline constexpr const char* temporary_ending = ".talus.part";
 
 /// Removes from a folder the leftovers of killed Talus processes of any command: files called `*.talus.part`,
-/// and folders of that name in which figures are made, if all files in them begin with the name of the
-/// folder. Removes only items that belong to this user and that no process has locked. Keeps items that
-/// cannot be removed, and everything on network file systems, because a writer on another machine may hold a
-/// lock that is not visible here. Does not throw because of a leftover. Other processes may create, write and
-/// remove files of the same names simultaneously.
+/// and folders of that name in which the Python package makes figures, if all files in them begin with the
+/// name of the folder. Removes only items that belong to this user and that no process has locked. Keeps
+/// items that cannot be removed, and everything on network file systems, because a writer on another machine
+/// may hold a lock that is not visible here. Does not throw because of a leftover. Other processes may
+/// create, write and remove files of the same names simultaneously.
 void clear_leftovers(const std::string& folder);
 
 /// Whether `path` names the open file, and not another file, a link, or nothing.

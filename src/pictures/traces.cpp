@@ -117,7 +117,7 @@ render::Trace make_trace(TraceKind kind, std::span<const double> places, std::sp
   render::Trace trace;
   trace.title = analysis::shown_title(quantity);
   if (trace_from_frames(kind)) trace.title += ", " + reading_text(rule);
-  trace.x_title = over_tilt ? "θ in °" : "t in s";
+  trace.x_title = over_tilt ? analysis::axis_title("θ", "deg") : analysis::axis_title("t", "s");
   for (const double place : places) trace.x.push_back(shown_place(place));
   for (const double value : values) trace.y.push_back(analysis::shown(quantity, value, 1.0));
   trace.mark = shown_place(place_now);

@@ -62,11 +62,11 @@ double place_on(const PlotAbscissa& abscissa, double tilt, double time) {
 std::string title_of(PlotAxis axis) {
   switch (axis) {
     case PlotAxis::tilt:
-      return "θ in °";
+      return analysis::axis_title("θ", "deg");
     case PlotAxis::angle_left:
-      return "θ_c − θ in °";
+      return analysis::axis_title("θ_c − θ", "deg");
     case PlotAxis::time:
-      return "t in s";
+      return analysis::axis_title("t", "s");
   }
   return {};
 }
@@ -97,7 +97,7 @@ std::vector<Plot> empty_plots() {
                       series_of(&analysis::FrameRecord::sigma_t_over_n), law("sin θ"), law("tan θ")}));
   set_quantity(PlotKind::overloaded, "overloaded", &analysis::FrameThreshold::overloaded_fraction);
   set_quantity(PlotKind::cluster, "cluster", &analysis::FrameThreshold::largest_share);
-  set(PlotKind::lengths, plot_along_run("lengths", "ℓ_c in D",
+  set(PlotKind::lengths, plot_along_run("lengths", analysis::axis_title("ℓ_c", "D"),
                                         {series_of(&analysis::FrameThreshold::lc_mean),
                                          series_of(&analysis::FrameThreshold::lc_max)}));
   set_quantity(PlotKind::strain, "strain", &analysis::FrameRecord::volume_strain);

@@ -25,7 +25,7 @@ struct PlotAbscissa {
 
 /// Returns theta or theta_c - theta in deg, or t in s, for a tilt (rad) and a time (s).
 double place_on(const PlotAbscissa& abscissa, double tilt, double time);
-/// Returns rich text: "θ_c − θ in °".
+/// Returns rich text: "θ_c − θ (°)".
 std::string title_of(PlotAxis axis);
 
 /// Places on the abscissa that all plots along the run mark.
@@ -54,7 +54,7 @@ struct PlotSeries {
 struct Plot {
   std::string name;       ///< also the name of its widget: "stress", "overloaded", ...
   std::string title;      ///< "Γ = Q/P, σ_T/σ_N"
-  std::string x_title;    ///< "θ in °"
+  std::string x_title;    ///< "θ (°)"
   bool along_run = true;  ///< over the axis of the run, on which the frame shown is marked
   bool log_y = false;
   std::vector<PlotSeries> series;  ///< the first is the measurement; the others are laws or further measures

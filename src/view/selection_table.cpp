@@ -61,8 +61,7 @@ Plot histogram_of(const analysis::GrainNumber& number, std::span<const Index> se
   Plot plot;
   plot.name = fmt::format("histogram of {}", number.name);
   plot.title = "Density";
-  const std::string unit = analysis::scaled_unit(number.quantity->unit);
-  plot.x_title = number.name + (unit == "1" ? "" : " in " + unit);
+  plot.x_title = analysis::axis_title(number.name, analysis::scaled_unit(number.quantity->unit));
   std::ranges::replace(plot.x_title, '_', ' ');  // an underscore would set a subscript
   plot.along_run = false;
   const std::vector<double> known = known_values(all, values);

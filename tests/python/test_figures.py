@@ -219,7 +219,7 @@ def test_plots_of_the_window_are_figures(tmp_path):
                 "behind": behind or {"x": [], "mean": [], "deviation": []}}
 
     behind = {"x": [0, 1], "mean": [0.1, 0.2], "deviation": [None, 0.02]}
-    plot = {"name": "packing/strain", "title": "Strain ΔV/V in %", "x_title": "θ in °", "note": "", "run": "a.h5", "behind": "ten beds",
+    plot = {"name": "packing/strain", "title": "Strain ΔV/V (%)", "x_title": "θ (°)", "note": "", "run": "a.h5", "behind": "ten beds",
             "logarithmic": False, "falling": True, "range": [0.25, 0.75], "theta_c": 0.5,
             "series": [series("strain", [0, 1], [0, None], behind), series("law", [0, 1], [0, 1]), series("other", [0, 2], [1, 2])]}
     (tmp_path / "plots.json").write_text(json.dumps([plot]))

@@ -46,7 +46,7 @@ inline render::Trace sample_trace(const std::string& title) {
   trace.y_max = 2.0;
   trace.x_ticks = {{0.0, "0"}, {5.0, "5"}, {10.0, "10"}, {15.0, "15"}, {20.0, "20"}};
   trace.y_ticks = {{0.0, "0"}, {0.5, "0.5"}, {1.0, "1.0"}, {1.5, "1.5"}, {2.0, "2.0"}};
-  trace.x_title = "θ in °";
+  trace.x_title = "θ (°)";
   trace.mark = 11.46;
   trace.event = 19.0;
   trace.event_label = "θ_c";

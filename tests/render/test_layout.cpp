@@ -55,7 +55,7 @@ TEST(Layout, ShowsEverythingThatIsAskedFor) {
     EXPECT_GT(layout.scale_bar.width, 0.0);
     EXPECT_GT(layout.arrow.width, 0.0);
     for (const char* text : {"θ = 11.46°, θ_c = 20.05°", "10 D", "g", "γ = q/p", "2Γ_c = 0.69", "f_n > ⟨f_n⟩",
-                             "spans floor to surface", "ΔV/V, volume strain", "θ in °"}) {
+                             "spans floor to surface", "ΔV/V, volume strain", "θ (°)"}) {
       int count = 0;
       for (const PlacedText& placed : layout.texts) count += placed.text == text;
       EXPECT_EQ(count, 1) << text << " at " << width;

@@ -42,7 +42,7 @@ TEST(Trace, IsTheCurveInDegreesWithRoundTicks) {
   EXPECT_NEAR(trace.event, 11.0, 1e-12);
   EXPECT_EQ(trace.event_label, "θ_c");
   EXPECT_EQ(trace.title, "p_o, share of overloaded grains, l = 3 D");
-  EXPECT_EQ(trace.x_title, "θ in °");
+  EXPECT_EQ(trace.x_title, "θ (°)");
 }
 
 TEST(Trace, ShowsFailureOnlyWhereItIsKnownAndInTheRange) {
@@ -56,13 +56,13 @@ TEST(Trace, OfOverloadedGrainsSaysWhoseGammaItGoesBy) {
   EXPECT_EQ(pictures::make_trace(pictures::TraceKind::overloaded, {}, {}, settings, 0.0).title,
             "p_o, share of overloaded grains, single grains");
   EXPECT_EQ(pictures::make_trace(pictures::TraceKind::volume_strain, {}, {}, settings, 0.0).title,
-            "Volume strain ΔV/V in %");
+            "Volume strain ΔV/V (%)");
 }
 
 TEST(Trace, VolumeStrainIsInPercent) {
   const Trace trace = trace_of({0.0, 0.1}, {-0.004, 0.001}, nan, pictures::TraceKind::volume_strain);
   EXPECT_DOUBLE_EQ(trace.y[0], -0.4);
-  EXPECT_EQ(trace.title, "Volume strain ΔV/V in %");
+  EXPECT_EQ(trace.title, "Volume strain ΔV/V (%)");
   EXPECT_EQ(labels_of(trace.y_ticks), (std::vector<std::string>{"−0.4", "−0.2", "0.0", "0.2"}));
 }
 

@@ -69,21 +69,37 @@ def creation_error(text: str) -> FailedFile:
     return error
 
 
+def locked_folder(path: Path, what: str) -> int:
+    """Makes a folder, unless it exists, and returns it open and locked. Another process that removes leftovers (base/locked_file.h)
+    may take a folder for one until it is locked; then it is recreated."""
+    while True:
+        try:
+            path.mkdir(exist_ok=True)
+            lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+        except FileNotFoundError as error:
+            if not path.parent.is_dir():
+                raise creation_error(f"{path}: cannot be made: {error.strerror}") from None
+            continue
+        except OSError as error:
+            raise creation_error(f"{path}: cannot be made: {error.strerror}") from None
+        try:
+            fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)  # fails only if it is written
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if path.is_dir() and os.path.samestat(os.fstat(lock), path.stat()):
+                return lock
+        except BlockingIOError:
+            os.close(lock)
+            raise creation_error(f"{what} is being drawn by another process in the same folder; wait for it to end, or choose "
+                                 "another folder with -o") from None
+        os.close(lock)
+
+
 @contextmanager
 def workshop(path: Path, what: str) -> Iterator[None]:
     """Provides an empty temporary folder, which is removed at the end. One that a killed process has left is emptied. Raises
     FailedFile if another process uses it."""
+    lock = locked_folder(path, what)
     try:
-        path.mkdir(exist_ok=True)
-        lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
-    except OSError as error:
-        raise creation_error(f"{path}: cannot be made: {error.strerror}") from None
-    try:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            raise creation_error(f"{what} is being drawn by another process in the same folder; wait for it to end, or choose "
-                                 "another folder with -o") from None
         try:
             remove_files(path, os.listdir(path))
             yield

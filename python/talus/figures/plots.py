@@ -25,9 +25,9 @@ def numbers(values: Sequence[float | None]) -> np.ndarray:
 
 
 def title_and_unit(title: str) -> tuple[str, str]:
-    """Splits "θ in °" into the title and the unit of an axis."""
-    text, _, unit = title.rpartition(" in ")
-    return (text, {"°": "deg"}.get(unit, unit)) if text else (title, "1")
+    """Splits "θ (°)" into the title and the unit of an axis."""
+    text, found, unit = title.removesuffix(")").rpartition(" (")
+    return (text, {"°": "deg"}.get(unit, unit)) if found else (title, "1")
 
 
 def plot_data(plot: dict[str, Any]) -> Data:

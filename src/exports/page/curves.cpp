@@ -78,8 +78,7 @@ std::string curve_json(const PageCurve& curve) {
 /// Returns the title used for curves, or name and unit of a quantity without a symbol.
 std::string title_of(const analysis::Quantity& quantity) {
   if (!quantity.display.symbol.empty()) return analysis::shown_title(quantity);
-  const std::string unit = analysis::scaled_unit(quantity.unit);
-  return unit == "1" ? quantity.name : fmt::format("{} in {}", quantity.name, unit);
+  return analysis::axis_title(quantity.name, analysis::scaled_unit(quantity.unit));
 }
 
 std::string quantity_json(const analysis::Quantity& quantity, const std::vector<PageCurve>& curves) {

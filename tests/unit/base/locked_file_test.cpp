@@ -64,20 +64,6 @@ TEST(LockedFile, waits_for_nothing_and_removes_nothing_that_is_no_file) {
     EXPECT_EQ(code_of([&] { create_locked(folder.path(name)); }), ExitCode::cannot_create) << name;
     EXPECT_TRUE(fs::exists(fs::symlink_status(folder.path(name)))) << name;
   }
-  for (const char* name : {"nowhere", "loop", "fifo"})
-    EXPECT_EQ(code_of([&] { create_locked_folder(folder.path(name)); }), ExitCode::cannot_create) << name;
-}
-
-TEST(LockedFile, a_folder_is_made_by_one_at_a_time_and_empty) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("work");
-  std::optional<Descriptor> first = create_locked_folder(path);
-  ASSERT_TRUE(first);
-  EXPECT_FALSE(create_locked_folder(path));
-  std::ofstream(path + "/left") << "by a kill";
-  first->close();
-  EXPECT_TRUE(create_locked_folder(path));
-  EXPECT_TRUE(fs::is_empty(path));
 }
 
 TEST(LockedFile, says_why_it_cannot_be_made) {

@@ -92,9 +92,9 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
   ObservableRow row{};
   at(row, Observable::tilt) = radians(15.0);
   at(row, Observable::time) = 2.5;
-  for (const auto& [axis, title, of_frame, plots_of_row] : {std::tuple{PlotAxis::tilt, "θ in °", 18.0, 15.0},
-                                                            {PlotAxis::angle_left, "θ_c − θ in °", 2.0, 5.0},
-                                                            {PlotAxis::time, "t in s", 3.5, 2.5}}) {
+  for (const auto& [axis, title, of_frame, plots_of_row] : {std::tuple{PlotAxis::tilt, "θ (°)", 18.0, 15.0},
+                                                            {PlotAxis::angle_left, "θ_c − θ (°)", 2.0, 5.0},
+                                                            {PlotAxis::time, "t (s)", 3.5, 2.5}}) {
     std::vector<Plot> plots = empty_plots();
     name_axis(axis, plots);
     const PlotAbscissa abscissa{axis, radians(20.0)};
@@ -117,7 +117,7 @@ TEST(Plots, of_a_stored_analysis_leave_what_has_a_threshold) {
   EXPECT_EQ(plots[0].name, "gamma/mean");
   EXPECT_EQ(plots[0].series[0].y, std::vector{0.25});
   EXPECT_TRUE(plots[1].series[0].x.empty());
-  EXPECT_EQ(plots[1].title, "Mean ℓ_c of the overloaded grains in D");
+  EXPECT_EQ(plots[1].title, "Mean ℓ_c of the overloaded grains (D)");
 }
 
 TEST(Plots, are_of_any_quantity) {

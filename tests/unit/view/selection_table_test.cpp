@@ -34,7 +34,7 @@ TEST(TableOfGrains, histograms_are_densities) {
   const std::vector<Index> all = {0, 1, 2, 3, 4, 5};
   const Plot plot = histogram_of(analysis::grain_number("lc"), grains, all, values);
   ASSERT_EQ(plot.series.size(), 2u);
-  EXPECT_EQ(plot.x_title, "lc in D");
+  EXPECT_EQ(plot.x_title, "lc (D)");
   for (const PlotSeries& series : plot.series) {
     double area = 0.0;
     for (std::size_t k = 1; k < series.x.size(); ++k) area += series.y[k] * (series.x[k] - series.x[k - 1]);

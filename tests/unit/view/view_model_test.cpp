@@ -99,7 +99,7 @@ TEST_F(ViewOfRun, shows_any_quantity_that_it_has) {
     ASSERT_TRUE(offered(name));
     model_->add_plot(*std::ranges::find(analysis::quantities(), name, &analysis::Quantity::name));
     EXPECT_FALSE(offered(name));
-    EXPECT_EQ(plot(*model_, name).x_title, "t in s");
+    EXPECT_EQ(plot(*model_, name).x_title, "t (s)");
     EXPECT_FALSE(plot(*model_, name).series[0].x.empty()) << name;
   }
   EXPECT_EQ(plot(*model_, "overloaded/fraction_of_all").title, "overloaded/fraction_of_all");
