@@ -112,7 +112,7 @@ void export_run(const ExportArguments& arguments) {
 void add_export_command(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand(
-      "export", "Write frames of a run for other programs: ParaView, OVITO, networkx, tables, web browsers");
+      "export", "Write frames of a run for other programs: ParaView, OVITO, tables, web browsers");
   command
       ->add_option("RUN", arguments->run,
                    "Run to export: RUN.h5, or the folder RUN.h5.run of a run under way")

@@ -97,20 +97,6 @@ void export_series(const io::RunFile& run, const ExportPlan& plan, const Watch& 
   file.commit();
 }
 
-/// Whether the output is the name of a file rather than of a folder.
-bool is_file_name(const ExportPlan& plan) { return plan.output.ends_with(entry_of(plan.format).ending); }
-
-std::string network_path(const ExportPlan& plan, std::size_t number) {
-  return is_file_name(plan) ? plan.output : path_in(plan, frame_name("network", number, ".graphml"));
-}
-
-void export_networks(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
-  prepare_folder_of(network_path(plan, 0));
-  for_each_frame(run, plan, watch, [&](const analysis::GrainSource& frame) {
-    io::write_text(network_path(plan, frame.number), graphml_text(frame));
-  });
-}
-
 /// A table in a file, whose header comes from the first frame.
 class CsvFile {
  public:
@@ -175,15 +161,6 @@ std::vector<std::string> files_of(const ExportPlan& plan) {
       return files;
     case ExportFormat::csv:
       return {path_in(plan, "frames.csv"), path_in(plan, "grains.csv"), path_in(plan, "contacts.csv")};
-    case ExportFormat::graphml:
-      if (is_file_name(plan) && plan.frames.size() > 1)
-        throw Error(
-            ExitCode::usage,
-            fmt::format("{}: there are {} frames, each in a file of its own; give the name of a folder "
-                        "with -o, or one frame with --frames or --at",
-                        plan.output, plan.frames.size()));
-      for (const std::size_t number : plan.frames) files.push_back(network_path(plan, number));
-      return files;
     case ExportFormat::xyz:
     case ExportFormat::lammps:
     case ExportFormat::observables:
@@ -195,22 +172,18 @@ std::vector<std::string> files_of(const ExportPlan& plan) {
 
 namespace {
 
-/// Names of the files of frames in a format, and the folder in which they are.
+/// Names of the files of frames in a format, which are in the folder "frames".
 struct FrameFiles {
-  std::string folder;
   std::vector<const char*> kinds;
   std::string_view ending;
 };
 
-FrameFiles frame_files(const ExportPlan& plan) {
-  switch (plan.format) {
+FrameFiles frame_files(ExportFormat format) {
+  switch (format) {
     case ExportFormat::paraview:
-      return {path_in(plan, "frames"), {"grains", "contacts"}, ".vtp"};
+      return {{"grains", "contacts"}, ".vtp"};
     case ExportFormat::vti:
-      return {path_in(plan, "frames"), {"fields"}, ".vti"};
-    case ExportFormat::graphml:
-      if (!is_file_name(plan)) return {plan.output, {"network"}, ".graphml"};
-      return {};
+      return {{"fields"}, ".vti"};
     case ExportFormat::csv:
     case ExportFormat::xyz:
     case ExportFormat::lammps:
@@ -244,13 +217,14 @@ bool is_by_talus(const std::string& path) {
 }  // namespace
 
 std::vector<std::string> stale_files(const ExportPlan& plan) {
-  const FrameFiles files = frame_files(plan);
+  const FrameFiles files = frame_files(plan.format);
+  const std::string folder = path_in(plan, "frames");
   const std::vector<std::string> written = files_of(plan);
   std::vector<std::string> stale;
   std::error_code unknown;
   if (files.kinds.empty()) return stale;
-  for (const std::string& name : names_in(files.folder, unknown)) {
-    const std::string path = (std::filesystem::path(files.folder) / name).string();
+  for (const std::string& name : names_in(folder, unknown)) {
+    const std::string path = (std::filesystem::path(folder) / name).string();
     const bool is_written = std::ranges::find(written, path) != written.end();
     if (!is_written && is_frame_name(name, files) && std::filesystem::is_regular_file(path, unknown) &&
         is_by_talus(path))
@@ -272,9 +246,6 @@ std::size_t export_files(const io::RunFile& run, const ExportPlan& plan, const W
       break;
     case ExportFormat::lammps:
       export_series(run, plan, watch, lammps_dump_head, lammps_dump_text);
-      break;
-    case ExportFormat::graphml:
-      export_networks(run, plan, watch);
       break;
     case ExportFormat::csv:
       export_tables(run, plan, watch);

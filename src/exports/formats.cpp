@@ -19,8 +19,6 @@ constexpr auto entries = std::to_array<FormatEntry>({
      "grains of all frames as extended XYZ, lengths in D"},
     {ExportFormat::lammps, "lammps", "OVITO", ExportOutput::file, ".dump",
      "grains of all frames as the text of a LAMMPS dump"},
-    {ExportFormat::graphml, "graphml", "networkx", ExportOutput::file_per_frame, ".graphml",
-     "contact network, with grains as nodes and contacts as edges"},
     {ExportFormat::csv, "csv", "pandas, R and spreadsheets", ExportOutput::folder, "",
      "frames.csv, grains.csv and contacts.csv, one row for each"},
     {ExportFormat::observables, "observables", "pandas, R and spreadsheets", ExportOutput::file, ".csv",

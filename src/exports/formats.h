@@ -8,13 +8,12 @@
 
 namespace talus::exports {
 
-enum class ExportFormat { paraview, vti, xyz, lammps, graphml, csv, observables, html };
+enum class ExportFormat { paraview, vti, xyz, lammps, csv, observables, html };
 
 /// The kind of output of a format.
 enum class ExportOutput {
-  folder,          ///< a folder of files
-  file,            ///< one file with all frames
-  file_per_frame,  ///< one file, or a folder of files if there are several frames
+  folder,  ///< a folder of files
+  file,    ///< one file with all frames
 };
 
 struct FormatEntry {

@@ -61,13 +61,6 @@ inline constexpr std::string_view lammps_dump_head = "ITEM: UNITS\nsi\n";
 /// column z, which shows OVITO that the frame is two-dimensional.
 std::string lammps_dump_text(const analysis::GrainSource& frame);
 
-// graphml.cpp
-// The contact network of a frame as GraphML, for networkx and similar programs.
-
-/// Returns an undirected graph: grains, and planes with contacts, are nodes with their ids; contacts are
-/// edges from a to b. Two grains of a short periodic bed may touch twice.
-std::string graphml_text(const analysis::GrainSource& frame);
-
 // vtp.cpp
 // Frames as VTK XML PolyData, for ParaView.
 

@@ -73,7 +73,6 @@ TEST_F(Export, refuses_what_makes_no_sense) {
       {{"--to", "xyz", "-o", "x"}, 64, "x: expected a name that ends in .xyz"},
       {{"--to", "lammps", "-o", "x.xyz"}, 64, "ends in .dump"},
       {{"--to", "html", "-o", "x"}, 64, "x: expected a name that ends in .html"},
-      {{"--to", "graphml", "-o", "x.graphml"}, 64, "there are 4 frames, each in a file of its own"},
       {{"--to", "observables", "-o", "x.csv", "--at", "1"}, 64, "have no effect on it"},
       {{"--to", "observables", "-o", "x.csv", "--flow"}, 65, "after failure"},
       {{"--to", "paraview"}, 64, "--output"},
@@ -100,7 +99,7 @@ TEST_F(Export, refuses_what_makes_no_sense) {
     EXPECT_EQ(outcome.exit_code, code) << part << ": " << outcome.err;
     EXPECT_NE((outcome.err + outcome.out).find(part), std::string::npos) << part << ": " << outcome.err;
   }
-  for (const char* name : {"x", "x.xyz", "x.graphml", "x.csv"})
+  for (const char* name : {"x", "x.xyz", "x.csv"})
     EXPECT_FALSE(std::filesystem::exists(folder_.path(name))) << name;
   EXPECT_EQ(talus({"export", "none.h5", "--to", "paraview", "-o", "x"}).exit_code, 66);
   write_file(folder_, "text.h5", "no HDF5");
@@ -119,7 +118,7 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
   over.emplace_back("--overwrite");
   EXPECT_EQ(exported(over).exit_code, 0);
   EXPECT_EQ(exported({"--to", "paraview", "-o", "bed.h5"}).exit_code, 73) << "a file is not a folder";
-  for (const char* format : {"xyz", "lammps", "graphml", "observables", "html"}) {
+  for (const char* format : {"xyz", "lammps", "observables", "html"}) {
     const std::string ending = format == std::string("lammps")        ? ".dump"
                                : format == std::string("observables") ? ".csv"
                                                                       : "." + std::string(format);
@@ -136,17 +135,16 @@ TEST_F(Export, replaces_files_only_when_told_and_never_the_run) {
 }
 
 TEST_F(Export, that_replaces_a_folder_leaves_nothing_of_the_earlier_one_in_it) {
-  for (const auto& [format, inner, kept] :
-       {std::tuple{"graphml", "", std::set<std::string>{"network_0001.graphml"}},
-        std::tuple{"paraview", "/frames", std::set<std::string>{"contacts_0001.vtp", "grains_0001.vtp"}},
-        std::tuple{"vti", "/frames", std::set<std::string>{"fields_0001.vti"}}}) {
-    const std::string folder = std::string("out-") + format, frames = folder + inner;
+  for (const auto& [format, kept] :
+       {std::pair{"paraview", std::set<std::string>{"contacts_0001.vtp", "grains_0001.vtp"}},
+        std::pair{"vti", std::set<std::string>{"fields_0001.vti"}}}) {
+    const std::string folder = std::string("out-") + format, frames = folder + "/frames";
     ASSERT_EQ(exported({"--to", format, "--frames", "0-2", "-o", folder}).exit_code, 0);
     ASSERT_EQ(files(frames.c_str()).size(), 3 * kept.size());
     // Not written by Talus, or not under such a name.
     std::set<std::string> expected = kept;
     for (const char* foreign :
-         {"network_0000.xml", "grains_7.vtp", "network_0007.graphml", "fields_.vti", "notes.txt"}) {
+         {"grains_0000.xml", "grains_7.vtp", "contacts_.vtp", "fields_.vti", "notes.txt"}) {
       write_file(folder_, frames + "/" + foreign, "mine");
       expected.insert(foreign);
     }

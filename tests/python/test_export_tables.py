@@ -1,4 +1,4 @@
-"""Output of `talus export --to graphml`, `--to csv` and `--to observables`, read by networkx and pandas."""
+"""Output of `talus export --to csv` and `--to observables`, read by pandas."""
 
 import csv
 
@@ -21,52 +21,6 @@ def joined(columns, expected):
         parts = [np.asarray(columns.pop(name + component)) for component in COMPONENTS[width]]
         found[name] = np.stack(parts, axis=1).reshape(np.shape(values))
     return found
-
-
-@pytest.fixture(scope="module")
-def networkx():
-    return pytest.importorskip("networkx", reason="networkx is not installed: python3-networkx")
-
-
-def attributes(items):
-    """Returns one column for each attribute of nodes or edges."""
-    return {name: [values[name] for values in items] for name in items[0]}
-
-
-@pytest.mark.parametrize("boundary", ["analysed", "walls"])
-def test_network_is_that_of_the_frame(networkx, boundary, request, tmp_path):
-    path, k = request.getfixturevalue(boundary), 9
-    run_talus("export", path, "--to", "graphml", "--frames", k, "-o", tmp_path / "made" / "network.graphml")
-    graph = networkx.read_graphml(tmp_path / "made" / "network.graphml", node_type=int, force_multigraph=True)
-    with talus.open(path) as run:
-        frame = run.frames[k]
-        expected = frame.to_networkx()
-        assert set(graph.nodes) == set(expected.nodes) and not graph.is_directed()
-        assert sorted(map(sorted, graph.edges())) == sorted(map(sorted, expected.edges()))
-        assert {n: kind for n, kind in graph.nodes(data="kind")} == {n: kind for n, kind in expected.nodes(data="kind")}
-        assert (boundary == "walls") == ("plane" in dict(graph.nodes(data="kind")).values())
-        whole = graph.graph
-        assert (whole["frame"], whole["step"], whole["time"], whole["tilt"]) == (k, frame.step, frame.time, run["frames/tilt"][k])
-        assert whole["period"] == (run.length if run.periodic else 0)
-        nodes = attributes([graph.nodes[i] for i in range(len(run.id))])
-        np.testing.assert_array_equal(np.float32([nodes.pop("x"), nodes.pop("y")]), np.float32(frame.position.T))
-        nodes.pop("kind")
-        compare(joined(nodes, grains(run, k)), grains(run, k))
-        assert len(nodes) == (0 if boundary == "analysed" else 6)
-        edges = {edge: values for _, _, edge, values in graph.edges(keys=True, data=True)}
-        edges = attributes([edges[c] for c in range(len(frame.contacts))])
-        compare(joined(edges, contacts(run, k)), contacts(run, k))
-        assert not edges
-        np.testing.assert_array_equal(np.float32([values["normal_force"] for *_, values in graph.edges(data=True)]).sum(),
-                                      np.float32(frame.contacts.force[:, 0]).sum())
-
-
-def test_networks_of_several_frames_are_files_of_a_folder(networkx, analysed, run, tmp_path):
-    run_talus("export", analysed, "--to", "graphml", "--frames", "0-2", "-o", tmp_path / "networks")
-    files = sorted((tmp_path / "networks").iterdir())
-    assert [file.name for file in files] == [f"network_{k:04}.graphml" for k in range(3)]
-    for k, file in enumerate(files):
-        assert networkx.read_graphml(file).graph["tilt"] == run["frames/tilt"][k]
 
 
 @pytest.fixture(scope="module")

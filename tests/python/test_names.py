@@ -81,7 +81,6 @@ def test_exports_and_tables_are_utf8(place, tmp_path):
                   ["export", RUN, "--to", "paraview", "--frames", "0", "-o", tmp_path / "vtk"],
                   ["export", RUN, "--to", "csv", "--frames", "0", "-o", tmp_path / "csv"],
                   ["export", RUN, "--to", "xyz", "--frames", "0", "-o", tmp_path / "bed.xyz"],
-                  ["export", RUN, "--to", "graphml", "--frames", "0", "-o", tmp_path / "bed.graphml"],
                   ["ensemble", SCENARIO, "--seeds", "1", "--jobs", "0", "-o", tmp_path / "ensemble"]):
         call(*words, folder=place)
     texts = [path for path in tmp_path.rglob("*") if path.is_file() and path.suffix not in (".h5", ".lock")]

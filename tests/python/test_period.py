@@ -57,11 +57,6 @@ def csv_table(path, folder):
         return float(next(csv.DictReader(file))["x (m)"]), None
 
 
-def graphml(path, folder):
-    text = exported(path, "graphml", folder / "bed.graphml").read_text()
-    return float(re.search(r'"node.x">([^<]+)', text)[1]), float(re.search(r'"graph.period">([^<]+)', text)[1])
-
-
 def paraview(path, folder):
     vtk = pytest.importorskip("vtkmodules.vtkIOXML", reason="VTK is not installed: python3-vtk9")
     reader = vtk.vtkXMLPolyDataReader()
@@ -70,7 +65,7 @@ def paraview(path, folder):
     return reader.GetOutput().GetPoint(0)[0], None
 
 
-@pytest.mark.parametrize("read", [xyz, lammps, csv_table, graphml, paraview])
+@pytest.mark.parametrize("read", [xyz, lammps, csv_table, paraview])
 def test_export_has_places_below_the_period(read, near_end, tmp_path):
     path, length = near_end
     x, end = read(path, tmp_path)

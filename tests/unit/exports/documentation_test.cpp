@@ -22,15 +22,7 @@ std::string page() {
 }
 
 const char* text_of(exports::ExportOutput output) {
-  switch (output) {
-    case exports::ExportOutput::folder:
-      return "a folder";
-    case exports::ExportOutput::file:
-      return "a file";
-    case exports::ExportOutput::file_per_frame:
-      break;
-  }
-  return "a file, or a folder for several frames";
+  return output == exports::ExportOutput::folder ? "a folder" : "a file";
 }
 
 const char* text_of(analysis::FieldNumber number) {

@@ -41,14 +41,6 @@ TEST(Formats, name_their_files_by_the_numbers_of_frames) {
     plan.frames = std::move(frames);
     return exports::files_of(plan);
   };
-  EXPECT_EQ(files(exports::ExportFormat::graphml, "one.graphml", {3}), Files{"one.graphml"});
-  EXPECT_EQ(files(exports::ExportFormat::graphml, "out", {3}), Files{"out/network_0003.graphml"});
-  EXPECT_EQ(files(exports::ExportFormat::graphml, "out/", {0, 3}),
-            (Files{"out/network_0000.graphml", "out/network_0003.graphml"}));
-  EXPECT_EQ(exit_code_of([&] {
-              files(exports::ExportFormat::graphml, "one.graphml", {0, 3});
-            }),
-            ExitCode::usage);
   EXPECT_EQ(files(exports::ExportFormat::csv, "out", {0, 3}),
             (Files{"out/frames.csv", "out/grains.csv", "out/contacts.csv"}));
   EXPECT_EQ(files(exports::ExportFormat::xyz, "a.xyz", {0, 3}), Files{"a.xyz"});

@@ -81,27 +81,6 @@ TEST(LammpsDump, has_the_items_of_a_frame) {
   EXPECT_EQ(lines[12].substr(lines[12].size() - 6), " -1 -1");
 }
 
-TEST(Graphml, has_nodes_for_grains_and_for_planes_that_something_touches) {
-  const ExampleFrame example = example_frame();
-  const std::string text = exports::graphml_text(example.source());
-  EXPECT_NE(text.find("<graph edgedefault=\"undirected\">\n<data key=\"graph.frame\">7</data>\n"),
-            std::string::npos);
-  EXPECT_NE(text.find("<data key=\"graph.period\">1</data>"), std::string::npos);
-  EXPECT_NE(text.find("<node id=\"0\"><data key=\"node.kind\">free</data><data key=\"node.x\">0.9375</data>"),
-            std::string::npos);
-  EXPECT_NE(text.find("<node id=\"2\"><data key=\"node.kind\">floor</data>"), std::string::npos);
-  EXPECT_NE(text.find("<node id=\"3\"><data key=\"node.kind\">plane</data></node>"), std::string::npos);
-  EXPECT_EQ(text.find("<node id=\"4\">"), std::string::npos);
-  EXPECT_NE(text.find("<data key=\"node.gamma\">NaN</data>"), std::string::npos);
-  EXPECT_NE(text.find("<edge id=\"0\" source=\"0\" target=\"1\"><data key=\"edge.a\">0</data>"),
-            std::string::npos);
-  EXPECT_NE(
-      text.find(
-          "<key id=\"edge.normal_force\" for=\"edge\" attr.name=\"normal_force\" attr.type=\"double\"><desc>"
-          "f_n on b along n, per metre of thickness; compression positive, N/m</desc></key>"),
-      std::string::npos);
-}
-
 TEST(Csv, names_units_and_leaves_fields_empty_without_a_number) {
   const ExampleFrame example = example_frame();
   const analysis::GrainSource frame = example.source();
