@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "base/output_file.h"
@@ -60,18 +57,6 @@ void write_document(const std::string& path, const Sheet& sheet, double page_wid
   OutputFile file(path);
   file.write(std::as_bytes(std::span(bytes)));
   file.commit();
-}
-
-std::optional<std::string> document_text(const std::string& path, const std::string& keyword) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return std::nullopt;  // reading a pipe would block
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  const std::string_view last = path.ends_with(".pdf") ? "%%EOF\n" : "</svg>\n";
-  const std::size_t found = bytes.find(keyword + "=");
-  if (!bytes.ends_with(last) || found == std::string::npos) return std::nullopt;
-  const std::size_t start = found + keyword.size() + 1;
-  return bytes.substr(start, bytes.find_first_of(";<)", start) - start);
 }
 
 }  // namespace talus::render

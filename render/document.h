@@ -2,7 +2,6 @@
 /// Pictures as vector documents: PDF and SVG.
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,8 +50,5 @@ bool is_document(const std::string& path);
 /// partial file.
 void write_document(const std::string& path, const Sheet& sheet, double page_width,
                     const PictureTexts& texts);
-
-/// Returns the text of a keyword in a document, or nothing in the same cases as png_text.
-std::optional<std::string> document_text(const std::string& path, const std::string& keyword);
 
 }  // namespace talus::render

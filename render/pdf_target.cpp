@@ -57,7 +57,7 @@ class PdfTarget final : public DocumentTarget {
     file_.clear();
     const double scale = page_width_ * points_per_m / width;
     surface_ = cairo_pdf_surface_create_for_stream(append, &file_, scale * width, scale * height);
-    // Later versions of PDF compress the description, in which document_text searches.
+    // Later versions compress the description, which simple programs search.
     cairo_pdf_surface_restrict_to_version(surface_, CAIRO_PDF_VERSION_1_4);
     describe();
     cairo_ = cairo_create(surface_);

@@ -17,8 +17,6 @@
 namespace talus::render {
 namespace {
 
-using PngEntry = ::png_text;  // alias, because talus::render::png_text hides this name
-
 void append(png_structp png, png_bytep data, std::size_t size) {
   auto* bytes = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
   try {
@@ -46,7 +44,7 @@ void choose_compression(png_structp png, const Image& image) {
 }
 
 /// Returns false if libpng fails. The objects that its jump skips have no destructors.
-bool encode(png_structp png, png_infop info, const Image& image, std::vector<PngEntry>& texts,
+bool encode(png_structp png, png_infop info, const Image& image, std::vector<png_text>& texts,
             std::vector<std::uint8_t>& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &bytes, append, no_flush);
@@ -80,11 +78,11 @@ void check(const std::string& keyword, const std::string& text) {
 }
 
 /// Converts texts to libpng's structures; libpng does not change them.
-std::vector<PngEntry> texts_for_libpng(const PictureTexts& texts) {
-  std::vector<PngEntry> result;
+std::vector<png_text> texts_for_libpng(const PictureTexts& texts) {
+  std::vector<png_text> result;
   for (const auto& [keyword, text] : texts) {
     check(keyword, text);
-    PngEntry entry{};
+    png_text entry{};
     entry.compression = PNG_TEXT_COMPRESSION_NONE;
     entry.key = const_cast<char*>(keyword.c_str());
     entry.text = const_cast<char*>(text.c_str());
@@ -98,7 +96,7 @@ std::vector<PngEntry> texts_for_libpng(const PictureTexts& texts) {
 
 std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& texts, double printed_width) {
   check(image);
-  std::vector<PngEntry> entries = texts_for_libpng(texts);
+  std::vector<png_text> entries = texts_for_libpng(texts);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() / 2);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, abort_png, ignore_warning);

@@ -2,7 +2,6 @@
 /// PNG files.
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +24,5 @@ void print_at(std::vector<std::uint8_t>& png, double printed_width);
 /// Error(io_error), and leaves no partial file.
 void write_png(const std::string& path, const Image& image, const PictureTexts& texts = {},
                double printed_width = 0.0);
-
-/// Returns the first text of a keyword, or nothing if the file is missing, is not a PNG, is damaged or
-/// truncated, or lacks the keyword.
-std::optional<std::string> png_text(const std::string& path, const std::string& keyword);
 
 }  // namespace talus::render

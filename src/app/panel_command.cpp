@@ -22,7 +22,7 @@ struct PanelArguments {
   std::string run;
   pictures::MapOptions maps;
   pictures::PanelRequest panel;
-  bool quiet = false;
+  bool overwrite = false, quiet = false;
 };
 
 pictures::MapPlan plan_panel(const PanelArguments& arguments) {
@@ -50,14 +50,12 @@ pictures::MapPlan plan_panel(const PanelArguments& arguments) {
 void make_panel(const PanelArguments& arguments) {
   const pictures::MapPlan plan = plan_panel(arguments);
   const std::string& output = arguments.panel.output;
-  output_target(output, output_of_run(arguments.run, true));
+  output_target(output, output_of_run(arguments.run, arguments.overwrite));
   pictures::DrawnRun run =
       pictures::open_drawn_run(arguments.run, plan, count_shown("reading", arguments.quiet));
   prepare_folder_of(output);
-  const pictures::PanelResult drawn = pictures::draw_panel(run, arguments.panel);
-  if (!arguments.quiet)
-    print("%s: %zu angle%s%s\n", output.c_str(), drawn.angles, drawn.angles == 1 ? "" : "s",
-          drawn.there_before ? ", already up to date" : "");
+  const std::size_t angles = pictures::draw_panel(run, arguments.panel);
+  if (!arguments.quiet) print("%s: %zu angle%s\n", output.c_str(), angles, angles == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -73,7 +71,7 @@ void add_panel_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->panel.output,
                    "Picture to write: FILE.png, or FILE.pdf or FILE.svg for vector graphics")
       ->required();
-  command->add_flag("--overwrite", arguments->panel.overwrite, "Replace an existing file");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
   command->callback([arguments] { make_panel(*arguments); });

@@ -46,16 +46,13 @@ void render(const RenderArguments& arguments) {
   FrameOptions frames = arguments.frames;
   if (frames.at.empty() && frames.numbers.empty() && !frames.every) frames.every = 1.0;
   const pictures::FrameChoice choice = chosen_frames(run.file, arguments.run, frames, run.theta_c());
-  const std::vector<pictures::PictureFile> missing =
-      pictures::files_to_draw(run, choice, folder, arguments.format, arguments.overwrite);
-  for (const pictures::PictureFile& file : missing)
-    output_target(file.path, output_of_run(arguments.run, true));
-  if (!missing.empty()) pictures::draw_files(run, missing, folder, rendering);
-  if (arguments.quiet) return;
-  const std::size_t count = choice.size() * plan.maps.size(), kept = count - missing.size();
-  print("%zu picture%s in %s", count, count == 1 ? "" : "s", folder.c_str());
-  if (kept > 0) print(", %zu of them already up to date", kept);
-  print("\n");
+  const std::vector<pictures::PictureFile> files =
+      pictures::picture_files(run, choice, folder, arguments.format);
+  for (const pictures::PictureFile& file : files)
+    output_target(file.path, output_of_run(arguments.run, arguments.overwrite));
+  pictures::draw_files(run, files, folder, rendering);
+  if (!arguments.quiet)
+    print("%zu picture%s in %s\n", files.size(), files.size() == 1 ? "" : "s", folder.c_str());
 }
 
 }  // namespace
@@ -71,8 +68,7 @@ void add_render_command(CLI::App& app) {
   command->add_option("--format", arguments->format, "png, or pdf or svg for vector graphics")
       ->capture_default_str()
       ->check(one_of({"png", "pdf", "svg"}));
-  command->add_flag("--overwrite", arguments->overwrite,
-                    "Replace pictures of other runs or options; up-to-date pictures are kept in any case");
+  command->add_flag("--overwrite", arguments->overwrite, "Replace existing pictures");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_map_options(*command, arguments->maps, MapOptionSet::all);
   command->callback([arguments] { render(*arguments); });

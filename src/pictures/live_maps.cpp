@@ -1,6 +1,7 @@
 #include "pictures/live_maps.h"
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/core.h>
 #include <utility>
 
@@ -51,14 +52,14 @@ MapPlan plan_live_maps(const MapOptions& options) {
 }
 
 LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn)
-    : folder_(std::move(folder)), overwrite_(overwrite), warn_(std::move(warn)), tasks_(frames_waiting) {
+    : folder_(std::move(folder)), resumed_(resumed), warn_(std::move(warn)), tasks_(frames_waiting) {
   series_.asked = series_.plan = plan;
   // A context belongs to the thread that makes it.
   tasks_.post(
       [this] { renderer_ = std::make_unique<render::Renderer>(render::make_context(series_.plan.context)); });
   tasks_.finish();
   prepare_folder(folder_);
-  if (!resumed && !overwrite_) refuse_pictures(folder_, series_.plan);
+  if (!resumed && !overwrite) refuse_pictures(folder_, series_.plan);
 }
 
 LiveMaps::~LiveMaps() {
@@ -114,10 +115,11 @@ void LiveMaps::draw(Frame frame) {
   talus::pictures::add_frame(series_, frame);
   const std::size_t k = series_.seen_frames.instants.size() - 1;
   for (std::size_t map = 0; map < plan.maps.size(); ++map) {
-    const PictureFile file = picture_file(series_, "run", folder_, k, map, decimals_);
-    if (is_drawn(file.path, file.marks, overwrite_)) continue;
+    const PictureFile file = picture_file(series_, folder_, k, map, decimals_);
+    std::error_code none;
+    if (resumed_ && std::filesystem::is_regular_file(file.path, none)) continue;
     const render::FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
-    render::write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.marks));
+    render::write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.source));
   }
   before_ = std::move(frame);
 }

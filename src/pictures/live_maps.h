@@ -34,7 +34,7 @@ class LiveMaps {
   void begin(const io::RunHeader& header, const std::string& path, double step, bool goes_by_time);
 
   /// Adds the frames that an earlier process has stored: colours continue from them, and missing pictures are
-  /// drawn. Throws Error(cannot_create) if a picture of another run or with other settings has the same name.
+  /// drawn.
   void add_frames(const io::RunFile& file);
 
   /// Draws a new frame in the background; blocks while several are waiting. The first failure ends the
@@ -53,7 +53,7 @@ class LiveMaps {
   void fail(ExitCode code, const std::string& message);
 
   std::string folder_;
-  bool overwrite_;
+  bool resumed_;      ///< whether pictures that exist are kept
   int decimals_ = 2;  ///< decimals of the angles in names
   Warn warn_;
 

@@ -138,22 +138,12 @@ Rows grouped(const Rows& maps, std::size_t side_by_side) {
   return rows;
 }
 
-PictureMarks panel_marks(const DrawnRun& run, const FrameChoice& choice, const PanelRequest& asked) {
-  const PictureSeries& series = run.series;
-  PictureKey key;
-  key.add("panel", std::to_string(series.plan.maps.size()));
-  key.add("title", asked.title);
-  for (const std::size_t k : choice)
-    for (std::size_t map = 0; map < series.plan.maps.size(); ++map)
-      key.add("bed", picture_key(series, k, map));
+std::string panel_source(const PictureSeries& series, const FrameChoice& choice) {
   const std::string angles =
       joined(choice, ", ", [&](std::size_t k) { return tilt_text(series.seen_frames.instants[k].tilt); });
   const std::string maps =
       joined(series.plan.maps, " ", [](const MapSettings& map) { return layers_name(map.layers); });
-  return {key.text(),
-          picture_request("panel " + joined(asked.at, " ") + asked.title, series, series.asked.maps,
-                          asked.output),
-          picture_source(series.path, fmt::format("frames at {} deg, {}", angles, maps))};
+  return picture_source(series.path, fmt::format("frames at {} deg, {}", angles, maps));
 }
 
 }  // namespace
@@ -208,15 +198,13 @@ render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width,
   return best;
 }
 
-PanelResult draw_panel(DrawnRun& run, const PanelRequest& asked) {
+std::size_t draw_panel(DrawnRun& run, const PanelRequest& asked) {
   const FrameChoice choice = frames_at(run.file.frame_tilts(), asked.at, run.theta_c());
   fit_to_frames(run, choice);
-  const PictureMarks marks = panel_marks(run, choice, asked);
-  if (is_drawn(asked.output, marks, asked.overwrite)) return {choice.size(), true};
   const render::Sheet sheet = panel_sheet(panel_maps(run, choice), asked.title, run.series.plan.width,
                                           render::largest_side, render::embedded_font());
-  write_sheet(asked.output, sheet, run.series.plan, picture_texts(marks));
-  return {choice.size(), false};
+  write_sheet(asked.output, sheet, run.series.plan, picture_texts(panel_source(run.series, choice)));
+  return choice.size();
 }
 
 }  // namespace talus::pictures

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pictures/picture_marks.h"
+#include "pictures/picture_series.h"
 #include "render/sheet.h"
 
 namespace talus::pictures {
@@ -13,17 +13,11 @@ struct PanelRequest {
   std::vector<std::string> at;  ///< angles for frames_at
   std::string title;            ///< title above everything; empty: none
   std::string output;           ///< FILE.png, FILE.pdf or FILE.svg
-  bool overwrite = false;
 };
 
 /// Draws the frames nearest to the angles, one row each, on a sheet of the width in the plan. Returns the
-/// number of angles, and whether the file already existed. Throws the errors of frames_at, panel_sheet and
-/// is_drawn.
-struct PanelResult {
-  std::size_t angles = 0;
-  bool there_before = false;
-};
-PanelResult draw_panel(DrawnRun& run, const PanelRequest& asked);
+/// number of angles. Throws the errors of frames_at and panel_sheet.
+std::size_t draw_panel(DrawnRun& run, const PanelRequest& asked);
 
 /// Returns the rows of a panel from its maps (at least one row, one for each angle, all of the same length).
 /// The last argument is the number of angles next to each other. Text that is common to all titles of a map,

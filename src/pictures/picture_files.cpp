@@ -37,27 +37,21 @@ std::string picture_name(const PictureSeries& series, std::size_t k, std::size_t
 
 }  // namespace
 
-PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
-                         std::size_t k, std::size_t map, int decimals, const std::string& ending) {
-  const std::string path =
-      (std::filesystem::path(folder) / picture_name(series, k, map, decimals, ending)).string();
-  PictureMarks marks = {picture_key(series, k, map),
-                        picture_request(command, series, {&series.asked.maps[map], 1}, path),
-                        picture_source(series, k, map)};
-  return {k, map, path, std::move(marks)};
+PictureFile picture_file(const PictureSeries& series, const std::string& folder, std::size_t k,
+                         std::size_t map, int decimals, const std::string& ending) {
+  const std::string name = picture_name(series, k, map, decimals, ending);
+  return {k, map, (std::filesystem::path(folder) / name).string(), picture_source(series, k, map)};
 }
 
-std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
-                                       const std::string& ending, bool overwrite) {
+std::vector<PictureFile> picture_files(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
+                                       const std::string& ending) {
   fit_to_frames(run, choice);
   const PictureSeries& series = run.series;
   const int decimals = series.goes_by_time ? 2 : angle_decimals(run.file.frame_tilts(), choice);
   std::vector<PictureFile> files;
   for (const std::size_t k : choice)
-    for (std::size_t map = 0; map < series.plan.maps.size(); ++map) {
-      PictureFile file = picture_file(series, "render", folder, k, map, decimals, ending);
-      if (!is_drawn(file.path, file.marks, overwrite)) files.push_back(std::move(file));
-    }
+    for (std::size_t map = 0; map < series.plan.maps.size(); ++map)
+      files.push_back(picture_file(series, folder, k, map, decimals, ending));
   return files;
 }
 
@@ -78,21 +72,21 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
     const PictureFile& file = files[done];
     if (watch.stopped()) {
       writer.finish();
-      throw Error(
-          ExitCode::stopped,
-          fmt::format("stopped after {} of {} pictures; repeat the command, which keeps those that exist",
-                      done, files.size()));
+      throw Error(ExitCode::stopped,
+                  fmt::format("stopped after {} of {} pictures, which are complete; to draw "
+                              "all, repeat the command with --overwrite",
+                              done, files.size()));
     }
     render::Sheet sheet = render::sheet_of(picture(run, file.frame, file.map), plan.width, font);
     if (!renderer && !render::is_document(file.path)) renderer.emplace(render::make_context(plan.context));
     if (done == 0) prepare_folder(folder);
     if (render::is_document(file.path)) {
       writer.post([&file, &plan, sheet = std::move(sheet)] {
-        write_sheet(file.path, sheet, plan, picture_texts(file.marks));
+        write_sheet(file.path, sheet, plan, picture_texts(file.source));
       });
     } else {
       writer.post([&file, &plan, image = renderer->draw(sheet)] {
-        render::write_png(file.path, image, picture_texts(file.marks), plan.page_width());
+        render::write_png(file.path, image, picture_texts(file.source), plan.page_width());
       });
     }
     if (watch.progress) watch.progress(done + 1, files.size());

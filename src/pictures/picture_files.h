@@ -15,17 +15,17 @@ namespace talus::pictures {
 struct PictureFile {
   std::size_t frame = 0, map = 0;  ///< indices in the series
   std::string path;
-  PictureMarks marks;
+  std::string source;  ///< picture_source
 };
 
-/// Returns the picture of map `map` of frame k that `command` draws into the folder. Names sort by time.
-PictureFile picture_file(const PictureSeries& series, const std::string& command, const std::string& folder,
-                         std::size_t k, std::size_t map, int decimals, const std::string& ending = "png");
+/// Returns the picture of map `map` of frame k in the folder. Names sort by time.
+PictureFile picture_file(const PictureSeries& series, const std::string& folder, std::size_t k,
+                         std::size_t map, int decimals, const std::string& ending = "png");
 
-/// Returns the pictures of all maps of the chosen frames that are not in the folder yet, frame by frame. Fits
-/// the ranges of motion to these frames. Throws the errors of is_drawn.
-std::vector<PictureFile> files_to_draw(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
-                                       const std::string& ending, bool overwrite);
+/// Returns the pictures of all maps of the chosen frames, frame by frame. Fits the ranges of motion to these
+/// frames.
+std::vector<PictureFile> picture_files(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
+                                       const std::string& ending);
 
 /// Writes a sheet to a file in the format of its name: pixels, with their resolution if the plan is for
 /// print, or a document.

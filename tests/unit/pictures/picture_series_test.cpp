@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "core/trigonometry.h"
-#include "pictures/picture_marks.h"
 #include "support/temporary_folder.h"
 
 namespace talus::pictures {
@@ -47,15 +46,8 @@ Frame frame_at(double tilt, const std::vector<std::pair<Index, Index>>& overload
   return frame;
 }
 
-/// Differences between runs with the same frames.
-struct Variation {
-  std::uint64_t seed = 1;
-  std::string scenario, start;
-  double stress_ratio = 0.1;
-};
-
 /// Writes frames at 0, 1, 2 deg of the tilt, and a frame of the following flow, which is higher.
-std::string example_run(const test::TemporaryFolder& folder, const Variation& variation = {}) {
+std::string example_run(const test::TemporaryFolder& folder) {
   io::Checkpoint checkpoint;
   checkpoint.world = row_of_grains();
   io::RunHeader header;
@@ -65,9 +57,7 @@ std::string example_run(const test::TemporaryFolder& folder, const Variation& va
   header.statics.length = checkpoint.world.boundary.length;
   header.statics.depth = header.statics.mean_diameter = diameter;
   header.statics.gravity = 9.81;
-  header.seed = variation.seed;
-  header.scenario_resolved = variation.scenario;
-  header.provenance = {{"start", variation.start}};
+  header.seed = 1;
   io::RunStore store = io::RunStore::create(folder.path("run.h5"), header, true);
   io::Segment segment;
   segment.frames = {frame_at(0.0, {{2, 12}}), frame_at(1.0, {{2, 12}, {15, 30}}),
@@ -77,7 +67,7 @@ std::string example_run(const test::TemporaryFolder& folder, const Variation& va
     ObservableRow& row = segment.observables.emplace_back();
     at(row, Observable::step) = static_cast<double>(frame.step);
     at(row, Observable::tilt) = frame.tilt;
-    at(row, Observable::stress_ratio) = variation.stress_ratio;
+    at(row, Observable::stress_ratio) = 0.1;
   }
   checkpoint.integers = {{"flow_steps", 2}};  // the last of which follow the last frame
   store.commit(segment, checkpoint);
@@ -91,8 +81,6 @@ MapPlan plan_of(const std::string& map, MapOptions options = {}) {
   options.joined = map.starts_with("clusters") ? std::optional<std::string>("neighbours") : std::nullopt;
   return plan_maps(options);
 }
-
-std::string key_of(const DrawnRun& run) { return picture_key(run.series, 1, 0); }
 
 render::Colour fill_of(const render::FrameView& view, Index grain) {
   return view.discs[static_cast<std::size_t>(grain)].fill;
@@ -155,10 +143,8 @@ TEST(PictureSeries, ranges_of_motion_fit_the_frames_that_are_drawn) {
   EXPECT_EQ(ends({1}), std::pair(51L, 100L)) << "half of the upper end if all grains move alike";
   EXPECT_EQ(ends({1, 2}), std::pair(100L, 200L));
   EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
-  DrawnRun fixed = open_drawn_run(path, plan_of("displacement"), {});
   DrawnRun fitted = open_drawn_run(path, plan_of("displacement"), {});
   fit_to_frames(fitted, std::vector<std::size_t>{0, 1, 2});
-  EXPECT_NE(key_of(fixed), key_of(fitted));
   EXPECT_EQ(picture(fitted, 2, 0).legends[0].bars[0].title, "in D per degree, 5 to 99 % of grains");
 }
 
@@ -182,58 +168,6 @@ TEST(PictureSeries, traces_are_those_of_the_tilt) {
   EXPECT_EQ(view.traces[0].y, (std::vector{10.0 / 40, 25.0 / 40, 25.0 / 40}));
   EXPECT_EQ(view.traces[1].y, (std::vector{0.1, 0.1, 0.1}));
   EXPECT_DOUBLE_EQ(view.traces[0].mark, 1.0);
-}
-
-TEST(PictureSeries, keys_tell_runs_apart_whose_frames_are_the_same) {
-  MapOptions options;
-  options.traces = "stress_ratio";
-  const MapPlan plan = plan_of("pressure", options);
-  const auto key = [&plan](const Variation& variation) {
-    const test::TemporaryFolder folder;
-    return key_of(open_drawn_run(example_run(folder, variation), plan, {}));
-  };
-  const std::string own = key({});
-  EXPECT_EQ(own, key({})) << "independent of the place of the file";
-  EXPECT_NE(own, key({.seed = 2, .scenario = {}, .start = {}}));
-  EXPECT_NE(own, key({.scenario = "# another", .start = {}}));
-  EXPECT_NE(own, key({.scenario = {}, .start = "2026-01-01T00:00:00Z"}));
-  EXPECT_NE(own, key({.scenario = {}, .start = {}, .stress_ratio = 0.2}));
-}
-
-TEST(PictureSeries, keys_tell_frames_and_settings_apart) {
-  const test::TemporaryFolder folder;
-  const std::string path = example_run(folder);
-  const DrawnRun run = open_drawn_run(path, plan_of("pressure"), {});
-  EXPECT_EQ(key_of(run), key_of(open_drawn_run(path, plan_of("pressure"), {})));
-  std::set<std::string> keys = {key_of(run), picture_key(run.series, 2, 0)};
-  std::size_t different = 2;
-  const auto add = [&](const std::string& map, const std::function<void(MapOptions&)>& change) {
-    MapOptions options;
-    change(options);
-    keys.insert(key_of(open_drawn_run(path, plan_of(map, options), {})));
-    EXPECT_EQ(keys.size(), ++different);
-  };
-  add("forces", [](MapOptions&) {});
-  add("pressure+forces", [](MapOptions&) {});
-  add("forces+pressure", [](MapOptions&) {});
-  add("pressure", [](MapOptions& o) { o.width = 800; });
-  add("pressure", [](MapOptions& o) { o.colours = "gray"; });
-  add("pressure", [](MapOptions& o) { o.range = {0.0, 1.0}; });
-  add("pressure", [](MapOptions& o) { o.crop = {0.0, 0.0, 5.0, 1.0}; });
-  add("pressure", [](MapOptions& o) { o.traces = "stress_ratio"; });
-  add("pressure", [](MapOptions& o) { o.traces = "volume_strain"; });
-  add("pressure", [](MapOptions& o) { o.turned = true; });
-  add("pressure", [](MapOptions& o) { o.transparent = true; });
-  add("pressure", [](MapOptions& o) { o.bare = true; });
-  add("rotation", [](MapOptions&) {});
-  add("rotation", [](MapOptions& o) { o.since = 0.0; });
-  add("coarse", [](MapOptions& o) { o.length = 3.0; });
-  add("coarse", [](MapOptions& o) { o.length = 4.0; });
-  add("clusters", [](MapOptions&) {});
-  add("clusters", [](MapOptions& o) { o.colours = "contrast"; });
-  add("overloaded", [](MapOptions&) {});
-  add("overloaded", [](MapOptions& o) { o.threshold = 2.0; });
-  add("overloaded", [](MapOptions& o) { o.l_min = 0.0; });
 }
 
 }  // namespace
