@@ -50,6 +50,16 @@ def test_an_error_is_one_line_with_a_code_of_the_program(start, text, code, mess
     assert (ended, out, err) == (code, "", f"talus: error: {message}\n")
 
 
+@pytest.mark.parametrize("setting", [{"PYTHONIOENCODING": "latin-1"}, {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}])
+def test_output_is_utf8_in_any_locale(start, monkeypatch, setting):
+    for name, value in setting.items():
+        monkeypatch.setenv(name, value)
+    process = start("import sys\ndef main(words): print('θ ± 1', '\\udcff'); print('μ', file=sys.stderr)\n")
+    process.stdout, process.stderr = process.stdout.buffer, process.stderr.buffer
+    out, err = process.stdout.read(), process.stderr.read()
+    assert (process.wait(), out, err) == (0, "θ ± 1 ".encode() + b"\xff\n", "μ\n".encode())
+
+
 def test_a_full_disk_fails_the_output(start):
     with open("/dev/full", "w") as full:
         process = start("def main(words): print('result')\n", out=full)
