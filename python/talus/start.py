@@ -55,7 +55,8 @@ def run(name: str, arguments: list[str]) -> int:
         write_utf8()
         stop_on_signals()
         code: Any = importlib.import_module(f"talus.{name}").main(arguments)
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
         return int(code or 0)
     except KeyboardInterrupt:
         print(SENTENCE, file=sys.stderr)
