@@ -72,6 +72,7 @@ def styled(style: Any = None) -> Iterator[None]:
         matplotlib.rcParams.update(SETTINGS)
         if style is not None:
             matplotlib.style.use(style)
+            matplotlib.rcParams.update({"figure.autolayout": False, "figure.constrained_layout.use": False})  # arrange() does it
         yield
 
 
@@ -95,7 +96,7 @@ WORDS = {"ΔV/V": "$ΔV/V$", "Δy/y": "$Δy/y$", "Q/P": "$Q/P$", "z, ": "$z$, "}
 
 def as_math(text: str) -> str:
     """Returns a text with its symbols set as in formulas, "ν_max" or "p_o", unless it has formulas already."""
-    if "$" in text:
+    if "$" in text.replace(r"\$", ""):
         return text
     for word, formula in WORDS.items():
         text = text.replace(word, formula)
