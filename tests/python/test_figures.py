@@ -265,17 +265,22 @@ def test_names_of_files_may_be_any_bytes(beds, tmp_path):
     assert folder + b"/out: .pdf" in done.stdout and len(os.listdir(folder + b"/out")) == 9
 
 
-def test_frames_may_be_those_of_one_of_two_beds(beds, groups):
-    angle = min(run.theta_c for run in groups["two"][1].runs) - 1
-    assert max(run.theta_c for run in groups["two"][0].runs) < angle - 1
-    at = f"{2 * int(angle / 2)}"
+def test_frames_may_be_those_of_one_of_two_beds(groups):
+    runs = sorted((run for group in groups["two"] for run in group.runs), key=lambda run: run.theta_c)
+    low, high = figures.Group("low", runs[:1]), figures.Group("high", runs[-1:])
+    at = f"{2 * int(runs[-1].theta_c / 2)}"
+    assert float(at) > runs[0].theta_c + 1
     for number in ("8", "overloaded-over-scale"):
-        data = find(number).data(groups["two"], Wanted(at=["0", at]))
+        data = find(number).data([low, high], Wanted(at=["0", at]))
         assert [name for name, _ in data.facts["shown"]] == ["0", at]
+        with pytest.raises(talus.Error, match=f"--at {at}: no run of .* has such a frame"):
+            find(number).data([low], Wanted(at=[at]))
     with pytest.raises(talus.Error, match="--at 80: no run has such a frame"):
-        find("8").data(groups["two"], Wanted(at=["80"]))
-    data = find("overloaded-over-scale").data(groups["two"][:1], Wanted())
-    assert ("15" in [name for name, _ in data.facts["shown"]]) == any(run.theta_c > 15 for run in groups["two"][0].runs)
+        find("8").data([low, high], Wanted(at=["80"]))
+    early = copy.copy(runs[0])
+    early.theta_c = 14.0
+    data = find("overloaded-over-scale").data([figures.Group("early", [early])], Wanted())
+    assert [name for name, _ in data.facts["shown"]] == ["0", "repose"]
 
 
 def test_results_over_the_boundary(groups):

@@ -188,9 +188,9 @@ def parts_of(runs: Sequence[AnalysedRun]) -> list[list[AnalysedRun]]:
     Error if a run occurs twice."""
     known: dict[tuple[int, str], AnalysedRun] = {}
     for run in runs:
-        one = known.setdefault((run.seed, run.state_hash), run)
-        if one is not run:
+        if one := known.get((run.seed, run.state_hash)):
             raise Error(f"{one.path} and {run.path} are the same run (same scenario and seed); give only one of them")
+        known[run.seed, run.state_hash] = run
     several_states = len({run.seed for run in runs}) < len(runs)
     parts: dict[tuple[Path, int], list[AnalysedRun]] = {}
     for run in runs:
