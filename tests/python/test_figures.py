@@ -128,6 +128,34 @@ def test_requests_are_refused(beds, tmp_path, words, code, message):
     assert not (tmp_path / "out").exists()
 
 
+def test_the_error_of_a_process_is_told_while_others_end(tmp_path):
+    """A process that is stopped writes into no pipe of the one that stops it."""
+    (tmp_path / "example.py").write_text("""
+import time
+from talus import Error
+from talus.figures.command import in_processes
+from talus.start import stop_on_signals
+
+def fail():
+    time.sleep(0.5)
+    raise Error("the disk is full")
+
+def work():
+    try:
+        time.sleep(30)
+    finally:
+        time.sleep(1)
+
+stop_on_signals()
+try:
+    in_processes([fail, work], 2, lambda done, count: None)
+except Error as error:
+    print(error)
+""")
+    done = subprocess.run([sys.executable, tmp_path / "example.py"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "the disk is full\n", "")
+
+
 def test_figures_that_need_other_runs_are_left_out(beds, tmp_path, capsys):
     run_figures(beds, "two/ensemble.h5", "-o", tmp_path, "--only", "4,7,force-chains", "-q")
     said = capsys.readouterr()
@@ -177,6 +205,8 @@ WALLS = {"bed__boundary": "walls"}
      ["push grain 3 by (1, 0) m/s at 2°; tilt rate 1°/s at 8°", "push grain 3 by (1, 0) m/s at 2°; tilt rate −1°/s at 8°"]),
     ([dict(departures=[PUSH, "release", GIVEN]), dict(departures=[PUSH, "release", GIVEN_BACK])],
      ["push grain 3 by (1, 0) m/s at 2°; tilt rate 1°/s at 8° and 1 more", "push grain 3 by (1, 0) m/s at 2°; tilt rate −1°/s at 8° and 1 more"]),
+    ([dict(), dict(departures=[GIVEN]), dict(commands=[RUB], departures=[GIVEN])],
+     ["no command", "tilt rate 1°/s at 8°", "friction 0.3 at 5°, tilt rate 1°/s at 8°"]),
     ([dict(), dict(departures=["computed by version 0.0.9"])], ["PBC, L = 12 D", "computed by version 0.0.9"]),
     ([dict(), dict(departures=["branch at 5.00 deg with a tilt rate of -1 deg/s"])], ["PBC, L = 12 D", "branch at 5° with a tilt rate of −1°/s"]),
     ([dict(tilt__program="to 6, to 0"), dict(tilt__program="to -6, to 0")], ["tilt.program = to 6, to 0", "tilt.program = to -6, to 0"]),
@@ -218,6 +248,13 @@ def test_walls_of_other_friction_have_a_law_of_their_own(beds, groups):
     assert [each.fit for each in two.facts["series"]] == [one.facts["series"][0].fit] * 2
     texts = figures.fig07(figures.group_runs(others)).talus_legend.get_texts()
     assert texts[0].get_text() == "beds between walls"
+
+
+def test_curves_of_many_groups_differ():
+    from talus.figures.style import COLOURS, curve_style
+
+    assert len({str(curve_style(k)) for k in range(64)}) == len({str(curve_style(k, symbols=False)) for k in range(64)}) == 64
+    assert [curve_style(k)["color"] for k in range(16)] == [*COLOURS, *COLOURS]
 
 
 def test_axes_show_negative_values():

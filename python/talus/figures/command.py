@@ -156,6 +156,7 @@ def signals_wait() -> Iterator[Callable[[], None]]:
     handlers = {number: handler for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
                 if callable(handler := signal.getsignal(number))}
     arrived: list[int] = []
+    wakeup = signal.set_wakeup_fd(-1)  # that of this process (start.py), which processes that are stopped must not use
 
     def restore() -> None:
         for number, handler in handlers.items():
@@ -168,6 +169,7 @@ def signals_wait() -> Iterator[Callable[[], None]]:
     try:
         yield restore
     finally:
+        signal.set_wakeup_fd(wakeup)
         restore()
 
 

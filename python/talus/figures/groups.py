@@ -104,14 +104,17 @@ def differences(groups: Sequence[Group], like: Callable[[Group, Group], bool]) -
             for group, own in zip(groups, texts)]
 
 
-def setting_parts(settings: dict[str, str], in_symbols: bool = False) -> list[str]:
-    """Returns settings as parts of a label, "contact.friction = 0.2", or of a legend, "μ = 0.2". A command is its own
-    description; the lack of one is named if there is no other."""
+def label_parts(settings: dict[str, str], departure: str, in_symbols: bool = False) -> list[str]:
+    """Returns settings and departures as parts of a label, "contact.friction = 0.2", or of a legend, "μ = 0.2". A command is
+    its own description; the lack of one is named if there is no other."""
     parts = [f"{SYMBOLS.get(name, name)} = {text}{UNITS.get(name, '')}" if in_symbols else f"{name} = {text}"
              for name, text in settings.items() if not name.startswith("command.")]
     commands = {name: text for name, text in settings.items() if name.startswith("command.")}
     given = [text for text in commands.values() if text != "none"]
     given[2:] = [f"{len(given) - 2} more commands"] if len(given) > 3 else given[2:]
+    given += [departure] * bool(departure)
+    if in_symbols:
+        given = list(map(in_short, given))
     return parts + (given or [f"no {name.removesuffix('.1').replace('.', ' ')}" for name in commands][:1])
 
 
@@ -148,9 +151,8 @@ def set_legends(groups: Sequence[Group], departures: Sequence[str]) -> None:
     several_beds = len({bed_label(group.runs[0]) for group in groups}) > 1
     named_by_bed = ("bed.boundary", "bed.length", "contact.wall_friction") if several_beds else ()
     for group, settings, departure in zip(groups, differences(groups, lambda one, other: True), departures):
-        named = {name: in_short(text) if name.startswith("command.") else text for name, text in settings.items() if name not in named_by_bed}
-        parts = [bed_label(group.runs[0])] * several_beds + setting_parts(named, True) + [in_short(departure)] * bool(departure)
-        group.legend = ", ".join(parts)
+        named = {name: text for name, text in settings.items() if name not in named_by_bed}
+        group.legend = ", ".join([bed_label(group.runs[0])] * several_beds + label_parts(named, departure, True))
     legends = [group.legend for group in groups]
     for group in groups:
         group.legend = literal(group.label if not group.legend or legends.count(group.legend) > 1 else group.legend)
@@ -167,7 +169,7 @@ def parts_by_length(groups: Sequence[Group]) -> list[tuple[str, list[Group]]]:
     names = []
     for found, departure in zip(differences(firsts, lambda one, other: True), departure_texts([group.departures for group in firsts])):
         found.pop("bed.length", None)
-        names.append(literal(", ".join([*setting_parts(found, True), *[departure] * bool(departure)])))
+        names.append(literal(", ".join(label_parts(found, departure, True))))
     return list(zip(names, parts))
 
 
@@ -211,7 +213,7 @@ def group_runs(runs: Iterable[AnalysedRun]) -> list[Group]:
               for kind in kinds.values() for part in parts_of(kind)]
     departures = departure_texts([group.departures for group in groups])
     for group, settings, departure in zip(groups, differences(groups, lambda one, other: one.label == other.label), departures):
-        group.label = ", ".join([group.label, *setting_parts(settings), *[departure] * bool(departure)])
+        group.label = ", ".join([group.label, *label_parts(settings, departure)])
     for label in dict.fromkeys(group.label for group in groups):
         alike = [group for group in groups if group.label == label]
         if len(alike) > 1:

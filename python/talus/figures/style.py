@@ -55,11 +55,11 @@ CROSS = {"color": "#000000", "linestyle": "none", "marker": "x", "markersize": 4
 
 
 def curve_style(k: int, symbols: bool = True) -> dict[str, Any]:
-    """Returns the keywords of `Axes.plot` for curve k, counted from 0."""
-    k %= len(COLOURS)
-    look: dict[str, Any] = {"color": COLOURS[k], "linestyle": DASHES[k]}
+    """Returns the keywords of `Axes.plot` for curve k, counted from 0; those of 64 curves differ."""
+    colour, form = COLOURS[k % len(COLOURS)], (k + 3 * (k // len(COLOURS))) % len(DASHES)
+    look: dict[str, Any] = {"color": colour, "linestyle": DASHES[form]}
     if symbols:
-        look |= {"marker": SYMBOLS[k], "markerfacecolor": "white" if OPEN[k] else COLOURS[k]}
+        look |= {"marker": SYMBOLS[form], "markerfacecolor": "white" if OPEN[form] else colour}
     return look
 
 
