@@ -303,7 +303,8 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("commands", [](const AnalysedRun& run) {
     std::vector<std::string> texts;
     for (const scenario::ScriptedCommand& command : run.view.scenario.commands)
-      texts.push_back(session::command_text(scenario::command_of(command)) + " " + scenario::moment_text(command));
+      texts.push_back(session::command_text(scenario::command_of(command)) + " " +
+                      scenario::moment_text(command));
     return texts;
   });
   type.def_property_readonly("tilts",

@@ -262,7 +262,7 @@ def test_axes_show_negative_values():
     from talus.figures.panels import begin_at_zero
 
     axes = Figure().add_subplot()
-    for values, low in (([0.1, 1], 0), ([-1e-6, 1], 0), ([-0.5, 1, np.nan], -0.55), ([], 0)):
+    for values, low in (([0.1, 1], 0), ([-0.01, 1], 0), ([-0.5, 1, np.nan], -0.55), ([], 0)):
         begin_at_zero(axes, np.array(values))
         assert axes.get_ylim()[0] == pytest.approx(low)
 

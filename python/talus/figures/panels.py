@@ -324,9 +324,9 @@ def key_of_curves(data: Data, symbols: bool = True) -> Key:
 
 
 def begin_at_zero(axes: Axes, values: np.ndarray) -> None:
-    """Begins the vertical axis at 0, or below it if some of these values are negative, beyond round-off."""
+    """Begins the vertical axis at 0, or below it if some of these values are negative and not small."""
     low, high = np.nanmin(values, initial=0), np.nanmax(np.abs(values), initial=0)
-    axes.set_ylim(float(low - 0.05 * high) if low < -1e-3 * high else 0)
+    axes.set_ylim(float(low - 0.05 * high) if low < -0.02 * high else 0)
 
 
 def set_range(axes: Axes, top: float | None = None) -> None:
