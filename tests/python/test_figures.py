@@ -211,7 +211,7 @@ WALLS = {"bed__boundary": "walls"}
     ([dict(), dict(departures=["branch at 5.00 deg with a tilt rate of -1 deg/s"])], ["PBC, L = 12 D", "branch at 5° with a tilt rate of −1°/s"]),
     ([dict(tilt__program="to 6, to 0"), dict(tilt__program="to -6, to 0")], ["tilt.program = to 6, to 0", "tilt.program = to -6, to 0"]),
     ([dict(commands=[RUB]), dict(**WALLS), dict(contact__wall_friction=0.2, **WALLS)],
-     ["PBC, L = 12 D, friction 0.3 at 5°", "WBC, L = 12 D, contact.wall_friction = 0.5", "WBC, L = 12 D, contact.wall_friction = 0.2"]),
+     ["PBC, L = 12 D, friction 0.3 at 5°", "WBC, L = 12 D, μ_w = 0.5, no command", "WBC, L = 12 D, μ_w = 0.2, no command"]),
     ([dict(path="a/1.h5"), dict(path="a/2.h5")], ["PBC, L = 12 D, 1.h5", "PBC, L = 12 D, 2.h5"]),
     ([dict(path="a$b$_c/1.h5"), dict(path="a/1.h5")], [r"PBC, L = 12 D, a\$b\$_c", "PBC, L = 12 D, a"]),
     ([dict(own=[(2, -1, 0.30001, 0.0)], departures=["friction 0.3"], path="a/1.h5"), dict(own=[(2, -1, 0.30002, 0.0)], departures=["friction 0.3"], path="a/2.h5")],

@@ -149,9 +149,12 @@ def in_short(text: str) -> str:
 def set_legends(groups: Sequence[Group], departures: Sequence[str]) -> None:
     """Sets what differs among the groups, in symbols: "μ = 0.2". `departures`: those of each group as a text."""
     several_beds = len({bed_label(group.runs[0]) for group in groups}) > 1
-    named_by_bed = ("bed.boundary", "bed.length", "contact.wall_friction") if several_beds else ()
+    named_by_bed = ["bed.boundary", "bed.length"] if several_beds else []
+    if len({essence(group.runs[0].scenario)["contact.wall_friction"] for group in groups if not group.periodic}) < 2:
+        named_by_bed.append("contact.wall_friction")
     for group, settings, departure in zip(groups, differences(groups, lambda one, other: True), departures):
-        named = {name: text for name, text in settings.items() if name not in named_by_bed}
+        named = {name: text for name, text in settings.items()
+                 if name not in named_by_bed and (name, text) != ("contact.wall_friction", "none")}
         group.legend = ", ".join([bed_label(group.runs[0])] * several_beds + label_parts(named, departure, True))
     legends = [group.legend for group in groups]
     for group in groups:
