@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <tuple>
 
 #include "analysis/contacts/weak_contacts.h"
 #include "analysis/events/power_law.h"
@@ -35,6 +36,8 @@
 #include "runs/analysis_parameters.h"
 #include "runs/event_catalogue.h"
 #include "runs/run_view.h"
+#include "scenario/scripted_command.h"
+#include "session/command.h"
 #include "session/run_identity.h"
 #include "stress/free_surface.h"
 #include "stress/overload.h"
@@ -100,6 +103,21 @@ std::vector<std::string> departures_of(const AnalysedRun& run) {
   const std::string by = find_value(run.file().header().provenance, "version").value_or("unknown");
   if (by != version) found.push_back("computed by version " + by);
   return found;
+}
+
+/// Returns kind, grain, x and y of the commands that differ from those of the scenario: departures_of rounds
+/// them.
+std::vector<std::tuple<int, Index, double, double>> own_commands(const AnalysedRun& run) {
+  std::vector<std::tuple<int, Index, double, double>> scripted, own;
+  const auto key = [](const Command& each) {
+    return std::tuple{static_cast<int>(each.kind), each.grain, each.x, each.y};
+  };
+  for (const scenario::ScriptedCommand& each : run.view.scenario.commands)
+    scripted.push_back(key(scenario::command_of(each)));
+  if (run.view.file)
+    for (const Command& each : run.view.file->commands())
+      if (std::ranges::find(scripted, key(each)) == scripted.end()) own.push_back(key(each));
+  return own;
 }
 
 std::unique_ptr<AnalysedRun> analysed_run(const std::string& path, const std::vector<std::string>& settings,
@@ -246,8 +264,9 @@ void write_panel(const AnalysedRun& run, const std::vector<std::size_t>& frames,
 }
 
 void bind_values(py::class_<AnalysedRun>& type) {
-  type.def_property_readonly("path", [](const AnalysedRun& run) { return run.view.path; });
-  type.def_property_readonly("kept", [](const AnalysedRun& run) { return run.view.kept; });
+  // These may name files with bytes that are not UTF-8.
+  type.def_property_readonly("path", [](const AnalysedRun& run) { return py::bytes(run.view.path); });
+  type.def_property_readonly("kept", [](const AnalysedRun& run) { return py::bytes(run.view.kept); });
   type.def_property_readonly("is_kept", [](const AnalysedRun& run) { return run.view.is_kept; });
   type.def_property_readonly("has_file", [](const AnalysedRun& run) { return run.view.file.has_value(); });
   type.def_property_readonly(
@@ -279,6 +298,15 @@ void bind_values(py::class_<AnalysedRun>& type) {
   type.def_property_readonly("mean_mass",
                              [](const AnalysedRun& run) { return runs::mean_grain_mass(run.statics()); });
   type.def_property_readonly("departures", departures_of);
+  type.def_property_readonly("own_commands", own_commands);
+  // Those of the scenario: "friction 0.1 at 5 deg".
+  type.def_property_readonly("commands", [](const AnalysedRun& run) {
+    std::vector<std::string> texts;
+    for (const scenario::ScriptedCommand& command : run.view.scenario.commands)
+      texts.push_back(session::command_text(scenario::command_of(command)) + " " +
+                      scenario::moment_text(command));
+    return texts;
+  });
   type.def_property_readonly("tilts",
                              [](const AnalysedRun& run) { return array_of(in_degrees(tilts_of(run))); });
   type.def("values", values_of);
@@ -336,7 +364,6 @@ void bind_figures(py::module_& module) {
              [](const std::string& path, bool overwrite, const std::vector<std::string>& inputs) {
                output_target(path, {overwrite, inputs});
              });
-  module.def("_departures_text", session::departures_text);
   module.def("_plus_minus", [](double mean, double width) { return ensemble::plus_minus(mean, width); });
   // Exponent, its error, the minimum of the law, and the number of values from there on.
   module.def("_power_law", [](const std::vector<double>& values) {

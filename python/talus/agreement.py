@@ -89,10 +89,10 @@ def charts_of(found: "Reproduction") -> list[Chart]:
     if found.wall_coefficient().runs > 1:
         packing.add_row(paper.COEFFICIENT, f"walls: {paper.COEFFICIENT.name}", [(found.wall_coefficient(), paper.DEPTH)])
     chain = Chart("chain", [reading.base for reading in BASES])
-    first = found.preparations[0]
-    for key, value in CHAIN.items():
-        readings = BASES[:1] if key == "theta_d_by_dilation" else BASES
-        chain.add_row(value, value.name, [(found.spread(first, key, reading), beds[first].depth) for reading in readings])
+    for first in found.preparations[:1]:
+        for key, value in CHAIN.items():
+            readings = BASES[:1] if key == "theta_d_by_dilation" else BASES
+            chain.add_row(value, value.name, [(found.spread(first, key, reading), beds[first].depth) for reading in readings])
     return [packing, chain]
 
 

@@ -174,8 +174,12 @@ def write_text(path: Path, text: str) -> None:
     """Writes a file whose name appears once it is complete."""
     path = Path(os.path.realpath(path))
     part = path.with_name(path.name + ".talus.part")
-    with part.open("w", encoding="utf-8", errors="surrogateescape", newline="") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    part.replace(path)
+    try:
+        with part.open("w", encoding="utf-8", errors="surrogateescape", newline="") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise

@@ -11,7 +11,6 @@ the figures and report.html, and prints the summary."""
 import argparse
 import json
 import math
-import os
 import shlex
 import sys
 from collections.abc import Sequence
@@ -28,7 +27,7 @@ from talus.ensemble import Mean, Member, mean_of, open_ensemble, parse_seeds
 from talus.errors import Error
 from talus.figures import read_groups
 from talus.figures.catalogue import CATALOGUE, Recipe
-from talus.figures.command import Count, in_processes
+from talus.figures.command import Count, draw_into
 from talus.figures.data import Data, Wanted
 from talus.figures.files import figure_files, provenance, write_figure
 from talus.figures.groups import Group
@@ -340,7 +339,7 @@ def agreement_count(found: Reproduction, bed: int) -> str:
 def summary(found: Reproduction) -> list[str]:
     """Returns how many values agree in each preparation, the wall law, and the nearest reading; one sentence an item."""
     counts = [f"{agreement_count(found, bed)} with {found.beds[bed].preparation}" for bed in found.preparations]
-    items = [f"Of the paper's values for the packing, these agree: {listed(counts)}."]
+    items = [f"Of the paper's values for the packing, these agree: {listed(counts)}."] if counts else []
     coefficient = found.wall_coefficient()
     if coefficient.runs > 1:
         items.append(f"Between walls, k_L - k_0 = {coefficient.values.mean:.2f} ± {coefficient.values.error:.2f} over "
@@ -469,7 +468,6 @@ def draw_figures(found: Reproduction, folder: Path, command: str, processes: int
     # By bed, so that groups follow the order of the plan: the paper's preparation first.
     groups = read_groups([str(found.folder / outcome.member.variant / outcome.member.path.name)
                           for outcome in sorted(found.outcomes, key=lambda outcome: outcome.bed)])
-    _extension()._prepare_folder(os.fsencode(folder))
     made, jobs = [], []
     for recipe in (agreement_recipe(found), *CATALOGUE):
         data = recipe.data(groups, Wanted(paper=True))
@@ -480,7 +478,7 @@ def draw_figures(found: Reproduction, folder: Path, command: str, processes: int
             ["talus", "figures", *dict.fromkeys(run.path for run in data.runs), "--only", recipe.name, "-o", str(folder)])
         if not is_drawn(recipe, data, groups, folder, made_by):
             jobs.append(partial(write_figure, recipe, data, groups, folder, formats=FORMATS, command=made_by))
-    in_processes(jobs, processes, Count("figures", False))
+    draw_into(folder, jobs, processes, Count("figures", False))
     section = {name: part for part, names in SECTIONS.items() for name in names} | {"agreement": "agreement"}
     pictures: dict[str, list[str]] = {part: [] for part in ("agreement", *SECTIONS, "further")}
     for recipe, data in made:

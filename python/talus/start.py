@@ -19,6 +19,13 @@ def fail(code: int, text: str) -> int:
     return code
 
 
+def write_utf8() -> None:
+    """Makes standard output and error UTF-8, as those of the program, whatever the locale and PYTHONIOENCODING. Names that
+    are not UTF-8 keep their bytes."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # None: closed
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # type: ignore[union-attr]
+
+
 def stop_on_signals() -> None:
     """Makes SIGTERM and SIGHUP, unless it is ignored (nohup), raise KeyboardInterrupt as SIGINT does; the program has let
     them wait until here. A closed pipe ends the process, as it ends the program."""
@@ -45,9 +52,11 @@ def end_soon(signals: int) -> None:
 def run(name: str, arguments: list[str]) -> int:
     """Runs a module and returns the exit code."""
     try:
+        write_utf8()
         stop_on_signals()
         code: Any = importlib.import_module(f"talus.{name}").main(arguments)
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
         return int(code or 0)
     except KeyboardInterrupt:
         print(SENTENCE, file=sys.stderr)

@@ -127,6 +127,8 @@ def read(folder: str | Path, seeds: Sequence[int] | None = None, variants: Seque
     slope has failed. Raises Error if no run is complete, and as open_ensemble does."""
     ensemble = open_ensemble(folder)
     seeds, variants = list(seeds or ensemble.seeds), list(variants or ensemble.variants)
+    for variant in variants:
+        ensemble.scenario(variant)  # raises for an unknown one
     members = [member for member in ensemble.done() if member.seed in seeds and member.variant in variants]
     if not members:
         raise Error("no run of the study is complete; nothing can be compared")
@@ -266,6 +268,8 @@ def _quantities(study: Study, groups: Sequence[str]) -> list[Quantity]:
 
 def _values_table(study: Study, *groups: str) -> str:
     known = _quantities(study, groups)
+    if not known:
+        return "No run has values here.\n\n"
     rows = [[markdown_escaped(variant), *(_value_cell(study, variant, quantity) for quantity in known)]
             for variant in study.variants]
     return Table(["variation", *(quantity.title for quantity in known)], rows).markdown() + "\n"

@@ -1,10 +1,14 @@
 """Figures in Python: their numbers against stored tables, the same bytes for the same data, their arguments and messages."""
 
+import copy
 import csv
 import json
+import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -124,6 +128,34 @@ def test_requests_are_refused(beds, tmp_path, words, code, message):
     assert not (tmp_path / "out").exists()
 
 
+def test_the_error_of_a_process_is_told_while_others_end(tmp_path):
+    """A process that is stopped writes into no pipe of the one that stops it."""
+    (tmp_path / "example.py").write_text("""
+import time
+from talus import Error
+from talus.figures.command import in_processes
+from talus.start import stop_on_signals
+
+def fail():
+    time.sleep(0.5)
+    raise Error("the disk is full")
+
+def work():
+    try:
+        time.sleep(30)
+    finally:
+        time.sleep(1)
+
+stop_on_signals()
+try:
+    in_processes([fail, work], 2, lambda done, count: None)
+except Error as error:
+    print(error)
+""")
+    done = subprocess.run([sys.executable, tmp_path / "example.py"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "the disk is full\n", "")
+
+
 def test_figures_that_need_other_runs_are_left_out(beds, tmp_path, capsys):
     run_figures(beds, "two/ensemble.h5", "-o", tmp_path, "--only", "4,7,force-chains", "-q")
     said = capsys.readouterr()
@@ -144,6 +176,156 @@ def test_groups_are_named_by_what_differs(groups):
     assert groups["flow"][0].legend == "PBC, L = 15 D"
     with pytest.raises(talus.Error, match="are the same run"):
         figures.group_runs(groups["flow"][0].runs * 2)
+
+
+def made_up(path="a/1.h5", seed=1, state="", commands=(), own=(), departures=(), **keys):
+    """Returns a run of which only the description is known. `commands`: texts of those of its scenario."""
+    sections = {"bed": {"boundary": "periodic", "length": 12.0}, "contact": {"friction": 0.5, "wall_friction": 0.5}, "tilt": {"program": "none"}}
+    for key, value in keys.items():
+        section, name = key.split("__")
+        sections[section] = sections[section] | {name: value}
+    if commands:
+        sections["command"] = [{"kind": text.split()[0], "text": text} for text in commands]
+    bed = sections["bed"]
+    return SimpleNamespace(path=path, seed=seed, state_hash=state or f"{path} {seed}", has_file=True, scenario=sections, length=bed["length"],
+                           periodic=bed["boundary"] == "periodic", departures=list(departures),
+                           core=SimpleNamespace(commands=list(commands), own_commands=list(own)))
+
+
+PUSH, RUB, TILT, TILT_BACK = "push grain 3 by (1, 0) m/s at 2 deg", "friction 0.3 at 5 deg", "tilt rate 1 deg/s at 8 deg", "tilt rate -1 deg/s at 8 deg"
+GIVEN, GIVEN_BACK = "tilt rate 1 deg/s at 8.00 deg, 9.00 s", "tilt rate -1 deg/s at 8.00 deg, 9.00 s"
+WALLS = {"bed__boundary": "walls"}
+
+
+@pytest.mark.parametrize("runs, legends", [
+    ([dict(commands=[RUB, TILT]), dict(commands=[RUB, TILT_BACK])], ["tilt rate 1°/s at 8°", "tilt rate −1°/s at 8°"]),
+    ([dict(), dict(commands=[RUB]), dict(commands=[RUB, TILT])], ["no command", "friction 0.3 at 5°", "friction 0.3 at 5°, tilt rate 1°/s at 8°"]),
+    ([dict(commands=[RUB]), dict(commands=[RUB, TILT])], ["no command 2", "tilt rate 1°/s at 8°"]),
+    ([dict(departures=[PUSH, GIVEN]), dict(departures=[PUSH, GIVEN_BACK])],
+     ["push grain 3 by (1, 0) m/s at 2°; tilt rate 1°/s at 8°", "push grain 3 by (1, 0) m/s at 2°; tilt rate −1°/s at 8°"]),
+    ([dict(departures=[PUSH, "release", GIVEN]), dict(departures=[PUSH, "release", GIVEN_BACK])],
+     ["push grain 3 by (1, 0) m/s at 2°; tilt rate 1°/s at 8° and 1 more", "push grain 3 by (1, 0) m/s at 2°; tilt rate −1°/s at 8° and 1 more"]),
+    ([dict(), dict(departures=[GIVEN]), dict(commands=[RUB], departures=[GIVEN])],
+     ["no command", "tilt rate 1°/s at 8°", "friction 0.3 at 5°, tilt rate 1°/s at 8°"]),
+    ([dict(), dict(departures=["computed by version 0.0.9"])], ["PBC, L = 12 D", "computed by version 0.0.9"]),
+    ([dict(), dict(departures=["branch at 5.00 deg with a tilt rate of -1 deg/s"])], ["PBC, L = 12 D", "branch at 5° with a tilt rate of −1°/s"]),
+    ([dict(tilt__program="to 6, to 0"), dict(tilt__program="to -6, to 0")], ["tilt.program = to 6, to 0", "tilt.program = to -6, to 0"]),
+    ([dict(commands=[RUB]), dict(**WALLS), dict(contact__wall_friction=0.2, **WALLS)],
+     ["PBC, L = 12 D, friction 0.3 at 5°", "WBC, L = 12 D, μ_w = 0.5, no command", "WBC, L = 12 D, μ_w = 0.2, no command"]),
+    ([dict(path="a/1.h5"), dict(path="a/2.h5")], ["PBC, L = 12 D, 1.h5", "PBC, L = 12 D, 2.h5"]),
+    ([dict(path="a$b$_c/1.h5"), dict(path="a/1.h5")], [r"PBC, L = 12 D, a\$b\$_c", "PBC, L = 12 D, a"]),
+    ([dict(own=[(2, -1, 0.30001, 0.0)], departures=["friction 0.3"], path="a/1.h5"), dict(own=[(2, -1, 0.30002, 0.0)], departures=["friction 0.3"], path="a/2.h5")],
+     ["PBC, L = 12 D, friction 0.3, 1.h5", "PBC, L = 12 D, friction 0.3, 2.h5"])])
+def test_runs_that_differ_are_groups_of_their_own_with_names_of_their_own(runs, legends):
+    groups = figures.group_runs(made_up(**run) for run in runs)
+    assert [group.legend for group in groups] == legends
+    assert len({group.label for group in groups}) == len({group.name for group in groups}) == len(runs)
+
+
+def test_runs_of_two_folders_that_differ_in_their_bits_are_not_mixed():
+    runs = [made_up(f"{folder}/{seed}.h5", seed) for folder, seeds in (("a", (1, 2, 3)), ("b", (1, 2, 3, 4, 5))) for seed in seeds]
+    groups = figures.group_runs(runs)
+    assert [(group.label, [run.path for run in group.runs]) for group in groups] == [
+        ("PBC, L = 12 D, a", ["a/1.h5", "a/2.h5", "a/3.h5"]), ("PBC, L = 12 D, b", [f"b/{seed}.h5" for seed in (1, 2, 3, 4, 5)])]
+
+
+def test_tables_of_groups_have_names_of_their_own(groups):
+    runs = groups["two"][0].runs
+    data = find("5").data([figures.Group(label, runs) for label in ("a b", "a-b", "日本", "paper", "Paper", "x" * 300, "a-b-runs")], Wanted(paper=True))
+    names = [table.name for table in data.tables]
+    assert len(set(names)) == len(names) == 14 and "" not in names and "paper" not in names
+    assert max(map(len, names)) < 150
+
+
+def test_walls_of_other_friction_have_a_law_of_their_own(beds, groups):
+    one = find("7").data(groups["walls"], Wanted())
+    assert "series" not in one.tables[0] and "fitted to all runs by least squares" in one.caption
+    others = [copy.copy(run) for group in groups["walls"] for run in group.runs]
+    for run in others:
+        run.scenario = {**run.scenario, "contact": {**run.scenario["contact"], "wall_friction": 0.25}}
+    two = find("7").data(figures.group_runs([run for group in groups["walls"] for run in group.runs] + others), Wanted())
+    assert two.tables[0]["series"].tolist() == [1, 1, 2, 2] and [each.name for each in two.facts["series"]] == ["μ_w = 0.5", "μ_w = 0.25"]
+    assert [each.fit for each in two.facts["series"]] == [one.facts["series"][0].fit] * 2
+    texts = figures.fig07(figures.group_runs(others)).talus_legend.get_texts()
+    assert texts[0].get_text() == "beds between walls"
+
+
+def test_curves_of_many_groups_differ():
+    from talus.figures.style import COLOURS, curve_style
+
+    assert len({str(curve_style(k)) for k in range(64)}) == len({str(curve_style(k, symbols=False)) for k in range(64)}) == 64
+    assert [curve_style(k)["color"] for k in range(16)] == [*COLOURS, *COLOURS]
+
+
+def test_axes_show_negative_values():
+    from matplotlib.figure import Figure
+    from talus.figures.panels import begin_at_zero
+
+    axes = Figure().add_subplot()
+    for values, low in (([0.1, 1], 0), ([-0.01, 1], 0), ([-0.5, 1, np.nan], -0.55), ([], 0)):
+        begin_at_zero(axes, np.array(values))
+        assert axes.get_ylim()[0] == pytest.approx(low)
+
+
+def test_names_are_no_formulas():
+    from talus.figures.panels import broken, text_width
+    from talus.figures.style import as_math, new_figure, styled
+    from talus.figures.tables import literal
+
+    assert literal("a$b$") == r"a\$b\$" and as_math(r"μ = 1, a\$b") == r"$μ$ = 1, a\$b" and as_math("$x$, μ") == "$x$, μ"
+    with styled():
+        figure = new_figure(8, 4)
+        figure.text(0, 0, literal("a$b$_{")).get_window_extent(figure.canvas.get_renderer())
+        assert text_width(figure, literal("a$b$c"), 8) == pytest.approx(text_width(figure, "aSbSc", 8), abs=0.05)
+        assert broken(figure, literal("one$two three$four ") * 2 + "$x^2$ y", 8, 3).replace("\n", " ") == (literal("one$two three$four ") * 2 + "$x^2$ y")
+
+
+def test_a_style_sheet_with_faults_is_reported(beds, tmp_path, capsys):
+    (tmp_path / "odd.mplstyle").write_text("axes.lablesize: 9\naxes.titlesize: banana\nfigure.constrained_layout.use: True\nfont.size 8\n")
+    run_figures(beds, "flow.h5", "-o", tmp_path / "out", "--only", "4", "-q", "--style", tmp_path / "odd.mplstyle")
+    notes = capsys.readouterr().err.splitlines()
+    assert len(notes) == 3 and all(note.startswith(f"note: --style {tmp_path}/odd.mplstyle: matplotlib ignores a line: ") for note in notes)
+    (tmp_path / "bytes.mplstyle").write_bytes(b"\xff\xfe: 1")
+    with pytest.raises(talus.Error, match="is not a style sheet"):
+        run_figures(beds, "flow.h5", "-o", tmp_path / "other", "--only", "4", "-q", "--style", tmp_path / "bytes.mplstyle")
+    assert not (tmp_path / "other").exists()
+
+
+def test_names_of_files_may_be_any_bytes(beds, tmp_path):
+    folder = os.fsencode(tmp_path) + b"/\xff$a$_1\n\xe6\x97\xa5"
+    os.mkdir(folder)
+    for name in (b"/a.h5", b"/b.h5"):
+        shutil.copy(beds / ("flow.h5" if name == b"/a.h5" else "cycles.h5"), folder + name)
+    command = [sys.executable, "-X", "utf8", "-m", "talus.figures", folder + b"/a.h5", folder + b"/b.h5", "-o", folder + b"/out", "--only", "4,10", "-q"]
+    done = subprocess.run(command, capture_output=True)
+    assert done.returncode == 0 and b"Warning" not in done.stderr, done.stderr
+    assert folder + b"/out: .pdf" in done.stdout and len(os.listdir(folder + b"/out")) == 9
+
+
+def test_frames_may_be_those_of_one_of_two_beds(groups):
+    runs = sorted((run for group in groups["two"] for run in group.runs), key=lambda run: run.theta_c)
+    low, high = figures.Group("low", runs[:1]), figures.Group("high", runs[-1:])
+    at = f"{2 * int(runs[-1].theta_c / 2)}"
+    assert float(at) > runs[0].theta_c + 1
+    for number in ("8", "overloaded-over-scale"):
+        data = find(number).data([low, high], Wanted(at=["0", at]))
+        assert [name for name, _ in data.facts["shown"]] == ["0", at]
+        with pytest.raises(talus.Error, match=f"--at {at}: no run of .* has such a frame"):
+            find(number).data([low], Wanted(at=[at]))
+    with pytest.raises(talus.Error, match="--at 80: no run has such a frame"):
+        find("8").data([low, high], Wanted(at=["80"]))
+    early = copy.copy(runs[0])
+    early.theta_c = 14.0
+    data = find("overloaded-over-scale").data([figures.Group("early", [early])], Wanted())
+    assert [name for name, _ in data.facts["shown"]] == ["0", "repose"]
+
+
+def test_results_over_the_boundary(groups):
+    """Only walls have the friction of walls."""
+    walls = copy.copy(groups["walls"][0].runs[0])
+    walls.scenario = {**groups["two"][0].runs[0].scenario, "bed": {**groups["two"][0].runs[0].scenario["bed"], "boundary": "walls"}}
+    data = find("over-parameter").data(figures.group_runs([*groups["two"][0].runs, walls]), Wanted())
+    assert data.facts["keys"] == ["bed.boundary", "contact.wall_friction"] and data.facts["texts"][0] == ["periodic", "walls"]
 
 
 def test_a_figure_takes_axes_a_style_and_own_groups(groups):

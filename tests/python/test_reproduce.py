@@ -426,3 +426,14 @@ def test_the_chart_has_room_for_its_texts(reference, width):
             box = text.get_window_extent(renderer)
             assert box.x0 >= 0 and box.x1 <= size.width and box.y0 >= 0 and box.y1 <= size.height, text.get_text()
     assert len(figure.legends[0].get_texts()) == 6
+
+
+def test_beds_between_walls_alone_are_compared():
+    found = like_the_paper()
+    walls = Reproduction(found.folder, found.beds[3:], found.seeds, [outcome._replace(bed=outcome.bed - 3) for outcome in found.outcomes if outcome.bed > 2])
+    packing, chain = agreement.charts_of(walls)
+    assert len(packing.labels) == 11 and chain.labels == []
+    assert reproduce.summary(walls) == [
+        "Between walls, k_L - k_0 = 2.50 ± 0.00 over 10 runs; in the paper about 2.5.",
+        "No periodic bed is complete, so nothing can be concluded about the threshold."]
+    reproduce.report(walls, {section: [] for section in SECTIONS}, "9.9.9")

@@ -19,9 +19,10 @@ def start(tmp_path):
     shutil.copy(PACKAGE / "talus/start.py", package)
     shutil.copy(PACKAGE / "talus/errors.py", package)
 
-    def started(text, *words, out=subprocess.PIPE):
+    def started(text, *words, out=subprocess.PIPE, closes_output=False):
         (package / "example.py").write_text(text)
-        return subprocess.Popen([sys.executable, "-P", package / "start.py", "example", *words], cwd=tmp_path, text=True,
+        command = [sys.executable, "-P", package / "start.py", "example", *words]
+        return subprocess.Popen(["sh", "-c", 'exec "$@" >&-', "sh", *command] if closes_output else command, cwd=tmp_path, text=True,
                                 stdout=out, stderr=subprocess.PIPE)
 
     return started
@@ -50,10 +51,24 @@ def test_an_error_is_one_line_with_a_code_of_the_program(start, text, code, mess
     assert (ended, out, err) == (code, "", f"talus: error: {message}\n")
 
 
+@pytest.mark.parametrize("setting", [{"PYTHONIOENCODING": "latin-1"}, {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}])
+def test_output_is_utf8_in_any_locale(start, monkeypatch, setting):
+    for name, value in setting.items():
+        monkeypatch.setenv(name, value)
+    process = start("import sys\ndef main(words): print('θ ± 1', '\\udcff'); print('μ', file=sys.stderr)\n")
+    out, err = process.stdout.buffer.read(), process.stderr.buffer.read()
+    assert (process.wait(), out, err) == (0, "θ ± 1 ".encode() + b"\xff\n", "μ\n".encode())
+
+
 def test_a_full_disk_fails_the_output(start):
     with open("/dev/full", "w") as full:
         process = start("def main(words): print('result')\n", out=full)
     assert outcome(process) == (74, None, "talus: error: standard output: cannot read or write: No space left on device\n")
+
+
+def test_closed_output_is_no_failure(start):
+    process = start("import os\ndef main(words): print('lost'); os.write(2, b'done')\n", closes_output=True)
+    assert outcome(process) == (0, "", "done")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

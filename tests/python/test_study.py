@@ -74,6 +74,13 @@ def test_only_the_named_seeds_and_variations_are_compared(place):
     assert "contact.friction=0.3" not in study.markdown(found)
 
 
+def test_an_angle_that_no_bed_reaches_and_an_unknown_variation_are_stated(place):
+    text = study.markdown(study.read(place / "study", reference=89.0))
+    assert "## The bed at 89 deg\n\nNo run has values here.\n\n## The bed at theta_c\n\n| variation" in text
+    with pytest.raises(study.Error, match="has no variant 'friction'"):
+        study.read(place / "study", variants=["friction"])
+
+
 def test_a_study_without_a_complete_run_is_refused(place):
     run_talus(*WORDS[:-1], "waiting", "--jobs", "0", folder=place)
     done = subprocess.run([sys.executable, "-m", "talus.study", "waiting"], cwd=place, capture_output=True, text=True)

@@ -1,5 +1,6 @@
 """Pictures of single beds: maps of grains, contacts as lines, the neighbourhoods of a grain, the network of forces."""
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -114,7 +115,7 @@ def draw_maps(data: Data, page: Page) -> Figure:
 def write_maps(data: Data, page: Page, paths: Sequence[Any], title: str) -> None:
     """Writes a panel of maps: one bed in each row, on a page no higher than wanted or than one with a caption."""
     data.runs[0].core.write_panel(data.facts["frames"], data.facts["maps"], page.width, page.height or 1.4 * page.width,
-                                  [str(path) for path in paths], title)
+                                  [os.fsencode(path) for path in paths], title)
 
 
 # Contacts as lines (force chains, critical contacts).

@@ -9,6 +9,7 @@ import shlex
 import signal
 import sys
 import time
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import wait
@@ -45,8 +46,9 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-q", "--quiet", action="store_true", help="show no progress")
     parser.add_argument("--command", default="", help=argparse.SUPPRESS)
     found = parser.parse_intermixed_args(words)
+    found.threads = max(found.threads, 1)
     for name in ("only", "at", "add"):
-        setattr(found, name, [part for text in getattr(found, name) for part in text.split(",")])
+        setattr(found, name, list(dict.fromkeys(part for text in getattr(found, name) for part in text.split(","))))
     return found
 
 
@@ -63,12 +65,27 @@ def parse_size(text: str) -> tuple[float, float]:
 
 
 def check_style(style: str | None) -> None:
-    """Raises MissingFile if a style sheet cannot be read."""
+    """Reports the lines of a style sheet that matplotlib ignores. Raises MissingFile if it cannot be read, and Error if it is
+    no text."""
+    faults: list[str] = []
+    handler, logger = logging.Handler(), logging.getLogger("matplotlib")
+    handler.emit = lambda record: faults.append(record.getMessage().strip().partition("\n")[0])  # type: ignore[assignment]
+    level, logger.propagate = logger.level, False
+    logger.setLevel(logging.WARNING)
+    logger.addHandler(handler)
     try:
         with styled(style):
             pass
     except OSError:
         raise MissingFile(f"--style {style}: no such style sheet; expected a file such as journal.mplstyle, or a name of matplotlib") from None
+    except ValueError:
+        raise Error(f"--style {style}: is not a style sheet of matplotlib, which is a text in UTF-8") from None
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(level)
+        logger.propagate = True
+    for fault in faults:
+        report(f"note: --style {style}: matplotlib ignores a line: {fault}")
 
 
 def usage_error(text: str) -> Error:
@@ -139,6 +156,7 @@ def signals_wait() -> Iterator[Callable[[], None]]:
     handlers = {number: handler for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
                 if callable(handler := signal.getsignal(number))}
     arrived: list[int] = []
+    wakeup = signal.set_wakeup_fd(-1)  # that of this process (start.py), which processes that are stopped must not use
 
     def restore() -> None:
         for number, handler in handlers.items():
@@ -151,6 +169,7 @@ def signals_wait() -> Iterator[Callable[[], None]]:
     try:
         yield restore
     finally:
+        signal.set_wakeup_fd(wakeup)
         restore()
 
 
@@ -210,9 +229,20 @@ def in_processes(jobs: Sequence[Callable[[], None]], processes: int, progress: C
             worker.join()
 
 
+def draw_into(folder: Path, jobs: Sequence[Callable[[], None]], processes: int, progress: Callable[[int, int], None]) -> None:
+    """Carries out jobs that draw figures into a folder, which is created if missing."""
+    _extension()._prepare_folder(os.fsencode(folder))
+    try:
+        in_processes(jobs, processes, progress)
+    except BaseException:
+        _extension()._prepare_folder(os.fsencode(folder))  # removes what processes that were stopped have left
+        raise
+
+
 def main(words: Sequence[str]) -> None:
     """Carries out `talus figures`."""
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # such as that it has no folder for its settings
+    warnings.filterwarnings("ignore", "Glyph .* missing from")  # of a script that the font of the figures lacks
     asked = parse(words)
     chosen = [find(word) for word in asked.only]
     recipes = [recipe for recipe in CATALOGUE if recipe in chosen or not chosen]
@@ -230,19 +260,24 @@ def main(words: Sequence[str]) -> None:
     made = make_data(recipes, groups, Wanted(asked.at, "paper" in asked.add, "spread" in asked.add))
     folder = Path(asked.output)
     check_targets(folder, made, recipes, formats, asked.overwrite, [run.path.partition("#")[0] for run in runs])
-    _extension()._prepare_folder(os.fsencode(folder))
     command = asked.command or f"talus figures {shlex.join(words)}"
 
     def job(recipe: Recipe, data: Data) -> Callable[[], None]:
-        return lambda: write_figure(recipe, data, groups, folder, formats=formats, width=width, height=height, style=asked.style,
-                                    command=command)
+        def draw() -> None:
+            try:
+                write_figure(recipe, data, groups, folder, formats=formats, width=width, height=height, style=asked.style,
+                             command=command)
+            except (Error, OSError, MemoryError):
+                raise
+            except Exception as error:
+                if asked.style is None:
+                    raise
+                raise Error(f"--style {asked.style}: {recipe.name} cannot be drawn with it: {error}") from None
+
+        return draw
 
     longest_first = sorted(made, key=lambda each: -len(each[1].facts.get("panels", ())))
-    try:
-        in_processes([job(*each) for each in longest_first], asked.threads, Count("figures", asked.quiet))
-    except BaseException:
-        _extension()._prepare_folder(os.fsencode(folder))  # removes what processes that were stopped have left
-        raise
+    draw_into(folder, [job(*each) for each in longest_first], asked.threads, Count("figures", asked.quiet))
     if asked.overwrite:
         remove_left_out(folder, [recipe for recipe in recipes if recipe not in [each for each, _ in made]])
     for recipe, data in made:

@@ -225,8 +225,8 @@ def events(groups: Sequence[Group], wanted: Wanted) -> Data | None:
         mean, mean_error, waits = core._exponential_law(waiting.values.tolist(), shortest)
         power = "the same from the maximum-likelihood power law; NaN below its minimum"
         exponential = "the same from the maximum-likelihood exponential law"
-        added.facts["sizes"] = share_table("sizes-" + group.name, energy, [power_law("power_law", power, size)])
-        added.facts["waits"] = share_table("waits-" + group.name, waiting, [
+        added.facts["sizes"] = share_table("sizes-" + added.table.name, energy, [power_law("power_law", power, size)])
+        added.facts["waits"] = share_table("waits-" + added.table.name, waiting, [
             power_law("power_law", power, wait),
             ("exponential_law", exponential, np.nan if np.isnan(mean) else shortest, lambda x: np.exp((shortest - x) / mean))])
         data.tables += [added.facts["sizes"], added.facts["waits"]]

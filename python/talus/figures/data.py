@@ -1,5 +1,7 @@
 """Data of a figure: tables for each group of runs, the runs that they come from, and the caption."""
 
+import itertools
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,6 +20,8 @@ MOST_GROUPS_WITH_SPREAD = 2
 MEANS = ("Means over the runs of each group at the same tilt, as long as at least half of them have not failed. The dark band "
          "is the standard error of the mean.")
 SPREAD = " The light band is the standard deviation of the runs; thin lines are the single runs, at most 100 of them."
+#: Names of tables of figures that are not those of groups.
+OTHER_TABLES = ("paper", "contacts", "surface", "trace", "ends", "coefficients")
 #: Settings of the paper's beds.
 PAPER = {"bed.depth": 40, "bed.floor": "rough", "contact.friction": 0.5, "contact.rolling_friction": 0, "grains.size_ratio": 1.5}
 
@@ -61,8 +65,11 @@ class Data:
     title: str = ""  #: instead of that of the catalogue
 
     def add_group(self, group: Group, runs: Sequence[AnalysedRun], columns: list[Column]) -> GroupTable:
-        """Adds the table of a group, named after its label."""
-        added = GroupTable(f"{group.legend or group.label} ({runs_text(len(runs))})", Table(group.name, columns), count=len(runs))
+        """Adds the table of a group, named after its label; a number is added if another table has this name."""
+        taken = {*OTHER_TABLES, *(table.name for table in self.tables)}
+        names = itertools.chain([group.name], (f"{group.name}-{k}" for k in itertools.count(2)))
+        name = next(name for name in names if taken.isdisjoint((name, name + "-runs")))
+        added = GroupTable(f"{group.legend or group.label} ({runs_text(len(runs))})", Table(name, columns), count=len(runs))
         self.groups.append(added)
         self.tables.append(added.table)
         self.runs += runs
@@ -74,7 +81,7 @@ class Data:
         curves = [run_curve(run, columns, abscissa) for run in runs]
         added = self.add_group(group, runs, mean_columns(curves, columns, abscissa))
         if len(runs) > 1:
-            added.runs = Table(group.name + "-runs", run_columns(runs, curves, columns, abscissa), in_blocks=True)
+            added.runs = Table(added.table.name + "-runs", run_columns(runs, curves, columns, abscissa), in_blocks=True)
             self.tables.append(added.runs)
         return added
 
@@ -141,27 +148,32 @@ def named_frames(word: str) -> ShownFrames:
 
 def frames_of(run: AnalysedRun, at: Sequence[str]) -> list[int]:
     """Returns the frames of `--at` in one run, ascending. Raises Error for invalid words, and for frames that it lacks."""
-    return list(run.core.frames_at(list(at)))
+    return list(run.core.frames_at([os.fsencode(word) for word in at]))
 
 
-def shown_frames(runs: Sequence[AnalysedRun], at: Sequence[str], usual: Sequence[str]) -> list[ShownFrames]:
-    """Returns the frames of `at` or, if it is empty, those of `usual`; a usual angle is shown for the runs that reach it.
-    Raises Error if a word is invalid, or if no run has its frame."""
-    shown = []
-    for word in at or usual:
-        frames = named_frames(word)
-        if not at and word.isdigit():
-            frames.runs = [run for run in runs if run.reaches(float(word))]
-            frames.frames = [run.frame_nearest(float(word)) for run in frames.runs]
-        else:
-            for run in runs:
-                try:
-                    frames.frames.append(frames_of(run, [word])[0])
-                    frames.runs.append(run)
-                except WrongValue as error:
-                    if error.exit_code != 65:
-                        raise
-            if not frames.runs:
-                raise Error(f"--at {word}: no run of {runs[0].path} has such a frame")
-        shown.append(frames)
-    return shown
+def shown_frames(groups: Sequence[Sequence[AnalysedRun]], at: Sequence[str], usual: Sequence[str]) -> list[list[ShownFrames]]:
+    """Returns for the runs of each group the frames of `at` or, if it is empty, those of `usual`; a usual angle is shown for
+    the runs that reach it. Raises Error if a word is invalid, or if no run of any group has its frame."""
+    found = [[frames_in(runs, word, not at) for word in at or usual] for runs in groups]
+    for word, *frames in zip(at, *found):
+        if not any(each.runs for each in frames):
+            raise Error(f"--at {word}: no run of {groups[0][0].path} has such a frame" if len(groups) == 1 else
+                        f"--at {word}: no run has such a frame")
+    return found
+
+
+def frames_in(runs: Sequence[AnalysedRun], word: str, is_usual: bool) -> ShownFrames:
+    """Returns the frames of these runs that a word names."""
+    frames = named_frames(word)
+    if is_usual and word.isdigit():
+        frames.runs = [run for run in runs if run.reaches(float(word))]
+        frames.frames = [run.frame_nearest(float(word)) for run in frames.runs]
+        return frames
+    for run in runs:
+        try:
+            frames.frames.append(frames_of(run, [word])[0])
+            frames.runs.append(run)
+        except WrongValue as error:
+            if error.exit_code != 65:
+                raise
+    return frames

@@ -29,26 +29,28 @@ def gamma_density(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     data = Data("Probability density of the stress ratio gamma = q/p of the grains that carry something, periodic beds; vertical lines: "
                 "Gamma_c = sin(theta_c), the threshold printed in the paper, and 2 Gamma_c, each the mean over the runs. Means over the "
                 "runs of a bed, at angles that at least half of them reach; bands: standard error of the mean, if there are several runs.")
-    shown: list[ShownFrames] = []
-    for group in groups:
-        runs = group.select(lambda run: run.periodic and run.thresholds and run.has_distributions)
-        if not runs:
-            continue
-        if not data.tables:
-            data.caption += " " + reading(runs[0])
-        shown = shown_frames(runs, wanted.at, ("0", "10", "15"))
+    chosen = [(group, runs) for group in groups
+              if (runs := group.select(lambda run: run.periodic and run.thresholds and run.has_distributions))]
+    if not chosen:
+        return None
+    data.caption += " " + reading(chosen[0][1][0])
+    for (group, runs), shown in zip(chosen, shown_frames([runs for _, runs in chosen], wanted.at, ("0", "10", "15"))):
         edges = runs[0].values("gamma/edge")
         columns = [column("gamma", "1", "middle of the bin", 0.5 * (edges[1:] + edges[:-1]))]
         for frames in shown:
             columns += density_columns(frames, len(runs), len(edges) - 1)
         added = data.add_group(group, runs, columns)
         added.facts["gamma_c"] = float(np.mean([run.number("gamma_c") for run in runs]))
-    if not data.groups:
-        return None
-    shown = [frames for frames in shown if any(not np.isnan(group.table["density_" + frames.name]).all() for group in data.groups)]
-    data.facts["shown"] = [(frames.name, frames.label) for frames in shown]
+    shown = with_values(shown, data, "density_")
     data.caption += f" Shown {', '.join(frames.text for frames in shown)}."
     return data
+
+
+def with_values(shown: Sequence[ShownFrames], data: Data, before: str) -> list[ShownFrames]:
+    """Returns the frames for which a group has a number in the column of this beginning, and notes them for the drawing."""
+    found = [frames for frames in shown if any(not np.isnan(group.table[before + frames.name]).all() for group in data.groups)]
+    data.facts["shown"] = [(frames.name, frames.label) for frames in found]
+    return found
 
 
 def density_columns(frames: ShownFrames, runs: int, bins: int) -> list[Column]:
@@ -69,7 +71,7 @@ def draw_gamma_density(data: Data, page: Page) -> Figure:
         table = group.table
         for k, (name, _) in enumerate(data.facts["shown"]):
             if group.count > 1:
-                band(each, table["gamma"], table["density_" + name], table[f"density_{name}_error"], color=COLOURS[k], alpha=0.3)
+                band(each, table["gamma"], table["density_" + name], table[f"density_{name}_error"], color=COLOURS[k % len(COLOURS)], alpha=0.3)
             each.plot(table["gamma"], table["density_" + name], **curve_style(k), markevery=3)
         for threshold, name in ((group.facts["gamma_c"], "Γ$_c$"), (2 * group.facts["gamma_c"], "2 Γ$_c$")):
             if threshold <= 1:
@@ -90,19 +92,17 @@ def overloaded_over_scale(groups: Sequence[Group], wanted: Wanted) -> Data | Non
     data = Data("Fraction p_o of the grains whose neighbourhood of diameter l has a stress ratio gamma_l of at least Gamma_c = "
                 "sin(theta_c), over l, among the grains that carry something: the single grain at l = 0, with its first neighbours from "
                 "about 2 D; periodic beds.")
-    shown: list[ShownFrames] = []
     chosen = [(group, runs) for group in groups if (runs := group.select(lambda run: run.periodic and run.failed and run.has_frames))]
+    if not chosen:
+        return None
     data.facts["paper"] = shows_paper([group for group, _ in chosen], wanted)
-    for group, runs in chosen:
-        shown = shown_frames(runs, wanted.at, ("0", "15", "repose"))
+    for (group, runs), shown in zip(chosen, shown_frames([runs for _, runs in chosen], wanted.at, ("0", "15", "repose"))):
         scales = SCALES[SCALES <= runs[0].core.length_cut()]
         columns = [column("l", "D", "diameter of the neighbourhood; 0: the single grain", scales)]
         for frames in shown:
             columns += share_columns(frames, len(runs), scales)
         data.add_group(group, runs, columns)
-    if not chosen:
-        return None
-    data.facts["shown"] = [(frames.name, frames.label) for frames in shown]
+    shown = with_values(shown, data, "p_o_")
     data.caption += " Dashed line: the paper's p_o at theta_c, 0.60." if data.facts["paper"] else ""
     data.caption += (" Means over the failed runs of a bed, at angles that at least half of them reach; error bars are standard errors "
                      f"over the runs, none for a single run. Shown {', '.join(frames.text for frames in shown)}.")
@@ -156,7 +156,7 @@ class States:
         if not chosen:
             return None
         group, runs = chosen[0]
-        states = shown_frames(runs, wanted.at, ("frame0", "repose"))
+        states = shown_frames([runs], wanted.at, ("frame0", "repose"))[0]
         edges = runs[0].values(self.edges)
         name, unit, meaning = self.axis
         if self.edges.endswith("edge"):

@@ -9,11 +9,13 @@ import matplotlib
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.cbook import is_math_text
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.text import Text
 from matplotlib.ticker import AutoLocator, MaxNLocator
 
 from talus.errors import WrongValue
@@ -70,14 +72,15 @@ def mark_panels(axes: Sequence[Axes]) -> None:
 def has_numbers(axes: Axes, which: str) -> bool:
     """Whether a panel has the numbers, and thus the title, of its horizontal ("x") or vertical axis."""
     axis = axes.xaxis if which == "x" else axes.yaxis
-    return bool(axis._major_tick_kw.get("label1On", True))
+    return bool(axis.get_major_ticks(1)[0].label1.get_visible())
 
 
 def text_width(figure: Figure, text: str, points: float) -> float:
     """Returns the width of a text in cm."""
     renderer = figure.canvas.get_renderer()
-    is_math = text.count("$") >= 2
-    width: float = renderer.get_text_width_height_descent(text, FontProperties(size=points), is_math)[0]
+    is_math = bool(is_math_text(text))
+    shown = text if is_math else text.replace(r"\$", "$")
+    width: float = renderer.get_text_width_height_descent(shown, FontProperties(size=points), is_math)[0]
     return width / figure.dpi / CM
 
 
@@ -86,7 +89,7 @@ def broken(figure: Figure, text: str, points: float, room: float) -> str:
     if text_width(figure, text, points) <= room:
         return text
     lines = [""]
-    for word in re.findall(r"(?:\$[^$]*\$|[^\s$])+", text):
+    for word in re.findall(r"(?:\\\$|(?<!\\)\$(?:\\\$|[^$])*\$|[^\s$])+", text):
         longer = f"{lines[-1]} {word}".strip()
         if not lines[-1] or text_width(figure, longer, points) <= room:
             lines[-1] = longer
@@ -174,7 +177,7 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
         fix_numbers(axes)
         for each, title in zip(axes, titles):
             room = each.bbox.width / figure.dpi / CM + GAP
-            each._left_title.set_text(broken(figure, title, each._left_title.get_fontsize(), room))
+            each.set_title(broken(figure, title, title_of(each).get_fontsize(), room), loc="left")
     height = place(figure, axes, width, height, top + above, below)
     if top:
         figure.talus_legend.set_bbox_to_anchor((GAP / width, 1 - GAP / height), transform=figure.transFigure)
@@ -186,9 +189,14 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
 ABOVE = "above"
 
 
+def title_of(axes: Axes) -> Text:
+    """Returns the title of a panel."""
+    return axes.set_title(axes.get_title("left"), loc="left")
+
+
 def texts_above(axes: Axes) -> list[Any]:
     """Returns the title of a panel and other lines above it, which need room above but not on the sides."""
-    return [text for text in (axes._left_title, *(text for text in axes.texts if text.get_gid() == ABOVE)) if text.get_text()]
+    return [text for text in (title_of(axes), *(text for text in axes.texts if text.get_gid() == ABOVE)) if text.get_text()]
 
 
 def place(figure: Figure, axes: Sequence[Axes], width: float, height: float, top: float, bottom: float) -> float:
@@ -231,7 +239,11 @@ def fix_numbers(axes: Sequence[Axes]) -> None:
                 axis.set_major_locator(MaxNLocator(ticks, steps=[1, 2, 2.5, 5, 10]))
                 if axis is each.yaxis or not has_numbers(each, "x"):
                     break
-                boxes = [tick.label1.get_window_extent(renderer) for tick in axis._update_ticks()]
+                axis.get_majorticklabels()  # puts the ticks at their places
+                low, high = sorted(axis.get_view_interval())
+                near = 1e-9 * (high - low)
+                boxes = [tick.label1.get_window_extent(renderer) for tick in axis.get_major_ticks()
+                         if low - near <= tick.get_loc() <= high + near]
                 if all(one.x1 + 2 < other.x0 for one, other in zip(boxes, boxes[1:])):
                     break
 
@@ -247,7 +259,7 @@ def shrink_texts(figure: Figure, axes: Sequence[Axes]) -> None:
             long = extent.height if text is each.yaxis.label else extent.width
             if long > room + GAP * CM * figure.dpi:
                 text.set_fontsize(max(SMALLEST, text.get_fontsize() * room / long))
-        for text in texts_above(each)[bool(each._left_title.get_text()):]:
+        for text in texts_above(each)[bool(each.get_title("left")):]:
             lines.append(text)
             ratio = min(ratio, (box.width + GAP * CM * figure.dpi) / text.get_window_extent(renderer).width)
     for text in lines:
@@ -309,6 +321,12 @@ def key_of_curves(data: Data, symbols: bool = True) -> Key:
     if data.facts["spread"]:
         key.box("± standard deviation", color="#000000", alpha=0.13)
     return key
+
+
+def begin_at_zero(axes: Axes, values: np.ndarray) -> None:
+    """Begins the vertical axis at 0, or below it if some of these values are negative and not small."""
+    low, high = np.nanmin(values, initial=0), np.nanmax(np.abs(values), initial=0)
+    axes.set_ylim(float(low - 0.05 * high) if low < -0.02 * high else 0)
 
 
 def set_range(axes: Axes, top: float | None = None) -> None:

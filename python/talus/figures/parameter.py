@@ -13,7 +13,7 @@ from talus.figures.groups import SYMBOLS, UNITS, Group, essence, value_text
 from talus.figures.panels import Key, Page, arrange, has_numbers, panels, points_with_errors
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import as_math, curve_style, letter, set_title
-from talus.figures.tables import Table, column
+from talus.figures.tables import Table, column, literal
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def over_parameter(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     keys = varied_keys(groups)
     if not 1 <= len(keys) <= 2:
         return None
-    places = [[essence(group.runs[0].scenario)[key] for key in keys] for group in groups]
+    places = [[essence(group.runs[0].scenario).get(key, "none") for key in keys] for group in groups]
     if len({value_text(place) for place in places}) < len(places):
         return None  # groups that differ in other ways
     columns = []
@@ -116,12 +116,12 @@ def draw_over_parameter(data: Data, page: Page) -> Figure:
         if len(keys) > 1:
             text = data.facts["texts"][1][int(value) - 1] if not data.facts["numeric"][1] else f"{value:g}"
             runs = runs_text(int(table["n"][rows].sum()))
-            key.line(as_math(f"{SYMBOLS.get(keys[1], keys[1])} = {text}{UNITS.get(keys[1], '')} ({runs})"), **curve_style(s))
+            key.line(as_math(f"{SYMBOLS.get(keys[1], keys[1])} = {literal(text)}{UNITS.get(keys[1], '')} ({runs})"), **curve_style(s))
     unit = UNITS.get(keys[0], "").strip()
     for k, (each, (_, title, unit_of)) in enumerate(zip(axes, shown)):
         set_title(each, "y", title, unit_of, heading=letter(k) if len(shown) > 1 else "")
         if not data.facts["numeric"][0]:
-            each.set_xticks(range(1, len(data.facts["texts"][0]) + 1), data.facts["texts"][0])
+            each.set_xticks(range(1, len(data.facts["texts"][0]) + 1), map(literal, data.facts["texts"][0]))
         each.margins(x=0.06)
         if has_numbers(each, "x"):
             each.set_xlabel(as_math(SYMBOLS.get(keys[0], keys[0])) + (f" (${unit}$)" if unit == "D" else f" ({unit})" if unit else ""))

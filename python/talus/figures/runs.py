@@ -44,7 +44,7 @@ class AnalysedRun:
 
     def __init__(self, core: Any) -> None:
         self.core = core  #: its measures that only figures need (python/bindings/figures.cpp)
-        self.path: str = core.path  #: that of the run file, or "FOLDER/ensemble.h5#seed-7"
+        self.path: str = os.fsdecode(core.path)  #: that of the run file, or "FOLDER/ensemble.h5#seed-7"
         self.seed: int = core.seed
         self.state_hash: str = core.state_hash  #: hash of its last state
         self.has_file: bool = core.has_file  #: False: only scalars of the run and of its frames are known
@@ -141,36 +141,38 @@ def read_runs(paths: Iterable[str | Path] | str | Path, settings: Sequence[str] 
     is not a run, and each analysis that cannot be stored. Raises Error as talus.open does; MissingFile if no member is
     done; and WrongValue for settings without runs to analyse."""
     core = _extension()
-    core._parse_settings(list(settings))
-    names = [os.fspath(path) for path in ([paths] if isinstance(paths, (str, Path)) else paths)]
+    changes = [os.fsencode(setting) for setting in settings]
+    core._parse_settings(changes)
+    names = [os.fsencode(path) for path in ([paths] if isinstance(paths, (str, Path)) else paths)]
     if len(names) > 1:
         others = [name for name in names if os.path.isfile(name) and not core._begins_as_run(name) and not core._holds_averages(name)]
         for name in others:
-            report(f"left out: {name} is not a run")
+            report(f"left out: {os.fsdecode(name)} is not a run")
         if len(others) == len(names):
             raise Error(f"none of these {len(names)} files is a run")
         names = [name for name in names if name not in others]
     found: list[Any] = []
     for name in names:
-        averages = os.path.join(name, "ensemble.h5")
-        if os.path.isfile(os.path.join(name, "ensemble.manifest")):
-            members = core._member_runs(name, list(settings), threads, progress)
+        averages = os.path.join(name, b"ensemble.h5")
+        if os.path.isfile(os.path.join(name, b"ensemble.manifest")):
+            members = core._member_runs(name, changes, threads, progress)
             if not members:
-                raise MissingFile(f"{name}: no member of this ensemble is done yet; talus ensemble status {name} shows their "
+                folder = os.fsdecode(name)
+                raise MissingFile(f"{folder}: no member of this ensemble is done yet; talus ensemble status {folder} shows their "
                                   "progress")
             found += members
         elif core._holds_averages(name) or os.path.isfile(averages):
             stored = name if core._holds_averages(name) else averages
             if settings:
-                wrong = WrongValue(f"--set {settings[0]}: {stored} holds values of an analysis with the default parameters, and "
+                wrong = WrongValue(f"--set {settings[0]}: {os.fsdecode(stored)} holds values of an analysis with the default parameters, and "
                                    "no run that could be analysed with others")
                 wrong.exit_code = 64
                 raise wrong
             found += core._stored_runs(stored)
         else:
-            found.append(core._analysed_run(name, list(settings), threads, progress))
+            found.append(core._analysed_run(name, changes, threads, progress))
     runs = [AnalysedRun(each) for each in found]
     for run in runs:
         if run.has_file and not run.core.is_kept:
-            report(f"note: {run.path}: {run.core.kept}")
+            report(f"note: {run.path}: {os.fsdecode(run.core.kept)}")
     return runs

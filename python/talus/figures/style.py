@@ -55,11 +55,11 @@ CROSS = {"color": "#000000", "linestyle": "none", "marker": "x", "markersize": 4
 
 
 def curve_style(k: int, symbols: bool = True) -> dict[str, Any]:
-    """Returns the keywords of `Axes.plot` for curve k, counted from 0."""
-    k %= len(COLOURS)
-    look: dict[str, Any] = {"color": COLOURS[k], "linestyle": DASHES[k]}
+    """Returns the keywords of `Axes.plot` for curve k, counted from 0; those of 64 curves differ."""
+    colour, form = COLOURS[k % len(COLOURS)], (k + 3 * (k // len(COLOURS))) % len(DASHES)
+    look: dict[str, Any] = {"color": colour, "linestyle": DASHES[form]}
     if symbols:
-        look |= {"marker": SYMBOLS[k], "markerfacecolor": "white" if OPEN[k] else COLOURS[k]}
+        look |= {"marker": SYMBOLS[form], "markerfacecolor": "white" if OPEN[form] else colour}
     return look
 
 
@@ -72,6 +72,7 @@ def styled(style: Any = None) -> Iterator[None]:
         matplotlib.rcParams.update(SETTINGS)
         if style is not None:
             matplotlib.style.use(style)
+            matplotlib.rcParams.update({"figure.autolayout": False, "figure.constrained_layout.use": False})  # arrange() does it
         yield
 
 
@@ -95,7 +96,7 @@ WORDS = {"ΔV/V": "$ΔV/V$", "Δy/y": "$Δy/y$", "Q/P": "$Q/P$", "z, ": "$z$, "}
 
 def as_math(text: str) -> str:
     """Returns a text with its symbols set as in formulas, "ν_max" or "p_o", unless it has formulas already."""
-    if "$" in text:
+    if "$" in text.replace(r"\$", ""):
         return text
     for word, formula in WORDS.items():
         text = text.replace(word, formula)

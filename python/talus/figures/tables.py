@@ -56,6 +56,11 @@ def short_text(value: float) -> str:
     return fixed if len(fixed) <= len(scientific) else scientific
 
 
+def literal(text: str) -> str:
+    """Returns a text that matplotlib shows as it is, without formulas."""
+    return text.replace("$", r"\$")
+
+
 def csv_text(table: Table) -> str:
     """Returns the names of the columns and a line for each row, with the digits of short_text. Blocks are separated by an
     empty line, which readers of CSV skip."""

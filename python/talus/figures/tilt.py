@@ -11,7 +11,8 @@ from talus.figures.angles import Estimator, estimators_of
 from talus.figures.data import Data, GroupTable, Wanted, reading, runs_text, shows_paper
 from talus.figures.groups import Group
 from talus.figures.means import SAME_ANGLE, Abscissa, Series, mean_columns, run_curve, series_of, shown_series
-from talus.figures.panels import Key, Page, arrange, band, draw_curves, has_numbers, key_of_curves, mark_panels, panels, points_with_errors, set_range
+from talus.figures.panels import (Key, Page, arrange, band, begin_at_zero, draw_curves, has_numbers, key_of_curves, mark_panels, panels,
+                                  points_with_errors, set_range)
 from talus.figures.runs import AnalysedRun, quantities
 from talus.figures.style import AXIS, COLOURS, CROSS, LAW, MARK, as_math, curve_style, letter, set_title
 from talus.figures.tables import Column, Table, column, short_text
@@ -119,7 +120,7 @@ def draw_over_sine(data: Data, page: Page, function: Callable[[np.ndarray], np.n
     end = 1.05 * function(np.radians(largest_angle(data)))
     axes[0].plot([0, end], [0, end], **LAW)
     axes[0].set_xlim(0, end)
-    axes[0].set_ylim(0)
+    begin_at_zero(axes[0], np.concatenate([group.table["ratio"] for group in data.groups]))
     set_title(axes[0], "x", titles[0])
     set_title(axes[0], "y", titles[1])
     return arrange(axes, key, page=page)
@@ -237,7 +238,7 @@ def volume_strain(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     estimators = estimators_of([run for group in periodic for run in group.runs])
     data.facts["estimators"] = [each.label for each in estimators]
     for added, group in zip(data.groups, periodic):
-        added.facts["theta_d"] = theta_d_table("theta_d-" + group.name, group.runs, estimators)
+        added.facts["theta_d"] = theta_d_table("theta_d-" + added.table.name, group.runs, estimators)
         data.tables.append(added.facts["theta_d"])
     data.describe_means(wanted)
     return data

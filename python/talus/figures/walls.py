@@ -8,12 +8,12 @@ from matplotlib.figure import Figure
 
 from talus.ensemble import mean_of
 from talus.figures.data import Data, Wanted, rounded, runs_text, shown_frames, shows_paper
-from talus.figures.groups import Group
+from talus.figures.groups import Group, parts_by_length
 from talus.figures.means import mean_rows
-from talus.figures.panels import Key, Page, arrange, panels, points_with_errors
+from talus.figures.panels import Key, Page, arrange, begin_at_zero, panels, points_with_errors
 from talus.figures.runs import AnalysedRun
 from talus.figures.style import LAW, as_math, curve_style, set_title
-from talus.figures.tables import Table, column
+from talus.figures.tables import Table, column, literal
 from talus.paper import WALL_COEFFICIENT, wall_law
 
 
@@ -32,7 +32,7 @@ def wall_stress(groups: Sequence[Group], wanted: Wanted) -> Data | None:
                 f"{runs_text(len(runs))}, error bars: standard errors over these runs, none for a single run.", runs=list(runs))
     edges = runs[0].values("sections/edge")
     table = Table("", [column("x", "D", "middle of the section, from the upper wall downslope", 0.5 * (edges[1:] + edges[:-1]))])
-    shown = [frames for frames in shown_frames(runs, wanted.at, ("0", "10", "repose")) if len(frames.runs) == len(runs)]
+    shown = [frames for frames in shown_frames([runs], wanted.at, ("0", "10", "repose"))[0] if len(frames.runs) == len(runs)]
     for frames in shown:
         mean, error = mean_rows([run.values("sections/sigma_xx")[k] / mean_weight(run) for run, k in zip(runs, frames.frames)])
         name = "sigma_xx_" + frames.name
@@ -41,7 +41,7 @@ def wall_stress(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     data.caption += f" Shown {', '.join(frames.text for frames in shown)}."
     data.tables = [table]
     data.facts = {"shown": [(frames.name, frames.label) for frames in shown], "length": runs[0].length,
-                  "bed": f"{group.label} ({runs_text(len(runs))})"}
+                  "bed": f"{literal(group.label)} ({runs_text(len(runs))})"}
     return data
 
 
@@ -84,25 +84,39 @@ def mean_depth(run: AnalysedRun) -> float:
     return float(run.series("packing/volume")[run.repose] / run.core.diameter**2 / run.length)
 
 
+@dataclass
+class WallSeries:
+    """Beds between walls that differ only in their length."""
+
+    name: str  #: what differs from other series: "μ = 0.2"; may be empty for a single one
+    rows: slice  #: of the table
+    fit: WallFit
+    depth: float  #: mean height of the beds, D
+
+
 def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
     data = Data()
-    rows, depths, ratios, walled = [], [], [], []
-    for group in groups:
-        # Sparse rows may leave none in the last 0.5 deg.
-        runs = group.select(lambda run: run.failed and not np.isnan(run.number("packing/failure_ratio")))
-        if group.periodic or not runs:
-            continue
-        walled.append(group)
-        heights = [mean_depth(run) for run in runs]
-        each = [run.number("packing/failure_ratio") for run in runs]
-        spread = np.sqrt(np.mean([run.number("packing/failure_ratio_spread") ** 2 for run in runs]))
-        mean = mean_of(each)
-        rows.append((runs[0].length, len(runs), mean.mean, mean.error, spread, mean.error if len(runs) > 1 else spread, np.mean(heights)))
-        depths += [height / run.length for height, run in zip(heights, runs)]
-        ratios += each
-        data.runs += runs
-    if not rows:
+    rows: list[tuple[float, ...]] = []
+    series: list[WallSeries] = []
+    # Sparse rows may leave none in the last 0.5 deg.
+    of_group = {id(group): group.select(lambda run: run.failed and not np.isnan(run.number("packing/failure_ratio"))) for group in groups}
+    walled = [group for group in groups if not group.periodic and of_group[id(group)]]
+    if not walled:
         return None
+    for name, part in parts_by_length(walled):
+        first, depths, ratios = len(rows), [], []
+        for group in part:
+            runs = of_group[id(group)]
+            heights = [mean_depth(run) for run in runs]
+            each = [run.number("packing/failure_ratio") for run in runs]
+            spread = np.sqrt(np.mean([run.number("packing/failure_ratio_spread") ** 2 for run in runs]))
+            mean = mean_of(each)
+            rows.append((runs[0].length, len(runs), mean.mean, mean.error, spread, mean.error if len(runs) > 1 else spread, np.mean(heights)))
+            depths += [height / run.length for height, run in zip(heights, runs)]
+            ratios += each
+            data.runs += runs
+        height = float(np.mean([row[-1] for row in rows[first:]]))
+        series.append(WallSeries(name, slice(first, len(rows)), fit_wall_law(np.array(depths), np.array(ratios)), height))
     names = (("L", "D", "length of the bed"), ("n", "1", "number of runs in the row"),
              ("ratio", "1", "(sigma_T / sigma_N) / tan(theta), mean over the last 0.5 deg before theta_c and over runs"),
              ("ratio_error", "1", "its standard error over the runs"),
@@ -110,32 +124,45 @@ def wall_ratio(groups: Sequence[Group], wanted: Wanted) -> Data | None:
              ("bar", "1", "what the error bar shows: ratio_error, or ratio_spread for a single run"),
              ("H", "D", "mean height V / L of the bed before failure"))
     data.tables = [Table("", [column(*name, values) for name, values in zip(names, np.transpose(rows))])]
-    fit, depth = fit_wall_law(np.array(depths), np.array(ratios)), float(np.mean([row[-1] for row in rows]))
+    several = len(series) > 1
+    if several:
+        numbers = [k for k, each in enumerate(series, 1) for _ in range(each.rows.start, each.rows.stop)]
+        meaning = "beds that differ only in their length: " + "; ".join(f"{k} {each.name}" for k, each in enumerate(series, 1))
+        data.tables[0].columns.append(column("series", "1", meaning, numbers))
     paper = shows_paper(walled, wanted)
     its = ", and with the paper's 2.5" if paper else ""
+    fits = "; ".join(f"{each.fit} (standard error{f'; {each.name}' if several else ''})" for each in series)
+    means = ", ".join(rounded(each.depth, 1) for each in series)
     data.caption = (
         "(sigma_T / sigma_N) / tan(theta) of beds between walls over their length L, mean over the last 0.5 deg before theta_c and "
-        f"over the runs of each length ({runs_text(len(ratios))} in total). Error bars: standard error over the runs; for a single "
-        "run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted to all runs by least "
-        f"squares, k_L - k_0 = {fit} (standard error){its}. H is the mean height V/L of each bed before failure, as in the paper's "
-        f"integral over the depth; the lines use its mean, H = {rounded(depth, 1)} D.")
-    data.facts = {"k": fit.k, "k_text": str(fit), "depth": depth, "paper": paper}
+        f"over the runs of each length ({runs_text(len(data.runs))} in total). Error bars: standard error over the runs; for a single "
+        "run the standard deviation within the 0.5 deg. Lines: 1 - (k_L - k_0)/3 H/L (paper, Eq. 15), fitted to all runs "
+        f"{'of a series ' if several else ''}by least squares, k_L - k_0 = {fits}{its}. H is the mean height V/L of each bed before "
+        f"failure, as in the paper's integral over the depth; the lines use its mean, H = {means} D.")
+    data.facts = {"series": series, "paper": paper}
     return data
 
 
 def draw_wall_ratio(data: Data, page: Page) -> Figure:
     axes = panels(page, 1, row=0.75 * page.width)
-    table, key = data.tables[0], Key()
+    table, key, series = data.tables[0], Key(), data.facts["series"]
     at = np.linspace(0.8 * table["L"].min(), 1.1 * table["L"].max(), 200)
-    key.line("beds between walls", **curve_style(0) | {"linestyle": "none"})
-    key.line(f"fit, $k_L − k_0$ = {data.facts['k_text']}", **curve_style(1, symbols=False))
-    axes[0].plot(at, wall_law(data.facts["k"], data.facts["depth"] / at), **curve_style(1, symbols=False))
+    for k, each in enumerate(series):
+        law = f"$k_L − k_0$ = {each.fit}"
+        line, points = curve_style(k if len(series) > 1 else 1, symbols=False), curve_style(k) | {"linestyle": "none"}
+        if len(series) > 1:
+            key.line(as_math(f"{each.name}: ") + law, **curve_style(k))
+        else:
+            key.line("beds between walls", **points)
+            key.line(f"fit, {law}", **line)
+        axes[0].plot(at, wall_law(each.fit.k, each.depth / at), **line)
+        points_with_errors(axes[0], table["L"][each.rows], table["ratio"][each.rows], dy=table["bar"][each.rows], **points)
     if data.facts["paper"]:
         key.line(f"paper, $k_L − k_0$ = {WALL_COEFFICIENT}", **LAW)
-        axes[0].plot(at, wall_law(WALL_COEFFICIENT, data.facts["depth"] / at), **LAW)
-    points_with_errors(axes[0], table["L"], table["ratio"], dy=table["bar"], **curve_style(0) | {"linestyle": "none"})
+        depth = float(np.mean([each.depth for each in series]))
+        axes[0].plot(at, wall_law(WALL_COEFFICIENT, depth / at), **LAW)
     axes[0].set_xlim(at[0], at[-1])
-    axes[0].set_ylim(0)
+    begin_at_zero(axes[0], table["ratio"] - np.nan_to_num(table["bar"]))
     set_title(axes[0], "x", "$L$", "D")
     set_title(axes[0], "y", r"($σ_T / σ_N$) / $\mathrm{tan}\ θ$ at $θ_c$")
     return arrange(axes, key, page=page)

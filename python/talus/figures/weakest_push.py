@@ -1,7 +1,6 @@
 """Report and figure of `talus perturb`: the weakest push that starts an avalanche, over the distance to failure."""
 
 import math
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,8 +15,8 @@ from talus.figures.groups import Group, group_runs
 from talus.figures.runs import AnalysedRun, read_runs
 from talus.figures.tables import Table, column, csv_text
 from talus.optional import need
+from talus.page import write_text
 from talus.perturb import STRONGEST, WEAKEST, Bracket, State, bracket, stored_states
-from talus.simulation import _extension
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -60,13 +59,6 @@ def table_of_states(runs: Sequence[AnalysedRun], states: Sequence[Sequence[State
     rows = [state_row(run, state) for run, some in zip(runs, states) for state in some]
     values = np.array(rows, dtype=float).reshape(-1, len(columns)).T
     return Table("", [column(*each, found) for each, found in zip(columns, values)])
-
-
-def write_text(path: Path, text: str) -> None:
-    """Writes a file, which appears complete or not at all."""
-    part = path.with_name(path.name + ".talus.part")
-    part.write_text(text, encoding="utf-8")
-    _extension()._publish_file(os.fsencode(part), os.fsencode(path))
 
 
 def push_text(strength: float) -> str:
