@@ -32,7 +32,7 @@ TEST(Leftovers, are_removed_whatever_they_were_to_become) {
   for (const char* name : {"map.png.talus.part", "run.h5.talus.part"}) write(folder.path(name));
   for (const char* name : {"fig04-shear-stress.talus.part", "fig05-empty.talus.part"})
     fs::create_directory(folder.path(name));
-  for (const char* name : {"fig04-shear-stress.gp", "fig04-shear-stress.csv.talus.part"})
+  for (const char* name : {"fig04-shear-stress.pdf", "fig04-shear-stress.csv.talus.part"})
     write(folder.path("fig04-shear-stress.talus.part/" + std::string(name)));
   clear_leftovers(folder.path().string());
   EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -48,7 +48,7 @@ TEST(Leftovers, all_else_stays) {
   ASSERT_EQ(mkfifo(folder.path("fifo.talus.part").c_str(), 0600), 0);
   for (const char* name : {"map.png.talus.part", "fig04.talus.part", "fig05.talus.part"})
     fs::create_directory(folder.path(name));
-  make("fig04.talus.part/fig04.gp");
+  make("fig04.talus.part/fig04.pdf");
   make("fig04.talus.part/notes");  // marks the folder as foreign
   fs::create_directory(folder.path("fig05.talus.part/fig05-more"));
   const std::set<std::string> before = names_in(folder.path());
@@ -71,11 +71,11 @@ TEST(Leftovers, that_somebody_writes_are_none) {
   const test::TemporaryFolder folder;
   const auto file = create_locked(folder.path("map.png.talus.part"));
   const auto figure = create_locked_folder(folder.path("fig04.talus.part"));
-  write(folder.path("fig04.talus.part/fig04.gp"));
+  write(folder.path("fig04.talus.part/fig04.pdf"));
   clear_leftovers(folder.path().string());
   EXPECT_TRUE(is_named(folder.path("map.png.talus.part"), *file));
   EXPECT_TRUE(is_named(folder.path("fig04.talus.part"), *figure));
-  EXPECT_TRUE(fs::exists(folder.path("fig04.talus.part/fig04.gp")));
+  EXPECT_TRUE(fs::exists(folder.path("fig04.talus.part/fig04.pdf")));
 }
 
 TEST(Leftovers, are_left_to_who_clears_the_folder_already) {
