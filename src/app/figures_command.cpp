@@ -76,7 +76,7 @@ void add_figures_command(CLI::App& app) {
       ->add_option(
           "--add", arguments->additions,
           "paper: its values for other beds too; spread: deviations and single runs of more than two "
-          "groups; svg: a third file")
+          "groups; svg: each figure as SVG too")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(one_of({"paper", "spread", "svg"}));

@@ -171,8 +171,7 @@ void remove_figure_folder(const std::string& path) {
   std::error_code unknown;
   const std::vector<std::string> files = names_in(path, unknown);
   const auto is_of_figure = [&](const std::string& file) {
-    const std::string own = (fs::path(path) / file).string();  // links point to files in memory
-    return file.starts_with(name) && (is_ours(own, S_IFREG) || is_ours(own, S_IFLNK));
+    return file.starts_with(name) && is_ours((fs::path(path) / file).string(), S_IFREG);
   };
   if (!std::ranges::all_of(files, is_of_figure)) return;
   for (const std::string& file : files) ::unlink((fs::path(path) / file).c_str());

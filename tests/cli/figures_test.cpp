@@ -122,7 +122,7 @@ TEST_F(Figures, of_ensemble_h5_alone_are_those_of_its_runs) {
   for (const auto& [input, output] :
        {std::pair{"moved/ensemble.h5", "of-file"}, {"moved", "of-folder"}, {"e", "of-analyses"}}) {
     const Outcome alone =
-        run_talus({"figures", input, "-o", output, "--only", "4,14,force-chains"}, folder_.path());
+        run_talus({"figures", input, "-o", output, "--only", "4,14,force-chains", "-q"}, folder_.path());
     ASSERT_EQ(alone.exit_code, 0) << alone.err;
     EXPECT_EQ(alone.err,
               "left out: force-chains needs a run that has failed; the input has only values of members, "
@@ -243,8 +243,8 @@ TEST_F(Figures, with_unknown_names_are_refused_with_the_nearest) {
 
 TEST_F(Figures, of_a_wildcard_are_of_the_runs_in_it) {
   ASSERT_EQ(run_talus({"dump", "bed.h5", "--at", "1", "-o", "problem.h5"}, folder_.path()).exit_code, 0);
-  const Outcome all =
-      run_talus({"figures", "bed.h5", "bed.toml", "problem.h5", "-o", "out", "--only", "4"}, folder_.path());
+  const Outcome all = run_talus(
+      {"figures", "bed.h5", "bed.toml", "problem.h5", "-o", "out", "--only", "4", "-q"}, folder_.path());
   ASSERT_EQ(all.exit_code, 0) << all.err;
   EXPECT_EQ(all.err, "left out: bed.toml is not a run\nleft out: problem.h5 is not a run\n");
   const Outcome none = run_talus({"figures", "bed.toml", "problem.h5", "-o", "none"}, folder_.path());

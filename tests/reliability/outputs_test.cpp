@@ -238,7 +238,7 @@ TEST_F(Outputs, what_killed_commands_left_is_removed_by_any_that_writes_there) {
     const std::string place = writer.of_folder ? "place/" + writer.output : "place";
     fs::create_directories(path(place) + "/fig99-other.talus.part");
     write_file(folder_, place + "/other.mp4.talus.part", "half a movie");
-    write_file(folder_, place + "/fig99-other.talus.part/fig99-other.gp", "half a script");
+    write_file(folder_, place + "/fig99-other.talus.part/fig99-other.pdf", "half a figure");
     write_file(folder_, place + "/mine.part", "not of Talus");
     const Outcome outcome = talus(with_output(writer.words, "place/" + writer.output));
     EXPECT_EQ(outcome.exit_code, done) << outcome.err;

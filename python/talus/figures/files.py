@@ -42,7 +42,7 @@ def earlier_files(folder: Path, recipe: Recipe) -> list[str]:
     except (OSError, ValueError, KeyError, TypeError):
         return []
     mine = [file for file in tables if file.startswith(f"{name}-") and file.endswith(".csv") and "/" not in file]
-    return [*mine, *(f"{name}.{ending}" for ending in ("csv", "pdf", "svg", "png", "gp", "json"))]
+    return [*mine, *(f"{name}.{ending}" for ending in ("csv", "pdf", "svg", "png", "json"))]
 
 
 def remove_files(folder: Path, names: Sequence[str]) -> None:

@@ -161,7 +161,7 @@ def arrange(axes: Sequence[Axes], key: Key | None = None, *, page: Page, above: 
     figure = axes[0].figure
     if page.ax is not None:
         if key is not None and key.labels:
-            page.ax.legend(key.handles, key.labels)
+            page.ax.legend(key.handles, key.labels, borderaxespad=0.8)  # inside the frame
         return figure
     width, height = (side / CM for side in figure.get_size_inches())
     top = key.draw(figure, width) if key is not None else 0.0
