@@ -69,7 +69,6 @@ constexpr ValueWord value_words[] = {
     {"--branch", "RUN"},
     {"--behind", "RUN|FOLDER"},
     {"--screenshot", "FILE"},
-    {"--select", "CONDITION"},
     {"--grain", "ID"},
     {"--set", "KEY=VALUE"},
     {"--vary", "KEY=VALUE,..."},

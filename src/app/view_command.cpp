@@ -49,7 +49,6 @@ struct ViewArguments {
   std::string second_map;           ///< map of the second view
   std::string second_minus;         ///< angle of the frame subtracted in the second view
   std::string link;                 ///< empty: chosen from the runs
-  std::string select;               ///< condition; empty: none
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: scale of the display
@@ -117,13 +116,6 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
     model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
   }
   show_second_view(model, arguments);
-  if (arguments.select.empty()) return;
-  model.state.selecting.condition = arguments.select;
-  model.update(0.0);
-  model.select_by_condition();
-  const std::string& error = model.state.selecting.error;
-  if (!error.empty()) throw Error(ExitCode::usage, "--select " + error);
-  model.state.panel_asked = "select";
 }
 
 /// Returns the rule for a picture of the window: it must not replace any file shown in the window.
@@ -341,8 +333,6 @@ void add_view_command(CLI::App& app) {
                    "[tilt, or time if the tilt of both follows a programme]")
       ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
       ->needs(second_view);
-  command->add_option("--select", arguments->select,
-                      "Select the grains that satisfy a condition, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

@@ -299,9 +299,9 @@ constexpr Key all_keys[] = {
      "branch: continue from the frame shown; undo the last command",
      {'N', 'U'},
      [](Gui& gui, ImWchar key) { key == 'N' ? branch_here(gui) : go_back(gui); }},
-    {"R M A S F G",
-     "unfold run, map, act, select, files, grain; tab: from field to field",
-     {'R', 'M', 'A', 'S', 'F', 'G'},
+    {"R M A F G",
+     "unfold run, map, act, files, grain; tab: from field to field",
+     {'R', 'M', 'A', 'F', 'G'},
      [](Gui& gui, ImWchar key) {
        gui.model.state.show_controls = true;
        gui.panel_asked = group_of_key(key);

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <fmt/core.h>
+#include <utility>
 
 #include "core/trigonometry.h"
 #include "gui/actions.h"
@@ -66,6 +68,19 @@ void choose_colours(Gui& gui) {
     map.colours = render::reversed(*map.colours);
 }
 
+/// Selects the grains whose value on the map shown lies within the range of its bar, ends included.
+void select_within_range(Gui& gui) {
+  const pictures::MapSettings& map = gui.model.state.map;
+  const view::View shown = gui.model.first();
+  (void)shown.annotated_map();  // values are those of the map drawn last
+  const std::vector<double>& values = shown.values().values;
+  std::vector<Index> found;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (*map.range_low <= values[i] && values[i] <= *map.range_high) found.push_back(static_cast<Index>(i));
+  show_message(gui, fmt::format("Grains selected: {}.", found.size()));
+  gui.model.select(std::move(found));
+}
+
 /// Sets the ends of the bar, overriding those of the map.
 void choose_range(Gui& gui) {
   pictures::MapSettings& map = gui.model.state.map;
@@ -90,6 +105,9 @@ void choose_range(Gui& gui) {
   ImGui::SameLine();
   named_number(gui, "range high", "", *map.range_high, "%.3g");
   ImGui::PopItemWidth();
+  if (named_button(gui, "select range", "Select the grains within it",
+                   "those whose value on this map lies between the ends of the bar"))
+    select_within_range(gui);
 }
 
 /// Edits an optional angle (rad): a checkbox, which sets it to that of the frame shown, and a slider.

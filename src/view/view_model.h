@@ -2,8 +2,6 @@
 /// The interactive view without its widgets: a run file that is replayed or a run that is computed, the frame
 /// shown, the properties of the selected grain, and the curves next to its maps. It provides two views.
 
-#include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,7 +14,6 @@
 #include "view/frame_series.h"
 #include "view/frame_source.h"
 #include "view/ghost.h"
-#include "view/grain_quantities.h"
 #include "view/history.h"
 #include "view/inspection.h"
 #include "view/live_run.h"
@@ -199,20 +196,10 @@ class ViewModel {
   /// them.
   void select(std::vector<Index> grains);
   void select(const ContactKey& contact);
-  /// Combines the current selection with the grains found, by state.selecting.mode; ends the selection by
-  /// condition in each frame.
-  void select_found(const std::vector<Index>& found);
-  /// Selects the grains that satisfy state.selecting.condition in the frame shown; an empty condition finds
-  /// none. With in_each_frame they replace the selection. An error in the condition is put into
-  /// state.selecting.error, and the selection stays.
-  void select_by_condition();
   /// Returns all selected grains that exist in the frame shown, sorted by id.
   std::vector<Index> selected_grains() const;
   /// Calls find_contact for the frame shown.
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
-  /// Returns the values of all grains of the frame shown, indexed by id, with the settings of the first map:
-  /// measured from the same frame, over the same length. Computed once for a frame and settings.
-  const std::vector<double>& grain_values(const analysis::GrainNumber& number);
 
   /// Returns the properties of the selected contact in the frame shown; nothing if none is selected.
   std::optional<ContactInspection> contact_inspection() const;
@@ -221,10 +208,6 @@ class ViewModel {
   /// Maximum number of grains whose trails are drawn; if more are selected, every second, third, ... has a
   /// trail.
   static constexpr std::size_t max_trails = 500;
-
-  /// Writes all quantities of the selected grains as grains_table to a new file. Reports success or the error
-  /// in state.message.
-  void write_selected(const std::string& path);
 
   /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
   /// for a frame and a selection.
@@ -313,8 +296,6 @@ class ViewModel {
   std::shared_ptr<const Frame> reference_at(double tilt);
 
   // view_selection.cpp
-  /// Returns the source for conditions and tables of grains; if `measured`, with the earlier frame.
-  analysis::GrainSource grain_source(bool measured);
   /// Returns the marks of the selection in the frame shown, without the inspected grain.
   Overlay selection_marks() const;
   /// Returns mu between grains at a step, as set by commands.
@@ -410,19 +391,8 @@ class ViewModel {
     std::shared_ptr<const Frame> stored, mapped;
     double l_min = 0.0;
   } reference_;  ///< frame that is subtracted from the frame shown
-  struct GrainValuesCache {
-    std::shared_ptr<const Frame> frame;
-    pictures::OverloadRule rule;
-    std::optional<double> since;
-    double length = 0.0;
-    std::optional<analysis::FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
-    std::shared_ptr<const Frame> earlier;
-    std::map<std::string_view, std::vector<double>> values;
-  } grain_values_;
   MapCache map_, second_map_;
-  std::shared_ptr<const Frame> first_frame_;      ///< first frame of the run; null until requested
-  std::shared_ptr<const Frame> condition_frame_;  ///< frame in which the condition was last evaluated
-  double aspect_ = 0.0;                           ///< aspect of the picture requested last; 0: none
+  double aspect_ = 0.0;  ///< aspect of the picture requested last; 0: none
 };
 
 }  // namespace talus::view

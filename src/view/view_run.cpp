@@ -127,7 +127,6 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   commands_.clear();
   bookmarks_.clear();
   bookmarks_unread_.clear();
-  first_frame_.reset();
   show(newest_);
   take_all_recorded();
 }
@@ -251,7 +250,6 @@ bool ViewModel::follow_frames(const pictures::OverloadRule& rule) {
 }
 
 void ViewModel::take_all_recorded() {
-  first_frame_.reset();
   series_.reset();
   frames_ = recorded_ = std::make_shared<RecordedFrames>();
   recorded_->add(live_->recorded_frames(0));
@@ -412,7 +410,6 @@ bool ViewModel::update(double seconds) {
     changed = true;
   }
   changed = follow_frames(first().settings()) || changed;
-  if (state.selecting.in_each_frame && condition_frame_ != frame_) select_by_condition();
   changed = follow_history() || changed;
   follow_grain();
   state.camera = centred(clamped(state.camera, bed_, mean_diameter()), first().part(aspect_));

@@ -41,17 +41,11 @@ struct PlotOptions {
 
 /// Selection in addition to the inspected grain, and how it is made.
 struct SelectingState {
-  Selection selection;                           ///< two or more grains, or a contact; empty: neither
-  SelectionMode mode = SelectionMode::replace;   ///< applies to a box, a lasso or a condition
-  std::string condition;                         ///< text being edited, or last applied
-  std::string error;                             ///< why the condition selects nothing
-  bool in_each_frame = false;                    ///< whether the condition selects again in each frame
-  std::string quantity = "gamma_neighbourhood";  ///< quantity whose histogram is shown
-  std::string table_path = "selected.csv";       ///< path of the table to write
-  bool trails = false;                           ///< paths of the selected grains up to the frame shown
-  bool follow = false;                           ///< whether the picture stays centred on the inspected grain
-  std::vector<Vec2> outline;                     ///< outline being drawn, px of the window; empty: none
-  bool outline_is_box = false;                   ///< whether it is a box between its first and its last point
+  Selection selection;          ///< two or more grains, or a contact; empty: neither
+  bool trails = false;          ///< paths of the selected grains up to the frame shown
+  bool follow = false;          ///< whether the picture stays centred on the inspected grain
+  std::vector<Vec2> outline;    ///< outline being drawn, px of the window; empty: none
+  bool outline_is_box = false;  ///< whether it is a box between its first and its last point
 };
 
 /// Grain held by the mouse.

@@ -1,4 +1,4 @@
-/// Finding grains and contacts by position, and combining selections.
+/// Finding grains and contacts by position.
 
 #include "view/selection.h"
 
@@ -13,14 +13,11 @@ const RunStatics statics = example::bed_statics();
 const Frame frame = example::bed_frame(10.0, 2);
 const BedFrame bed{frame, statics};
 
-TEST(Selected, sets_are_combined) {
-  const std::vector<Index> before = {2, 5, 7}, found = {5, 9};
-  EXPECT_EQ(combined(before, found, SelectionMode::replace), found);
-  EXPECT_EQ(combined(before, found, SelectionMode::add), (std::vector<Index>{2, 5, 7, 9}));
-  EXPECT_EQ(combined(before, found, SelectionMode::remove), (std::vector<Index>{2, 7}));
-  EXPECT_EQ(combined(before, found, SelectionMode::common), (std::vector<Index>{5}));
+TEST(Selected, a_grain_is_added_or_removed) {
+  const std::vector<Index> before = {2, 5, 7};
   EXPECT_EQ(toggled(before, 5), (std::vector<Index>{2, 7}));
   EXPECT_EQ(toggled(before, 6), (std::vector<Index>{2, 5, 6, 7}));
+  EXPECT_EQ(toggled({}, 3), (std::vector<Index>{3}));
 }
 
 TEST(Selected, grains_are_within_a_box_by_their_centres) {
