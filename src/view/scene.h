@@ -56,8 +56,7 @@ render::FrameView draw_change(const pictures::PictureSeries& series, const Frame
 render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
                             const BedFrame& bed);
 
-/// Colours of the selection and of its trails.
-inline constexpr render::Colour selection_colour{0, 90, 220}, trail_colour{0, 60, 150};
+inline constexpr render::Colour selection_colour{0, 90, 220};
 
 /// Marks drawn over the map of a frame.
 struct Overlay {
@@ -68,8 +67,6 @@ struct Overlay {
   std::vector<Index> grains;              ///< grains marked with a thin ring
   std::optional<Index>
       contact;  ///< contact of the frame: a ring about its point, and a line between its bodies
-  /// Positions of grains from frame to frame, m; in a periodic bed they continue beyond its edge.
-  std::vector<std::vector<Vec2>> trails;
 };
 
 /// Returns the diameters of the circles for a neighbourhood that has grown to `largest`: round steps, and the

@@ -31,13 +31,6 @@ std::vector<Index> toggled(std::vector<Index> grains, Index grain) {
   return grains;
 }
 
-std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (grains.size() + most - 1) / most);
-  std::vector<Index> some;
-  for (std::size_t k = 0; k < grains.size(); k += stride) some.push_back(grains[k]);
-  return some;
-}
-
 std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outline) {
   std::vector<Index> grains;
   if (outline.size() < 3) return grains;

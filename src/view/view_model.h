@@ -135,12 +135,6 @@ class ViewModel {
   /// Returns whether the tilt follows a programme, in which it may fall and be held.
   bool goes_by_time() const { return pictures_.goes_by_time; }
   std::span<const TimelineEvent> events() const { return events_; }
-  /// Returns the bookmark of the frame shown or, in a live run that is followed, of the frame recorded last.
-  /// Null if there is none.
-  const Bookmark* bookmark() const;
-  /// Sets the bookmark of that frame, or removes it if there is no note, and writes the file next to the run.
-  /// An error is reported in state.message, and nothing is changed.
-  void set_bookmark(const std::optional<std::string>& note);
   /// Goes to a frame. A live run continues to compute while the frame is shown, until it is followed again.
   /// Does nothing if there is no frame yet.
   void go_to(std::size_t frame);
@@ -205,10 +199,6 @@ class ViewModel {
   std::optional<ContactInspection> contact_inspection() const;
   /// Returns its contact_plots, over the axis of all plots; frames are added as they are read.
   std::vector<Plot> contact_history() const;
-  /// Maximum number of grains whose trails are drawn; if more are selected, every second, third, ... has a
-  /// trail.
-  static constexpr std::size_t max_trails = 500;
-
   /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
   /// for a frame and a selection.
   const Inspection* inspection() { return inspect_selected(first()); }
@@ -275,11 +265,6 @@ class ViewModel {
   // view_events.cpp: its events.
   void find_events();
   std::optional<std::size_t> place_of(Landmark landmark) const;
-  void open_bookmarks();
-  /// Returns the path of the bookmark file next to the run; empty if the run has no file.
-  std::string bookmarks_file() const;
-  /// Returns the frame that a bookmark would mark; nothing if there is no frame.
-  std::optional<std::size_t> marked_frame() const;
 
   // view_plots.cpp: recompute its curves, from its records and from its frames.
   void plot_rows();
@@ -298,8 +283,7 @@ class ViewModel {
   // view_selection.cpp
   /// Returns the marks of the selection in the frame shown, without the inspected grain.
   Overlay selection_marks() const;
-  /// Returns mu between grains at a step, as set by commands.
-  /// Reads the data for trails and for the selected contact; returns whether any have arrived.
+  /// Reads the history of the selected contact; returns whether any of it has arrived.
   bool follow_history();
   /// Moves the camera to the inspected grain, if requested.
   void follow_grain();
@@ -368,9 +352,6 @@ class ViewModel {
   std::vector<Command> commands_;
   std::vector<ObservableRow> file_rows_;  ///< for a replay with commands: rows_up_to the end of the run
   std::vector<TimelineEvent> events_;
-  std::vector<Bookmark> bookmarks_;
-  std::string bookmarks_unread_;  ///< why the bookmarks next to the run could not be read; they must not be
-                                  ///< overwritten
 
   std::unique_ptr<FrameSeries> series_;
   std::unique_ptr<HistorySeries> history_;  ///< null if nothing is requested

@@ -78,7 +78,6 @@ void ViewModel::open_replay() {
   commands_ = file.commands();
   if (const World& end = file.checkpoint().world; !commands_.empty())
     file_rows_ = session::rows_up_to(file.all_observables(), end.step, end.time, end.tilt);
-  open_bookmarks();
   // The bed is highest at its beginning or at its end.
   bed_ = pictures::bed_extent(statics());
   pictures::extend(bed_, {*frames_->read(frame_count() - 1), statics()});
@@ -125,8 +124,6 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   ended_ = false;
   events_.clear();
   commands_.clear();
-  bookmarks_.clear();
-  bookmarks_unread_.clear();
   show(newest_);
   take_all_recorded();
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "runs/event_catalogue.h"
@@ -13,34 +12,18 @@ Overlay ViewModel::selection_marks() const {
   for (const Index grain : selection.grains)
     if (grain < frame_->grain_count()) marks.grains.push_back(grain);
   if (selection.contact) marks.contact = contact_of_key(frame_->contacts, *selection.contact);
-  if (!state.selecting.trails || !history_) return marks;
-  marks.trails.resize(history_->question().grains.size());
-  const double period = statics().periodic ? statics().length : 0.0;
-  for (const HistoryInstant& instant : history_->instants()) {
-    if (instant.step > frame_->step) break;
-    for (std::size_t i = 0; i < marks.trails.size(); ++i) {
-      const GrainPlace& place = instant.places[i];
-      if (std::isfinite(place.x)) marks.trails[i].push_back({place.x + place.image * period, place.y});
-    }
-  }
   return marks;
 }
 
 bool ViewModel::follow_history() {
-  const SelectingState& selecting = state.selecting;
-  Selection question = {{}, selecting.selection.contact};
-  if (selecting.trails) {
-    question.grains = selecting.selection.grains;
-    if (question.grains.empty() && state.selected) question.grains = {*state.selected};
-    question.grains = thinned(question.grains, max_trails);
-  }
-  if (question == Selection{} || frame_count() == 0) {
+  const std::optional<ContactKey>& contact = state.selecting.selection.contact;
+  if (!contact || frame_count() == 0) {
     history_.reset();
     return false;
   }
   if (!history_)
     history_ = std::make_unique<HistorySeries>([from = frames_](std::size_t k) { return from->read(k); });
-  history_->set_question(question, frame_count());
+  history_->set_contact(*contact, frame_count());
   return history_->collect_ready();
 }
 
@@ -51,7 +34,7 @@ std::optional<ContactInspection> ViewModel::contact_inspection() const {
 }
 
 std::vector<Plot> ViewModel::contact_history() const {
-  if (!history_ || !history_->question().contact) return {};
+  if (!history_) return {};
   const double weight = runs::mean_grain_mass(all_statics_) * statics().gravity;
   return contact_plots(history_->instants(), weight, abscissa());
 }

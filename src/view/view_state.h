@@ -42,7 +42,6 @@ struct PlotOptions {
 /// Selection in addition to the inspected grain, and how it is made.
 struct SelectingState {
   Selection selection;          ///< two or more grains, or a contact; empty: neither
-  bool trails = false;          ///< paths of the selected grains up to the frame shown
   bool follow = false;          ///< whether the picture stays centred on the inspected grain
   std::vector<Vec2> outline;    ///< outline being drawn, px of the window; empty: none
   bool outline_is_box = false;  ///< whether it is a box between its first and its last point
@@ -69,7 +68,6 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
-  bool bookmark_asked = false;                      ///< whether a key has requested the note of a bookmark
   bool discard_asked = false;                       ///< whether the user was asked to discard an unsaved run
   std::string panel_asked;                          ///< panel to open with the next picture
   HeldBar held_bar;                                 ///< drag of the legend's bar
@@ -81,9 +79,8 @@ struct ViewState {
   float picture_share =
       0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots
   Theme theme = Theme::light;
-  std::string bookmark_note;  ///< note being edited
-  std::string announcement;   ///< report on a run that has failed or ended, until dismissed
-  std::string message;        ///< latest message: a file written, an error
+  std::string announcement;  ///< report on a run that has failed or ended, until dismissed
+  std::string message;       ///< latest message: a file written, an error
 
   std::optional<GrainDrag> drag;
 

@@ -132,8 +132,6 @@ TEST_F(Replay, the_picture_follows_a_grain_until_it_is_moved) {
   gui_.key('L');
   EXPECT_FALSE(model_.state.selecting.follow) << "there is no grain to follow";
   gui_.key('n');
-  gui_.key('T');
-  EXPECT_TRUE(model_.state.selecting.trails);
   gui_.scroll("map", 4.0f);
   gui_.key('L');
   EXPECT_TRUE(model_.state.selecting.follow);

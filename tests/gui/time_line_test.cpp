@@ -30,35 +30,6 @@ TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
   }
 }
 
-TEST_F(Replay, a_frame_gets_a_bookmark_with_a_note) {
-  model_.go_to(2);
-  gui_.click("bookmark");
-  gui_.type("q: slides, f_n grows");
-  gui_.key(gui::key_enter);
-  ASSERT_NE(model_.bookmark(), nullptr);
-  EXPECT_EQ(model_.bookmark()->note, "q: slides, f_n grows");
-  EXPECT_FALSE(gui_.requests().quit) << "keys of the window are letters in the note";
-  model_.go_to(0);
-  gui_.settle();
-  gui_.click("event bookmark 0");
-  EXPECT_EQ(model_.frame_index(), 2u);
-  gui_.key('B');
-  gui_.click("remove bookmark");
-  EXPECT_EQ(model_.bookmark(), nullptr);
-  gui_.settle();
-  EXPECT_FALSE(gui_.has("event bookmark 0"));
-}
-
-TEST_F(Live, a_run_that_is_in_no_file_has_no_bookmarks) {
-  gui_.click("play");
-  ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 2; }));
-  gui_.click("time line", 0.02f);
-  gui_.key('B');
-  gui_.click("keep bookmark");
-  EXPECT_EQ(model_.bookmark(), nullptr);
-  EXPECT_NE(model_.state.message.find("Save the run first"), std::string::npos);
-}
-
 TEST_F(Replay, a_plot_answers) {
   gui_.click("plot stress", 0.86f);
   EXPECT_GE(model_.frame_index(), 3u);

@@ -55,14 +55,6 @@ TEST(Selected, the_nearest_contact_is_found) {
   EXPECT_EQ(find_contact(bed, 3.5 - statics.length, 2.0, 0.2), found) << "an image of it";
 }
 
-TEST(Selected, too_many_are_thinned) {
-  const std::vector<Index> five = {1, 3, 5, 7, 9};
-  EXPECT_EQ(thinned(five, 5), five);
-  EXPECT_EQ(thinned(five, 4), (std::vector<Index>{1, 5, 9}));
-  EXPECT_EQ(thinned(five, 2), (std::vector<Index>{1, 7}));
-  EXPECT_TRUE(thinned({}, 2).empty());
-}
-
 TEST(Selected, a_contact_is_known_by_its_key) {
   Frame sorted = frame;
   FrameContacts& c = sorted.contacts;
