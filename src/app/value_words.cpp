@@ -67,7 +67,6 @@ constexpr ValueWord value_words[] = {
     {"--style", "FILE"},
     {"--second", "RUN"},
     {"--branch", "RUN"},
-    {"--behind", "RUN|FOLDER"},
     {"--screenshot", "FILE"},
     {"--grain", "ID"},
     {"--set", "KEY=VALUE"},

@@ -14,7 +14,6 @@
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/ghost_runs.h"
 #include "app/output_files.h"
 #include "app/plot_export.h"
 #include "app/python_module.h"
@@ -41,14 +40,13 @@ struct ViewArguments {
   std::string output;
   std::vector<std::string> settings;  ///< "key=value", including the seed
   bool overwrite = false;
-  std::string at;                   ///< angle, or "repose"; empty: the first frame
-  std::string map;                  ///< empty: default of the window
-  std::optional<int> grain;         ///< selected grain
-  std::vector<std::string> behind;  ///< runs or ensembles drawn behind the curves
-  std::string second_view;          ///< run in the second view
-  std::string second_map;           ///< map of the second view
-  std::string second_minus;         ///< angle of the frame subtracted in the second view
-  std::string link;                 ///< empty: chosen from the runs
+  std::string at;            ///< angle, or "repose"; empty: the first frame
+  std::string map;           ///< empty: default of the window
+  std::optional<int> grain;  ///< selected grain
+  std::string second_view;   ///< run in the second view
+  std::string second_map;    ///< map of the second view
+  std::string second_minus;  ///< angle of the frame subtracted in the second view
+  std::string link;          ///< empty: chosen from the runs
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: scale of the display
@@ -111,17 +109,13 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
   model.state.selected = arguments.grain;
   model.state.theme = view::theme_of(arguments.theme);
   model.state.scale = arguments.scale;
-  if (!arguments.behind.empty()) {
-    model.hold();
-    model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
-  }
   show_second_view(model, arguments);
 }
 
 /// Returns the rule for a picture of the window: it must not replace any file shown in the window.
 OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
-  std::vector<std::string> more = arguments.behind;
+  std::vector<std::string> more;
   if (!arguments.second_view.empty()) more.push_back(arguments.second_view);
   if (!io::is_run(arguments.file)) {
     const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
@@ -207,7 +201,6 @@ void open(const std::string& path, std::optional<std::size_t> frame, view::ViewM
 
 /// Saves all plots as displayed, or the enlarged one, as figures with their data.
 void save_plots(const std::string& folder, view::ViewModel& model) {
-  const view::Ghost* ghost = model.ghost();
   Json plots = Json::array();
   for (const view::Plot& plot : model.plots()) {
     const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
@@ -215,8 +208,7 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
         std::ranges::all_of(plot.series, [](const view::PlotSeries& series) { return series.x.empty(); });
     if (shown && !empty)
       plots.push_back(plot_json(plot, model.state.plot_options[plot.name], model.plot_marks(),
-                                model.is_live() ? model.recording().output : model.path(),
-                                ghost ? view::text_of(*ghost) : std::string()));
+                                model.is_live() ? model.recording().output : model.path()));
   }
   const MemoryFile file("plots");
   std::ofstream(file.path()) << json_text(plots);
@@ -225,17 +217,11 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
       fmt::format("written: {} plot{} in {}", plots.size(), plots.size() == 1 ? "" : "s", folder);
 }
 
-void show_ghost(const std::string& path, view::ViewModel& model) {
-  model.hold();
-  model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
-}
-
 /// Serves requests of widgets that the model cannot; errors are shown in the window.
 void serve_requests(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
-    if (!requests.behind_path.empty()) show_ghost(requests.behind_path, model);
     if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
@@ -315,11 +301,6 @@ void add_view_command(CLI::App& app) {
   command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by number")
       ->check(in_range(0, 1000000000));
-  command
-      ->add_option(
-          "--behind", arguments->behind,
-          "Draw another run, or an ensemble's mean and deviation, behind the curves; can be repeated")
-      ->allow_extra_args(false);
   CLI::Option* second_view = command->add_option(
       "--second", arguments->second_view, "Show this run (RUN.h5) next to the first, at the same angle");
   command->add_option("--second-map", arguments->second_map,

@@ -13,7 +13,6 @@
 #include "view/frame_ahead.h"
 #include "view/frame_series.h"
 #include "view/frame_source.h"
-#include "view/ghost.h"
 #include "view/history.h"
 #include "view/inspection.h"
 #include "view/live_run.h"
@@ -216,9 +215,6 @@ class ViewModel {
   PlotAxis plot_axis() const { return axis_; }
   bool has_plot_axis(PlotAxis axis) const { return axis != PlotAxis::angle_left || theta_c_known(); }
   void set_plot_axis(PlotAxis axis);
-  /// Shows another run, or an ensemble, behind the curves along the run; none removes it.
-  void set_ghost(std::optional<Ghost> ghost);
-  const Ghost* ghost() const { return ghost_ ? &*ghost_ : nullptr; }  ///< null if there is none
   /// Returns the places on that axis of the frame shown, theta_c and rearrangements.
   PlotMarks plot_marks() const;
   /// Goes to the frame nearest to a place on that axis (deg or s).
@@ -313,7 +309,6 @@ class ViewModel {
   std::vector<ObservableRow> rows_;
   std::vector<Plot> plots_ = empty_plots();
   PlotAxis axis_ = PlotAxis::tilt;  ///< abscissa of the plots along the run
-  std::optional<Ghost> ghost_;      ///< drawn behind the plots
   std::string error_;               ///< error since the last update
 
   // Second run.

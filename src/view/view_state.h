@@ -74,7 +74,6 @@ struct ViewState {
   std::map<std::string, PlotOptions> plot_options;  ///< key: name of the plot
   std::string quantity_filter;                      ///< filter on the names of quantities offered for plots
   std::string enlarged_plot;                        ///< name of the plot; empty: all are shown
-  std::string behind_path;                          ///< path of a run or an ensemble to put behind the curves
   std::string plots_folder = "talus-plots";         ///< folder for exported plots
   float picture_share =
       0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots

@@ -117,29 +117,6 @@ TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
   EXPECT_FALSE(model_.plots().back().added);
 }
 
-TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
-  gui_.click("behind");
-  gui_.click("behind path");
-  gui_.type("ensemble.h5");
-  gui_.click("put behind");
-  EXPECT_EQ(gui_.requests().behind_path, "ensemble.h5");
-  EXPECT_FALSE(gui_.has("behind path")) << "the question has disappeared";
-  EXPECT_FALSE(gui_.has("nothing behind"));
-  const render::Image alone = gui_.frame();
-  view::GhostRun run;
-  for (const double tilt : {0.0, 0.01}) run.frames.push_back({.tilt = tilt, .volume_strain = -0.001});
-  run.mean_diameter = 1.0;
-  model_.set_ghost(view::Ghost{"other.h5", {run}});
-  gui_.settle();
-  EXPECT_NE(gui_.frame().pixels, alone.pixels);
-  gui_.click("over time");
-  gui_.click("over tilt");
-  EXPECT_EQ(plot_called("strain").series[0].behind.x.size(), 2u) << "also after a change of the axis";
-  gui_.click("nothing behind");
-  EXPECT_EQ(model_.ghost(), nullptr);
-  EXPECT_TRUE(plot_called("strain").series[0].behind.x.empty());
-}
-
 TEST_F(Replay, plots_are_asked_for_as_figures) {
   gui_.click("export plots");
   gui_.click("plots folder");
