@@ -65,7 +65,6 @@ constexpr ValueWord value_words[] = {
     {"--only", "FIGURE,..."},
     {"--add", "paper|spread|svg,..."},
     {"--style", "FILE"},
-    {"--second", "RUN"},
     {"--branch", "RUN"},
     {"--screenshot", "FILE"},
     {"--grain", "ID"},

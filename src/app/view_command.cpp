@@ -43,10 +43,8 @@ struct ViewArguments {
   std::string at;            ///< angle, or "repose"; empty: the first frame
   std::string map;           ///< empty: default of the window
   std::optional<int> grain;  ///< selected grain
-  std::string second_view;   ///< run in the second view
   std::string second_map;    ///< map of the second view
   std::string second_minus;  ///< angle of the frame subtracted in the second view
-  std::string link;          ///< empty: chosen from the runs
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: scale of the display
@@ -68,12 +66,6 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {width, height};
 }
 
-/// Names of the clocks that link two runs.
-const std::vector<std::pair<std::string, view::PlotAxis>> clocks = {
-    {"tilt", view::PlotAxis::tilt},
-    {"angle-left", view::PlotAxis::angle_left},
-    {"time", view::PlotAxis::time}};
-
 /// Opens the second view, if requested.
 void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
   view::SecondViewState& second_view = model.state.second_view;
@@ -81,16 +73,6 @@ void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.second_minus.empty())
     second_view.minus = model.frame_tilts().at(model.frame_at_angle(arguments.second_minus));
   second_view.shown = second_view.minus || !second_view.layers.empty();
-  if (arguments.second_view.empty()) return;
-  model.open_second_run(arguments.second_view);
-  if (arguments.link.empty()) return;
-  second_view.clock =
-      std::ranges::find(clocks, arguments.link, &std::pair<std::string, view::PlotAxis>::first)->second;
-  if (!model.has_clock(second_view.clock))
-    throw Error(ExitCode::usage,
-                fmt::format("--link {}: both runs need an angle of repose, and the slope of {} has not "
-                            "failed; link them by the tilt",
-                            arguments.link, model.theta_c_known() ? arguments.second_view : arguments.file));
 }
 
 std::vector<std::string> names_of_themes() {
@@ -115,13 +97,9 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
 /// Returns the rule for a picture of the window: it must not replace any file shown in the window.
 OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
-  std::vector<std::string> more;
-  if (!arguments.second_view.empty()) more.push_back(arguments.second_view);
-  if (!io::is_run(arguments.file)) {
-    const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
-    if (!bed.empty()) more.push_back(bed);
-  }
-  for (const std::string& run : more) rule.inputs.insert(rule.inputs.end(), {run, io::run_folder(run)});
+  if (io::is_run(arguments.file)) return rule;
+  const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
+  if (!bed.empty()) rule.inputs.insert(rule.inputs.end(), {bed, io::run_folder(bed)});
   return rule;
 }
 
@@ -301,19 +279,11 @@ void add_view_command(CLI::App& app) {
   command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by number")
       ->check(in_range(0, 1000000000));
-  CLI::Option* second_view = command->add_option(
-      "--second", arguments->second_view, "Show this run (RUN.h5) next to the first, at the same angle");
   command->add_option("--second-map", arguments->second_map,
                       "Show this map in a second view [map of the first view]");
   command->add_option("--second-minus", arguments->second_minus,
                       "Show in a second view the changes since the frame at this angle, or at repose: "
                       "grains, and contacts gained and lost");
-  command
-      ->add_option("--link", arguments->link,
-                   "Quantity that links the frames of two runs: tilt, angle-left (theta_c - theta) or time "
-                   "[tilt, or time if the tilt of both follows a programme]")
-      ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
-      ->needs(second_view);
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

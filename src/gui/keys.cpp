@@ -158,8 +158,8 @@ void toggle_second_view(Gui& gui) {
   view::ViewState& state = gui.model.state;
   view::SecondViewState& second_view = state.second_view;
   second_view.shown = !second_view.shown;
-  const bool alike = !second_view.minus && gui.model.second_run() == nullptr &&
-                     (second_view.layers.empty() || second_view.layers == state.map.layers);
+  const bool alike =
+      !second_view.minus && (second_view.layers.empty() || second_view.layers == state.map.layers);
   if (second_view.shown && alike)
     second_view.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
                               ? pictures::MapKind::gamma

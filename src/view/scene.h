@@ -35,9 +35,6 @@ struct GrainValues {
 /// Returns the values of the first layer of the map that has any.
 GrainValues grain_values(const MapSource& source, const RunStatics& statics);
 
-/// Returns the default ends of the bar of the first layer that has a bar and values for the grains.
-std::optional<pictures::ScaleRange> own_range(const MapSource& source, const RunStatics& statics);
-
 /// Returns whether the map depends on the part of the bed shown: arrows are spread over it.
 bool depends_on_extent(const pictures::MapLayers& layers);
 

@@ -48,8 +48,7 @@ struct MapCache {
 
 class ViewModel;
 
-/// One of the two views: a map of a run, valid until either is changed. The second view shows another map of
-/// the same run, or a second run.
+/// One of the two views: a map of the run, valid until either is changed. The second view shows another map.
 struct View {
   ViewModel& run;
   const ViewState& state;  ///< state with the map of this view
@@ -84,10 +83,6 @@ struct View {
   render::FrameView picture(const pictures::MapExtent& shown) const;
 };
 
-/// Maps a point (m) of one bed to another: the same share of the length, the same height above the floor in
-/// D.
-Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y);
-
 class ViewModel {
  public:
   /// Opens a run file (replay) or a scenario (live), depending on the content of the file. If `output` is
@@ -98,8 +93,7 @@ class ViewModel {
   ViewState state;  ///< changed by the caller
 
   View first() { return {*this, state, map_, false}; }
-  /// Returns the second view, as state.second_view requests it. A second run shows the frame that corresponds
-  /// to the frame shown.
+  /// Returns the second view, as state.second_view requests it.
   View second();
 
   bool is_live() const { return live_ != nullptr; }
@@ -170,17 +164,6 @@ class ViewModel {
   bool set_camera(const ViewCamera& camera);
   /// Zooms by a factor about a point (m), which keeps its position in the picture. Returns as set_camera().
   bool zoom(double factor, double x, double y);
-
-  /// Opens another run next to the current one; both must be replays. Throws as open() does, and Error(usage)
-  /// if either is computed. Shows the second view, linked by time if both runs have a programme.
-  void open_second_run(const std::string& path);
-  /// Returns the second view to this run.
-  void close_second_run();
-  /// Returns the second run; null if the second view shows this run.
-  const ViewModel* second_run() const { return other_.get(); }
-  /// Returns whether frames of the second run can be found by this clock: theta_c - theta requires that both
-  /// runs have failed.
-  bool has_clock(PlotAxis clock) const;
 
   // Selection: state.selected is the inspected grain, state.selecting the rest of the selection.
   /// Selects one grain, or none, and nothing else.
@@ -271,8 +254,6 @@ class ViewModel {
   // view_shown.cpp: results for the frame shown.
   const analysis::Clusters& shown_clusters(const pictures::MapSettings& settings);
   const Inspection* inspect_selected(const View& view);
-  /// Returns the bed, as high as the higher of the two runs.
-  pictures::MapExtent viewed_bed() const;
   /// Returns the mapped frame at a tilt (rad); null if there is none.
   std::shared_ptr<const Frame> reference_at(double tilt);
 
@@ -284,18 +265,9 @@ class ViewModel {
   /// Moves the camera to the inspected grain, if requested.
   void follow_grain();
 
-  // second_view.cpp: the links between the two views.
-  /// Returns the instants of all frames, theta_c, and the number of frames of the tilt.
-  RunInstants instants() const;
+  // The tilts and times of the frames of the tilt.
   std::vector<double> tilts_of_tilt() const;
   std::vector<double> times_of_tilt() const;
-  ViewState second_view_state() const;
-  /// Returns whether both views show the same map, of two runs.
-  bool same_map() const;
-  /// Brings the second run to the corresponding frame and part of the bed; returns whether its content has
-  /// changed.
-  bool follow_second_run(double seconds);
-  void link_ranges();
 
   /// Pictures of the run, with the current map and part of the bed.
   pictures::PictureSeries pictures_;
@@ -311,17 +283,7 @@ class ViewModel {
   PlotAxis axis_ = PlotAxis::tilt;  ///< abscissa of the plots along the run
   std::string error_;               ///< error since the last update
 
-  // Second run.
-  std::shared_ptr<ReadingTurn> turn_ = std::make_shared<ReadingTurn>();  ///< shared by all open runs
-  std::unique_ptr<ViewModel> other_;                                     ///< second run, or null
-  struct {
-    pictures::MapLayers layers;
-    double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
-    std::optional<pictures::ScaleRange> range;
-  } linked_;  ///< common range of a map that both runs show
-  std::optional<pictures::MapExtent>
-      second_bed_;          ///< m of this run: height of the second run, for a common scale
-  ViewState second_state_;  ///< state of a second view of this run, when last requested
+  ViewState second_state_;  ///< state of the second view, when last requested
 
   // Members of a replay.
   std::shared_ptr<RunFrames> run_file_;

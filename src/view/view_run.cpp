@@ -63,7 +63,7 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
 }
 
 void ViewModel::open_replay() {
-  frames_ = run_file_ = std::make_shared<RunFrames>(pictures_.path, turn_);
+  frames_ = run_file_ = std::make_shared<RunFrames>(pictures_.path);
   replay_.emplace(run_file_);
   const io::RunFile& file = run_file_->file();
   pictures_.run = file.header();
@@ -326,6 +326,18 @@ std::size_t ViewModel::frame_index() const {
                                   frames_->instants().times.begin());
 }
 
+std::vector<double> ViewModel::tilts_of_tilt() const {
+  std::vector<double> tilts = frames_->instants().tilts;
+  tilts.resize(frames_->instants().tilt_count);
+  return tilts;
+}
+
+std::vector<double> ViewModel::times_of_tilt() const {
+  std::vector<double> times = frames_->instants().times;
+  times.resize(frames_->instants().tilt_count);
+  return times;
+}
+
 std::size_t ViewModel::frame_at_angle(const std::string& angle) const {
   if (!replay_)
     throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
@@ -362,7 +374,6 @@ void ViewModel::hold() {
     live_->halt();
   else
     begin_series();
-  if (other_) other_->hold();
 }
 
 Recording ViewModel::recording() const {
@@ -410,7 +421,6 @@ bool ViewModel::update(double seconds) {
   changed = follow_history() || changed;
   follow_grain();
   state.camera = centred(clamped(state.camera, bed_, mean_diameter()), first().part(aspect_));
-  changed = follow_second_run(seconds) || changed;
   if (const std::string end = take_end(); !end.empty()) state.announcement = end;
   if (!error_.empty()) state.message = std::exchange(error_, {});
   return changed;

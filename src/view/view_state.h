@@ -26,10 +26,8 @@ struct ViewCamera {
 /// State of the second view.
 struct SecondViewState {
   bool shown = false;
-  pictures::MapLayers layers{};     ///< empty: same as the first view
-  std::optional<double> minus{};    ///< rad: show the frame minus that at this tilt
-  std::string path{};               ///< path of the run requested next
-  PlotAxis clock = PlotAxis::tilt;  ///< clock by which frames of another run correspond to those of the first
+  pictures::MapLayers layers{};   ///< empty: same as the first view
+  std::optional<double> minus{};  ///< rad: show the frame minus that at this tilt
 };
 
 /// Display options of a plot.

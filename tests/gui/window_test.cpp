@@ -48,14 +48,8 @@ TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
     words.insert(words.begin(), {"view", file, "--screenshot", "view.png", "--overwrite"});
     return run_talus(words, folder.path());
   };
-  EXPECT_EQ(view("bed.h5", {"--second", "bed.h5", "--link", "time"}).exit_code, 0);
   EXPECT_EQ(view("bed.h5", {"--second-map", "forces", "--second-minus", "0.5"}).exit_code, 0);
-  const Outcome unlinked = view("bed.h5", {"--second", "bed.h5", "--link", "angle-left"});
-  EXPECT_EQ(unlinked.exit_code, 64);
-  EXPECT_NE(unlinked.err.find("has not failed"), std::string::npos) << unlinked.err;
-  EXPECT_EQ(view("bed.h5", {"--second", "none.h5"}).exit_code, 66);
   EXPECT_EQ(view("bed.h5", {"--second-map", "gamm"}).exit_code, 64);
-  EXPECT_EQ(view("bed.toml", {"--second", "bed.h5"}).exit_code, 64);
 }
 
 TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
@@ -67,7 +61,6 @@ TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
   const std::vector<std::vector<std::string>> commands = {
       {"bed.h5", "--screenshot", "bed.h5"},
       {"bed.toml", "--screenshot", "bed.toml"},
-      {"bed.h5", "--second", "other.h5", "--screenshot", "other.h5"},
       {"bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=other.h5", "--screenshot",
        "other.h5"}};
   for (std::vector<std::string> words : commands) {
