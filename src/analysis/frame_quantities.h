@@ -1,7 +1,7 @@
 #pragma once
 /// Tables of the quantities of each grain and each contact of a frame: name, components, unit, definition,
-/// what the quantity needs, its values, and how a map shows it. Maps, exports, conditions, tables and
-/// histograms use these tables; tests compare docs/export.md and docs/view.md with them.
+/// what the quantity needs, its values, and how a map shows it. Maps, exports and the library use these
+/// tables; tests compare docs/export.md and docs/python.md with them.
 
 #include <cstddef>
 #include <span>
@@ -103,22 +103,6 @@ std::vector<std::string> component_names(const FrameQuantity& quantity);
 /// Returns the ending of the name of a quantity at a threshold: "_2" for the factor 2, "_1_5" for 1.5. OVITO
 /// reads a dot in a name as the start of a component.
 std::string threshold_ending(double factor);
-
-/// A scalar quantity of grains, or one component of a vector or tensor quantity.
-struct GrainNumber {
-  std::string name;
-  const FrameQuantity* quantity = nullptr;
-  std::size_t component = 0;
-};
-
-/// Returns the scalars and components of all quantities of grains, in their order.
-const std::vector<GrainNumber>& grain_numbers();
-/// Returns the entry with this name. Throws Error(internal) if it does not exist.
-const GrainNumber& grain_number(std::string_view name);
-
-/// Returns the values of all grains by id, at the first threshold, in the unit of tables (`scaled` in
-/// quantities.h). NaN for a grain without a value.
-std::vector<double> values_of(const GrainNumber& number, const GrainSource& source);
 
 /// Appends the shortest decimal that reads back as the same number, in single precision if the quantity has
 /// no more digits; appends `nan` for NaN.

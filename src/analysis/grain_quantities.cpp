@@ -12,8 +12,6 @@
 #include "analysis/free_grains.h"
 #include "analysis/overload/coarse_graining.h"
 #include "analysis/packing/local_solid_fraction.h"
-#include "analysis/quantities.h"
-#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "stress/bed.h"
 
@@ -408,35 +406,6 @@ std::string threshold_ending(double factor) {
   std::string text = fmt::format("_{}", factor);
   std::ranges::replace(text, '.', '_');
   return text;
-}
-
-const std::vector<GrainNumber>& grain_numbers() {
-  static const std::vector<GrainNumber> numbers = [] {
-    std::vector<GrainNumber> all;
-    for (const FrameQuantity& quantity : all_of_grains)
-      for (const std::string& name : component_names(quantity))
-        all.push_back({name, &quantity,
-                       !all.empty() && all.back().quantity == &quantity ? all.back().component + 1 : 0});
-    return all;
-  }();
-  return numbers;
-}
-
-const GrainNumber& grain_number(std::string_view name) {
-  const auto found = std::ranges::find(grain_numbers(), name, &GrainNumber::name);
-  if (found == grain_numbers().end())
-    throw Error(ExitCode::internal, fmt::format("no quantity {} of a grain", name));
-  return *found;
-}
-
-std::vector<double> values_of(const GrainNumber& number, const GrainSource& source) {
-  if (number.quantity->need == FrameNeed::length && std::isnan(source.length))
-    return Numbers(source.frame.x.size(), not_known);
-  const std::vector<double> rows = number.quantity->values(source, 0);
-  std::vector<double> values;
-  for (std::size_t k = number.component; k < rows.size(); k += components(*number.quantity))
-    values.push_back(scaled(number.quantity->unit, rows[k], source.statics.mean_diameter));
-  return values;
 }
 
 void append_number(std::string& text, double value, FieldNumber number, std::string_view nan) {

@@ -10,6 +10,7 @@
 #include "io/seal.h"
 
 namespace talus::app {
+namespace {
 
 std::vector<ensemble::Member> done_members(const std::string& folder) {
   const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
@@ -26,6 +27,8 @@ std::vector<ensemble::Member> done_members(const std::string& folder) {
   return done;
 }
 
+}  // namespace
+
 std::vector<std::string> with_members(const std::vector<std::string>& paths) {
   std::vector<std::string> runs;
   for (const std::string& path : paths) {
@@ -38,15 +41,12 @@ std::vector<std::string> with_members(const std::vector<std::string>& paths) {
   return runs;
 }
 
-std::vector<std::string> runs_among(const std::vector<std::string>& paths,
-                                    bool (*is_wanted_too)(const std::string&)) {
+std::vector<std::string> runs_among(const std::vector<std::string>& paths) {
   if (paths.size() < 2) return paths;
   std::vector<std::string> runs;
   for (const std::string& path : paths) {
     std::error_code unknown;
-    const bool is_other = std::filesystem::is_regular_file(path, unknown) && !io::begins_as_run(path) &&
-                          (is_wanted_too == nullptr || !is_wanted_too(path));
-    if (is_other)
+    if (std::filesystem::is_regular_file(path, unknown) && !io::begins_as_run(path))
       print_error("left out: %s is not a run\n", path.c_str());
     else
       runs.push_back(path);

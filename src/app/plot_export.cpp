@@ -11,32 +11,24 @@ std::string unit_of(const view::PlotSeries& series) {
 }
 
 Json series_json(const view::PlotSeries& series) {
-  const auto& behind = series.behind;
   return {{"label", series.name},
           {"column", series.quantity ? series.quantity->name : series.name},
           {"unit", unit_of(series)},
           {"meaning", series.quantity ? series.quantity->definition : series.name},
           {"law", series.law},
           {"x", series.x},
-          {"y", series.y},
-          {"behind", {{"x", behind.x}, {"mean", behind.mean}, {"deviation", behind.deviation}}}};
+          {"y", series.y}};
 }
 
 }  // namespace
 
 Json plot_json(const view::Plot& plot, const view::PlotOptions& options, const view::PlotMarks& marks,
-               const std::string& run, const std::string& behind) {
-  Json json = {{"name", plot.name},
-               {"title", plot.title},
-               {"x_title", plot.x_title},
-               {"note", plot.note},
-               {"run", run},
-               {"behind", behind},
-               {"logarithmic", options.log_y.value_or(plot.log_y)},
-               {"falling", plot.falling_x},
-               {"range", nullptr},
-               {"theta_c", nullptr},
-               {"series", Json::array()}};
+               const std::string& run) {
+  Json json = {
+      {"name", plot.name},         {"title", plot.title}, {"x_title", plot.x_title},
+      {"note", plot.note},         {"run", run},          {"logarithmic", options.log_y.value_or(plot.log_y)},
+      {"falling", plot.falling_x}, {"range", nullptr},    {"theta_c", nullptr},
+      {"series", Json::array()}};
   if (options.zoomed) json["range"] = *options.zoomed;
   if (marks.theta_c && plot.along_run) json["theta_c"] = *marks.theta_c;
   for (const view::PlotSeries& series : plot.series)

@@ -9,10 +9,9 @@
 
 namespace talus::app {
 
-/// Returns the plot as displayed, with its zoom, scale and the curves behind, as
-/// python/talus/figures/plots.py reads it. `run`: path of the run, empty if it is in no file; `behind`:
-/// description of the curves behind.
+/// Returns the plot as displayed, with its zoom and scale, as python/talus/figures/plots.py reads it. `run`:
+/// path of the run, empty if it is in no file.
 Json plot_json(const view::Plot& plot, const view::PlotOptions& options, const view::PlotMarks& marks,
-               const std::string& run, const std::string& behind);
+               const std::string& run);
 
 }  // namespace talus::app

@@ -14,7 +14,6 @@
 #include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/ghost_runs.h"
 #include "app/output_files.h"
 #include "app/plot_export.h"
 #include "app/python_module.h"
@@ -41,15 +40,11 @@ struct ViewArguments {
   std::string output;
   std::vector<std::string> settings;  ///< "key=value", including the seed
   bool overwrite = false;
-  std::string at;                   ///< angle, or "repose"; empty: the first frame
-  std::string map;                  ///< empty: default of the window
-  std::optional<int> grain;         ///< selected grain
-  std::vector<std::string> behind;  ///< runs or ensembles drawn behind the curves
-  std::string second_view;          ///< run in the second view
-  std::string second_map;           ///< map of the second view
-  std::string second_minus;         ///< angle of the frame subtracted in the second view
-  std::string link;                 ///< empty: chosen from the runs
-  std::string select;               ///< condition; empty: none
+  std::string at;            ///< angle, or "repose"; empty: the first frame
+  std::string map;           ///< empty: default of the window
+  std::optional<int> grain;  ///< selected grain
+  std::string second_map;    ///< map of the second view
+  std::string second_minus;  ///< angle of the frame subtracted in the second view
   std::string screenshot;
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: scale of the display
@@ -71,12 +66,6 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {width, height};
 }
 
-/// Names of the clocks that link two runs.
-const std::vector<std::pair<std::string, view::PlotAxis>> clocks = {
-    {"tilt", view::PlotAxis::tilt},
-    {"angle-left", view::PlotAxis::angle_left},
-    {"time", view::PlotAxis::time}};
-
 /// Opens the second view, if requested.
 void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
   view::SecondViewState& second_view = model.state.second_view;
@@ -84,16 +73,6 @@ void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.second_minus.empty())
     second_view.minus = model.frame_tilts().at(model.frame_at_angle(arguments.second_minus));
   second_view.shown = second_view.minus || !second_view.layers.empty();
-  if (arguments.second_view.empty()) return;
-  model.open_second_run(arguments.second_view);
-  if (arguments.link.empty()) return;
-  second_view.clock =
-      std::ranges::find(clocks, arguments.link, &std::pair<std::string, view::PlotAxis>::first)->second;
-  if (!model.has_clock(second_view.clock))
-    throw Error(ExitCode::usage,
-                fmt::format("--link {}: both runs need an angle of repose, and the slope of {} has not "
-                            "failed; link them by the tilt",
-                            arguments.link, model.theta_c_known() ? arguments.second_view : arguments.file));
 }
 
 std::vector<std::string> names_of_themes() {
@@ -112,30 +91,15 @@ void show_first(view::ViewModel& model, const ViewArguments& arguments) {
   model.state.selected = arguments.grain;
   model.state.theme = view::theme_of(arguments.theme);
   model.state.scale = arguments.scale;
-  if (!arguments.behind.empty()) {
-    model.hold();
-    model.set_ghost(read_ghost(arguments.behind, MissingAnalysis::made));
-  }
   show_second_view(model, arguments);
-  if (arguments.select.empty()) return;
-  model.state.selecting.condition = arguments.select;
-  model.update(0.0);
-  model.select_by_condition();
-  const std::string& error = model.state.selecting.error;
-  if (!error.empty()) throw Error(ExitCode::usage, "--select " + error);
-  model.state.panel_asked = "select";
 }
 
 /// Returns the rule for a picture of the window: it must not replace any file shown in the window.
 OutputRule output_of_view(const ViewArguments& arguments) {
   OutputRule rule = output_of_run(arguments.file, arguments.overwrite);
-  std::vector<std::string> more = arguments.behind;
-  if (!arguments.second_view.empty()) more.push_back(arguments.second_view);
-  if (!io::is_run(arguments.file)) {
-    const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
-    if (!bed.empty()) more.push_back(bed);
-  }
-  for (const std::string& run : more) rule.inputs.insert(rule.inputs.end(), {run, io::run_folder(run)});
+  if (io::is_run(arguments.file)) return rule;
+  const std::string bed = scenario::read_scenario(arguments.file, arguments.settings).deposition.file;
+  if (!bed.empty()) rule.inputs.insert(rule.inputs.end(), {bed, io::run_folder(bed)});
   return rule;
 }
 
@@ -215,7 +179,6 @@ void open(const std::string& path, std::optional<std::size_t> frame, view::ViewM
 
 /// Saves all plots as displayed, or the enlarged one, as figures with their data.
 void save_plots(const std::string& folder, view::ViewModel& model) {
-  const view::Ghost* ghost = model.ghost();
   Json plots = Json::array();
   for (const view::Plot& plot : model.plots()) {
     const bool shown = model.state.enlarged_plot.empty() || model.state.enlarged_plot == plot.name;
@@ -223,8 +186,7 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
         std::ranges::all_of(plot.series, [](const view::PlotSeries& series) { return series.x.empty(); });
     if (shown && !empty)
       plots.push_back(plot_json(plot, model.state.plot_options[plot.name], model.plot_marks(),
-                                model.is_live() ? model.recording().output : model.path(),
-                                ghost ? view::text_of(*ghost) : std::string()));
+                                model.is_live() ? model.recording().output : model.path()));
   }
   const MemoryFile file("plots");
   std::ofstream(file.path()) << json_text(plots);
@@ -233,17 +195,11 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
       fmt::format("written: {} plot{} in {}", plots.size(), plots.size() == 1 ? "" : "s", folder);
 }
 
-void show_ghost(const std::string& path, view::ViewModel& model) {
-  model.hold();
-  model.set_ghost(read_ghost({path}, MissingAnalysis::refused));
-}
-
 /// Serves requests of widgets that the model cannot; errors are shown in the window.
 void serve_requests(const gui::GuiRequests& requests, gui::GuiWindow& window, view::ViewModel& model) {
   try {
     if (!requests.save_png_path.empty()) save_picture(requests.save_png_path, window, model);
     if (!requests.plots_folder.empty()) save_plots(requests.plots_folder, model);
-    if (!requests.behind_path.empty()) show_ghost(requests.behind_path, model);
     if (!requests.open_path.empty()) open(requests.open_path, requests.open_frame, model);
   } catch (const Error& error) {
     model.state.message = error.what();
@@ -323,26 +279,11 @@ void add_view_command(CLI::App& app) {
   command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
   command->add_option("--grain", arguments->grain, "Select this grain, by number")
       ->check(in_range(0, 1000000000));
-  command
-      ->add_option(
-          "--behind", arguments->behind,
-          "Draw another run, or an ensemble's mean and deviation, behind the curves; can be repeated")
-      ->allow_extra_args(false);
-  CLI::Option* second_view = command->add_option(
-      "--second", arguments->second_view, "Show this run (RUN.h5) next to the first, at the same angle");
   command->add_option("--second-map", arguments->second_map,
                       "Show this map in a second view [map of the first view]");
   command->add_option("--second-minus", arguments->second_minus,
                       "Show in a second view the changes since the frame at this angle, or at repose: "
                       "grains, and contacts gained and lost");
-  command
-      ->add_option("--link", arguments->link,
-                   "Quantity that links the frames of two runs: tilt, angle-left (theta_c - theta) or time "
-                   "[tilt, or time if the tilt of both follows a programme]")
-      ->check(CLI::IsMember({"tilt", "angle-left", "time"}))
-      ->needs(second_view);
-  command->add_option("--select", arguments->select,
-                      "Select the grains that satisfy a condition, e.g. --select 'gamma > 0.7 && y > 30'");
   command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
   CLI::Option* screenshot =
       command

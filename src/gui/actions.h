@@ -22,8 +22,6 @@ void move_picture(Gui& gui, double dx, double dy);
 void show_whole_bed(Gui& gui);
 /// Starts or stops keeping the selected grain, with its surroundings, in the middle of the picture.
 void toggle_following(Gui& gui);
-/// Shows the run named in the panel in the second view.
-void show_second_run(Gui& gui);
 
 // Run.
 

@@ -18,9 +18,11 @@ struct Group {
   bool unfolded;  ///< initial state, if there is room
 };
 
-constexpr Group groups[] = {{"run", draw_run_panel, 'R', true},     {"map", draw_map_panel, 'M', true},
-                            {"act", draw_action_panel, 'A', false}, {"select", draw_select_panel, 'S', false},
-                            {"files", draw_file_panel, 'F', false}, {"grain", draw_inspector, 'G', false}};
+constexpr Group groups[] = {{"run", draw_run_panel, 'R', true},
+                            {"map", draw_map_panel, 'M', true},
+                            {"act", draw_action_panel, 'A', false},
+                            {"files", draw_file_panel, 'F', false},
+                            {"grain", draw_inspector, 'G', false}};
 
 /// Column height below which only one group is unfolded at a time.
 constexpr float room_for_several = 40.0f;  // em

@@ -112,9 +112,6 @@ GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vecto
   const float line = 1.9f * gui.em;  // height of the message line
   const float time_line = size.y >= 30.0f * gui.em ? 3.9f * gui.em : 0.0f;
   const float height = size.y - line - time_line;
-  if (time_line == 0.0f && std::exchange(model.state.bookmark_asked, false))
-    model.state.message =
-        "The window is too small for the time line, where the note of a bookmark is written: make it taller.";
   const Places at = lay_out_window(model, {size.x, height}, gui.em);
   const float middle = size.x - at.left - at.right;
   part("controls", {0.0f, 0.0f}, {at.left, height}, 0, [&] { draw_column(gui, at.right == 0.0f); });

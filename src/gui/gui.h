@@ -28,7 +28,6 @@ struct GuiRequests {
   std::string open_path;                  ///< run or scenario to open instead
   std::optional<std::size_t> open_frame;  ///< frame of that run to show first
   std::string save_png_path;              ///< file for the picture shown
-  std::string behind_path;                ///< run or ensemble to draw behind the curves
   std::string plots_folder;               ///< folder for the plots shown, as figures with their data
 };
 

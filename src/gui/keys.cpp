@@ -153,26 +153,13 @@ void change_speed(Gui& gui, double factor) {
                                 model.speed() >= fastest_replay ? ", the maximum" : ""));
 }
 
-void toggle_trails(Gui& gui) {
-  view::SelectingState& selecting = gui.model.state.selecting;
-  selecting.trails = !selecting.trails;
-  const std::size_t count = gui.model.selected_grains().size();
-  if (!selecting.trails)
-    show_message(gui, "No trails are drawn.");
-  else if (count == 0)
-    show_message(gui, "Trails will be drawn once grains are selected.");
-  else
-    show_message(gui, fmt::format("Trails of {} selected grain{}, from the first frame to the one shown.",
-                                  count, count == 1 ? "" : "s"));
-}
-
 /// Shows or hides the second view; chooses another map for it if it would equal the first view.
 void toggle_second_view(Gui& gui) {
   view::ViewState& state = gui.model.state;
   view::SecondViewState& second_view = state.second_view;
   second_view.shown = !second_view.shown;
-  const bool alike = !second_view.minus && gui.model.second_run() == nullptr &&
-                     (second_view.layers.empty() || second_view.layers == state.map.layers);
+  const bool alike =
+      !second_view.minus && (second_view.layers.empty() || second_view.layers == state.map.layers);
   if (second_view.shown && alike)
     second_view.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
                               ? pictures::MapKind::gamma
@@ -255,10 +242,7 @@ constexpr Key all_keys[] = {
     {"w a x z, drag", "move the picture", {'w', 'a', 'x', 'z'}, move_by_key},
     {"f", "whole bed", {'f'}, [](Gui& gui, ImWchar) { show_whole_bed(gui); }},
     {"n", "select the next grain; escape: none", {'n', key_escape}, select_by_key},
-    {"T, L",
-     "trails of the selected grains; follow the selected grain",
-     {'T', 'L'},
-     [](Gui& gui, ImWchar key) { key == 'T' ? toggle_trails(gui) : toggle_following(gui); }},
+    {"L", "follow the selected grain", {'L'}, [](Gui& gui, ImWchar) { toggle_following(gui); }},
     {"i, y",
      "outline its cluster; draw its neighbourhoods",
      {'i', 'y'},
@@ -273,10 +257,6 @@ constexpr Key all_keys[] = {
                 selected_only_text(gui, "The neighbourhoods of the grain are drawn"),
                 "No neighbourhoods are drawn.");
      }},
-    {"B",
-     "bookmark of the frame shown, with a note",
-     {'B'},
-     [](Gui& gui, ImWchar) { gui.model.state.bookmark_asked = true; }},
     {"P, D",
      "second view; in it, the change from the frame shown",
      {'P', 'D'},
@@ -299,9 +279,9 @@ constexpr Key all_keys[] = {
      "branch: continue from the frame shown; undo the last command",
      {'N', 'U'},
      [](Gui& gui, ImWchar key) { key == 'N' ? branch_here(gui) : go_back(gui); }},
-    {"R M A S F G",
-     "unfold run, map, act, select, files, grain; tab: from field to field",
-     {'R', 'M', 'A', 'S', 'F', 'G'},
+    {"R M A F G",
+     "unfold run, map, act, files, grain; tab: from field to field",
+     {'R', 'M', 'A', 'F', 'G'},
      [](Gui& gui, ImWchar key) {
        gui.model.state.show_controls = true;
        gui.panel_asked = group_of_key(key);

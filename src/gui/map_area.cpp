@@ -63,14 +63,13 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
-/// Describes the grain under the mouse. A second view of the same run shows the text of the first, and its
-/// own value: another map, or a change.
+/// Describes the grain under the mouse. The second view shows the text of the first, and its own value:
+/// another map, or a change.
 void describe_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
-  const view::View shown_view = &view.run == &gui.model ? gui.model.first() : view;
   const double diameter = view.run.mean_diameter();
   ImGui::BeginTooltip();
   rich_text(fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter,
-                        grain_text(shown_view, grain)));
+                        grain_text(gui.model.first(), grain)));
   const view::GrainValues none, &shown = view.second ? view.values() : none;
   const auto k = static_cast<std::size_t>(grain);
   if (k < shown.values.size() && !std::isnan(shown.values[k]))
@@ -80,34 +79,25 @@ void describe_grain(Gui& gui, const view::View& view, const render::Point& place
 
 void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
   const ImGuiIO& io = ImGui::GetIO();
-  const auto in_first = [&](const render::Point& point) {
-    return view::place_in(gui.model.statics(), view.run.statics(), point.x, point.y);
-  };
   const render::Point place = shown.bed_place(io.MousePos);
-  const Vec2 linked = in_first(place);
   // The second view is for looking only; selections and drags belong to the first.
   if (!view.second && drag_grain(gui, place.x, place.y, shown)) return;
   const bool outlining = !view.second && select_by_outline(gui, shown);
   if (ImGui::IsItemHovered()) {
     if (io.MouseWheel != 0.0f)
-      zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), linked.x, linked.y);
+      zoom_about(gui, std::pow(1.25, static_cast<double>(io.MouseWheel)), place.x, place.y);
     const std::optional<Index> grain = view::find_grain(view.run.bed(), place.x, place.y);
     if (grain && !ImGui::IsMouseDown(0)) describe_grain(gui, view, place, *grain);
     const bool dragged = io.MouseDragMaxDistanceSqr[0] > 16.0f;
-    if (ImGui::IsMouseReleased(0) && !dragged && !outlining) {
-      if (&view.run == &gui.model)  // the inspector describes the first run
-        select_clicked(gui, place.x, place.y);
-      else
-        show_message(gui, "Grains are selected in the first run only: click there.");
-    }
+    if (ImGui::IsMouseReleased(0) && !dragged && !outlining) select_clicked(gui, place.x, place.y);
   }
   if (outlining) return;
   const bool panning =
       ImGui::IsItemActive() || (ImGui::IsItemHovered() && (io.MouseDown[1] || io.MouseDown[2]));
   if (panning && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f)) {
-    const Vec2 before =
-        in_first(shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y}));
-    move_picture(gui, before.x - linked.x, before.y - linked.y);
+    const render::Point before =
+        shown.bed_place({io.MousePos.x - io.MouseDelta.x, io.MousePos.y - io.MouseDelta.y});
+    move_picture(gui, before.x - place.x, before.y - place.y);
   }
 }
 

@@ -73,10 +73,8 @@ void finish(Gui& gui, const ShownMap& map) {
     const render::Point at = map.bed_place({static_cast<float>(corner.x), static_cast<float>(corner.y)});
     corners.push_back({at.x, at.y});
   }
-  const std::vector<Index> found = view::grains_within(gui.model.bed(), corners);
-  gui.model.select_found(found);
-  gui.model.state.message =
-      fmt::format("Grains inside: {}; selected: {}.", found.size(), gui.model.selected_grains().size());
+  gui.model.select(view::grains_within(gui.model.bed(), corners));
+  gui.model.state.message = fmt::format("Grains selected: {}.", gui.model.selected_grains().size());
 }
 
 /// Returns the place where a spring that should be held at the mouse can be held: limited to the distance

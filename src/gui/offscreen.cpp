@@ -47,7 +47,6 @@ void OffscreenGui::draw(double seconds) {
   requests_.quit = requests_.quit || requests.quit;
   if (!requests.open_path.empty()) requests_.open_path = requests.open_path;
   if (!requests.save_png_path.empty()) requests_.save_png_path = requests.save_png_path;
-  if (!requests.behind_path.empty()) requests_.behind_path = requests.behind_path;
   if (!requests.plots_folder.empty()) requests_.plots_folder = requests.plots_folder;
 }
 

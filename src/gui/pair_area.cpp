@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fmt/core.h>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "gui/panels.h"
@@ -15,63 +15,20 @@ constexpr float gap = 0.8f;         ///< gap between the two, em
 constexpr float min_width = 12.0f;  ///< minimum width of a picture, em
 constexpr float min_height = 3.0f;
 
-/// Line above a view: the name of its run, its angle, or the title of its map.
-struct HeadLine {
-  std::string text;
-  bool is_name = false;
-  bool second_name = false;  ///< drawn on the right, in the line of the name
-};
-using PaneHead = std::vector<HeadLine>;
-
-/// Shortens a name to a width (px) by leaving out its middle.
-std::string shortened(const std::string& name, float width) {
-  ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize();
-  std::string shorter = name;
-  for (std::size_t kept = name.size(); kept > 0 && rich_width(font, size, shorter) > width; --kept) {
-    // Multi-byte characters must not be split.
-    const auto begins = [&](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xC0) != 0x80; };
-    std::size_t head = kept / 2, tail = name.size() - (kept - head);
-    while (head > 0 && !begins(head)) --head;
-    while (tail < name.size() && !begins(tail)) ++tail;
-    shorter = name.substr(0, head).append("…").append(name.substr(tail));
-  }
-  return shorter;
-}
-
-/// Lays out name and angle, in one line if both have room.
-PaneHead head_of(const view::View& pane, float width) {
+/// Returns the lines above a view: its angle, and the title of its map.
+std::vector<std::string> head_of(const view::View& pane, float width) {
   const render::FrameView& annotated = pane.annotated_map();
-  ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize();
-  const std::string name = shortened(std::filesystem::path(pane.run.path()).filename().string(), width);
-  const bool both =
-      ImGui::CalcTextSize(name.c_str()).x + rich_width(font, size, annotated.caption) + size < width;
-  PaneHead head = {{name, true, false}};
-  for (const std::string& line : wrapped_text(annotated.caption, width)) head.push_back({line, false, both});
-  for (const std::string& line : wrapped_text(annotated.title, width)) head.push_back({line, false, false});
+  std::vector<std::string> head = wrapped_text(annotated.caption, width);
+  for (std::string& line : wrapped_text(annotated.title, width)) head.push_back(std::move(line));
   return head;
 }
 
-int lines_of(const PaneHead& head) {
-  return static_cast<int>(std::ranges::count(head, false, &HeadLine::second_name));
-}
-
-void draw_head(const PaneHead& head, float width, int lines) {
-  ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize(), line = 1.2f * size;
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
-  float y = corner.y;
-  for (const HeadLine& entry : head) {
-    if (entry.is_name)
-      list.AddText({corner.x, y}, ImGui::GetColorU32(ImGuiCol_CheckMark), entry.text.c_str());
-    else if (entry.second_name)
-      add_rich_text(list, {corner.x + width - rich_width(font, size, entry.text), corner.y}, ink, entry.text);
-    else
-      add_rich_text(list, {corner.x, y}, ink, entry.text);
-    if (!entry.second_name) y += line;
+void draw_head(const std::vector<std::string>& head, float width, std::size_t lines) {
+  const float line = 1.2f * ImGui::GetFontSize();
+  ImVec2 corner = ImGui::GetCursorScreenPos();
+  for (const std::string& text : head) {
+    add_rich_text(*ImGui::GetWindowDrawList(), corner, ImGui::GetColorU32(ImGuiCol_Text), text);
+    corner.y += line;
   }
   ImGui::Dummy({width, static_cast<float>(lines) * line});
 }
@@ -79,11 +36,11 @@ void draw_head(const PaneHead& head, float width, int lines) {
 /// Layout of the two views: side by side, or one above the other.
 struct PairLayout {
   bool columns = true;
-  ImVec2 pane;         ///< size of each view, including everything above and below its picture
-  ImVec2 picture;      ///< room for the picture
-  int lines = 0;       ///< number of lines above it
-  float below = 0.0f;  ///< height of the legend below it
-  std::array<PaneHead, 2> heads;
+  ImVec2 pane;            ///< size of each view, including everything above and below its picture
+  ImVec2 picture;         ///< room for the picture
+  std::size_t lines = 0;  ///< number of lines above it
+  float below = 0.0f;     ///< height of the legend below it
+  std::array<std::vector<std::string>, 2> heads;
 };
 
 PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, const ImVec2& room,
@@ -95,7 +52,7 @@ PairLayout pair_layout(const Gui& gui, const std::array<view::View, 2>& views, c
       columns ? ImVec2{0.5f * (room.x - gap * em), room.y} : ImVec2{room.x, 0.5f * (room.y - gap * em)};
   for (std::size_t k = 0; k < views.size(); ++k) {
     layout.heads[k] = head_of(views[k], layout.pane.x);
-    layout.lines = std::max(layout.lines, lines_of(layout.heads[k]));
+    layout.lines = std::max(layout.lines, layout.heads[k].size());
     layout.below = std::max(layout.below, legend_height(views[k].annotated_map(), layout.pane.x));
   }
   const float between = ImGui::GetStyle().ItemSpacing.y;

@@ -36,21 +36,15 @@ std::vector<Entry> entries_of(const fs::path& folder) {
 
 void draw_browser(Gui& gui) {
   view::ViewState& state = gui.model.state;
-  ImGui::TextWrapped(
-      "Open a run or a scenario: choose it, or drop it on the window. With shift, a run is shown next "
-      "to this one.");
+  ImGui::TextWrapped("Open a run or a scenario: choose it, or drop it on the window.");
   ImGui::BeginChild("files", {0.0f, 12.0f * gui.em}, true);
   for (const Entry& entry :
        entries_of(state.folder.empty() ? fs::path(resolved_path(".")) : fs::path(state.folder))) {
     if (ImGui::Selectable(entry.label.c_str())) {
-      if (entry.folder) {
+      if (entry.folder)
         state.folder = entry.path;
-      } else if (ImGui::GetIO().KeyShift) {
-        state.second_view.path = entry.path;
-        show_second_run(gui);
-      } else {
+      else
         gui.requests.open_path = entry.path;
-      }
     }
     note_place(gui, "file " + entry.label);
   }

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "core/trigonometry.h"
+#include "gui/actions.h"
 #include "gui/panels.h"
 
 namespace talus::gui {
@@ -153,6 +154,9 @@ void draw_inspector(Gui& gui) {
   ImGui::Text("%s %d", grain->free ? "grain" : "floor grain", grain->grain);
   ImGui::Separator();
   draw_state(*grain, gui.model.mean_diameter(), gui.model.state.map.l_min);
+  if (bool follow = gui.model.state.selecting.follow;
+      named_checkbox(gui, "follow grain", "follow it", follow, "keeps it in the middle of the picture: L"))
+    toggle_following(gui);
   named_checkbox(gui, "outline", "outline its cluster", gui.model.state.highlight_cluster, "i");
   if (grain->free)
     named_checkbox(gui, "neighbourhoods", "draw its neighbourhoods", gui.model.state.show_neighbourhoods,

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <fmt/core.h>
+#include <utility>
 
 #include "core/trigonometry.h"
 #include "gui/actions.h"
@@ -66,6 +68,19 @@ void choose_colours(Gui& gui) {
     map.colours = render::reversed(*map.colours);
 }
 
+/// Selects the grains whose value on the map shown lies within the range of its bar, ends included.
+void select_within_range(Gui& gui) {
+  const pictures::MapSettings& map = gui.model.state.map;
+  const view::View shown = gui.model.first();
+  (void)shown.annotated_map();  // values are those of the map drawn last
+  const std::vector<double>& values = shown.values().values;
+  std::vector<Index> found;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (*map.range_low <= values[i] && values[i] <= *map.range_high) found.push_back(static_cast<Index>(i));
+  show_message(gui, fmt::format("Grains selected: {}.", found.size()));
+  gui.model.select(std::move(found));
+}
+
 /// Sets the ends of the bar, overriding those of the map.
 void choose_range(Gui& gui) {
   pictures::MapSettings& map = gui.model.state.map;
@@ -90,6 +105,9 @@ void choose_range(Gui& gui) {
   ImGui::SameLine();
   named_number(gui, "range high", "", *map.range_high, "%.3g");
   ImGui::PopItemWidth();
+  if (named_button(gui, "select range", "Select the grains within it",
+                   "those whose value on this map lies between the ends of the bar"))
+    select_within_range(gui);
 }
 
 /// Edits an optional angle (rad): a checkbox, which sets it to that of the frame shown, and a slider.
@@ -104,40 +122,10 @@ void choose_angle(Gui& gui, std::optional<double>& angle, const std::string& nam
     angle = radians(shown);
 }
 
-/// Clocks that link runs.
-constexpr std::pair<view::PlotAxis, const char*> clocks[] = {
-    {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θc − θ"}, {view::PlotAxis::time, "t"}};
-
-void choose_second_run(Gui& gui) {
-  view::ViewModel& model = gui.model;
-  view::SecondViewState& second_view = model.state.second_view;
-  if (model.is_live()) return;
-  if (model.second_run() == nullptr) {
-    named_text(gui, "second path", "run", second_view.path, "run file to show next to this one");
-    if (!second_view.path.empty() && named_button(gui, "open second", "Open next to it"))
-      show_second_run(gui);
-    return;
-  }
-  if (named_button(gui, "close second", "This run again", "shows the first run in the second view"))
-    return model.close_second_run();
-  std::vector<std::string> names;
-  std::vector<view::PlotAxis> known;
-  int chosen = 0;
-  for (const auto& [clock, name] : clocks) {
-    if (!model.has_clock(clock)) continue;
-    if (second_view.clock == clock) chosen = static_cast<int>(names.size());
-    names.emplace_back(name);
-    known.push_back(clock);
-  }
-  if (named_choice(gui, "second clock", "linked by", names, chosen))
-    second_view.clock = known[static_cast<std::size_t>(chosen)];
-}
-
 /// Chooses the content of the second view.
 void choose_second_view(Gui& gui) {
   view::SecondViewState& second_view = gui.model.state.second_view;
-  named_checkbox(gui, "second view", "a second view", second_view.shown,
-                 "another map, another run, or a change: P");
+  named_checkbox(gui, "second view", "a second view", second_view.shown, "another map, or a change: P");
   if (!second_view.shown) return;
   int chosen = second_view.layers.empty() ? 0 : place_of(second_view.layers[0]) + 1;
   if (named_choice(gui, "second view map", "its map", kind_names("same as the first"), chosen)) {
@@ -146,7 +134,6 @@ void choose_second_view(Gui& gui) {
   }
   choose_angle(gui, second_view.minus, "second minus", "minus the frame at an angle",
                "change since that angle: grains, and contacts gained and lost; D: since the frame shown");
-  choose_second_run(gui);
 }
 
 }  // namespace

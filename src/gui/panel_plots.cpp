@@ -101,48 +101,20 @@ void draw_more(Gui& gui) {
   ImGui::EndCombo();
 }
 
-/// Draws a field for a path in a popup, and a button that accepts it; returns whether it was accepted.
-bool draw_path_field(Gui& gui, const char* field, std::string& path, const char* tip, const char* button,
-                     const char* label) {
-  ImGui::SetNextItemWidth(22.0f * gui.em);
-  named_text(gui, field, "", path, tip);
-  bool taken = ImGui::IsItemFocused() && key_pressed(key_enter, false);
-  ImGui::SameLine();
-  taken = named_button(gui, button, label) || taken;
-  if (taken || key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
-  return taken && !path.empty();
-}
-
-/// Chooses another run, or an ensemble, to draw behind the curves.
-void draw_ghost_choice(Gui& gui) {
-  view::ViewState& state = gui.model.state;
-  if (named_button(gui, "behind", "behind ...",
-                   "draw another run, or the band of an ensemble, behind the curves"))
-    ImGui::OpenPopup("behind");
-  if (ImGui::BeginPopup("behind")) {
-    if (draw_path_field(gui, "behind path", state.behind_path,
-                        "analysed run, folder of an ensemble, or ensemble.h5", "put behind", "Put behind"))
-      gui.requests.behind_path = state.behind_path;
-    ImGui::EndPopup();
-  }
-  const view::Ghost* ghost = gui.model.ghost();
-  if (!ghost) return;
-  ImGui::SameLine();
-  ImGui::TextUnformatted(view::text_of(*ghost).c_str());
-  ImGui::SameLine();
-  if (named_button(gui, "nothing behind", "x", "nothing behind the curves"))
-    gui.model.set_ghost(std::nullopt);
-}
-
 /// Exports the plots shown as figures.
 void draw_export(Gui& gui) {
   view::ViewState& state = gui.model.state;
   if (named_button(gui, "export plots", "export ...", "write the plots as PDF, SVG and PNG with their data"))
     ImGui::OpenPopup("export plots");
   if (!ImGui::BeginPopup("export plots")) return;
-  if (draw_path_field(gui, "plots folder", state.plots_folder, "folder to write the plots to", "write plots",
-                      state.enlarged_plot.empty() ? "Write all plots" : "Write this plot"))
-    gui.requests.plots_folder = state.plots_folder;
+  ImGui::SetNextItemWidth(22.0f * gui.em);
+  named_text(gui, "plots folder", "", state.plots_folder, "folder to write the plots to");
+  bool taken = ImGui::IsItemFocused() && key_pressed(key_enter, false);
+  ImGui::SameLine();
+  const char* label = state.enlarged_plot.empty() ? "Write all plots" : "Write this plot";
+  taken = named_button(gui, "write plots", label) || taken;
+  if (taken || key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
+  if (taken) gui.requests.plots_folder = state.plots_folder;
   ImGui::EndPopup();
 }
 
@@ -153,13 +125,8 @@ void draw_choices(Gui& gui) {
   draw_axis(gui);
   ImGui::SameLine();
   draw_more(gui);
-  const auto second_view = [&](const char* label) {
-    same_line_if_fits(ImGui::CalcTextSize(label).x + gui.em);
-  };
-  second_view("export ...");
+  same_line_if_fits(ImGui::CalcTextSize("export ...").x + gui.em);
   draw_export(gui);
-  second_view("behind ...");
-  draw_ghost_choice(gui);
 }
 
 }  // namespace

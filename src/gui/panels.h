@@ -22,8 +22,6 @@ void draw_map_panel(Gui& gui);
 void draw_branch_button(Gui& gui);
 /// Draws the commands to a live run.
 void draw_action_panel(Gui& gui);
-/// Draws selection by condition, and the table of the selection.
-void draw_select_panel(Gui& gui);
 /// Draws opening and saving of files, and the command line that draws the picture shown.
 void draw_file_panel(Gui& gui);
 /// Draws the properties of the selected grain.

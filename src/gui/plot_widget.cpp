@@ -54,14 +54,8 @@ void find_ranges(const view::Plot& plot, const view::PlotOptions& options, Axes&
     axes.x.take(x);
     axes.y.take(axes.shown_y(y));
   };
-  for (const view::PlotSeries& series : plot.series) {
+  for (const view::PlotSeries& series : plot.series)
     for (std::size_t k = 0; k < series.x.size(); ++k) take(series.x[k], series.y[k]);
-    for (std::size_t k = 0; k < series.behind.x.size(); ++k) {
-      const double spread = std::isnan(series.behind.deviation[k]) ? 0.0 : series.behind.deviation[k];
-      take(series.behind.x[k], series.behind.mean[k] - spread);
-      take(series.behind.x[k], series.behind.mean[k] + spread);
-    }
-  }
 }
 
 void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
@@ -130,42 +124,10 @@ void draw_curve(ImDrawList& list, const Axes& axes, const view::PlotSeries& seri
   end_column();
 }
 
-/// Returns a colour with another opacity.
-ImU32 with_alpha(ImU32 colour, int alpha) {
-  return (colour & ~IM_COL32_A_MASK) | (static_cast<ImU32>(alpha) << IM_COL32_A_SHIFT);
-}
-
-/// Draws the reference behind a curve: the mean as a pale line, and a band of one standard deviation to each
-/// side.
-void draw_ghost(ImDrawList& list, const Axes& axes, const view::GhostCurve& behind, ImU32 colour,
-                float width) {
-  const ImDrawListFlags flags = list.Flags;
-  list.Flags &=
-      ~ImDrawListFlags_AntiAliasedFill;  // antialiasing would show the seams between the parts of a band
-  const auto end_of = [&](std::size_t k, double side) {
-    const double y = behind.mean[k] + side * behind.deviation[k];
-    return ImVec2{axes.px(behind.x[k]), axes.log_y && !(y > 0.0) ? axes.high.y : axes.py(y)};
-  };
-  for (std::size_t k = 1; k < behind.x.size(); ++k)
-    if (std::isfinite(behind.deviation[k - 1]) && std::isfinite(behind.deviation[k]))
-      list.AddQuadFilled(end_of(k - 1, -1.0), end_of(k, -1.0), end_of(k, 1.0), end_of(k - 1, 1.0),
-                         with_alpha(colour, 38));
-  list.Flags = flags;
-  draw_curve(list, axes, {{}, behind.x, behind.mean}, with_alpha(colour, 110), width);
-}
-
 double x_at(const Axes& axes, float px) {
   float share = std::clamp((px - axes.low.x) / (axes.high.x - axes.low.x), 0.0f, 1.0f);
   if (axes.falling_x) share = 1.0f - share;
   return axes.x.low + static_cast<double>(share) * (axes.x.high - axes.x.low);
-}
-
-/// Formats "0.12 ± 0.02".
-std::string text_behind(const view::GhostCurve& behind, double x) {
-  const double mean = value_near({{}, behind.x, behind.mean}, x);
-  const double deviation = value_near({{}, behind.x, behind.deviation}, x);
-  return fmt::format("{:.4g}", mean) +
-         (std::isnan(deviation) ? std::string() : fmt::format(" ± {:.2g}", deviation));
 }
 
 void show_values(const view::Plot& plot, const Axes& axes) {
@@ -174,11 +136,8 @@ void show_values(const view::Plot& plot, const Axes& axes) {
   const double x = x_at(axes, px);
   ImGui::BeginTooltip();
   rich_text(fmt::format("{}: {:.4g}", plot.x_title, x));
-  for (const view::PlotSeries& series : plot.series) {
-    std::string text = fmt::format("{}: {:.4g}", series.name, value_near(series, x));
-    if (!series.behind.x.empty()) text += ", behind " + text_behind(series.behind, x);
-    rich_text(text);
-  }
+  for (const view::PlotSeries& series : plot.series)
+    rich_text(fmt::format("{}: {:.4g}", series.name, value_near(series, x)));
   ImGui::EndTooltip();
 }
 
@@ -325,8 +284,6 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   draw_ticks(list, axes, em, packed(gui.colours.ink));
   list.PushClipRect(axes.low, axes.high, true);
   draw_marks(colours, list, axes, marks, em);
-  for (std::size_t k = 0; k < plot.series.size(); ++k)
-    draw_ghost(list, axes, plot.series[k].behind, curve_colour(colours, k), 0.06f * em);
   for (std::size_t k = plot.series.size(); k-- > 0;)
     draw_curve(list, axes, plot.series[k], curve_colour(colours, k),
                (plot.series[k].law ? 0.06f : 0.1f) * em);

@@ -30,7 +30,6 @@ constexpr Palette light_palette = {.ground = {255, 255, 255},
                                    .failure = {168, 30, 14},
                                    .command = {0, 106, 168},
                                    .rearrangement = {160, 84, 0},
-                                   .bookmark = {108, 58, 160},
                                    .curves = {{{26, 29, 34}, {190, 84, 0}, {0, 106, 168}, {112, 117, 125}}}};
 
 constexpr Palette dark_palette = {
@@ -57,7 +56,6 @@ constexpr Palette dark_palette = {
     .failure = {255, 118, 98},
     .command = {96, 188, 245},
     .rearrangement = {226, 150, 62},
-    .bookmark = {196, 156, 255},
     .curves = {{{236, 239, 244}, {255, 152, 64}, {86, 180, 245}, {150, 157, 168}}}};
 
 /// White and black; the item under the mouse is light blue, which never appears in saved pictures.
@@ -84,7 +82,6 @@ constexpr Palette print_palette = {.ground = {255, 255, 255},
                                    .failure = {150, 20, 0},
                                    .command = {0, 90, 150},
                                    .rearrangement = {150, 75, 0},
-                                   .bookmark = {100, 50, 150},
                                    .curves = {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}}};
 
 /// Colours of the palette for the parts of Dear ImGui.

@@ -37,7 +37,7 @@ struct Palette {
   render::Colour frame_shown;  ///< line of the frame shown, in plots
 
   // Events of the time line, including their labels.
-  render::Colour transition, failure, command, rearrangement, bookmark;
+  render::Colour transition, failure, command, rearrangement;
 
   std::array<render::Colour, 4> curves;  ///< used in this order; they differ in lightness
 };

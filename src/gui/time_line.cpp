@@ -22,8 +22,6 @@ ImU32 event_colour(const Palette& colours, view::TimelineEvent::Kind kind) {
       return packed(colours.command);
     case view::TimelineEvent::Kind::rearrangement:
       return packed(colours.rearrangement);
-    case view::TimelineEvent::Kind::bookmark:
-      return packed(colours.bookmark);
     case view::TimelineEvent::Kind::transition:
       break;
   }
@@ -99,24 +97,21 @@ void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
     }
 }
 
-/// Draws a stroke for each event. A rearrangement has a stroke at the bottom whose height shows its size, a
-/// command has an arrow, and a bookmark has a flag.
+/// Draws a stroke for each event. A rearrangement has a stroke at the bottom whose height shows its size,
+/// and a command has an arrow.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const view::TimelineEvent& event : gui.model.events()) {
     const float x = track.px(event.place);
     const ImU32 colour = event_colour(gui.colours, event.kind);
     const bool rearranges = event.kind == view::TimelineEvent::Kind::rearrangement;
-    const float above = event.kind == view::TimelineEvent::Kind::bookmark ? 0.55f : 0.15f;
     const float high =
-        rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - above * em;
+        rearranges ? std::lerp(track.high.y, top, static_cast<float>(event.size)) : top - 0.15f * em;
     list.AddLine({x, high}, {x, track.high.y}, colour, 0.14f * em);
     note_place(gui, "event " + event.name, {x - 0.2f * em, top}, {x + 0.2f * em, track.high.y});
     if (event.kind == view::TimelineEvent::Kind::command)
       list.AddTriangleFilled({x, top + 0.3f * em}, {x - 0.3f * em, top - 0.2f * em},
                              {x + 0.3f * em, top - 0.2f * em}, colour);
-    if (event.kind == view::TimelineEvent::Kind::bookmark)
-      list.AddRectFilled({x, top - 0.55f * em}, {x + 0.6f * em, top - 0.1f * em}, colour);
   }
   draw_labels(gui.colours, list, track, gui.model.events(), em);
 }
@@ -144,13 +139,8 @@ void show_values(const Gui& gui, const Track& track, const std::vector<double>& 
     rich_text(fmt::format("{}, {}°", frame_counter(k, tilts.size()), degrees_text(tilts[k], 2)));
   }
   for (const view::TimelineEvent& event : gui.model.events())
-    if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em) {
-      const std::string text = fmt::format("{}°: {}", degrees_text(event.tilt, 2), event.what);
-      if (event.kind == view::TimelineEvent::Kind::bookmark)
-        ImGui::TextUnformatted(text.c_str());
-      else
-        rich_text(text);
-    }
+    if (std::abs(track.px(event.place) - x) <= 0.4f * gui.em)
+      rich_text(fmt::format("{}°: {}", degrees_text(event.tilt, 2), event.what));
   ImGui::EndTooltip();
 }
 
@@ -163,36 +153,6 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   if (!moved) return;
   gui.model.play(false);
   gui.model.go_to(event ? event->frame : static_cast<std::size_t>(std::lround(track.place(x))));
-}
-
-/// Edits the note of the bookmark of the frame shown; enter saves it.
-void draw_bookmark_note(Gui& gui) {
-  view::ViewModel& model = gui.model;
-  if (std::exchange(model.state.bookmark_asked, false)) {
-    const view::Bookmark* const marked = model.bookmark();
-    model.state.bookmark_note = marked ? marked->note : std::string();
-    model.play(false);
-    ImGui::OpenPopup("bookmark note");
-  }
-  if (!ImGui::BeginPopup("bookmark note")) return;
-  rich_text(fmt::format("Bookmark at {}°", degrees_text(model.frame().tilt, 2)));
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(20.0f * gui.em);
-  named_text(gui, "note", "", model.state.bookmark_note, "note on this frame; may be empty");
-  const bool entered = key_pressed(key_enter);
-  if (named_button(gui, "keep bookmark", "keep", "enter") || entered) {
-    model.set_bookmark(model.state.bookmark_note);
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::SameLine();
-  ImGui::BeginDisabled(model.bookmark() == nullptr);
-  if (named_button(gui, "remove bookmark", "remove")) {
-    model.set_bookmark(std::nullopt);
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndDisabled();
-  if (key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
 }
 
 /// Draws the angles of a branch and, next to them, of its parent run, if they ascend together.
@@ -240,17 +200,10 @@ bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
   return true;
 }
 
-/// Draws the buttons at the right end of the line; returns their width.
-float draw_line_buttons(Gui& gui, const ImVec2& corner, float right) {
-  const float em = gui.em;
-  float width = 6.6f * em;
-  ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
-  if (named_button(gui, "bookmark", gui.model.bookmark() ? "bookmark*" : "bookmark",
-                   "mark this frame with a note, which is saved next to the run: B"))
-    gui.model.state.bookmark_asked = true;
-  draw_bookmark_note(gui);
-  if (!gui.model.is_live()) return width;
-  width += 5.4f * em;
+/// Draws the button of a live run at the right end of the line; returns its width.
+float draw_follow_button(Gui& gui, const ImVec2& corner, float right) {
+  if (!gui.model.is_live()) return 0.0f;
+  const float em = gui.em, width = 5.4f * em;
   ImGui::SetCursorScreenPos({right - width + 0.4f * em, corner.y + 0.6f * em});
   ImGui::BeginDisabled(!gui.model.shows_recorded_frame());
   if (named_button(gui, "follow", gui.model.shows_recorded_frame() ? "follow" : "live",
@@ -266,7 +219,7 @@ void draw_time_line(Gui& gui) {
   const float em = gui.em;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float available = ImGui::GetContentRegionAvail().x;
-  const float width = available - draw_line_buttons(gui, corner, corner.x + available);
+  const float width = available - draw_follow_button(gui, corner, corner.x + available);
   ImGui::SetCursorScreenPos(corner);
   ImGui::InvisibleButton("time line", {std::max(width, 1.0f), 3.2f * em});
   note_place(gui, "time line");

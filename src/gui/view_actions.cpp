@@ -2,7 +2,6 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "base/errors.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/actions.h"
@@ -93,14 +92,6 @@ void toggle_following(Gui& gui) {
   state.camera.zoom =
       std::max(state.camera.zoom, gui.model.statics().length / (surroundings * gui.model.mean_diameter()));
   show_message(gui, fmt::format("The picture follows grain {}.", *state.selected));
-}
-
-void show_second_run(Gui& gui) {
-  try {
-    gui.model.open_second_run(gui.model.state.second_view.path);
-  } catch (const Error& error) {
-    gui.model.state.message = error.what();
-  }
 }
 
 }  // namespace talus::gui

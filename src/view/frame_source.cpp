@@ -35,23 +35,16 @@ std::shared_ptr<const Frame> RecordedFrames::read(std::size_t k) {
   return frames_.at(k);
 }
 
-RunFrames::RunFrames(const std::string& path, std::shared_ptr<ReadingTurn> turn) : turn_(std::move(turn)) {
-  const std::scoped_lock lock(*turn_);
-  file_.emplace(io::RunFile::open(path));
-  if (file_->all_frame_tilts().empty())
+RunFrames::RunFrames(const std::string& path) : file_(io::RunFile::open(path)) {
+  if (file_.all_frame_tilts().empty())
     throw Error(ExitCode::bad_data,
                 path + " has no frames yet: there is nothing to show before the tilt begins");
-  instants_ = {file_->all_frame_tilts(), file_->all_frame_times(), file_->frame_count(), not_known};
-}
-
-RunFrames::~RunFrames() {
-  const std::scoped_lock lock(*turn_);  // HDF5 must also be entered by one thread at a time to close the file
-  file_.reset();
+  instants_ = {file_.all_frame_tilts(), file_.all_frame_times(), file_.frame_count()};
 }
 
 std::shared_ptr<const Frame> RunFrames::read(std::size_t k) {
-  const std::scoped_lock lock(*turn_);
-  return std::make_shared<const Frame>(file_->frame(k));
+  const std::scoped_lock lock(mutex_);
+  return std::make_shared<const Frame>(file_.frame(k));
 }
 
 std::shared_ptr<const Frame> RunFrames::frame(std::size_t k) {

@@ -6,15 +6,20 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/run_file.h"
-#include "view/run_clock.h"
 
 namespace talus::view {
+
+/// Instants of the frames of a run, those of a flow after failure last.
+struct RunInstants {
+  std::vector<double> tilts;   ///< rad, one per frame
+  std::vector<double> times;   ///< s, one per frame
+  std::size_t tilt_count = 0;  ///< number of frames of the tilt, which come first
+};
 
 /// Function that returns frame k of a run; it may be called from any thread.
 using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
@@ -28,7 +33,6 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
 
   std::size_t count() const { return instants_.tilts.size(); }
-  /// Returns tilts and times of the frames; without theta_c.
   const RunInstants& instants() const { return instants_; }
   /// Returns frame k; may be called from any thread. Throws as RunFile::frame does.
   virtual std::shared_ptr<const Frame> read(std::size_t k) = 0;
@@ -50,22 +54,14 @@ class RecordedFrames final : public FrameSource {
   std::vector<std::shared_ptr<const Frame>> frames_;
 };
 
-/// Lock on HDF5, which admits one thread at a time even for different files. A thread may lock it repeatedly.
-using ReadingTurn = std::recursive_mutex;
-
 /// Frames of a run file.
 class RunFrames final : public FrameSource {
  public:
-  /// Opens a run; runs that are open at the same time share a lock. Throws as RunFile::open does, and
-  /// Error(bad_data) if the run has no frames.
-  explicit RunFrames(const std::string& path,
-                     std::shared_ptr<ReadingTurn> turn = std::make_shared<ReadingTurn>());
-  ~RunFrames() override;
-  RunFrames(const RunFrames&) = delete;
-  RunFrames& operator=(const RunFrames&) = delete;
+  /// Opens a run. Throws as RunFile::open does, and Error(bad_data) if the run has no frames.
+  explicit RunFrames(const std::string& path);
 
   /// Header, tilts and results; until a second thread runs, also the series.
-  const io::RunFile& file() const { return *file_; }
+  const io::RunFile& file() const { return file_; }
   std::shared_ptr<const Frame> read(std::size_t k) override;
   /// Returns frame k. The frames requested most recently are cached, up to about 256 MB.
   std::shared_ptr<const Frame> frame(std::size_t k) override;
@@ -75,8 +71,8 @@ class RunFrames final : public FrameSource {
   void keep(std::size_t k, std::shared_ptr<const Frame> frame);
 
  private:
-  std::shared_ptr<ReadingTurn> turn_;
-  std::optional<io::RunFile> file_;
+  std::mutex mutex_;  ///< held while reading, because HDF5 admits one thread at a time
+  io::RunFile file_;
   std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< most recently requested first
 };
 

@@ -9,20 +9,11 @@
 
 namespace talus::view {
 
-HistoryInstant instant_of(const Frame& frame, const Selection& question) {
+HistoryInstant instant_of(const Frame& frame, const ContactKey& contact) {
   HistoryInstant instant;
-  instant.step = frame.step;
   instant.time = frame.time;
   instant.tilt = frame.tilt;
-  for (const Index grain : question.grains) {
-    const auto i = static_cast<std::size_t>(grain);
-    const bool there = i < frame.x.size();
-    instant.places.push_back(there ? GrainPlace{frame.x[i], frame.y[i], frame.image[i]}
-                                   : GrainPlace{not_known, not_known, 0});
-  }
-  if (!question.contact) return instant;
-  instant.fn = instant.ft = 0.0;
-  if (const auto found = contact_of_key(frame.contacts, *question.contact)) {
+  if (const auto found = contact_of_key(frame.contacts, contact)) {
     const auto c = static_cast<std::size_t>(*found);
     instant.fn = frame.contacts.fn[c];
     instant.ft = frame.contacts.ft[c];
@@ -35,13 +26,13 @@ HistoryInstant instant_of(const Frame& frame, const Selection& question) {
 HistorySeries::HistorySeries(ReadFrame read)
     : read_(std::move(read)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-void HistorySeries::set_question(const Selection& question, std::size_t frames) {
+void HistorySeries::set_contact(const ContactKey& contact, std::size_t frames) {
   const std::scoped_lock lock(shared_.mutex);
-  if (!(question == question_) || shared_.turn == 0) {
-    question_ = question;
+  if (!(contact == contact_) || shared_.turn == 0) {
+    contact_ = contact;
     instants_.clear();
     ++shared_.turn;
-    shared_.question = question;
+    shared_.contact = contact;
     shared_.ready.clear();
   }
   if (shared_.frames != frames || instants_.empty()) shared_.changed.notify_all();
@@ -60,7 +51,7 @@ void HistorySeries::work(const std::stop_token& stop) {
   int turn = 0;
   std::size_t next = 0;
   bool failed = false;
-  Selection question;
+  ContactKey contact;
   std::unique_lock lock(shared_.mutex);
   for (;;) {
     const bool anything = shared_.changed.wait(
@@ -68,7 +59,7 @@ void HistorySeries::work(const std::stop_token& stop) {
     if (!anything || stop.stop_requested()) return;
     if (shared_.turn != turn) {
       turn = shared_.turn;
-      question = shared_.question;
+      contact = shared_.contact;
       next = 0;
       failed = false;
       continue;
@@ -76,7 +67,7 @@ void HistorySeries::work(const std::stop_token& stop) {
     lock.unlock();
     HistoryInstant instant;
     try {
-      instant = instant_of(*read_(next), question);
+      instant = instant_of(*read_(next), contact);
     } catch (const std::exception&) {
       failed = true;  // the series of frames meets the same error and reports it
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// History of single grains and of a contact, read from all frames of a run in the background of the view.
+/// History of a contact, read from all frames of a run in the background of the view.
 
 #include <condition_variable>
 #include <memory>
@@ -17,25 +17,16 @@
 
 namespace talus::view {
 
-/// Position of a grain in a frame.
-struct GrainPlace {
-  double x = 0.0, y = 0.0;  ///< m; NaN if the grain has not arrived yet
-  Index image = 0;          ///< net number of exits through the right periodic edge
-};
-
 /// One frame of the history.
 struct HistoryInstant {
-  std::int64_t step = 0;
-  double time = 0.0;               ///< s
-  double tilt = 0.0;               ///< rad
-  std::vector<GrainPlace> places;  ///< positions of the requested grains, in their order
-  double fn = not_known,
-         ft = not_known;  ///< N per metre of thickness; NaN without a contact, 0 if it is open
+  double time = 0.0;          ///< s
+  double tilt = 0.0;          ///< rad
+  double fn = 0.0, ft = 0.0;  ///< N per metre of thickness; 0 if the contact is open
   ContactStatus status = ContactStatus::open;
   double friction = not_known;  ///< mu of the contact, if it carries force
 };
 
-HistoryInstant instant_of(const Frame& frame, const Selection& question);
+HistoryInstant instant_of(const Frame& frame, const ContactKey& contact);
 
 /// Reads in its own thread. All members must be called from one other thread.
 class HistorySeries {
@@ -46,13 +37,12 @@ class HistorySeries {
   HistorySeries(const HistorySeries&) = delete;
   HistorySeries& operator=(const HistorySeries&) = delete;
 
-  /// Requests the history of `question` over `frames` frames: from the first frame if the question is new,
+  /// Requests the history of a contact over `frames` frames: from the first frame if it is another contact,
   /// else only the frames not yet read.
-  void set_question(const Selection& question, std::size_t frames);
+  void set_contact(const ContactKey& contact, std::size_t frames);
   /// Collects what has been read; returns whether there was anything.
   bool collect_ready();
 
-  const Selection& question() const { return question_; }
   /// Returns the instants read so far, of the first frames. A frame that cannot be read ends them.
   const std::vector<HistoryInstant>& instants() const { return instants_; }
 
@@ -60,8 +50,8 @@ class HistorySeries {
   struct SharedState {
     std::mutex mutex;
     std::condition_variable_any changed;
-    int turn = 0;  ///< number of questions
-    Selection question;
+    int turn = 0;  ///< number of contacts requested
+    ContactKey contact;
     std::size_t frames = 0;
     std::vector<HistoryInstant> ready;
   };
@@ -69,7 +59,7 @@ class HistorySeries {
   void work(const std::stop_token& stop);
 
   ReadFrame read_;
-  Selection question_;
+  ContactKey contact_;
   std::vector<HistoryInstant> instants_;
   SharedState shared_;
   std::jthread thread_;  ///< last member: it is joined before the others are destroyed

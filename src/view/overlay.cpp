@@ -65,21 +65,6 @@ void add_contact(render::FrameView& view, const BedFrame& bed, std::size_t c, do
   }
 }
 
-/// Adds a trail line by line. Each line begins inside the bed, from which its images follow.
-void add_trail(render::FrameView& view, const BedFrame& bed, const std::vector<Vec2>& trail,
-               double half_width, const render::Colour& colour) {
-  const double period = analysis::period_of(bed.statics);
-  for (std::size_t k = 1; k < trail.size(); ++k) {
-    const Vec2 from = trail[k - 1], to = trail[k];
-    const double shift = period > 0.0 ? period * std::floor(from.x / period) : 0.0;
-    pictures::add_line(
-        view,
-        {static_cast<float>(from.x - shift), static_cast<float>(from.y), static_cast<float>(to.x - shift),
-         static_cast<float>(to.y), static_cast<float>(half_width), colour},
-        bed.statics);
-  }
-}
-
 /// Adds a stroke between each grain of a cluster and each neighbour outside it. Fills and rims of grains
 /// stay, because a cluster can make up most of the bed.
 void add_outline(render::FrameView& view, const BedFrame& bed, const analysis::Clusters& clusters,
@@ -126,13 +111,11 @@ void add_inspected(render::FrameView& view, const BedFrame& bed, const Overlay& 
   add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
-/// Adds the rest of the selection, and its trails.
+/// Adds the rest of the selection.
 void add_selection(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   const double d = bed.statics.mean_diameter, width = view.x_max - view.x_min;
   const double half_width = std::clamp(min_ring_width * width, 0.02 * d, largest_ring_width * d);
   const int lines = overlay.grains.size() > few ? 12 : 32;
-  for (const auto& [pen, colour] : {std::pair{2.0 * half_width, render::white}, {half_width, trail_colour}})
-    for (const std::vector<Vec2>& trail : overlay.trails) add_trail(view, bed, trail, pen, colour);
   for (const Index grain : overlay.grains) {
     const auto i = static_cast<std::size_t>(grain);
     if (!is_in_picture(view, bed, i)) continue;

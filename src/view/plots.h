@@ -35,19 +35,12 @@ struct PlotMarks {
   std::vector<double> ticks{};    ///< short ticks above the axis: rearrangements
 };
 
-/// Reference curve behind a curve: the same quantity of another run, or the mean of an ensemble.
-struct GhostCurve {
-  std::vector<double> x, mean;
-  std::vector<double> deviation;  ///< standard deviation over the runs; NaN for a single run
-};
-
 /// One curve along the run, with its description.
 struct PlotSeries {
   std::string name;          ///< short name for the legend: "p_o"
   std::vector<double> x, y;  ///< places on the axis, and values; NaN if there is none
   bool law = false;          ///< prediction of theory, drawn with the measurement
   std::optional<analysis::Quantity> quantity = std::nullopt;  ///< quantity shown, if the table has it
-  GhostCurve behind{};                                        ///< empty if there is none
 };
 
 /// Plot next to the map: curves along the run, or over the abscissa that `x_title` names.

@@ -102,15 +102,6 @@ GrainValues grain_values(const MapSource& source, const RunStatics& statics) {
   return {};
 }
 
-std::optional<pictures::ScaleRange> own_range(const MapSource& source, const RunStatics& statics) {
-  MapSource own = source;
-  own.settings.range_low.reset();
-  own.settings.range_high.reset();
-  for (const pictures::MapLayer& layer : layers_of(own, statics))
-    if (layer.scale) return pictures::ScaleRange{layer.scale->low, layer.scale->high};
-  return std::nullopt;
-}
-
 render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
                             const BedFrame& bed) {
   render::FrameView view = pictures::empty_view(part);

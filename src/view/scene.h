@@ -35,9 +35,6 @@ struct GrainValues {
 /// Returns the values of the first layer of the map that has any.
 GrainValues grain_values(const MapSource& source, const RunStatics& statics);
 
-/// Returns the default ends of the bar of the first layer that has a bar and values for the grains.
-std::optional<pictures::ScaleRange> own_range(const MapSource& source, const RunStatics& statics);
-
 /// Returns whether the map depends on the part of the bed shown: arrows are spread over it.
 bool depends_on_extent(const pictures::MapLayers& layers);
 
@@ -56,8 +53,7 @@ render::FrameView draw_change(const pictures::PictureSeries& series, const Frame
 render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
                             const BedFrame& bed);
 
-/// Colours of the selection and of its trails.
-inline constexpr render::Colour selection_colour{0, 90, 220}, trail_colour{0, 60, 150};
+inline constexpr render::Colour selection_colour{0, 90, 220};
 
 /// Marks drawn over the map of a frame.
 struct Overlay {
@@ -68,8 +64,6 @@ struct Overlay {
   std::vector<Index> grains;              ///< grains marked with a thin ring
   std::optional<Index>
       contact;  ///< contact of the frame: a ring about its point, and a line between its bodies
-  /// Positions of grains from frame to frame, m; in a periodic bed they continue beyond its edge.
-  std::vector<std::vector<Vec2>> trails;
 };
 
 /// Returns the diameters of the circles for a neighbourhood that has grown to `largest`: round steps, and the

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 
 #include "analysis/free_grains.h"
@@ -23,36 +22,13 @@ bool is_within(std::span<const Vec2> outline, double x, double y) {
 
 }  // namespace
 
-std::vector<Index> combined(const std::vector<Index>& before, const std::vector<Index>& found,
-                            SelectionMode mode) {
-  std::vector<Index> grains;
-  const auto into = std::back_inserter(grains);
-  switch (mode) {
-    case SelectionMode::replace:
-      return found;
-    case SelectionMode::add:
-      std::ranges::set_union(before, found, into);
-      break;
-    case SelectionMode::remove:
-      std::ranges::set_difference(before, found, into);
-      break;
-    case SelectionMode::common:
-      std::ranges::set_intersection(before, found, into);
-      break;
-  }
+std::vector<Index> toggled(std::vector<Index> grains, Index grain) {
+  const auto place = std::ranges::lower_bound(grains, grain);
+  if (place != grains.end() && *place == grain)
+    grains.erase(place);
+  else
+    grains.insert(place, grain);
   return grains;
-}
-
-std::vector<Index> toggled(const std::vector<Index>& grains, Index grain) {
-  const bool there = std::ranges::binary_search(grains, grain);
-  return combined(grains, {grain}, there ? SelectionMode::remove : SelectionMode::add);
-}
-
-std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (grains.size() + most - 1) / most);
-  std::vector<Index> some;
-  for (std::size_t k = 0; k < grains.size(); k += stride) some.push_back(grains[k]);
-  return some;
 }
 
 std::vector<Index> grains_within(const BedFrame& bed, std::span<const Vec2> outline) {

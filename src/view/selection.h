@@ -21,26 +21,10 @@ struct ContactKey {
 struct Selection {
   std::vector<Index> grains;          ///< sorted by id, without duplicates
   std::optional<ContactKey> contact;  ///< instead of grains
-  bool operator==(const Selection&) const = default;
 };
 
-/// Combination of the grains found with the current selection.
-enum class SelectionMode {
-  replace,  ///< replaces the selection
-  add,      ///< adds to the selection
-  remove,   ///< removes from the selection
-  common,   ///< intersects with the selection
-};
-
-/// Combines two lists; both, and the result, are sorted by id without duplicates.
-std::vector<Index> combined(const std::vector<Index>& before, const std::vector<Index>& found,
-                            SelectionMode mode);
-
-/// Returns the grains with `grain` added, or removed if it is among them.
-std::vector<Index> toggled(const std::vector<Index>& grains, Index grain);
-
-/// Returns at most `most` grains: all of them, or every second, third, ... from the first on.
-std::vector<Index> thinned(const std::vector<Index>& grains, std::size_t most);
+/// Returns the grains, sorted by id, with `grain` added, or removed if it is among them.
+std::vector<Index> toggled(std::vector<Index> grains, Index grain);
 
 /// Returns, sorted by id, the free grains whose centre, or an image of it in a periodic bed, lies inside the
 /// closed polygon through these points (m, frame of the bed): a ray from the centre crosses it an odd number

@@ -183,11 +183,6 @@ std::vector<TimelineEvent> timeline_events(const TimelineSource& source) {
     list.add("theta_c", "θ_c", "the slope fails", *source.theta_c, TimelineEvent::Kind::failure);
   add_rearrangements(list);
   for (std::size_t k = 0; k < source.commands.size(); ++k) list.add_command(k);
-  for (std::size_t k = 0; k < source.bookmarks.size(); ++k) {
-    const auto& [time, tilt, note] = source.bookmarks[k];
-    list.add_at(fmt::format("bookmark {}", k), "", note.empty() ? "bookmark" : note, tilt,
-                place_among(source.all_times, time), time, TimelineEvent::Kind::bookmark);
-  }
   std::ranges::stable_sort(list.events, {}, &TimelineEvent::place);
   return std::move(list.events);
 }

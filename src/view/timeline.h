@@ -9,7 +9,6 @@
 
 #include "core/command.h"
 #include "core/observables.h"
-#include "view/bookmarks.h"
 #include "view/frame_values.h"
 
 namespace talus::view {
@@ -29,11 +28,10 @@ enum class Landmark {
 std::string_view event_name(Landmark landmark);
 
 struct TimelineEvent {
-  enum class Kind { transition, failure, command, rearrangement, bookmark };
+  enum class Kind { transition, failure, command, rearrangement };
   std::string name;   ///< also the name of its widget: "dilation", "theta_c", "command 0"
-  std::string label;  ///< short rich text: "θ_d"; empty for a command, a rearrangement or a bookmark
-  std::string
-      what;  ///< rich text: the event and the measure that shows it; for a bookmark, its note verbatim
+  std::string label;  ///< short rich text: "θ_d"; empty for a command or a rearrangement
+  std::string what;   ///< rich text: the event and the measure that shows it
   Kind kind = Kind::transition;
   double tilt = 0.0;      ///< rad
   double place = 0.0;     ///< frames from the first, interpolated
@@ -53,8 +51,6 @@ struct TimelineSource {
   std::span<const ObservableRow>
       command_rows;  ///< rows_up_to of the entire run, which give the commands a tilt
   std::span<const analysis::EventRecord> rearrangements;  ///< rearrangements of a stored analysis, in order
-  std::span<const Bookmark> bookmarks;                    ///< ordered by time
-  std::vector<double> all_times;                          ///< s, one per frame, including those after failure
   double energy_unit = 1.0;                               ///< m g D, J/m
   std::optional<double> theta_c;                          ///< rad
   double mean_diameter = 0.0, cut = 0.0;                  ///< m; l_c is searched up to `cut`
@@ -66,7 +62,7 @@ struct TimelineSource {
 double place_among(std::span<const double> tilts, double tilt);
 
 /// Returns theta_d by each estimator, the jump of l_c, the first spanning cluster, the first slide, theta_c,
-/// the rearrangements, the commands and the bookmarks, as analyses find them (analysis/failure/transition.h),
+/// the rearrangements and the commands, as analyses find them (analysis/failure/transition.h),
 /// in order of place. Events that need the values of all frames appear once these are known. Empty without
 /// frames. If the tilt rises and falls, events found by angle are those of the last rise.
 std::vector<TimelineEvent> timeline_events(const TimelineSource& source);

@@ -1,10 +1,8 @@
-/// Events of the run shown, and bookmarks of its frames.
+/// Events of the run shown.
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "base/errors.h"
 #include "pictures/frame_choice.h"
 #include "runs/event_catalogue.h"
 #include "session/command.h"
@@ -25,8 +23,6 @@ void ViewModel::find_events() {
                               : std::vector<ObservableRow>();
   source.command_rows = live_ ? live_rows : file_rows_;
   if (analysis_) source.rearrangements = analysis_->events;
-  source.bookmarks = bookmarks_;
-  source.all_times = frames_->instants().times;
   source.energy_unit =
       runs::mean_grain_mass(all_statics_) * all_statics_.gravity * all_statics_.mean_diameter;
   source.theta_c = theta_c_;
@@ -47,57 +43,6 @@ std::optional<std::size_t> ViewModel::place_of(Landmark landmark) const {
   }
   const auto event = std::ranges::find(events_, event_name(landmark), &TimelineEvent::name);
   return event == events_.end() ? std::nullopt : std::optional(event->frame);
-}
-
-std::string ViewModel::bookmarks_file() const {
-  const std::string& run = replay_ ? pictures_.path : output_;
-  return run.empty() ? "" : bookmarks_path(run);
-}
-
-void ViewModel::open_bookmarks() {
-  try {
-    bookmarks_ = read_bookmarks(bookmarks_file());
-  } catch (const Error& failure) {
-    bookmarks_unread_ = error_ = failure.what();
-  }
-}
-
-const Bookmark* ViewModel::bookmark() const {
-  const auto frame = marked_frame();
-  if (!frame) return nullptr;
-  const double time = frames_->instants().times[*frame];
-  const auto found = std::ranges::find(bookmarks_, time, &Bookmark::time);
-  return found == bookmarks_.end() ? nullptr : &*found;
-}
-
-std::optional<std::size_t> ViewModel::marked_frame() const {
-  if (frame_count() == 0) return std::nullopt;
-  return std::min(frame_index(), frame_count() - 1);
-}
-
-void ViewModel::set_bookmark(const std::optional<std::string>& note) {
-  const auto frame = marked_frame();
-  if (!frame) return;
-  const double time = frames_->instants().times[*frame];
-  std::vector<Bookmark> next = bookmarks_;
-  if (note)
-    talus::view::set_bookmark(next, {time, frame_tilts()[*frame], *note});
-  else if (std::erase_if(next, [time](const Bookmark& other) { return other.time == time; }) == 0)
-    return;
-  const std::string file = bookmarks_file();
-  if (file.empty() || !bookmarks_unread_.empty()) {
-    state.message =
-        file.empty() ? "Save the run first: bookmarks are kept in a file next to it." : bookmarks_unread_;
-    return;
-  }
-  try {
-    write_bookmarks(file, next);
-  } catch (const Error& failure) {
-    state.message = failure.what();
-    return;
-  }
-  bookmarks_ = std::move(next);
-  find_events();
 }
 
 }  // namespace talus::view

@@ -2,8 +2,6 @@
 /// The interactive view without its widgets: a run file that is replayed or a run that is computed, the frame
 /// shown, the properties of the selected grain, and the curves next to its maps. It provides two views.
 
-#include <array>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,8 +13,6 @@
 #include "view/frame_ahead.h"
 #include "view/frame_series.h"
 #include "view/frame_source.h"
-#include "view/ghost.h"
-#include "view/grain_quantities.h"
 #include "view/history.h"
 #include "view/inspection.h"
 #include "view/live_run.h"
@@ -52,8 +48,7 @@ struct MapCache {
 
 class ViewModel;
 
-/// One of the two views: a map of a run, valid until either is changed. The second view shows another map of
-/// the same run, or a second run.
+/// One of the two views: a map of the run, valid until either is changed. The second view shows another map.
 struct View {
   ViewModel& run;
   const ViewState& state;  ///< state with the map of this view
@@ -88,10 +83,6 @@ struct View {
   render::FrameView picture(const pictures::MapExtent& shown) const;
 };
 
-/// Maps a point (m) of one bed to another: the same share of the length, the same height above the floor in
-/// D.
-Vec2 place_in(const RunStatics& to, const RunStatics& from, double x, double y);
-
 class ViewModel {
  public:
   /// Opens a run file (replay) or a scenario (live), depending on the content of the file. If `output` is
@@ -102,8 +93,7 @@ class ViewModel {
   ViewState state;  ///< changed by the caller
 
   View first() { return {*this, state, map_, false}; }
-  /// Returns the second view, as state.second_view requests it. A second run shows the frame that corresponds
-  /// to the frame shown.
+  /// Returns the second view, as state.second_view requests it.
   View second();
 
   bool is_live() const { return live_ != nullptr; }
@@ -138,12 +128,6 @@ class ViewModel {
   /// Returns whether the tilt follows a programme, in which it may fall and be held.
   bool goes_by_time() const { return pictures_.goes_by_time; }
   std::span<const TimelineEvent> events() const { return events_; }
-  /// Returns the bookmark of the frame shown or, in a live run that is followed, of the frame recorded last.
-  /// Null if there is none.
-  const Bookmark* bookmark() const;
-  /// Sets the bookmark of that frame, or removes it if there is no note, and writes the file next to the run.
-  /// An error is reported in state.message, and nothing is changed.
-  void set_bookmark(const std::optional<std::string>& note);
   /// Goes to a frame. A live run continues to compute while the frame is shown, until it is followed again.
   /// Does nothing if there is no frame yet.
   void go_to(std::size_t frame);
@@ -181,17 +165,6 @@ class ViewModel {
   /// Zooms by a factor about a point (m), which keeps its position in the picture. Returns as set_camera().
   bool zoom(double factor, double x, double y);
 
-  /// Opens another run next to the current one; both must be replays. Throws as open() does, and Error(usage)
-  /// if either is computed. Shows the second view, linked by time if both runs have a programme.
-  void open_second_run(const std::string& path);
-  /// Returns the second view to this run.
-  void close_second_run();
-  /// Returns the second run; null if the second view shows this run.
-  const ViewModel* second_run() const { return other_.get(); }
-  /// Returns whether frames of the second run can be found by this clock: theta_c - theta requires that both
-  /// runs have failed.
-  bool has_clock(PlotAxis clock) const;
-
   // Selection: state.selected is the inspected grain, state.selecting the rest of the selection.
   /// Selects one grain, or none, and nothing else.
   void select(std::optional<Index> grain);
@@ -199,33 +172,15 @@ class ViewModel {
   /// them.
   void select(std::vector<Index> grains);
   void select(const ContactKey& contact);
-  /// Combines the current selection with the grains found, by state.selecting.mode; ends the selection by
-  /// condition in each frame.
-  void select_found(const std::vector<Index>& found);
-  /// Selects the grains that satisfy state.selecting.condition in the frame shown; an empty condition finds
-  /// none. With in_each_frame they replace the selection. An error in the condition is put into
-  /// state.selecting.error, and the selection stays.
-  void select_by_condition();
   /// Returns all selected grains that exist in the frame shown, sorted by id.
   std::vector<Index> selected_grains() const;
   /// Calls find_contact for the frame shown.
   std::optional<ContactKey> contact_at(double x, double y, double reach) const;
-  /// Returns the values of all grains of the frame shown, indexed by id, with the settings of the first map:
-  /// measured from the same frame, over the same length. Computed once for a frame and settings.
-  const std::vector<double>& grain_values(const analysis::GrainNumber& number);
 
   /// Returns the properties of the selected contact in the frame shown; nothing if none is selected.
   std::optional<ContactInspection> contact_inspection() const;
   /// Returns its contact_plots, over the axis of all plots; frames are added as they are read.
   std::vector<Plot> contact_history() const;
-  /// Maximum number of grains whose trails are drawn; if more are selected, every second, third, ... has a
-  /// trail.
-  static constexpr std::size_t max_trails = 500;
-
-  /// Writes all quantities of the selected grains as grains_table to a new file. Reports success or the error
-  /// in state.message.
-  void write_selected(const std::string& path);
-
   /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
   /// for a frame and a selection.
   const Inspection* inspection() { return inspect_selected(first()); }
@@ -243,9 +198,6 @@ class ViewModel {
   PlotAxis plot_axis() const { return axis_; }
   bool has_plot_axis(PlotAxis axis) const { return axis != PlotAxis::angle_left || theta_c_known(); }
   void set_plot_axis(PlotAxis axis);
-  /// Shows another run, or an ensemble, behind the curves along the run; none removes it.
-  void set_ghost(std::optional<Ghost> ghost);
-  const Ghost* ghost() const { return ghost_ ? &*ghost_ : nullptr; }  ///< null if there is none
   /// Returns the places on that axis of the frame shown, theta_c and rearrangements.
   PlotMarks plot_marks() const;
   /// Goes to the frame nearest to a place on that axis (deg or s).
@@ -292,11 +244,6 @@ class ViewModel {
   // view_events.cpp: its events.
   void find_events();
   std::optional<std::size_t> place_of(Landmark landmark) const;
-  void open_bookmarks();
-  /// Returns the path of the bookmark file next to the run; empty if the run has no file.
-  std::string bookmarks_file() const;
-  /// Returns the frame that a bookmark would mark; nothing if there is no frame.
-  std::optional<std::size_t> marked_frame() const;
 
   // view_plots.cpp: recompute its curves, from its records and from its frames.
   void plot_rows();
@@ -307,34 +254,20 @@ class ViewModel {
   // view_shown.cpp: results for the frame shown.
   const analysis::Clusters& shown_clusters(const pictures::MapSettings& settings);
   const Inspection* inspect_selected(const View& view);
-  /// Returns the bed, as high as the higher of the two runs.
-  pictures::MapExtent viewed_bed() const;
   /// Returns the mapped frame at a tilt (rad); null if there is none.
   std::shared_ptr<const Frame> reference_at(double tilt);
 
   // view_selection.cpp
-  /// Returns the source for conditions and tables of grains; if `measured`, with the earlier frame.
-  analysis::GrainSource grain_source(bool measured);
   /// Returns the marks of the selection in the frame shown, without the inspected grain.
   Overlay selection_marks() const;
-  /// Returns mu between grains at a step, as set by commands.
-  /// Reads the data for trails and for the selected contact; returns whether any have arrived.
+  /// Reads the history of the selected contact; returns whether any of it has arrived.
   bool follow_history();
   /// Moves the camera to the inspected grain, if requested.
   void follow_grain();
 
-  // second_view.cpp: the links between the two views.
-  /// Returns the instants of all frames, theta_c, and the number of frames of the tilt.
-  RunInstants instants() const;
+  // The tilts and times of the frames of the tilt.
   std::vector<double> tilts_of_tilt() const;
   std::vector<double> times_of_tilt() const;
-  ViewState second_view_state() const;
-  /// Returns whether both views show the same map, of two runs.
-  bool same_map() const;
-  /// Brings the second run to the corresponding frame and part of the bed; returns whether its content has
-  /// changed.
-  bool follow_second_run(double seconds);
-  void link_ranges();
 
   /// Pictures of the run, with the current map and part of the bed.
   pictures::PictureSeries pictures_;
@@ -348,20 +281,9 @@ class ViewModel {
   std::vector<ObservableRow> rows_;
   std::vector<Plot> plots_ = empty_plots();
   PlotAxis axis_ = PlotAxis::tilt;  ///< abscissa of the plots along the run
-  std::optional<Ghost> ghost_;      ///< drawn behind the plots
   std::string error_;               ///< error since the last update
 
-  // Second run.
-  std::shared_ptr<ReadingTurn> turn_ = std::make_shared<ReadingTurn>();  ///< shared by all open runs
-  std::unique_ptr<ViewModel> other_;                                     ///< second run, or null
-  struct {
-    pictures::MapLayers layers;
-    double theta_c = 0.0, other_theta_c = 0.0;  ///< rad
-    std::optional<pictures::ScaleRange> range;
-  } linked_;  ///< common range of a map that both runs show
-  std::optional<pictures::MapExtent>
-      second_bed_;          ///< m of this run: height of the second run, for a common scale
-  ViewState second_state_;  ///< state of a second view of this run, when last requested
+  ViewState second_state_;  ///< state of the second view, when last requested
 
   // Members of a replay.
   std::shared_ptr<RunFrames> run_file_;
@@ -387,9 +309,6 @@ class ViewModel {
   std::vector<Command> commands_;
   std::vector<ObservableRow> file_rows_;  ///< for a replay with commands: rows_up_to the end of the run
   std::vector<TimelineEvent> events_;
-  std::vector<Bookmark> bookmarks_;
-  std::string bookmarks_unread_;  ///< why the bookmarks next to the run could not be read; they must not be
-                                  ///< overwritten
 
   std::unique_ptr<FrameSeries> series_;
   std::unique_ptr<HistorySeries> history_;  ///< null if nothing is requested
@@ -410,19 +329,8 @@ class ViewModel {
     std::shared_ptr<const Frame> stored, mapped;
     double l_min = 0.0;
   } reference_;  ///< frame that is subtracted from the frame shown
-  struct GrainValuesCache {
-    std::shared_ptr<const Frame> frame;
-    pictures::OverloadRule rule;
-    std::optional<double> since;
-    double length = 0.0;
-    std::optional<analysis::FrameThreshold> judged;  ///< l_c and clusters at the threshold of the rule
-    std::shared_ptr<const Frame> earlier;
-    std::map<std::string_view, std::vector<double>> values;
-  } grain_values_;
   MapCache map_, second_map_;
-  std::shared_ptr<const Frame> first_frame_;      ///< first frame of the run; null until requested
-  std::shared_ptr<const Frame> condition_frame_;  ///< frame in which the condition was last evaluated
-  double aspect_ = 0.0;                           ///< aspect of the picture requested last; 0: none
+  double aspect_ = 0.0;  ///< aspect of the picture requested last; 0: none
 };
 
 }  // namespace talus::view

@@ -16,7 +16,6 @@ void ViewModel::plot_values() {
   const std::vector<double>& times = frames_->instants().times;
   plot_frames(series_->values(), times, mean_diameter(), abscissa(), plots_);
   if (analysis_) plot_frames(analysis_->frames, times, mean_diameter(), abscissa(), plots_, true);
-  plot_ghost(ghost(), axis_, series_->rule().threshold_factor, plots_);
 }
 
 void ViewModel::note_thresholds(const pictures::OverloadRule& rule) {
@@ -58,11 +57,6 @@ void ViewModel::set_plot_axis(PlotAxis axis) {
     state.plot_options[plot.name].zoomed.reset();
     state.plot_options[plot.name].chosen.reset();
   }
-}
-
-void ViewModel::set_ghost(std::optional<Ghost> ghost) {
-  ghost_ = std::move(ghost);
-  plot_values();
 }
 
 PlotMarks ViewModel::plot_marks() const {

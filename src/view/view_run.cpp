@@ -63,7 +63,7 @@ ViewModel ViewModel::open(const std::string& path, const std::vector<std::string
 }
 
 void ViewModel::open_replay() {
-  frames_ = run_file_ = std::make_shared<RunFrames>(pictures_.path, turn_);
+  frames_ = run_file_ = std::make_shared<RunFrames>(pictures_.path);
   replay_.emplace(run_file_);
   const io::RunFile& file = run_file_->file();
   pictures_.run = file.header();
@@ -78,7 +78,6 @@ void ViewModel::open_replay() {
   commands_ = file.commands();
   if (const World& end = file.checkpoint().world; !commands_.empty())
     file_rows_ = session::rows_up_to(file.all_observables(), end.step, end.time, end.tilt);
-  open_bookmarks();
   // The bed is highest at its beginning or at its end.
   bed_ = pictures::bed_extent(statics());
   pictures::extend(bed_, {*frames_->read(frame_count() - 1), statics()});
@@ -125,9 +124,6 @@ void ViewModel::start_live(const std::string& next_output, bool overwrite) {
   ended_ = false;
   events_.clear();
   commands_.clear();
-  bookmarks_.clear();
-  bookmarks_unread_.clear();
-  first_frame_.reset();
   show(newest_);
   take_all_recorded();
 }
@@ -251,7 +247,6 @@ bool ViewModel::follow_frames(const pictures::OverloadRule& rule) {
 }
 
 void ViewModel::take_all_recorded() {
-  first_frame_.reset();
   series_.reset();
   frames_ = recorded_ = std::make_shared<RecordedFrames>();
   recorded_->add(live_->recorded_frames(0));
@@ -331,6 +326,18 @@ std::size_t ViewModel::frame_index() const {
                                   frames_->instants().times.begin());
 }
 
+std::vector<double> ViewModel::tilts_of_tilt() const {
+  std::vector<double> tilts = frames_->instants().tilts;
+  tilts.resize(frames_->instants().tilt_count);
+  return tilts;
+}
+
+std::vector<double> ViewModel::times_of_tilt() const {
+  std::vector<double> times = frames_->instants().times;
+  times.resize(frames_->instants().tilt_count);
+  return times;
+}
+
 std::size_t ViewModel::frame_at_angle(const std::string& angle) const {
   if (!replay_)
     throw Error(ExitCode::usage, path() + ": this run is being computed, so it has no frames to go to");
@@ -367,7 +374,6 @@ void ViewModel::hold() {
     live_->halt();
   else
     begin_series();
-  if (other_) other_->hold();
 }
 
 Recording ViewModel::recording() const {
@@ -412,11 +418,9 @@ bool ViewModel::update(double seconds) {
     changed = true;
   }
   changed = follow_frames(first().settings()) || changed;
-  if (state.selecting.in_each_frame && condition_frame_ != frame_) select_by_condition();
   changed = follow_history() || changed;
   follow_grain();
   state.camera = centred(clamped(state.camera, bed_, mean_diameter()), first().part(aspect_));
-  changed = follow_second_run(seconds) || changed;
   if (const std::string end = take_end(); !end.empty()) state.announcement = end;
   if (!error_.empty()) state.message = std::exchange(error_, {});
   return changed;

@@ -25,11 +25,6 @@ pictures::MapSettings View::settings() const {
   settings.l_min = run.l_min_;
   settings.length = std::clamp(settings.length, 1.0, run.statics().length / run.mean_diameter());
   settings.furniture = true;
-  if (run.linked_.range && state.map.layers == run.linked_.layers && !settings.range_low &&
-      !settings.range_high) {
-    settings.range_low = run.linked_.range->low;
-    settings.range_high = run.linked_.range->high;
-  }
   settings.tilt_max = 0.0;
   if (settings.turned)  // the same size for all frames
     settings.tilt_max =
@@ -61,20 +56,25 @@ const Inspection* ViewModel::inspect_selected(const View& view) {
   return &inspection_.result;
 }
 
-pictures::MapExtent ViewModel::viewed_bed() const {
-  pictures::MapExtent viewed = bed_;
-  if (second_bed_) pictures::extend(viewed, *second_bed_);
-  return viewed;
+View ViewModel::second() {
+  second_state_ = state;
+  if (!state.second_view.layers.empty()) second_state_.map.layers = state.second_view.layers;
+  second_state_.minus = state.second_view.minus;
+  if (second_state_.minus || second_state_.map.layers != state.map.layers) {  // the range is of another map
+    second_state_.map.range_low.reset();
+    second_state_.map.range_high.reset();
+  }
+  return {*this, second_state_, second_map_, true};
 }
 
 double View::bed_aspect() const {
-  const pictures::MapExtent viewed = run.viewed_bed();
-  return picture_aspect((viewed.y_max - viewed.y_min) / (viewed.x_max - viewed.x_min),
+  const pictures::MapExtent& bed = run.bed_;
+  return picture_aspect((bed.y_max - bed.y_min) / (bed.x_max - bed.x_min),
                         std::max(0.0, settings().tilt_max));
 }
 
 pictures::MapExtent View::part(double aspect) const {
-  return shown_part(state.camera, run.viewed_bed(), run.mean_diameter(), aspect > 0.0 ? aspect : bed_aspect(),
+  return shown_part(state.camera, run.bed_, run.mean_diameter(), aspect > 0.0 ? aspect : bed_aspect(),
                     std::max(0.0, settings().tilt_max));
 }
 

@@ -26,10 +26,8 @@ struct ViewCamera {
 /// State of the second view.
 struct SecondViewState {
   bool shown = false;
-  pictures::MapLayers layers{};     ///< empty: same as the first view
-  std::optional<double> minus{};    ///< rad: show the frame minus that at this tilt
-  std::string path{};               ///< path of the run requested next
-  PlotAxis clock = PlotAxis::tilt;  ///< clock by which frames of another run correspond to those of the first
+  pictures::MapLayers layers{};   ///< empty: same as the first view
+  std::optional<double> minus{};  ///< rad: show the frame minus that at this tilt
 };
 
 /// Display options of a plot.
@@ -41,17 +39,10 @@ struct PlotOptions {
 
 /// Selection in addition to the inspected grain, and how it is made.
 struct SelectingState {
-  Selection selection;                           ///< two or more grains, or a contact; empty: neither
-  SelectionMode mode = SelectionMode::replace;   ///< applies to a box, a lasso or a condition
-  std::string condition;                         ///< text being edited, or last applied
-  std::string error;                             ///< why the condition selects nothing
-  bool in_each_frame = false;                    ///< whether the condition selects again in each frame
-  std::string quantity = "gamma_neighbourhood";  ///< quantity whose histogram is shown
-  std::string table_path = "selected.csv";       ///< path of the table to write
-  bool trails = false;                           ///< paths of the selected grains up to the frame shown
-  bool follow = false;                           ///< whether the picture stays centred on the inspected grain
-  std::vector<Vec2> outline;                     ///< outline being drawn, px of the window; empty: none
-  bool outline_is_box = false;                   ///< whether it is a box between its first and its last point
+  Selection selection;          ///< two or more grains, or a contact; empty: neither
+  bool follow = false;          ///< whether the picture stays centred on the inspected grain
+  std::vector<Vec2> outline;    ///< outline being drawn, px of the window; empty: none
+  bool outline_is_box = false;  ///< whether it is a box between its first and its last point
 };
 
 /// Grain held by the mouse.
@@ -75,21 +66,18 @@ struct ViewState {
   bool highlight_cluster = false;
   bool show_help = false;
   bool show_controls = true, show_inspector = true, show_plots = true;
-  bool bookmark_asked = false;                      ///< whether a key has requested the note of a bookmark
   bool discard_asked = false;                       ///< whether the user was asked to discard an unsaved run
   std::string panel_asked;                          ///< panel to open with the next picture
   HeldBar held_bar;                                 ///< drag of the legend's bar
   std::map<std::string, PlotOptions> plot_options;  ///< key: name of the plot
   std::string quantity_filter;                      ///< filter on the names of quantities offered for plots
   std::string enlarged_plot;                        ///< name of the plot; empty: all are shown
-  std::string behind_path;                          ///< path of a run or an ensemble to put behind the curves
   std::string plots_folder = "talus-plots";         ///< folder for exported plots
   float picture_share =
       0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots
   Theme theme = Theme::light;
-  std::string bookmark_note;  ///< note being edited
-  std::string announcement;   ///< report on a run that has failed or ended, until dismissed
-  std::string message;        ///< latest message: a file written, an error
+  std::string announcement;  ///< report on a run that has failed or ended, until dismissed
+  std::string message;       ///< latest message: a file written, an error
 
   std::optional<GrainDrag> drag;
 

@@ -25,7 +25,6 @@ void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float 
 TEST_F(Replay, a_high_column_has_several_groups) {
   for (const char* name : {"play", "map kind", "group act"}) expect_in_sight(gui_, name, 900.0f);
   EXPECT_FALSE(gui_.has("push")) << "folded initially";
-  EXPECT_FALSE(gui_.has("condition"));
 }
 
 TEST_F(Replay, a_heading_folds_and_unfolds) {
@@ -36,16 +35,16 @@ TEST_F(Replay, a_heading_folds_and_unfolds) {
   gui_.key('F');
   gui_.click("group files");
   EXPECT_FALSE(gui_.has("save picture"));
-  gui_.click("group select");
-  expect_in_sight(gui_, "group select", 900.0f);
-  expect_in_sight(gui_, "condition", 900.0f);
+  gui_.click("group act");
+  expect_in_sight(gui_, "group act", 900.0f);
+  expect_in_sight(gui_, "branch here", 900.0f);
   EXPECT_TRUE(gui_.has("map kind")) << "other groups stay unfolded if there is room";
 }
 
 TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
   test::DrivenGui low(model_, 640, 480);
   const std::map<char, const char*> widgets = {
-      {'M', "map kind"}, {'A', "branch here"}, {'S', "condition"}, {'F', "save picture"}, {'R', "frame"}};
+      {'M', "map kind"}, {'A', "branch here"}, {'F', "save picture"}, {'R', "frame"}};
   EXPECT_FALSE(low.has("map kind"));
   for (const auto& [key, widget] : widgets) {
     low.key(key);

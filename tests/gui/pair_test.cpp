@@ -77,26 +77,6 @@ TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
   EXPECT_EQ(model_.second().values().values.size(), static_cast<std::size_t>(model_.statics().free_count));
 }
 
-TEST_F(Replay, another_run_is_opened_beside_from_the_panel) {
-  gui_.key('M');
-  gui_.click("second view");
-  model_.state.second_view.path = folder_.path("none.h5");
-  gui_.settle();
-  gui_.click("open second");
-  EXPECT_EQ(model_.second_run(), nullptr);
-  EXPECT_NE(model_.state.message.find("none.h5"), std::string::npos) << model_.state.message;
-  model_.state.second_view.path = folder_.path("bed.h5");
-  gui_.click("open second");
-  ASSERT_NE(model_.second_run(), nullptr);
-  gui_.key(gui::key_end);
-  EXPECT_EQ(model_.second_run()->frame_index(), model_.frame_index());
-  gui_.click("second clock");
-  gui_.click("second clock: t");
-  EXPECT_EQ(model_.state.second_view.clock, view::PlotAxis::time);
-  gui_.click("close second");
-  EXPECT_EQ(model_.second_run(), nullptr);
-}
-
 TEST_F(Replay, two_views_have_room_or_it_is_said) {
   gui_.key('P');
   for (const auto& [width, height] : {std::pair(640, 480), {2400, 500}, {900, 1400}, {3000, 2000}}) {
@@ -120,8 +100,7 @@ TEST_F(Live, has_a_second_view_too) {
   gui_.key('P');
   EXPECT_TRUE(gui_.has("second map"));
   gui_.key('D');
-  gui_.key('M');
-  EXPECT_FALSE(gui_.has("open second")) << "a second run is offered only in a replay";
+  EXPECT_TRUE(gui_.has("second map"));
 }
 
 }  // namespace

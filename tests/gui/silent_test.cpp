@@ -150,7 +150,7 @@ TEST_F(SilentReplay, the_mouse_says_what_it_cannot_do) {
   gui.click("map", 0.003f, 0.003f);
   expect_reported("No grain is there");
   gui.drag("map", 0.0f, 0.0f, 1.0f, 1.0f);
-  expect_reported("; selected: ");
+  expect_reported("Grains selected: ");
   gui.hold(gui::key_left_shift, false);
   gui.hold(gui::key_left_control, true);
   gui.click("map", 0.003f, 0.003f);

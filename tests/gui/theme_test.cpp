@@ -46,7 +46,6 @@ std::vector<TextPair> text_pairs(const gui::Palette& palette) {
           {"failure", palette.failure, palette.ground},
           {"command", palette.command, palette.ground},
           {"rearrangement", palette.rearrangement, palette.ground},
-          {"bookmark", palette.bookmark, palette.ground},
           {"second curve", palette.curves[1], palette.ground},
           {"third curve", palette.curves[2], palette.ground},
           {"fourth curve", palette.curves[3], palette.ground}};
@@ -181,7 +180,7 @@ TEST_F(Replay, all_of_the_window_follows_the_theme) {
 }
 
 /// Names of widgets that always exist and never overlap.
-const char* const apart[] = {"play", "frame", "map", "time line", "bookmark"};
+const char* const apart[] = {"play", "frame", "map", "time line"};
 
 void expect_apart(const test::DrivenGui& gui, float width, float height, const std::string& at) {
   for (const char* one : apart) {

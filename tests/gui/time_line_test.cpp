@@ -30,35 +30,6 @@ TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
   }
 }
 
-TEST_F(Replay, a_frame_gets_a_bookmark_with_a_note) {
-  model_.go_to(2);
-  gui_.click("bookmark");
-  gui_.type("q: slides, f_n grows");
-  gui_.key(gui::key_enter);
-  ASSERT_NE(model_.bookmark(), nullptr);
-  EXPECT_EQ(model_.bookmark()->note, "q: slides, f_n grows");
-  EXPECT_FALSE(gui_.requests().quit) << "keys of the window are letters in the note";
-  model_.go_to(0);
-  gui_.settle();
-  gui_.click("event bookmark 0");
-  EXPECT_EQ(model_.frame_index(), 2u);
-  gui_.key('B');
-  gui_.click("remove bookmark");
-  EXPECT_EQ(model_.bookmark(), nullptr);
-  gui_.settle();
-  EXPECT_FALSE(gui_.has("event bookmark 0"));
-}
-
-TEST_F(Live, a_run_that_is_in_no_file_has_no_bookmarks) {
-  gui_.click("play");
-  ASSERT_TRUE(wait_until([&] { return model_.frame_count() >= 2; }));
-  gui_.click("time line", 0.02f);
-  gui_.key('B');
-  gui_.click("keep bookmark");
-  EXPECT_EQ(model_.bookmark(), nullptr);
-  EXPECT_NE(model_.state.message.find("Save the run first"), std::string::npos);
-}
-
 TEST_F(Replay, a_plot_answers) {
   gui_.click("plot stress", 0.86f);
   EXPECT_GE(model_.frame_index(), 3u);
@@ -144,29 +115,6 @@ TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
   gui_.click("remove contacts/coordination_number");
   EXPECT_TRUE(gui_.has("plot energy"));
   EXPECT_FALSE(model_.plots().back().added);
-}
-
-TEST_F(Replay, another_run_is_asked_for_behind_the_curves_and_taken_away) {
-  gui_.click("behind");
-  gui_.click("behind path");
-  gui_.type("ensemble.h5");
-  gui_.click("put behind");
-  EXPECT_EQ(gui_.requests().behind_path, "ensemble.h5");
-  EXPECT_FALSE(gui_.has("behind path")) << "the question has disappeared";
-  EXPECT_FALSE(gui_.has("nothing behind"));
-  const render::Image alone = gui_.frame();
-  view::GhostRun run;
-  for (const double tilt : {0.0, 0.01}) run.frames.push_back({.tilt = tilt, .volume_strain = -0.001});
-  run.mean_diameter = 1.0;
-  model_.set_ghost(view::Ghost{"other.h5", {run}});
-  gui_.settle();
-  EXPECT_NE(gui_.frame().pixels, alone.pixels);
-  gui_.click("over time");
-  gui_.click("over tilt");
-  EXPECT_EQ(plot_called("strain").series[0].behind.x.size(), 2u) << "also after a change of the axis";
-  gui_.click("nothing behind");
-  EXPECT_EQ(model_.ghost(), nullptr);
-  EXPECT_TRUE(plot_called("strain").series[0].behind.x.empty());
 }
 
 TEST_F(Replay, plots_are_asked_for_as_figures) {

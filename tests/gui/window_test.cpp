@@ -48,28 +48,19 @@ TEST(View, shows_two_views_in_the_picture_and_says_what_cannot_be_beside) {
     words.insert(words.begin(), {"view", file, "--screenshot", "view.png", "--overwrite"});
     return run_talus(words, folder.path());
   };
-  EXPECT_EQ(view("bed.h5", {"--second", "bed.h5", "--link", "time"}).exit_code, 0);
   EXPECT_EQ(view("bed.h5", {"--second-map", "forces", "--second-minus", "0.5"}).exit_code, 0);
-  const Outcome unlinked = view("bed.h5", {"--second", "bed.h5", "--link", "angle-left"});
-  EXPECT_EQ(unlinked.exit_code, 64);
-  EXPECT_NE(unlinked.err.find("has not failed"), std::string::npos) << unlinked.err;
-  EXPECT_EQ(view("bed.h5", {"--second", "none.h5"}).exit_code, 66);
   EXPECT_EQ(view("bed.h5", {"--second-map", "gamm"}).exit_code, 64);
-  EXPECT_EQ(view("bed.toml", {"--second", "bed.h5"}).exit_code, 64);
 }
 
 TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
   const TemporaryFolder folder;
   write_file(folder, "bed.toml", small_bed);
   take_run(folder, "bed.h5", small_bed);
-  for (const char* copy : {"other.h5", "behind.h5"})
-    std::filesystem::copy_file(folder.path("bed.h5"), folder.path(copy));
+  std::filesystem::copy_file(folder.path("bed.h5"), folder.path("other.h5"));
   const std::string run = text_of(folder.path("bed.h5")), scenario = text_of(folder.path("bed.toml"));
   const std::vector<std::vector<std::string>> commands = {
       {"bed.h5", "--screenshot", "bed.h5"},
       {"bed.toml", "--screenshot", "bed.toml"},
-      {"bed.h5", "--second", "other.h5", "--screenshot", "other.h5"},
-      {"bed.h5", "--behind", "behind.h5", "--screenshot", "behind.h5"},
       {"bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=other.h5", "--screenshot",
        "other.h5"}};
   for (std::vector<std::string> words : commands) {
@@ -79,7 +70,6 @@ TEST(View, a_picture_of_the_window_replaces_nothing_that_is_shown_in_it) {
     EXPECT_EQ(outcome.exit_code, 64) << outcome.err;
     EXPECT_TRUE(text_of(folder.path("bed.h5")) == run);
     EXPECT_TRUE(text_of(folder.path("other.h5")) == run);
-    EXPECT_TRUE(text_of(folder.path("behind.h5")).starts_with("talus run file"));
     EXPECT_EQ(text_of(folder.path("bed.toml")), scenario);
   }
 }
@@ -127,12 +117,7 @@ TEST(View, refuses_a_beginning_that_is_none) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--at", "repose"}, "no frames"},
       {{"--map", "gamm"}, "expected one of"},
-      {{"--grain", "100000"}, "0 to"},
-      {{"--select", "gama > 1"},
-       "--select 'gama > 1', column 1: gama is not a quantity of a grain; did you mean 'gamma'?"}};
-  EXPECT_EQ(run_talus({"view", "bed.toml", "--screenshot", "view.png", "--behind", "none.h5"}, folder.path())
-                .exit_code,
-            66);
+      {{"--grain", "100000"}, "0 to"}};
   for (const auto& [words, part] : cases) {
     std::vector<std::string> command = {"view", "bed.toml", "--screenshot", "view.png"};
     command.insert(command.end(), words.begin(), words.end());
@@ -184,10 +169,9 @@ TEST_F(Window, replays_a_run) {
   EXPECT_EQ(end(), 0);
 }
 
-TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
+TEST_F(Window, writes_its_curves_as_figures) {
   take_run(folder_, "bed.h5", small_bed);
-  take_run(folder_, "other.h5", small_bed, {"--seed", "4"});
-  start({"bed.h5", "--behind", "other.h5"});
+  start({"bed.h5"});
   click("export plots");
   click("write plots");
   const std::string strain = folder_.path("talus-plots/plot-strain.json"),
@@ -195,18 +179,8 @@ TEST_F(Window, puts_another_run_behind_its_curves_and_writes_them_as_figures) {
   for (int wait = 0; wait < 600 && !std::filesystem::exists(last); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_TRUE(std::filesystem::exists(strain));
-  std::ifstream file(strain);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_NE(text.find("behind: other.h5"), std::string::npos) << text;
-  for (const char* ending : {".pdf", ".csv", "-behind.csv", ".svg"})
+  for (const char* ending : {".pdf", ".csv", ".svg"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path("talus-plots/plot-strain") + ending)) << ending;
-  bool gone = false;  // a click that comes before the window has ended its writing may be lost
-  for (int tries = 0; tries < 3 && !gone; ++tries) {
-    click("nothing behind");
-    move_to("map");
-    gone = wait_until_gone("nothing behind");
-  }
-  EXPECT_TRUE(gone);
   desktop_->key("q");
   EXPECT_EQ(end(), 0);
 }

@@ -396,19 +396,16 @@ def test_numbers_are_written_with_all_their_digits():
 def test_plots_of_the_window_are_figures(tmp_path):
     from talus.figures import plots
 
-    def series(label, x, y, behind=None):
-        return {"label": label, "column": label, "unit": "%", "meaning": f"{label} of the bed", "law": label == "law", "x": x, "y": y,
-                "behind": behind or {"x": [], "mean": [], "deviation": []}}
+    def series(label, x, y):
+        return {"label": label, "column": label, "unit": "%", "meaning": f"{label} of the bed", "law": label == "law", "x": x, "y": y}
 
-    behind = {"x": [0, 1], "mean": [0.1, 0.2], "deviation": [None, 0.02]}
-    plot = {"name": "packing/strain", "title": "Strain ΔV/V (%)", "x_title": "θ (°)", "note": "", "run": "a.h5", "behind": "ten beds",
+    plot = {"name": "packing/strain", "title": "Strain ΔV/V (%)", "x_title": "θ (°)", "note": "", "run": "a.h5",
             "logarithmic": False, "falling": True, "range": [0.25, 0.75], "theta_c": 0.5,
-            "series": [series("strain", [0, 1], [0, None], behind), series("law", [0, 1], [0, 1]), series("other", [0, 2], [1, 2])]}
+            "series": [series("strain", [0, 1], [0, None]), series("law", [0, 1], [0, 1]), series("other", [0, 2], [1, 2])]}
     (tmp_path / "plots.json").write_text(json.dumps([plot]))
     plots.main([str(tmp_path / "plots.json"), str(tmp_path / "out"), "talus view"])
     assert (tmp_path / "out/plot-packing-strain.csv").read_text() == "x,strain,law\n0,0,0\n1,NaN,1\n"
     assert (tmp_path / "out/plot-packing-strain-2.csv").read_text() == "x,other\n0,1\n2,2\n"
-    assert (tmp_path / "out/plot-packing-strain-behind.csv").read_text() == "x,strain,strain_deviation\n0,0.1,NaN\n1,0.2,0.02\n"
     assert {path.suffix for path in (tmp_path / "out").iterdir()} == {".csv", ".json", ".pdf", ".png", ".svg"}
     with pytest.raises(talus.Error, match="exists"):
         plots.main([str(tmp_path / "plots.json"), str(tmp_path / "out"), "talus view"])

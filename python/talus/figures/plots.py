@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from talus.figures.catalogue import Recipe
 from talus.figures.data import Data
 from talus.figures.files import figure_files, write_figure
-from talus.figures.panels import Key, Page, arrange, band, panels
-from talus.figures.style import COLOURS, MARK, as_math, curve_style, logarithmic, set_title
+from talus.figures.panels import Key, Page, arrange, panels
+from talus.figures.style import MARK, as_math, curve_style, logarithmic, set_title
 from talus.figures.tables import Table, column
 from talus.simulation import _extension
 
@@ -31,51 +31,32 @@ def title_and_unit(title: str) -> tuple[str, str]:
 
 
 def plot_data(plot: dict[str, Any]) -> Data:
-    """Returns the tables of a plot: curves over the same places share one; those behind are in others."""
+    """Returns the tables of a plot: curves over the same places share one."""
     data = Data(f"{plot['title']} over {plot['x_title']}" + (f", {plot['note']}" if plot["note"] else ""), facts={"plot": plot})
     title, unit = title_and_unit(plot["x_title"])
 
-    def table_over(x: np.ndarray, name: str, tables: list[Table]) -> Table:
-        for table in tables:
+    def table_over(x: np.ndarray) -> Table:
+        for table in data.tables:
             if np.array_equal(table.columns[0].values, x):
                 return table
-        number = f"{'-' if name else ''}{len(tables) + 1}" if tables else ""
-        tables.append(Table(name + number, [column("x", unit, title, x)]))
-        return tables[-1]
+        data.tables.append(Table(str(len(data.tables) + 1) if data.tables else "", [column("x", unit, title, x)]))
+        return data.tables[-1]
 
-    measured: list[Table] = []
-    behind: list[Table] = []
     for each in plot["series"]:
-        table_over(numbers(each["x"]), "", measured).columns.append(
-            column(each["column"], each["unit"], each["meaning"], numbers(each["y"])))
-        if each["behind"]["x"]:
-            text = f"behind: {each['meaning']}"
-            table_over(numbers(each["behind"]["x"]), "behind", behind).columns += [
-                column(each["column"], each["unit"], f"{text}, mean of the runs", numbers(each["behind"]["mean"])),
-                column(each["column"] + "_deviation", each["unit"], f"{text}, standard deviation", numbers(each["behind"]["deviation"]))]
-    if behind:
-        data.caption += f"; behind: {plot['behind']}"
-    data.tables = measured + behind
+        table_over(numbers(each["x"])).columns.append(column(each["column"], each["unit"], each["meaning"], numbers(each["y"])))
     return data
 
 
 def draw_plot(data: Data, page: Page) -> Figure:
-    """Draws the curves of a plot, thin lines for laws, and the curves behind as a pale band with a dashed mean."""
+    """Draws the curves of a plot, thin lines for laws."""
     plot, key = data.facts["plot"], Key()
     axes = panels(page, 1, row=0.75 * page.width)
     several = len(plot["series"]) > 1
     for k, each in enumerate(plot["series"]):
-        colour, behind = COLOURS[k % len(COLOURS)], each["behind"]
-        if behind["x"]:
-            at, mean = numbers(behind["x"]), numbers(behind["mean"])
-            band(axes[0], at, mean, np.nan_to_num(numbers(behind["deviation"])), color=colour, alpha=0.15)
-            axes[0].plot(at, mean, color=colour, linestyle=(0, (4, 3)), linewidth=0.6)
         look = curve_style(k, symbols=False) | {"linestyle": "-", "linewidth": 0.5 if each["law"] else 1}
         axes[0].plot(numbers(each["x"]), numbers(each["y"]), **look)
         if several:
             key.line(as_math(each["label"]), **look)
-    if any(each["behind"]["x"] for each in plot["series"]):
-        key.line(plot["behind"], color=COLOURS[0], linestyle=(0, (4, 3)), linewidth=0.6)
     if plot["theta_c"] is not None:
         key.line("$θ_c$", **MARK)
         axes[0].axvline(plot["theta_c"], **MARK)

@@ -99,8 +99,6 @@ std::string kind_text(view::TimelineEvent::Kind kind) {
       return "command";
     case view::TimelineEvent::Kind::rearrangement:
       return "rearrangement";
-    case view::TimelineEvent::Kind::bookmark:
-      return "bookmark";
     case view::TimelineEvent::Kind::transition:
       break;
   }

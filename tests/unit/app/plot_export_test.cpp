@@ -17,7 +17,7 @@ view::Plot strain_plot() {
 }
 
 TEST(PlotExport, has_the_curves_with_their_units) {
-  const Json json = plot_json(strain_plot(), {}, {.shown = {}, .theta_c = 19.0}, "runs/a.h5", "");
+  const Json json = plot_json(strain_plot(), {}, {.shown = {}, .theta_c = 19.0}, "runs/a.h5");
   EXPECT_EQ(json["name"], "packing/volume_strain");
   ASSERT_EQ(json["series"].size(), 2u) << "those with places on the axis";
   EXPECT_EQ(json["series"][0]["unit"], "%");
@@ -31,16 +31,12 @@ TEST(PlotExport, has_the_curves_with_their_units) {
 
 TEST(PlotExport, is_as_the_plot_is_looked_at) {
   view::Plot plot = strain_plot();
-  EXPECT_EQ(plot_json(plot, {}, {}, "", "")["logarithmic"], false);
+  EXPECT_EQ(plot_json(plot, {}, {}, "")["logarithmic"], false);
   plot.falling_x = true;
-  plot.series[0].behind = {{0.0, 1.0}, {0.1, 0.2}, {0.01, 0.02}};
-  const Json json =
-      plot_json(plot, {.zoomed = {{0.25, 0.5}}, .chosen = {}, .log_y = true}, {}, "", "ten beds");
+  const Json json = plot_json(plot, {.zoomed = {{0.25, 0.5}}, .chosen = {}, .log_y = true}, {}, "");
   EXPECT_EQ(json["range"], (std::vector{0.25, 0.5}));
   EXPECT_EQ(json["logarithmic"], true);
   EXPECT_EQ(json["falling"], true);
-  EXPECT_EQ(json["behind"], "ten beds");
-  EXPECT_EQ(json["series"][0]["behind"]["deviation"], (std::vector{0.01, 0.02}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The tables of docs/export.md agree with the program.
+/// The tables of docs/export.md and of the quantities in docs/python.md agree with the program.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 namespace talus::test {
 namespace {
 
-std::string page() {
-  std::ifstream file(test::source_folder() + "/docs/export.md");
+std::string page(const std::string& name = "export") {
+  std::ifstream file(test::source_folder() + "/docs/" + name + ".md");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -78,6 +78,14 @@ TEST(ExportPage, lists_the_fields) {
       << rows_of(analysis::contact_quantities());
   EXPECT_NE(page().find("|---|---|---|---|\n" + rows_of(exports::grid_fields()) + "\n"), std::string::npos)
       << rows_of(exports::grid_fields());
+}
+
+TEST(PythonPage, lists_the_quantities_that_no_export_has) {
+  std::string rows;
+  for (const analysis::FrameQuantity& quantity : analysis::grain_quantities())
+    if (!analysis::is_of_frame(quantity))
+      rows += fmt::format("| `{}` | {} | {} |\n", quantity.name, quantity.unit, quantity.definition);
+  EXPECT_NE(page("python").find("|---|---|---|\n" + rows + "\n"), std::string::npos) << rows;
 }
 
 }  // namespace

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include "io/run_schema.h"
 #include "unit/exports/example_frame.h"
 
 namespace talus::test {
@@ -78,6 +80,28 @@ TEST_F(Fields, have_as_many_values_as_components_and_names_of_their_own) {
         EXPECT_TRUE(names.insert(name).second) << name;
     }
   }
+}
+
+/// SI values have the unit in the attribute of their data set: per metre of thickness.
+TEST_F(Fields, have_the_units_of_the_run_file) {
+  const std::pair<const char*, const char*> same[] = {
+      {"mass", "/particles/grains/mass"},
+      {"velocity", "/particles/grains/velocity/value"},
+      {"angular_velocity", "/particles/grains/angular_velocity/value"},
+      {"internal_moment", "/particles/grains/internal_moment/value"},
+      {"pressure", "/observables/sigma_n"}};
+  for (const auto& [name, data_set] : same)
+    EXPECT_EQ(std::ranges::find(analysis::grain_quantities(), name, &analysis::FrameQuantity::name)->unit,
+              io::field_of(data_set).unit)
+        << name;
+  const std::pair<const char*, const char*> per_metre[] = {{"/contacts/force", "N/m"},
+                                                           {"/observables/kinetic_energy", "J/m"},
+                                                           {"/particles/grains/internal_moment/value", "J/m"},
+                                                           {"/particles/grains/mass", "kg/m"},
+                                                           {"/checkpoint/contact_force", "N/m"},
+                                                           {"/branch/contact_force", "N/m"},
+                                                           {"/branch/mass", "kg/m"}};
+  for (const auto& [data_set, unit] : per_metre) EXPECT_EQ(io::field_of(data_set).unit, unit) << data_set;
 }
 
 }  // namespace

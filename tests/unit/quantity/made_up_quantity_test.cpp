@@ -1,5 +1,5 @@
-/// A grain quantity added only to the table of quantities becomes a map, a column of an export, a value in
-/// the window, and a name in conditions.
+/// A grain quantity added only to the table of quantities becomes a map, a column of an export, and a value
+/// in the window.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include "support/temporary_folder.h"
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
-#include "view/grain_quantities.h"
 
 namespace talus {
 namespace {
@@ -60,14 +59,6 @@ TEST_F(MadeUpQuantity, is_a_column_of_exports) {
   const RunStatics statics = example::bed_statics();
   const exports::CsvRows csv = exports::grains_csv({{frame, statics}, 0, frame.gamma});
   EXPECT_NE(csv.head.find(",made_up (m),"), std::string::npos) << csv.head;
-}
-
-TEST_F(MadeUpQuantity, is_a_name_in_conditions) {
-  model_->state.selecting.condition = "made_up > 0";
-  model_->select_by_condition();
-  EXPECT_EQ(model_->state.selecting.error, "");
-  EXPECT_EQ(model_->selected_grains().size(), static_cast<std::size_t>(model_->statics().free_count));
-  EXPECT_EQ(view::head_of(analysis::grain_number("made_up")), "made_up (D)");
 }
 
 }  // namespace

@@ -209,7 +209,7 @@ std::optional<std::size_t> frame_of(Landmark landmark, const std::vector<double>
                                     std::span<const analysis::FrameRecord> values, double theta_c) {
   TimelineSource source;
   source.tilts = tilts;
-  source.times = source.all_times = std::vector<double>(tilts.size(), 0.0);
+  source.times = std::vector<double>(tilts.size(), 0.0);
   source.rows = rows;
   source.values = values;
   source.theta_c = theta_c;

@@ -1,10 +1,9 @@
-/// History of grains and contacts, read frame by frame.
+/// History of a contact, read frame by frame.
 
 #include "view/history.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -14,16 +13,13 @@
 #include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 #include "view/inspection.h"
-#include "view/scene.h"
 
 namespace talus::view {
 namespace {
 
-/// Returns frame k, in which grain 3 has moved by k/10 m, and the contact of grains 3 and 13 carries k N/m,
-/// except in the third frame.
+/// Returns frame k, in which the contact of grains 3 and 13 carries k N/m, except in the third frame.
 std::shared_ptr<const Frame> read_frame(std::size_t k) {
   auto frame = std::make_shared<Frame>(example::bed_frame(static_cast<double>(k), 1));
-  frame->x[3] += 0.1 * static_cast<double>(k);
   FrameContacts& c = frame->contacts;
   for (std::size_t at = 0; at < c.a.size(); ++at)
     if (c.a[at] == 3 && c.b[at] == 13) {
@@ -44,17 +40,13 @@ bool wait_for(HistorySeries& series, std::size_t count) {
 
 TEST(History, is_of_what_is_asked_for) {
   HistorySeries series(read_frame);
-  const Selection grains = {{3, 7}, std::nullopt};
-  series.set_question(grains, 3);
+  series.set_contact({4, 14, 0}, 3);
   ASSERT_TRUE(wait_for(series, 3));
-  EXPECT_DOUBLE_EQ(series.instants()[2].places[0].x, 3.7);
-  EXPECT_DOUBLE_EQ(series.instants()[2].places[1].x, 7.5);
-  EXPECT_TRUE(std::isnan(series.instants()[2].fn)) << "no contact was requested";
-  series.set_question(grains, 5);
+  series.set_contact({4, 14, 0}, 5);
   ASSERT_TRUE(wait_for(series, 5)) << "only later frames are read";
   EXPECT_DOUBLE_EQ(degrees(series.instants()[4].tilt), 4.0);
-  series.set_question({{}, ContactKey{3, 13, 0}}, 5);
-  EXPECT_TRUE(series.instants().empty()) << "another question starts from the beginning";
+  series.set_contact({3, 13, 0}, 5);
+  EXPECT_TRUE(series.instants().empty()) << "another contact starts from the beginning";
   ASSERT_TRUE(wait_for(series, 5));
   EXPECT_EQ(series.instants()[3].fn, 3.0);
   EXPECT_EQ(series.instants()[3].ft, -0.75);
@@ -68,15 +60,10 @@ TEST(History, ends_at_a_frame_that_cannot_be_read) {
     if (k == 2) throw std::runtime_error("damaged");
     return read_frame(k);
   });
-  series.set_question({{3}, std::nullopt}, 5);
+  series.set_contact({3, 13, 0}, 5);
   ASSERT_TRUE(wait_for(series, 2));
-  series.set_question({{4}, std::nullopt}, 2);
-  EXPECT_TRUE(wait_for(series, 2)) << "another question is answered";
-}
-
-TEST(History, a_grain_that_has_not_arrived_has_no_place) {
-  const HistoryInstant instant = instant_of(*read_frame(1), {{1000}, std::nullopt});
-  EXPECT_TRUE(std::isnan(instant.places[0].x));
+  series.set_contact({4, 14, 0}, 2);
+  EXPECT_TRUE(wait_for(series, 2)) << "another contact is read";
 }
 
 TEST(Contact, is_told_by_force_and_friction) {
@@ -110,13 +97,12 @@ TEST(Contact, with_a_wall_has_the_friction_of_the_wall) {
   EXPECT_EQ(inspection.b_name, "left wall");
   EXPECT_EQ(inspection.friction, 1.0);
   EXPECT_DOUBLE_EQ(inspection.mobilisation, 0.25);
-  EXPECT_EQ(instant_of(frame, {{}, ContactKey{3, wall, 0}}).friction, 1.0);
+  EXPECT_EQ(instant_of(frame, {3, wall, 0}).friction, 1.0);
 }
 
 TEST(Contact, its_curves_are_along_the_run) {
   std::vector<HistoryInstant> instants;
-  for (std::size_t k = 0; k < 4; ++k)
-    instants.push_back(instant_of(*read_frame(k), {{}, ContactKey{3, 13, 0}}));
+  for (std::size_t k = 0; k < 4; ++k) instants.push_back(instant_of(*read_frame(k), {3, 13, 0}));
   instants[3].friction = 0.25;
   const std::vector<Plot> plots = contact_plots(instants, 2.0, {PlotAxis::tilt, not_known});
   ASSERT_EQ(plots.size(), 2u);
@@ -134,9 +120,6 @@ class HistoryInView : public testing::Test {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
     model_.emplace(example::opened(folder_.path("run.h5")));
   }
-  long trail_lines() {
-    return std::ranges::count(model_->first().map(2.0).lines, trail_colour, &render::Line::colour);
-  }
   test::TemporaryFolder folder_;
   std::optional<ViewModel> model_;
 };
@@ -153,20 +136,6 @@ TEST_F(HistoryInView, the_contact_has_its_curves) {
   EXPECT_NEAR(model_->contact_history()[0].series[0].y[0], 1.0 / 20.0, 1e-6) << "of mass 2 kg/m and 10 m/s^2";
   model_->hold();
   EXPECT_TRUE(model_->contact_history().empty()) << "nothing is read after that";
-}
-
-TEST_F(HistoryInView, trails_lead_to_the_frame_shown) {
-  model_->select(std::vector<Index>{33, 34});
-  EXPECT_EQ(trail_lines(), 0);
-  model_->state.selecting.trails = true;
-  model_->go_to(3);
-  EXPECT_TRUE(example::wait_for_condition(*model_, [&] { return trail_lines() == 2 * 3; }))
-      << "three steps of two grains";
-  model_->go_to(1);
-  model_->update(0.0);
-  EXPECT_EQ(trail_lines(), 2);
-  model_->state.selecting.trails = false;
-  EXPECT_EQ(trail_lines(), 0);
 }
 
 TEST_F(HistoryInView, the_camera_follows_a_grain) {

@@ -1,4 +1,4 @@
-/// Finding grains and contacts by position, and combining selections.
+/// Finding grains and contacts by position.
 
 #include "view/selection.h"
 
@@ -13,14 +13,11 @@ const RunStatics statics = example::bed_statics();
 const Frame frame = example::bed_frame(10.0, 2);
 const BedFrame bed{frame, statics};
 
-TEST(Selected, sets_are_combined) {
-  const std::vector<Index> before = {2, 5, 7}, found = {5, 9};
-  EXPECT_EQ(combined(before, found, SelectionMode::replace), found);
-  EXPECT_EQ(combined(before, found, SelectionMode::add), (std::vector<Index>{2, 5, 7, 9}));
-  EXPECT_EQ(combined(before, found, SelectionMode::remove), (std::vector<Index>{2, 7}));
-  EXPECT_EQ(combined(before, found, SelectionMode::common), (std::vector<Index>{5}));
+TEST(Selected, a_grain_is_added_or_removed) {
+  const std::vector<Index> before = {2, 5, 7};
   EXPECT_EQ(toggled(before, 5), (std::vector<Index>{2, 7}));
   EXPECT_EQ(toggled(before, 6), (std::vector<Index>{2, 5, 6, 7}));
+  EXPECT_EQ(toggled({}, 3), (std::vector<Index>{3}));
 }
 
 TEST(Selected, grains_are_within_a_box_by_their_centres) {
@@ -56,14 +53,6 @@ TEST(Selected, the_nearest_contact_is_found) {
   EXPECT_EQ(key_of(frame.contacts, *found), (ContactKey{13, 23, 0}));
   EXPECT_FALSE(find_contact(bed, 3.5, 2.5, 0.2));
   EXPECT_EQ(find_contact(bed, 3.5 - statics.length, 2.0, 0.2), found) << "an image of it";
-}
-
-TEST(Selected, too_many_are_thinned) {
-  const std::vector<Index> five = {1, 3, 5, 7, 9};
-  EXPECT_EQ(thinned(five, 5), five);
-  EXPECT_EQ(thinned(five, 4), (std::vector<Index>{1, 5, 9}));
-  EXPECT_EQ(thinned(five, 2), (std::vector<Index>{1, 7}));
-  EXPECT_TRUE(thinned({}, 2).empty());
 }
 
 TEST(Selected, a_contact_is_known_by_its_key) {

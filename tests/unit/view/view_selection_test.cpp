@@ -18,10 +18,6 @@ class SelectionInRun : public testing::Test {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
     model_.emplace(example::opened(folder_.path("run.h5")));
   }
-  void select_where(const std::string& condition) {
-    model_->state.selecting.condition = condition;
-    model_->select_by_condition();
-  }
   std::vector<Index> selected() { return model_->selected_grains(); }
   std::size_t lines() { return model_->first().map(2.0).lines.size(); }
 
@@ -29,60 +25,18 @@ class SelectionInRun : public testing::Test {
   std::optional<ViewModel> model_;
 };
 
-TEST_F(SelectionInRun, a_condition_selects_in_the_frame_shown) {
+TEST_F(SelectionInRun, stays_from_frame_to_frame) {
   model_->go_to(2);
-  select_where("gamma > 0.7");
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
+  model_->select(std::vector<Index>{0, 10});
   EXPECT_FALSE(model_->state.selected) << "none of them is inspected";
   model_->go_to(3);
   model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "the same grains, in all frames";
-  select_where("gamma > 0.7 && y > 3");
+  EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
+  model_->select(std::vector<Index>{30});
   EXPECT_EQ(model_->state.selected, std::optional<Index>(30)) << "a single one is inspected";
   EXPECT_TRUE(model_->state.selecting.selection.grains.empty());
-}
-
-TEST_F(SelectionInRun, a_condition_selects_anew_in_each_frame) {
-  model_->go_to(2);
-  model_->state.selecting.in_each_frame = true;
-  model_->state.selecting.mode = SelectionMode::add;
-  select_where("gamma > 0.7");
-  model_->go_to(3);
-  model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10, 20, 30}));
-  model_->go_to(2);
-  model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10})) << "replaced, whatever the mode of boxes";
-  model_->select_found({5});
-  model_->go_to(3);
-  model_->update(0.0);
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 5, 10})) << "a selection by hand ends it";
-}
-
-TEST_F(SelectionInRun, a_wrong_condition_changes_nothing) {
-  model_->go_to(2);
-  select_where("gamma > 0.7");
-  select_where("gamma > ");
-  EXPECT_NE(model_->state.selecting.error.find("column 9"), std::string::npos)
-      << model_->state.selecting.error;
-  EXPECT_EQ(selected(), (std::vector<Index>{0, 10}));
-  select_where(" ");
-  EXPECT_TRUE(model_->state.selecting.error.empty());
-  EXPECT_TRUE(selected().empty());
-}
-
-TEST_F(SelectionInRun, modes_go_by_what_is_selected) {
-  model_->select(std::vector<Index>{1, 2, 3});
-  model_->state.selecting.mode = SelectionMode::remove;
-  model_->select_found({2, 9});
-  EXPECT_EQ(selected(), (std::vector<Index>{1, 3}));
-  model_->state.selecting.mode = SelectionMode::common;
-  model_->select_found({3, 9});
-  EXPECT_EQ(model_->state.selected, std::optional<Index>(3));
-  model_->state.selecting.mode = SelectionMode::add;
-  model_->select_found({9});
-  EXPECT_EQ(selected(), (std::vector<Index>{3, 9}));
-  EXPECT_EQ(model_->state.selected, std::optional<Index>(3)) << "it is still inspected";
+  model_->select(std::vector<Index>{9, 30});
+  EXPECT_EQ(model_->state.selected, std::optional<Index>(30)) << "it is still inspected";
 }
 
 TEST_F(SelectionInRun, it_is_grains_or_a_contact) {
