@@ -267,6 +267,18 @@ def test_axes_show_negative_values():
         assert axes.get_ylim()[0] == pytest.approx(low)
 
 
+@pytest.mark.parametrize("ending", ["pdf", "png", "svg"])
+def test_a_full_disk_is_an_error_of_the_system(ending, tmp_path):
+    from talus.figures.style import new_figure, styled, write
+
+    with styled():
+        figure = new_figure(8, 4)
+        figure.add_axes((0, 0, 1, 1)).plot([0, 1])
+    (tmp_path / f"a.{ending}").symlink_to("/dev/full")
+    with pytest.raises(OSError, match="No space"):
+        write(figure, [tmp_path / f"a.{ending}"], "a line")
+
+
 def test_names_are_no_formulas():
     from talus.figures.panels import broken, text_width
     from talus.figures.style import as_math, new_figure, styled

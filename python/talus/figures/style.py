@@ -1,5 +1,6 @@
 """Look of the figures: sizes, fonts, colours, titles of axes, and files with the same bytes for the same data."""
 
+import io
 import math
 import re
 from collections.abc import Iterator, Sequence
@@ -163,7 +164,7 @@ def logarithmic_number(value: float, place: int | None = None) -> str:
 
 
 def write(figure: Figure, paths: Sequence[Path], title: str, dpi: int = 300, style: Any = None) -> None:
-    """Writes a figure to files of the formats that they name. The same figure gives the same bytes."""
+    """Writes a figure to files of the formats that they name. The same figure gives the same bytes. Raises OSError."""
     from talus.simulation import _extension
 
     software = _extension().version_text
@@ -174,4 +175,6 @@ def write(figure: Figure, paths: Sequence[Path], title: str, dpi: int = 300, sty
     }
     with styled(style):
         for path in paths:
-            figure.savefig(path, dpi=dpi, metadata=metadata[path.suffix], facecolor="white")
+            drawn = io.BytesIO()  # on a full disk savefig can fail with an error of another kind
+            figure.savefig(drawn, format=path.suffix[1:], dpi=dpi, metadata=metadata[path.suffix], facecolor="white")
+            path.write_bytes(drawn.getvalue())
