@@ -59,7 +59,7 @@ def test_analysis_of_a_stopped_run_is_not_there_yet(stopped):
 def test_run_is_read_while_it_is_computed_and_packed(folder):
     path = folder / "growing.h5"
     # Each frame is committed; the reader needs time between two of them.
-    slower = ("--set", "bed.length=30", "--set", "tilt.step=0.002", "--set", "output.frame_every=2")
+    slower = ("--set", "bed.length=30", "--set", "tilt.step=0.0005", "--set", "output.frame_every=2")
     process = subprocess.Popen([PROGRAM, "run", folder / "bed.toml", *slower, "-o", path], stderr=subprocess.DEVNULL)
     frames = []
     while process.poll() is None:
