@@ -35,7 +35,7 @@ namespace py = pybind11;
 namespace talus {
 namespace {
 
-/// Number of steps running in threads that do not hold the interpreter; they must end before it does.
+/// Number of threads that step, or use files, without holding the interpreter; they must end before it does.
 std::atomic<int> steps_under_way = 0;
 std::atomic<bool> interpreter_ends = false;
 std::atomic<int> draws_under_way = 0;
@@ -65,6 +65,30 @@ class Count {
  private:
   std::atomic<int>& of_;
 };
+
+bool is_main_thread() { return ::gettid() == ::getpid(); }
+
+/// Keeps a daemon thread, as Python does, if the interpreter ends.
+void wait_if_the_interpreter_ends() {
+  if (!interpreter_ends || is_main_thread()) return;
+  const py::gil_scoped_release let_go;
+  while (true) ::pause();
+}
+
+/// Runs `work` without holding the interpreter: another thread may be in h5py with the lock of HDF5, and need
+/// the interpreter. A thread without it could never continue once the interpreter ends, so it is waited for,
+/// and from then on the main thread, the only one left, does not let go.
+template <typename Work>
+auto without_interpreter(Work&& work) {
+  wait_if_the_interpreter_ends();
+  std::optional<Count> count;
+  std::optional<py::gil_scoped_release> let_go;
+  if (!interpreter_ends) {
+    count.emplace(steps_under_way);
+    let_go.emplace();
+  }
+  return work();
+}
 
 // Python delivers signals to the main thread only. Other threads compare the time of the last SIGINT with
 // their own.
@@ -105,8 +129,6 @@ struct Attention {
   Nanoseconds asked = 0;  ///< time at which the state of the main thread was last looked at
 };
 thread_local Attention attention;
-
-bool is_main_thread() { return ::gettid() == ::getpid(); }
 
 /// Throws KeyboardInterrupt if the main thread has been interrupted while this thread was busy with
 /// simulations, or waits for this thread because of an interrupt. Call while holding the interpreter, in
@@ -180,6 +202,7 @@ class Driven {
   /// twenty times a second during steps; its exceptions, and those of signals, are propagated.
   template <typename Work>
   auto use(const py::object& tick, Work&& work) {
+    wait_if_the_interpreter_ends();
     if (busy_.exchange(true, std::memory_order_acq_rel)) refuse();
     owner_ = std::this_thread::get_id();
     const struct Release {
@@ -197,15 +220,7 @@ class Driven {
       if (!tick.is_none()) tick();
       return false;
     });
-    // A thread without the interpreter could never continue once the interpreter ends, so it is waited for,
-    // and from then on no thread releases the interpreter.
-    std::optional<Count> count;
-    std::optional<py::gil_scoped_release> let_go;
-    if (!interpreter_ends) {
-      count.emplace(steps_under_way);
-      let_go.emplace();
-    }
-    return work(simulation_);
+    return without_interpreter([&] { return work(simulation_); });
   }
   template <typename Work>
   auto use(Work&& work) {
@@ -369,7 +384,7 @@ void translate(std::exception_ptr thrown) {
 void require_files() {
   if (cannot_use_files)
     throw Error(ExitCode::unavailable,
-                "this process was forked while another thread was in a simulation, and can neither read nor "
+                "this process was forked while another thread was using Talus, and can neither read nor "
                 "record runs: start it with the method \"spawn\" of multiprocessing");
 }
 
@@ -599,7 +614,7 @@ void bind_frames(py::module_& module) {
   py::class_<MeasuredFrame> type(module, "MeasuredFrame");
   type.def(py::init([](const std::string& path, std::size_t k, const std::vector<std::string>& settings) {
     require_files();
-    return measured_frame(path, k, settings);
+    return without_interpreter([&] { return measured_frame(path, k, settings); });
   }));
   bind_measurements(type, [](MeasuredFrame& frame, const auto& work) { return work(frame); });
   type.def("_draw",
@@ -633,7 +648,7 @@ PYBIND11_MODULE(_core, module) {
         std::string text;
         const scenario::Scenario scenario = scenario_of(path, settings, tables, text);
         if (scenario.deposition.method == scenario::DepositionMethod::file) require_files();
-        return std::make_shared<Driven>(Simulation(scenario, text));
+        return std::make_shared<Driven>(without_interpreter([&] { return Simulation(scenario, text); }));
       }));
   type.def("_copy", [](Driven& driven) {
     return std::make_shared<Driven>(
@@ -641,7 +656,7 @@ PYBIND11_MODULE(_core, module) {
   });
   type.def_static("_resume", [](const std::string& path) {
     require_files();
-    return std::make_shared<Driven>(Simulation::resume(path));
+    return std::make_shared<Driven>(without_interpreter([&] { return Simulation::resume(path); }));
   });
   bind_stepping(type);
   bind_commands(type);

@@ -33,7 +33,7 @@ Identity = tuple[int, int, int, int]
 
 
 def require_files() -> None:
-    """Raises Error in a process that was forked while another thread was in a simulation, where HDF5 would wait for ever."""
+    """Raises Error in a process that was forked while another thread was using Talus, where HDF5 would wait for ever."""
     extension = sys.modules.get("talus._core")
     if extension is not None:
         extension._require_files()

@@ -39,7 +39,7 @@ def in_child(do):
     deadline = time.monotonic() + 100
     while os.waitpid(child, os.WNOHANG) == (0, 0):
         if time.monotonic() > deadline:
-            os.kill(child, signal.SIGKILL)
+            os.kill(child, signal.SIGABRT)  # faulthandler says where
             sys.exit("a child hangs")
         time.sleep(0.01)
 """
@@ -47,10 +47,15 @@ def in_child(do):
 
 def script(text, *words, folder=None, **options):
     """Returns the output of a script."""
-    done = subprocess.run([sys.executable, "-c", BEGIN + textwrap.dedent(text), *map(str, words)], cwd=folder, capture_output=True, text=True,
-                          timeout=300, **options)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    running = subprocess.Popen([sys.executable, "-c", BEGIN + textwrap.dedent(text), *map(str, words)], cwd=folder, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+    try:
+        out, errors = running.communicate(timeout=300)
+    except subprocess.TimeoutExpired:
+        running.send_signal(signal.SIGABRT)  # faulthandler says where it hangs
+        out, errors = running.communicate()
+    assert running.returncode == 0, errors
+    return out
 
 
 def test_a_child_of_fork_looks_draws_and_copies_and_leaves_the_recording_alone(tmp_path):
