@@ -356,6 +356,21 @@ def test_the_interpreter_ends_while_a_thread_is_busy(tmp_path, way):
         talus.resume(tmp_path / "run.h5").step(3)
 
 
+def test_no_daemon_thread_uses_files_once_the_interpreter_ends(tmp_path):
+    """With the interpreter it would wait for the lock of HDF5, while h5py, which has it, waits for the interpreter."""
+    script("""
+        sim = bed()
+        sim.record("run.h5")
+        sim.step(3)
+        talus._core._end_steps()  # as at exit
+        thread = threading.Thread(target=sim.commit, daemon=True)
+        thread.start()
+        thread.join(0.5)
+        assert thread.is_alive()
+        sim.commit()  # the main thread may
+        """, folder=tmp_path)
+
+
 def test_what_a_daemon_thread_holds_is_committed_at_the_end(tmp_path):
     out = script("""
         def hold():
