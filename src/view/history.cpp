@@ -73,7 +73,7 @@ void HistorySeries::work(const std::stop_token& stop) {
     }
     lock.lock();
     if (shared_.turn != turn || failed) continue;
-    shared_.ready.push_back(std::move(instant));
+    shared_.ready.push_back(instant);
     ++next;
   }
 }
