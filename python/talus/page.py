@@ -1,11 +1,13 @@
 """Tables as Markdown, CSV and HTML, and self-contained HTML pages of tables and pictures."""
 
 import base64
+import contextlib
 import html
 import json
 import math
 import os
 import re
+import stat
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -171,13 +173,17 @@ def json_text(value: Any) -> str:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Writes a file whose name appears once it is complete."""
+    """Writes a file whose name appears once it is complete. It keeps the mode and, if possible, the owner of an earlier one."""
     path = Path(os.path.realpath(path))
     part = path.with_name(path.name + ".talus.part")
     try:
         with part.open("w", encoding="utf-8", errors="surrogateescape", newline="") as file:
             file.write(text)
             file.flush()
+            with contextlib.suppress(FileNotFoundError, PermissionError):
+                earlier = path.stat()
+                os.fchmod(file.fileno(), stat.S_IMODE(earlier.st_mode))
+                os.fchown(file.fileno(), earlier.st_uid, earlier.st_gid)
             os.fsync(file.fileno())
         part.replace(path)
     except BaseException:

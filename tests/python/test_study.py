@@ -139,6 +139,15 @@ def test_html_escapes_everything_and_marks_cells():
         assert part in text
 
 
+def test_a_table_that_is_written_again_keeps_its_mode_and_its_link(tmp_path):
+    (tmp_path / "private.csv").write_text("old")
+    (tmp_path / "private.csv").chmod(0o600)
+    (tmp_path / "study.csv").symlink_to("private.csv")
+    page.write_text(tmp_path / "study.csv", "new")
+    assert (tmp_path / "study.csv").is_symlink() and (tmp_path / "private.csv").read_text() == "new"
+    assert (tmp_path / "private.csv").stat().st_mode & 0o777 == 0o600
+
+
 def test_a_picture_is_built_into_the_page(tmp_path):
     (tmp_path / "p.png").write_bytes(b"\xff\xfe\xfb")
     assert page.picture(tmp_path / "p.png", 'A "picture"', "Shows it.", True) == (
