@@ -42,12 +42,12 @@ def main():
     figure, (repose, ratio) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
     draw_means(repose, beds, PERIODIC, "theta_c", "o-", "periodic", aside=-6)
     draw_means(repose, beds, WALLS, "theta_c", "s--", "between walls", aside=6)
-    repose.set(xlabel="L / D", ylabel="theta_c, deg", xlim=(0, 420))
+    repose.set(xlabel="$L$ ($D$)", ylabel="$θ_c$ (°)", xlim=(0, 420))
     draw_means(ratio, beds, WALLS, "failure_ratio", "s", "beds and their means")
     length = np.linspace(80, 320, 100)
     for k, style, whose in ((wall_numbers(beds)["k"][0], "k-", "mean of the beds"), (PAPER_K, "k:", "the paper's")):
-        ratio.plot(length, 1 - k * DEPTH / (3 * length), style, label=f"k_L - k_0 = {k:.1f}, {whose}")
-    ratio.set(xlabel="L / D", ylabel="(sigma_T / sigma_N) / tan theta", xlim=(80, 320), ylim=(0.3, 0.95))
+        ratio.plot(length, 1 - k * DEPTH / (3 * length), style, label=f"$k_L - k_0$ = {k:.1f}, {whose}")
+    ratio.set(xlabel="$L$ ($D$)", ylabel=r"$(σ_T / σ_N) / \tan θ$", xlim=(80, 320), ylim=(0.3, 0.95))
     for axes in (repose, ratio):
         axes.legend(frameon=False)
     figure.savefig(arguments.output, dpi=110)

@@ -56,61 +56,63 @@ class Beds:
 
 
 def beds_of_ensemble(path):
-    """The beds of the first variant of an ensemble.h5."""
+    """The beds of the first variant of an ensemble.h5, which has the analyses of its members one after the other."""
     import h5py
 
     with h5py.File(path) as file:
-        variant = file["variants/0"]
-        theta_c = variant["numbers/theta_c/values"][:].ravel()
-        failed = ~np.isnan(theta_c)
-        names = []
-        variant["over_tilt"].visit(lambda name: names.append(name.removesuffix("/values")) if name.endswith("/values") else None)
-        angle_left, tilt = variant["before_failure/angle_left"][:], variant["over_tilt/theta"][:]
-        near = {name: at_distances(angle_left, variant[f"before_failure/{name}/values"][failed]) for name in names}
-        far = {name: mean_far(tilt, variant[f"over_tilt/{name}/values"][failed]) for name in names}
-        return Beds(theta_c[failed], variant["numbers/gamma_c/values"][:].ravel()[failed], near, far)
+        analysis = file["variants/0/analysis"]
+        ends = np.cumsum(analysis["frames"][:])
+        columns = {}
 
+        def read(name, values):
+            if isinstance(values, h5py.Dataset) and len(values) == ends[-1] and name != "tilt":
+                columns[name] = values[:]
 
-def at_distances(angle_left, values):
-    """The columns of DISTANCES among those of a grid; NaN where the grid does not reach or is coarser."""
-    found = np.full((len(values), len(DISTANCES)), np.nan)
-    for k, distance in enumerate(DISTANCES):
-        for column in np.flatnonzero(abs(angle_left - distance) < SAME_ANGLE):
-            found[:, k] = values[:, column]
-    return found
+        analysis.visititems(read)
+        members = [slice(end - count, end) for count, end in zip(analysis["frames"][:], ends)]
+        tilt = np.degrees(analysis["tilt"][:])
+        return collected((theta_c, gamma_c, tilt[rows], {name: values[rows] for name, values in columns.items()})
+                         for theta_c, gamma_c, rows in zip(np.degrees(analysis["theta_c"][:]), analysis["gamma_c"][:], members))
 
 
 def beds_of_runs(paths):
-    """The beds of runs whose analysis is stored, without those that have not failed."""
+    """The beds of runs whose analysis is stored."""
     import talus
     from talus.schema import DATA_SETS
 
-    beds = []
-    for path in paths:
+    def read(path):
         with talus.open(path) as run:
             rows = run.frames_of_tilt
-            tilt, theta_c = run.tilt[:rows], run.theta_c
-            if np.isnan(theta_c):
-                continue
-            near, far = {}, {}
-            for name in run.analysis:
-                if DATA_SETS.get(f"analysis/{name}", ("", "", ""))[1] not in ("T", "T F"):
-                    continue
-                for f, values in enumerate(run.analysis[name].reshape(rows, -1).T):
-                    each = name if f == 0 else f"{name}[{f}]"
-                    rise = tilt <= theta_c
-                    near[each] = interpolated(tilt[rise], values[rise], theta_c - DISTANCES)
-                    far[each] = mean_far(tilt[rise], values[rise])
-            beds.append((theta_c, run.analysis["gamma_c"], near, far))
-    names = beds[0][2] if beds else ()
-    return Beds(np.array([bed[0] for bed in beds]), np.array([bed[1] for bed in beds]),
-                {name: np.array([bed[2][name] for bed in beds]) for name in names},
-                {name: np.array([bed[3][name] for bed in beds]) for name in names})
+            names = [name for name in run.analysis if DATA_SETS.get(f"analysis/{name}", ("", "", ""))[1] in ("T", "T F")]
+            return run.theta_c, run.analysis["gamma_c"], run.tilt[:rows], {name: run.analysis[name] for name in names}
+
+    return collected(map(read, paths))
+
+
+def collected(beds):
+    """Beds of theta_c (deg), Gamma_c, and tilt (deg) and measures of each frame, at thresholds or not. Those that have not
+    failed are left out."""
+    rows = []
+    for theta_c, gamma_c, tilt, measures in beds:
+        if np.isnan(theta_c):
+            continue
+        rise = tilt <= theta_c + SAME_ANGLE
+        near, far = {}, {}
+        for name, of_frames in measures.items():
+            for f, values in enumerate(of_frames.reshape(len(tilt), -1).T):
+                each = name if f == 0 else f"{name}[{f}]"
+                near[each] = interpolated(tilt[rise], values[rise], theta_c - DISTANCES)
+                far[each] = mean_far(tilt[rise], values[rise])
+        rows.append((theta_c, gamma_c, near, far))
+    names = rows[0][2] if rows else ()
+    return Beds(np.array([row[0] for row in rows]), np.array([row[1] for row in rows]),
+                {name: np.array([row[2][name] for row in rows]) for name in names},
+                {name: np.array([row[3][name] for row in rows]) for name in names})
 
 
 def mean_far(tilt, values):
     """The mean over the tilts of FAR, the last axis."""
-    return mean(values[..., (tilt >= FAR[0]) & (tilt <= FAR[1])], -1)
+    return mean(values[..., (tilt >= FAR[0] - SAME_ANGLE) & (tilt <= FAR[1] + SAME_ANGLE)], -1)
 
 
 def interpolated(tilt, values, at):

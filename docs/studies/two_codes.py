@@ -1,0 +1,438 @@
+#!/usr/bin/python3
+"""Tilts the same beds, with the same contact forces, by Talus and by the soft contacts of LAMMPS, and compares them.
+
+    docs/studies/two_codes.py                          # everything: computes, measures, draws; repeat it after a stop
+    docs/studies/two_codes.py --seeds 1-2 --jobs 2     # fewer beds
+    docs/studies/two_codes.py --only measure           # measures and draws what has been computed
+
+Beds of 1200 grains are poured by Talus and brought to rest. From there the same bed is tilted to failure
+
+  talus             by Talus,
+  again             by Talus from its stored state, which is rounded to single precision,
+  lammps-1e5        by LAMMPS with k_n = 1e5 m g/D, from the positions and the contact forces,
+  lammps-1e6        the same with 1e6 m g/D,
+  positions         by Talus from the positions alone,
+  lammps-positions  by LAMMPS from the positions alone, 1e5 m g/D.
+
+All are measured by the code below, from positions and contact forces. Runs go to runs/two-codes. Complete ones are not
+computed again; a stopped run of Talus is resumed, and one of LAMMPS begins again. Everything takes two to three hours on
+one idle core: a bed 0.2 minutes by Talus, 3 by LAMMPS with 1e5 m g/D, and 9 with 1e6. Needs Debian's lammps, python3-h5py,
+python3-matplotlib and python3-numpy, and the package of build/release/python."""
+
+import argparse
+import csv
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.collections import EllipseCollection
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "build/release/python"))
+import talus  # noqa: E402
+from talus.lammps import Bed  # noqa: E402
+
+BED = {"bed.length": 60, "bed.depth": 20, "tilt.rate": 2, "tilt.step": 0.002, "output.frame_every": 1}
+#: Codes, and of how many beds at most; the angle of failure of a single bed is uncertain, so the means need many.
+CODES = {"talus": 1000, "again": 1000, "lammps-1e5": 1000, "lammps-1e6": 8, "positions": 4, "lammps-positions": 4}
+NAMES = {"again": "Talus again", "lammps-1e5": "LAMMPS, $k_n = 10^5$", "lammps-1e6": "LAMMPS, $k_n = 10^6$"}
+#: Minutes on one idle core for a bed, by code.
+MINUTES = {"talus": 0.2, "again": 0.2, "lammps-1e5": 3, "lammps-1e6": 9, "positions": 0.2, "lammps-positions": 3}
+FLOW, DISTANCE = 0.02, 5.0  # sqrt(g D) and D: a flow of the surface layer, and how far it goes in a failure
+FRICTION = 0.5              # mu
+L_MIN = 3.0                 # D, diameter of the neighbourhood of a grain in gamma
+TABLE_TILTS = (0, 5, 10, 15)  # deg
+MAP_TILT = 15               # deg
+
+
+# ---- Computing.
+
+
+def talus_run(program, path, *words):
+    """Computes a run, or what is left of it."""
+    words = ["--resume", path] if Path(f"{path}.run").exists() else [*words, "-o", path]
+    subprocess.run([program, "run", *map(str, words), "--threads", "1", "--quiet"], check=True)
+
+
+def lammps_run(folder, run, stiffness, forces):
+    """Writes a bed for LAMMPS and tilts it."""
+    run.frame_at(0).to_lammps(folder, k_n=stiffness, forces=forces, overwrite=True)
+    subprocess.run(["lmp", "-in", "in.slope", "-screen", "none"], cwd=folder, check=True, env=os.environ | {"OMP_NUM_THREADS": "1"})
+
+
+def scenario_words(seed, settings):
+    return [ROOT / "assets/scenarios/paper-pbc.toml", "--seed", seed, *(word for key in settings for word in ("--set", f"{key}={settings[key]}"))]
+
+
+def compute(code, seed, runs, program, settings):
+    """Computes a bed by a code; that of Talus must be there for the others."""
+    bed, path = path_of("talus", seed, runs), path_of(code, seed, runs)
+    if code == "talus":
+        talus_run(program, path, *scenario_words(seed, settings))
+    elif code == "again":
+        talus_run(program, path, "--branch", bed, "--at", "frame0")
+    elif code == "positions":
+        given = {"deposition.method": "file", "deposition.file": bed, "deposition.frame": 0}
+        talus_run(program, path, *scenario_words(seed, settings | given))
+    else:
+        with talus.open(bed) as run:
+            kind = code.removeprefix("lammps-")
+            lammps_run(path, run, 1e5 if kind == "positions" else float(kind), kind != "positions")
+    print(f"{code}, seed {seed}: done", flush=True)
+
+
+# ---- Reading: lengths in D, forces in m g, m the mass of a disk of diameter D.
+
+
+@dataclass
+class State:
+    """Grains and force-carrying contacts at one tilt."""
+
+    tilt: float          # deg
+    L: float
+    free: np.ndarray
+    r: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    unwrapped: np.ndarray  # x without jumps at the period
+    a: np.ndarray        # contacts of grains a and b, with the force f_n n + f_t t on b, t = (-n_y, n_x)
+    b: np.ndarray
+    f_n: np.ndarray
+    f_t: np.ndarray
+
+    def __post_init__(self):
+        dx, dy = self.x[self.b] - self.x[self.a], self.y[self.b] - self.y[self.a]
+        dx -= self.L * np.round(dx / self.L)
+        self.distance = np.hypot(dx, dy)
+        self.n = np.stack([dx, dy], axis=1) / self.distance[:, None]
+        self.t = np.stack([-self.n[:, 1], self.n[:, 0]], axis=1)
+
+
+def of_talus(path):
+    """The states of a run at whole degrees, and its flow: tilts (deg), velocities of the surface layer, sqrt(g D), and the step of time."""
+    with talus.open(path) as run:
+        states = {}
+        for frame in run.frames:
+            if abs(frame.tilt - round(frame.tilt)) < 1e-6:
+                bed = Bed(frame)
+                states[round(frame.tilt)] = State(frame.tilt, bed.L, bed.free, bed.r, bed.x, bed.y, bed.x + frame.image[:, 0] * bed.L,
+                                                  bed.a, bed.b, bed.f_n, bed.f_t)
+        time = run["observables/time"] * np.sqrt(run.gravity / run.D)
+        velocity = np.diff(run["observables/surface_displacement"] / run.D) / np.diff(time)
+        return states, (np.degrees(run["observables/tilt"])[1:], velocity, np.median(np.diff(time)))
+
+
+def frames_of(path):
+    """The frames of a dump: time step, length of the box along x, and the table of its rows."""
+    for frame in path.read_text().split("ITEM: TIMESTEP\n")[1:]:
+        lines = frame.split("\n")
+        count = int(lines[2])
+        yield int(lines[0]), float(lines[4].split()[1]), np.array(" ".join(lines[8:8 + count]).split(), float).reshape(count, -1)
+
+
+def of_lammps(folder):
+    """The same of a run of LAMMPS."""
+    states = {}
+    steps, tilts, velocity = np.loadtxt(folder / "slope.series")[:, :3].T
+    degrees = (tilts[1] - tilts[0]) / (steps[1] - steps[0])  # in a time step
+    for (step, L, grains), (_, _, pairs) in zip(frames_of(folder / "slope.grains"), frames_of(folder / "slope.contacts")):
+        _, kind, x, y, r, _, unwrapped = grains.T[:7]
+        a, b = pairs[:, :2].astype(int).T - 1
+        state = State(step * degrees, L, kind == 1, r, x, y, unwrapped, a, b, 0, 0)
+        f_n, f_t = -(pairs[:, 2:4] * state.n).sum(axis=1), -(pairs[:, 4:6] * state.t).sum(axis=1)
+        carries = f_n > 1e-9
+        states[round(state.tilt)] = State(state.tilt, L, state.free, r, x, y, unwrapped, a[carries], b[carries], f_n[carries], f_t[carries])
+    rate = next(line for line in (folder / "in.slope").read_text().split("\n") if line.startswith("variable rate")).split()[3]
+    return states, (tilts, velocity, (tilts[1] - tilts[0]) / float(rate))
+
+
+# ---- Measuring.
+
+
+def theta_c(tilt, velocity, dt):
+    """The tilt at which the flow begins that carries the surface layer 5 D without a stop (docs/scenario.md); NaN without one."""
+    moved = 0.0
+    for k, v in enumerate(velocity):
+        moved = moved + v * dt if v > FLOW else 0.0
+        if moved >= DISTANCE:
+            begin = k - np.argmax(velocity[k::-1] <= FLOW) + 1 if (velocity[:k] <= FLOW).any() else 0
+            return tilt[begin]
+    return np.nan
+
+
+def moments(state):
+    """The internal moments of the grains, (N, 2, 2), compression positive."""
+    force = state.f_n[:, None] * state.n + state.f_t[:, None] * state.t
+    half = (state.r[state.a] + state.r[state.b] - state.distance) / 2
+    moment = np.zeros((len(state.x), 2, 2))
+    for grain, sign in ((state.a, 1), (state.b, 1)):
+        np.add.at(moment, grain, sign * (state.r[grain] - half)[:, None, None] * state.n[:, :, None] * force[:, None, :])
+    return moment
+
+
+def neighbourhood_gamma(state):
+    """gamma of the neighbourhood of each free grain; NaN if the grain carries nothing."""
+    free = np.flatnonzero(state.free)
+    dx = state.x[free, None] - state.x[free]
+    dx -= state.L * np.round(dx / state.L)
+    near = dx**2 + (state.y[free, None] - state.y[free]) ** 2 <= (L_MIN / 2) ** 2
+    gamma = talus.stress_ratio((near.astype(float) @ moments(state)[free].reshape(-1, 4)).reshape(-1, 2, 2))
+    return np.where(np.isin(free, [state.a, state.b]), gamma, np.nan)
+
+
+def volume(state, step=0.002):
+    """The area below the upper envelope of the free grains, down to the floor plane."""
+    count = round(state.L / step)
+    height = np.zeros(count)
+    for x, y, r in zip(state.x[state.free], state.y[state.free], state.r[state.free]):
+        column = np.arange(int((x - r) / step), int((x + r) / step) + 2)
+        offset = (column + 0.5) * state.L / count - x
+        column, offset = column[abs(offset) < r] % count, offset[abs(offset) < r]
+        height[column] = np.maximum(height[column], y + np.sqrt(r**2 - offset**2))
+    return height.mean() * state.L
+
+
+def measured(state, first, gamma_c):
+    """The quantities of a state; `first` is that at the beginning of the tilt."""
+    total = moments(state)[state.free].sum(axis=0)
+    free, ends = state.free, [state.a, state.b]
+    carrying = free & np.isin(np.arange(len(free)), ends)
+    between = (free[state.a].astype(int) + free[state.b]).sum()
+    major = 0.5 * np.arctan2(total[0, 1] + total[1, 0], total[0, 0] - total[1, 1])
+    angle = 2 * (np.arctan2(state.n[:, 1], state.n[:, 0]) - major)
+    a_c = 2 * np.cos(angle).mean()
+    mobilised = abs(state.f_t) / (FRICTION * state.f_n)
+    gamma = neighbourhood_gamma(state)
+    moved = np.hypot(state.unwrapped - first.unwrapped, state.y - first.y)[free].mean()
+    return {"Gamma": float(talus.stress_ratio(total)),
+            "sigma_t/sigma_n": -total[1, 0] / total[1, 1],
+            "sigma_xx/sigma_yy": total[0, 0] / total[1, 1],
+            "p_o": (gamma[np.isfinite(gamma)] >= gamma_c).mean(),
+            "z": between / carrying.sum(),
+            "phi": np.pi * (state.r[free] ** 2).sum() / volume(state),
+            "a_c": a_c,
+            "a_n": 2 * (state.f_n * np.cos(angle)).sum() / state.f_n.sum() - a_c,
+            "a_t": -2 * (state.f_t * np.sin(angle)).sum() / state.f_n.sum(),
+            "sliding": (mobilised > 0.999).mean(),
+            "mobilised": mobilised.mean(),
+            "weak": (state.f_n < 0.1 * state.f_n.mean()).mean(),
+            "displacement": moved}
+
+
+def common_forces(state, other):
+    """The normal forces of the contacts that both states have."""
+    def key(s):
+        return np.minimum(s.a, s.b) * len(s.x) + np.maximum(s.a, s.b)
+
+    _, i, j = np.intersect1d(key(state), key(other), return_indices=True)
+    return state.f_n[i], other.f_n[j]
+
+
+def path_of(code, seed, runs):
+    """The run of a bed by a code: a file of Talus, or a folder of LAMMPS."""
+    return runs / (f"{code}-{seed}" if code.startswith("lammps") else f"{code}-{seed}.h5")
+
+
+def is_done(code, seed, runs):
+    path = path_of(code, seed, runs)
+    return "Total wall time" in (path / "log.lammps").read_text() if (path / "log.lammps").exists() else path.is_file()
+
+
+def measure(seeds, runs):
+    """Returns rows for each bed and code, and for each of their states up to the failure of the first of both."""
+    beds, states = [], []
+    for seed in (s for s in seeds if is_done("talus", s, runs)):
+        reference, flow = of_talus(path_of("talus", seed, runs))
+        angle = theta_c(*flow)
+        for code in (c for c in CODES if is_done(c, seed, runs)):
+            path = path_of(code, seed, runs)
+            found, flow = of_lammps(path) if path.is_dir() else of_talus(path)
+            own = theta_c(*flow)
+            beds.append({"seed": seed, "code": code, "theta_c (deg)": own, "version": version_of(path)})
+            for tilt in sorted(t for t in found.keys() & reference.keys() if not t > np.fmin(own, angle)):
+                forces = np.corrcoef(*common_forces(reference[tilt], found[tilt]))[0, 1]
+                values = measured(found[tilt], found[min(found)], np.sin(np.radians(angle)))
+                states.append({"seed": seed, "code": code, "tilt (deg)": tilt, **values, "correlation": forces})
+    return beds, states
+
+
+def version_of(path):
+    """The program that computed a run."""
+    if path.is_dir():
+        return (path / "log.lammps").read_text().split("\n", maxsplit=1)[0]
+    with talus.open(path) as run:
+        return f"Talus {run.provenance['version']} ({run.provenance['git_hash']})"
+
+
+def pairs_of(beds, states):
+    """Returns a row for each code, tilt and quantity: means over the beds that Talus and the code have computed, and the paired
+    difference with its standard error."""
+    rows = [{"tilt (deg)": "", "quantity": "theta_c (deg)", "code": code, "values": paired(beds, code, "theta_c (deg)")} for code in CODES]
+    for tilt in TABLE_TILTS:
+        here = [row for row in states if row["tilt (deg)"] == tilt]
+        rows += [{"tilt (deg)": tilt, "quantity": name, "code": code, "values": paired(here, code, name)}
+                 for code in CODES for name in (here[0] if here else ()) if name not in ("seed", "code", "tilt (deg)")]
+    for row in rows:
+        values = row.pop("values")
+        row |= {"beds": len(values)}
+        if len(values) and row["code"] != "talus":
+            own, other = values.T
+            row |= {"Talus": own.mean(), "Talus error": error(own), "other": other.mean(), "other error": error(other),
+                    "difference": (other - own).mean(), "difference error": error(other - own)}
+    return [row for row in rows if "difference" in row]
+
+
+def paired(rows, code, name):
+    """The values of Talus and of a code for the beds that both have, (beds, 2)."""
+    values = {(row["code"], row["seed"]): row[name] for row in rows}
+    both = [(values["talus", seed], value) for (c, seed), value in values.items() if c == code and ("talus", seed) in values]
+    both = np.array(both).reshape(-1, 2)
+    return both[np.isfinite(both).all(axis=1)]
+
+
+def error(values):
+    return values.std(ddof=1) / np.sqrt(len(values)) if len(values) > 1 else np.nan
+
+
+def write_rows(path, rows):
+    def text(value):
+        if isinstance(value, float | np.floating):
+            return "" if np.isnan(value) else f"{value:.6g}"
+        return str(value)
+
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(rows[0])
+        writer.writerows([text(value) for value in row.values()] for row in rows)
+
+
+# ---- Drawing.
+
+
+STYLES = {"talus": ("black", "o"), "again": ("0.6", "s"), "lammps-1e5": ("tab:red", "^"), "lammps-1e6": ("tab:blue", "v")}
+PANELS = [("Gamma", r"stress ratio $\Gamma$"), ("p_o", r"overloaded fraction $p_o$"), ("z", "coordination number $z$"),
+          ("a_c", "anisotropy of contacts $a_c$"), ("a_n", "anisotropy of normal forces $a_n$"),
+          ("a_t", "anisotropy of tangential forces $a_t$"), ("displacement", "mean displacement ($D$)")]
+
+
+def means_over_tilt(states, code, name, seeds):
+    """Tilts that all these beds have reached, and means and standard errors of a quantity there."""
+    by_tilt = {}
+    for row in states:
+        if row["code"] == code and row["seed"] in seeds:
+            by_tilt.setdefault(row["tilt (deg)"], []).append(row[name])
+    complete = {tilt: np.array(values) for tilt, values in sorted(by_tilt.items()) if len(values) == len(seeds)}
+    return list(complete), [v.mean() for v in complete.values()], np.nan_to_num([error(v) for v in complete.values()])
+
+
+def draw_means(path, beds, states):
+    """theta_c of single beds against that of Talus, and the means of quantities against the tilt."""
+    figure, axes = plt.subplots(2, 4, figsize=(14, 6.4), layout="constrained")
+    first, *others = axes.flat
+    known = [row["theta_c (deg)"] for row in beds if np.isfinite(row["theta_c (deg)"])]
+    ends = [min(known) - 1, max(known) + 1]
+    first.plot(ends, ends, color="0.7", linewidth=0.8)
+    for code, label in NAMES.items():
+        if len(angles := paired(beds, code, "theta_c (deg)")):
+            first.plot(*angles.T, STYLES[code][1], color=STYLES[code][0], markersize=5, label=label)
+    first.set(xlabel=r"$\theta_c$ by Talus (deg)", ylabel=r"$\theta_c$ of the same bed (deg)", xlim=ends, ylim=ends, aspect="equal")
+    first.legend(frameon=False, fontsize=8)
+    both = {row["seed"] for row in states if row["code"] == "lammps-1e5"}
+    for panel, (name, label) in zip(others, PANELS):
+        for code in ("talus", "lammps-1e5"):
+            tilt, mean, spread = means_over_tilt(states, code, name, both)
+            panel.errorbar(tilt, mean, spread, fmt=STYLES[code][1] + "-", color=STYLES[code][0], markersize=3.5, linewidth=0.8, capsize=2,
+                           label=NAMES.get(code, "Talus"))
+        panel.set(xlabel=r"tilt $\theta$ (deg)", ylabel=label)
+    others[-1].set_yscale("log")
+    others[0].legend(frameon=False, fontsize=8)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def draw_maps(path, seed, runs):
+    """gamma of the neighbourhoods in the same bed by both codes, and the normal forces of the same contacts."""
+    both = [of_talus(path_of("talus", seed, runs))[0], of_lammps(path_of("lammps-1e5", seed, runs))[0]]
+    tilt = max(t for t in both[0].keys() & both[1].keys() if t <= MAP_TILT)
+    both = [states[tilt] for states in both]
+    figure = plt.figure(figsize=(11, 5), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=[2.4, 1])
+    for k, (state, name) in enumerate(zip(both, ("Talus", NAMES["lammps-1e5"]))):
+        axes = figure.add_subplot(grid[k, 0])
+        size, centres = np.tile(2 * state.r[state.free], 3), np.stack([state.x, state.y], axis=1)[state.free]
+        images = np.concatenate([centres + (shift * state.L, 0) for shift in (-1, 0, 1)])  # grains at an edge are drawn at both
+        grains = EllipseCollection(size, size, 0 * size, units="xy", offsets=images, offset_transform=axes.transData,
+                                   array=np.tile(neighbourhood_gamma(state), 3), cmap="YlOrBr", clim=(0, 0.8), edgecolor="0.4",
+                                   linewidth=0.2)
+        axes.add_collection(grains)
+        axes.set(aspect="equal", xlim=(0, state.L), ylim=(-0.5, state.y.max() + 1), ylabel="$y$ ($D$)")
+        axes.set_title(rf"{name}, $\theta$ = {tilt} deg", fontsize=10)
+    axes.set_xlabel("$x$ ($D$)")
+    figure.colorbar(grains, ax=figure.axes, label=r"$\gamma$ within 3 $D$", location="bottom", shrink=0.5)
+    axes = figure.add_subplot(grid[:, 1])
+    own, other = common_forces(*both)
+    axes.loglog(own, other, ".", color="black", markersize=2)
+    ends = [0.01, 2 * max(own.max(), other.max())]
+    axes.plot(ends, ends, color="tab:red", linewidth=0.8)
+    axes.set(xlim=ends, ylim=ends, aspect="equal", xlabel="$f_n$ by Talus ($m g$)", ylabel="$f_n$ by LAMMPS ($m g$)")
+    axes.set_title(f"{len(own)} common contacts", fontsize=10)
+    figure.savefig(path, dpi=110)
+    plt.close(figure)
+
+
+def seeds_in(text):
+    """The seeds of "1-16" or "1-3,8"."""
+    ranges = [part.split("-") for part in text.split(",")]
+    return [seed for part in ranges for seed in range(int(part[0]), int(part[-1]) + 1)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", default="1-16", help="beds, e.g. 1-16 or 1-3,8 [%(default)s]")
+    parser.add_argument("--codes", nargs="+", default=list(CODES), choices=list(CODES), metavar="CODE", help="codes besides talus [all]")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a key of the scenario, e.g. bed.length=30")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at a time, each on one core [%(default)s]")
+    parser.add_argument("--only", choices=["compute", "measure"], help="only one of both parts")
+    parser.add_argument("--runs", type=Path, default=ROOT / "runs/two-codes", help="folder of the runs")
+    parser.add_argument("--data", type=Path, default=ROOT / "docs/data", help="folder of the tables")
+    parser.add_argument("--images", type=Path, default=ROOT / "docs/images", help="folder of the figures")
+    parser.add_argument("--talus", default=os.environ.get("TALUS_PROGRAM", str(ROOT / "build/release/talus")))
+    arguments = parser.parse_args()
+    seeds, runs = seeds_in(arguments.seeds), arguments.runs.resolve()
+    settings = BED | dict(word.split("=", maxsplit=1) for word in arguments.set)
+    if arguments.only != "measure":
+        runs.mkdir(parents=True, exist_ok=True)
+        codes = ["talus"] + [code for code in CODES if code in arguments.codes and code != "talus"]
+        for code in codes:  # the beds of all codes begin with those of Talus
+            left = [seed for seed in seeds[:CODES[code]] if not is_done(code, seed, runs)]
+            hours = MINUTES[code] * len(left) / arguments.jobs / 60
+            print(f"{code}: {len(left)} beds to compute, about {hours:.1f} hours on an idle machine if they have 1200 grains", flush=True)
+            with ThreadPoolExecutor(arguments.jobs) as pool:
+                list(pool.map(lambda seed, code=code: compute(code, seed, runs, arguments.talus, settings), left))
+    if arguments.only != "compute":
+        for folder in (arguments.data, arguments.images):
+            folder.mkdir(parents=True, exist_ok=True)
+        beds, states = measure(seeds, runs)
+        write_rows(arguments.data / "two-codes-beds.csv", beds)
+        write_rows(arguments.data / "two-codes.csv", pairs_of(beds, states))
+        draw_means(arguments.images / "two-codes.png", beds, states)
+        mapped = next((seed for seed in seeds if is_done("talus", seed, runs) and is_done("lammps-1e5", seed, runs)), None)
+        if mapped is not None:
+            draw_maps(arguments.images / "two-codes-maps.png", mapped, runs)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit("two_codes.py: stopped; repeat the command to continue")
+    except (OSError, ValueError, subprocess.CalledProcessError) as failed:
+        sys.exit(f"two_codes.py: error: {failed}")
