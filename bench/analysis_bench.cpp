@@ -8,12 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "analysis/deformation/coarse_fields.h"
-#include "analysis/deformation/local_deformation.h"
+#include "analysis/deformation/deformation.h"
 #include "analysis/frame_analysis.h"
-#include "analysis/packing/local_solid_fraction.h"
-#include "analysis/packing/pair_correlation.h"
-#include "analysis/topology/rigid_clusters.h"
+#include "analysis/packing/packing.h"
 #include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "io/run_file.h"

@@ -5,7 +5,7 @@
 
 #include "base/errors.h"
 #include "core/random.h"
-#include "render/colour_map.h"
+#include "render/colour.h"
 
 namespace talus::bench {
 

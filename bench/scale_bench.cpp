@@ -14,7 +14,7 @@
 #include "frozen_step.h"
 #include "program.h"
 #include "session/session.h"
-#include "solver/residual.h"
+#include "solver/problem.h"
 
 namespace talus::bench {
 namespace {

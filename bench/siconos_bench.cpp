@@ -14,7 +14,7 @@
 #include "scenario/scenario.h"
 #include "siconos_peer.h"
 #include "solver/local_problem.h"
-#include "solver/residual.h"
+#include "solver/problem.h"
 #include "solver/solve.h"
 
 namespace talus::bench {

@@ -9,7 +9,7 @@
 #include "frozen_step.h"
 #include "program.h"
 #include "siconos_peer.h"
-#include "solver/residual.h"
+#include "solver/problem.h"
 
 namespace talus::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/trigonometry.h"
 #include "frozen_step.h"
 #include "session/session.h"
-#include "solver/gauss_seidel.h"
+#include "solver/solve.h"
 
 namespace talus::bench {
 namespace {
