@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/nearest_word.h"
-#include "base/visible_text.h"
+#include "base/text.h"
 
 namespace talus::render {
 namespace {
@@ -90,8 +89,8 @@ std::optional<ContextKind> context_kind(std::string_view name) {
   if (name == "auto") return std::nullopt;
   for (const ContextKind kind : {ContextKind::osmesa, ContextKind::egl})
     if (name == context_name(kind)) return kind;
-  throw Error(ExitCode::usage, fmt::format("--context {}: expected auto, osmesa or egl{}", visible_word(name),
-                                           did_you_mean(name, {"auto", "osmesa", "egl"})));
+  throw Error(ExitCode::usage, "--context {}: expected auto, osmesa or egl{}", visible_word(name),
+              did_you_mean(name, {"auto", "osmesa", "egl"}));
 }
 
 bool draws_in_software(std::string_view renderer) {
@@ -105,8 +104,8 @@ std::unique_ptr<Context> make_context(std::optional<ContextKind> kind) {
     return *kind == ContextKind::osmesa ? make_osmesa_context() : make_egl_context();
   } catch (const Error& error) {
     if (error.code() != ExitCode::unavailable || removed.empty()) throw;
-    throw Error(error.code(), fmt::format("{} (Talus draws in software and ignores {} in the environment)",
-                                          error.what(), removed));
+    throw Error(error.code(), "{} (Talus draws in software and ignores {} in the environment)", error.what(),
+                removed);
   }
 }
 
@@ -124,18 +123,13 @@ std::string default_context() {
 
 std::unique_ptr<Context> first_context(const ContextMaker& first, const ContextMaker& second) {
   std::string missing;
-  try {
-    return first();
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::unavailable) throw;
-    missing = error.what();
-  }
-  try {
-    return second();
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::unavailable) throw;
-    throw Error(ExitCode::unavailable, missing.append("; ").append(error.what()));
-  }
+  for (const ContextMaker* make : {&first, &second}) try {
+      return (*make)();
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::unavailable) throw;
+      missing.append(missing.empty() ? "" : "; ").append(error.what());
+    }
+  throw Error(ExitCode::unavailable, missing);
 }
 
 }  // namespace talus::render

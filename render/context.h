@@ -46,7 +46,7 @@ std::unique_ptr<Context> make_egl_context();
 /// removes everything that configures drivers (GALLIUM_DRIVER, LIBGL_*, MESA_*, ...) from the environment, so
 /// that pictures are bit-identical whatever it contains. Throws Error(unavailable) with the reason for each
 /// kind that was tried.
-std::unique_ptr<Context> make_context(std::optional<ContextKind> kind);
+std::unique_ptr<Context> make_context(std::optional<ContextKind> kind = {});
 
 /// Returns the name of the kind that make_context without a kind makes on this system, or "none" and why.
 std::string default_context();

@@ -15,7 +15,8 @@ namespace {
 constexpr const char* osmesa_library = "libOSMesa.so.8";
 
 // GL/osmesa.h has left Mesa with version 25.1, so the names that are used here are declared here.
-constexpr int format = 0x22, rgba = 0x1908, depth_bits = 0x30, stencil_bits = 0x31, accum_bits = 0x32;
+constexpr int colour_format = 0x22, rgba_format = 0x1908, depth_bits = 0x30, stencil_bits = 0x31,
+              accum_bits = 0x32;
 constexpr int profile = 0x33, core_profile = 0x34, major_version = 0x36, minor_version = 0x37;
 constexpr unsigned unsigned_byte = 0x1401;
 using OSMesaContext = struct OSMesaContextRecord*;
@@ -32,9 +33,7 @@ struct OSMesa {
 template <typename Pointer>
 void find_osmesa(void* library, const char* name, Pointer& pointer) {
   pointer = reinterpret_cast<Pointer>(dlsym(library, name));
-  if (!pointer)
-    throw Error(ExitCode::unavailable,
-                fmt::format("{} lacks {}; reinstall libosmesa6", osmesa_library, name));
+  if (!pointer) throw Error(ExitCode::unavailable, "{} lacks {}; reinstall libosmesa6", osmesa_library, name);
 }
 
 OSMesa entry_points(void* library) {
@@ -55,30 +54,18 @@ OSMesa open_osmesa() {
   const auto says = [&reason](const char* words) { return reason.find(words) != std::string::npos; };
   if (errno == ENOMEM || says("annot allocate") || says("failed to map")) throw std::bad_alloc();
   throw Error(ExitCode::unavailable,
-              fmt::format("no OSMesa context: cannot load {} ({}); apt-get install libosmesa6, which systems "
-                          "with Mesa 25.1 or later do not have: there --context egl draws",
-                          osmesa_library, reason));
+              "no OSMesa context: cannot load {} ({}); apt-get install libosmesa6, which systems with Mesa "
+              "25.1 or later do not have: there EGL draws",
+              osmesa_library, reason);
 }
 
 class OSMesaContextOwner final : public Context {
  public:
   OSMesaContextOwner() : mesa_(open_osmesa()) {
     // Maps are flat and need no depth, stencil or accumulation buffer.
-    constexpr std::array<int, 15> attributes = {format,
-                                                rgba,
-                                                depth_bits,
-                                                0,  //
-                                                stencil_bits,
-                                                0,
-                                                accum_bits,
-                                                0,  //
-                                                profile,
-                                                core_profile,  //
-                                                major_version,
-                                                3,
-                                                minor_version,
-                                                3,
-                                                0};
+    constexpr std::array<int, 15> attributes = {
+        colour_format, rgba_format,  depth_bits,    0, stencil_bits,  0, accum_bits, 0,
+        profile,       core_profile, major_version, 3, minor_version, 3, 0};
     context_ = mesa_.create(attributes.data(), nullptr);
     // The renderer draws into its own framebuffer, but a context becomes current only with a buffer.
     if (!context_ || !mesa_.make_current(context_, dummy_.data(), unsigned_byte, 1, 1)) {

@@ -36,9 +36,6 @@ struct Hatching {
 };
 Hatching hatching(const Point& centre, double radius);
 
-/// Returns the corners of the part of the plane that a window shows.
-std::vector<Point> seen_corners(const Window& window);
-
 /// Joins texts into the one line that a document stores: "Software=talus 0.1.0; Source=a.h5".
 std::string joined_texts(const PictureTexts& texts);
 

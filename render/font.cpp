@@ -32,7 +32,7 @@ constexpr auto code_points = [] {
 static_assert(std::is_sorted(code_points.begin(), code_points.end()));
 
 [[noreturn]] void malformed(std::string_view text) {
-  throw Error(ExitCode::internal, fmt::format("the text '{}' in a picture is not valid UTF-8", text));
+  throw Error(ExitCode::internal, "the text '{}' in a picture is not valid UTF-8", text);
 }
 
 /// Returns the code point that begins at `position`, and moves `position` past it.
@@ -55,10 +55,9 @@ std::size_t place_of(char32_t code, std::string_view text) {
   const auto found = std::lower_bound(code_points.begin(), code_points.end(), code);
   if (found != code_points.end() && *found == code)
     return static_cast<std::size_t>(found - code_points.begin());
-  throw Error(
-      ExitCode::internal,
-      fmt::format("U+{:04X} in the text '{}' in a picture is not among the glyphs listed in render/font.cpp",
-                  static_cast<unsigned>(code), text));
+  throw Error(ExitCode::internal,
+              "U+{:04X} in the text '{}' in a picture is not among the glyphs listed in render/font.cpp",
+              static_cast<unsigned>(code), text);
 }
 
 bool pack(GlyphAtlas& atlas) {
@@ -184,7 +183,7 @@ GlyphAtlas bake_glyphs(double em) {
   constexpr int largest = 8192;
   for (atlas.size = 256; atlas.size <= largest; atlas.size *= 2)
     if (pack(atlas)) return atlas;
-  throw Error(ExitCode::internal, fmt::format("no glyph atlas holds a font of {:g} px", em));
+  throw Error(ExitCode::internal, "no glyph atlas holds a font of {:g} px", em);
 }
 
 }  // namespace talus::render

@@ -56,6 +56,7 @@ struct Swatch {
   Colour rim = black;   ///< discs only
   double width = 0.25;  ///< lines only, in units of the height of the swatch
   std::string label;
+  bool operator==(const Swatch&) const = default;
 };
 
 /// The legend of one layer of a map: bars, swatches, or both.
@@ -100,14 +101,15 @@ struct FrameView {
   bool left_wall = false;                       ///< a wall at x_min, drawn as a line
   bool right_wall = false;                      ///< a wall at x_max, drawn as a line
   bool floor_line = false;                      ///< y_min is a smooth floor, drawn as a line
-  double tilt = 0.0;            ///< rad, for the gravity arrow: gravity points along (sin tilt, -cos tilt)
-  std::string title;            ///< quantity shown, at the left of the caption line
-  std::string caption;          ///< tilt and its distance to failure, at the right of the caption line
-  double scale_length = 0.0;    ///< m
-  std::string scale_label;      ///< for example "10 D"; if empty, neither scale bar nor arrow is drawn
-  std::vector<Legend> legends;  ///< legends of the layers, below the bed
-  std::vector<Trace> traces;    ///< below the legends, one below the other
-  double trace_height = 5.0;    ///< height of the frame of each trace, in font sizes
+  double tilt = 0.0;              ///< rad, for the gravity arrow: gravity points along (sin tilt, -cos tilt)
+  std::string title;              ///< quantity shown, at the left of the caption line
+  std::string caption;            ///< tilt and its distance to failure, at the right of the caption line
+  double scale_length = 0.0;      ///< m
+  std::string scale_label;        ///< for example "10 D"; if empty, neither scale bar nor arrow is drawn
+  bool arrow_in_caption = false;  ///< the gravity arrow follows the caption, not the scale bar
+  std::vector<Legend> legends;    ///< legends of the layers, below the bed
+  std::vector<Trace> traces;      ///< below the legends, one below the other
+  double trace_height = 5.0;      ///< height of the frame of each trace, in font sizes
 };
 
 }  // namespace talus::render

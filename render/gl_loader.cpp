@@ -25,8 +25,8 @@ Gl load_gl(const Context& context) {
   gl.GetIntegerv(GL_MAJOR_VERSION, &major);
   gl.GetIntegerv(GL_MINOR_VERSION, &minor);
   if (10 * major + minor < 33)
-    throw Error(ExitCode::unavailable,
-                fmt::format("the rendering context offers OpenGL {}.{}; Talus needs 3.3", major, minor));
+    throw Error(ExitCode::unavailable, "the rendering context offers OpenGL {}.{}; Talus needs 3.3", major,
+                minor);
   return gl;
 }
 

@@ -22,7 +22,7 @@ GLuint compile(const Gl& gl, const std::string& name, GLenum stage, std::span<co
   std::string log(log_size, '\0');
   gl.GetShaderInfoLog(shader, log_size, nullptr, log.data());
   gl.DeleteShader(shader);
-  throw Error(ExitCode::unavailable, fmt::format("shader {} does not compile: {}", name, log.c_str()));
+  throw Error(ExitCode::unavailable, "shader {} does not compile: {}", name, log.c_str());
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ GLuint make_program(const Gl& gl, const std::string& name, std::span<const unsig
   std::string log(log_size, '\0');
   gl.GetProgramInfoLog(program, log_size, nullptr, log.data());
   gl.DeleteProgram(program);
-  throw Error(ExitCode::unavailable, fmt::format("shader program {} does not link: {}", name, log.c_str()));
+  throw Error(ExitCode::unavailable, "shader program {} does not link: {}", name, log.c_str());
 }
 
 Batch make_batch(const Gl& gl, GLuint program, std::initializer_list<Attribute> attributes, GLuint divisor) {

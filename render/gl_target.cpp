@@ -8,6 +8,7 @@
 #include "base/errors.h"
 #include "render/embedded.h"
 #include "render/gl_objects.h"
+#include "render/renderer.h"
 
 namespace talus::render {
 namespace {
@@ -130,7 +131,7 @@ class GlTarget final : public TextureTarget {
   Image end() override {
     Image image = read_picture();
     if (const GLenum error = gl_.GetError(); error != GL_NO_ERROR)
-      throw Error(ExitCode::internal, fmt::format("OpenGL reports error {} while drawing", error));
+      throw Error(ExitCode::internal, "OpenGL reports error {} while drawing", error);
     return image;
   }
 
@@ -152,8 +153,8 @@ class GlTarget final : public TextureTarget {
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_, 0);
     if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       throw Error(ExitCode::unavailable,
-                  fmt::format("the rendering context offers no target of {} x {} px; ask for a smaller width",
-                              width, height));
+                  "the rendering context offers no target of {} x {} px; ask for a smaller width", width,
+                  height);
     width_ = width;
     height_ = height;
     format_ = format;
@@ -245,6 +246,27 @@ class GlTarget final : public TextureTarget {
 
 std::unique_ptr<TextureTarget> make_gl_target(std::unique_ptr<Context> context) {
   return std::make_unique<GlTarget>(std::move(context));
+}
+
+Renderer::Renderer(std::unique_ptr<Context> context) : Renderer(make_gl_target(std::move(context))) {}
+
+Renderer::Renderer(std::unique_ptr<ImageTarget> target)
+    : target_(std::move(target)), font_(embedded_font()) {}
+
+Image Renderer::draw(const FrameView& view, int width, const LayoutLimits& limits) {
+  paint(view, width, limits);
+  return target_->end();
+}
+
+Image Renderer::draw(const Sheet& sheet) {
+  render::paint(*target_, sheet);
+  return target_->end();
+}
+
+Layout Renderer::paint(const FrameView& view, int width, const LayoutLimits& limits) {
+  Layout layout = lay_out(view, width, font_, limits);
+  render::paint(*target_, view, layout);
+  return layout;
 }
 
 }  // namespace talus::render

@@ -17,8 +17,8 @@ Image side_by_side(const std::vector<Image>& images) {
   for (const Image& image : images) {
     if (row.width == 0) row.channels = image.channels;
     if (image.channels != row.channels)
-      throw Error(ExitCode::internal, fmt::format("images with {} and {} channels next to each other",
-                                                  row.channels, image.channels));
+      throw Error(ExitCode::internal, "images with {} and {} channels next to each other", row.channels,
+                  image.channels);
     row.width += image.width;
     row.height = std::max(row.height, image.height);
   }

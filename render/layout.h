@@ -43,6 +43,9 @@ struct Window {
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< m
 };
 
+/// Returns the corners of the part of the picture that a window shows.
+std::vector<Point> seen_corners(const Window& window);
+
 struct PlacedText {
   Box box;
   std::string text;
@@ -81,7 +84,8 @@ struct Layout {
   Box scale_bar;
   Box arrow;  ///< a square; the gravity arrow turns about its centre
   std::vector<PlacedTrace> traces;
-  double traces_top = 0.0;  ///< px: top of the first trace's title
+  double caption_top = 0.0;  ///< px: top of the caption
+  double traces_top = 0.0;   ///< px: top of the first trace's title
 };
 
 /// Smallest and largest side of a picture, px.
@@ -91,9 +95,10 @@ inline constexpr int largest_side = 16384;
 /// Limits shared by pictures shown next to each other or one after the other.
 struct LayoutLimits {
   double largest_em = std::numeric_limits<double>::infinity();
-  double bed_top = 0.0;     ///< px: the bed, or the furniture below it, begins at this height or lower
-  double traces_top = 0.0;  ///< px
-  bool own_turn = false;    ///< a turned bed gets the height that its own turn needs, not that of turn_max
+  double caption_top = 0.0;  ///< px: the caption begins at this height or lower
+  double bed_top = 0.0;      ///< px: the bed, or the furniture below it, begins at this height or lower
+  double traces_top = 0.0;   ///< px
+  bool own_turn = false;     ///< turned beds as high as their own turn needs, with the caption at the left
 };
 
 /// Lays out a picture `width` px wide: caption, bed, legends, traces. The height follows from the aspect
@@ -102,10 +107,14 @@ struct LayoutLimits {
 /// legibility. Throws Error(usage) if nothing legible fits, or if the picture exceeds largest_side.
 Layout lay_out(const FrameView& view, int width, const Font& font, const LayoutLimits& limits = {});
 
+/// Returns the distance, px, by which a picture can move up to one above it until they touch, on a sheet of
+/// this width; infinite if they are not above each other. A turned bed counts as it is, not as its box.
+double room_between(const Layout& above, const Layout& below, int width);
+
 /// Moves an entire layout by whole pixels.
 void move_by(Layout& layout, double x, double y);
 
-/// Returns limits that align the beds of pictures with each other, and also their traces.
+/// Returns limits that align the captions of pictures with each other, and also their beds and traces.
 LayoutLimits level(std::span<const FrameView> views, int width, const Font& font, LayoutLimits limits);
 
 }  // namespace talus::render

@@ -106,8 +106,8 @@ Group text_group(const std::string& text, double room, double em, const Font& fo
 }
 
 Group text_with_arrow_group(const std::string& text, double room, double em, const Font& font) {
-  const double side = std::floor(line_height * em), gap = gap_in_group * em;
-  Group group = text_group(text, room - side - gap, em, font, true);
+  const double side = std::floor(line_height * em), gap = 0.5 * gap_in_group * em;
+  Group group = text_group(text + "  g", room - side - gap, em, font, true);
   group.arrow = {group.width + gap, 0.0, side, side};
   group.width = group.arrow.right();
   return group;
@@ -151,12 +151,15 @@ Group scale_group(const FrameView& view, double scale, double em, const Font& fo
   const double bar = std::round(0.5 * em);
   group.scale_bar = {0.5 * (width - length), 0.5 * (line_height * em - bar), length, bar};
   group.texts.push_back(place_text(view.scale_label, 0.5 * (width - label), line_height * em, em, font));
+  group.width = width;
+  group.height = 2.0 * line_height * em;
+  if (view.arrow_in_caption) return group;
   const PlacedText gravity =
       place_text("g", width + gap_between_groups * em, 0.5 * (arrow_size - line_height) * em, em, font);
   group.texts.push_back(gravity);
   group.arrow = {gravity.box.right() + 0.5 * gap_in_group * em, 0.0, arrow_size * em, arrow_size * em};
   group.width = group.arrow.right();
-  group.height = std::max(2.0 * line_height, arrow_size) * em;
+  group.height = std::max(group.height, arrow_size * em);
   return group;
 }
 

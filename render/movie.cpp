@@ -56,23 +56,11 @@ std::vector<std::string> ffmpeg_arguments(const std::string& path, const std::st
                                           int height, int channels, double fps) {
   if (channels != 1 && channels != 3)
     throw Error(ExitCode::usage, path + ": movies cannot be transparent; keep the white background");
-  std::vector<std::string> arguments = {"ffmpeg",
-                                        "-nostdin",
-                                        "-hide_banner",
-                                        "-loglevel",
-                                        "error",
-                                        "-y",
-                                        "-xerror",
-                                        "-f",
-                                        "rawvideo",
-                                        "-pix_fmt",
-                                        channels == 1 ? "gray" : "rgb24",
-                                        "-s",
-                                        fmt::format("{}x{}", width, height),
-                                        "-r",
-                                        std::to_string(fps),
-                                        "-i",
-                                        "pipe:0"};
+  const std::string pixels = channels == 1 ? "gray" : "rgb24", size = fmt::format("{}x{}", width, height),
+                    rate = std::to_string(fps);
+  std::vector<std::string> arguments = {"ffmpeg",  "-nostdin", "-hide_banner", "-loglevel", "error", "-y",
+                                        "-xerror", "-f",       "rawvideo",     "-pix_fmt",  pixels,  "-s",
+                                        size,      "-r",       rate,           "-i",        "pipe:0"};
   for (std::string& argument : encoder_arguments(path, channels)) arguments.push_back(std::move(argument));
   // ffmpeg parses "pipe:1.gif" as a protocol and "-x.mp4" as an option, but takes the name after "file:"
   // literally.
@@ -85,8 +73,8 @@ pid_t start(const std::vector<std::string>& arguments, int input, int messages) 
   const pid_t program = start_program(arguments, {.in = input, .err = messages});
   if (program < 0 && errno == ENOENT)
     throw Error(ExitCode::unavailable,
-                "ffmpeg is not installed, so no movie can be made: apt-get install ffmpeg, or draw "
-                "single pictures with talus render");
+                "ffmpeg is not installed, so no movie can be made: apt-get install ffmpeg, or draw single "
+                "pictures with talus render");
   if (program < 0) throw system_error(ExitCode::unavailable, "start", "ffmpeg", errno);
   return program;
 }
@@ -131,9 +119,8 @@ Movie::~Movie() {
 
 void Movie::add(const Image& image) {
   if (image.width != width_ || image.height != height_ || image.channels != channels_)
-    throw Error(ExitCode::internal, fmt::format("a frame of {} does not fit a movie of {}",
-                                                size_text(image.width, image.height, image.channels),
-                                                size_text(width_, height_, channels_)));
+    throw Error(ExitCode::internal, "a frame of {} does not fit a movie of {}",
+                size_text(image.width, image.height, image.channels), size_text(width_, height_, channels_));
   const std::uint8_t* data = image.pixels.data();
   for (std::size_t left = image.pixels.size(); left > 0;) {
     const ssize_t sent = send(pipe_, data, left, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -167,8 +154,8 @@ void Movie::fail() {
   if (ffmpeg_ > 0) close_and_wait();
   std::string said = messages_.text();
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  throw Error(ExitCode::io_error, fmt::format("{}: ffmpeg gave up{}", path_,
-                                              said.empty() ? "; is the file size limited?" : ": " + said));
+  throw Error(ExitCode::io_error, "{}: ffmpeg gave up{}", path_,
+              said.empty() ? "; is the file size limited?" : ": " + said);
 }
 
 }  // namespace talus::render

@@ -124,8 +124,7 @@ class PdfTarget final : public DocumentTarget {
     cairo_show_page(cairo_);
     cairo_surface_finish(surface_);
     if (const cairo_status_t status = cairo_surface_status(surface_); status != CAIRO_STATUS_SUCCESS)
-      throw Error(ExitCode::internal,
-                  fmt::format("cairo reports \"{}\" while drawing", cairo_status_to_string(status)));
+      throw Error(ExitCode::internal, "cairo reports \"{}\" while drawing", cairo_status_to_string(status));
     close();
     return std::move(file_);
   }

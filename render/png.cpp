@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csetjmp>
 #include <fmt/core.h>
@@ -12,10 +11,13 @@
 
 #include "base/errors.h"
 #include "base/output_file.h"
-#include "render/png_errors.h"
 
 namespace talus::render {
 namespace {
+
+// Errors of libpng jump to the setjmp of the caller, and nothing is printed.
+[[noreturn]] void abort_png(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void ignore_warning(png_structp, png_const_charp) {}
 
 void append(png_structp png, png_bytep data, std::size_t size) {
   auto* bytes = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
@@ -45,13 +47,17 @@ void choose_compression(png_structp png, const Image& image) {
 
 /// Returns false if libpng fails. The objects that its jump skips have no destructors.
 bool encode(png_structp png, png_infop info, const Image& image, std::vector<png_text>& texts,
-            std::vector<std::uint8_t>& bytes) {
+            double printed_width, std::vector<std::uint8_t>& bytes) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_write_fn(png, &bytes, append, no_flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                colour_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   choose_compression(png, image);
+  if (printed_width > 0.0) {
+    const auto dots = static_cast<png_uint_32>(std::lround(image.width / printed_width));
+    png_set_pHYs(png, info, dots, dots, PNG_RESOLUTION_METER);
+  }
   if (!texts.empty()) png_set_text(png, info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png, info);
   for (std::size_t row = 0; row < static_cast<std::size_t>(image.height); ++row)
@@ -64,17 +70,15 @@ void check(const Image& image) {
   if (image.width < 1 || image.height < 1 ||
       (image.channels != 1 && image.channels != 3 && image.channels != 4) ||
       image.pixels.size() != static_cast<std::size_t>(image.height) * image.row_bytes())
-    throw Error(ExitCode::internal,
-                fmt::format("an image of {} x {} px with {} channels cannot be encoded as PNG", image.width,
-                            image.height, image.channels));
+    throw Error(ExitCode::internal, "an image of {} x {} px with {} channels cannot be encoded as PNG",
+                image.width, image.height, image.channels);
 }
 
 void check(const std::string& keyword, const std::string& text) {
   const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
   if (keyword.empty() || keyword.size() > 79 || !std::ranges::all_of(keyword, printable) ||
       !std::ranges::all_of(text, printable))
-    throw Error(ExitCode::internal,
-                fmt::format("a PNG cannot hold the text \"{}\" as \"{}\"", text, keyword));
+    throw Error(ExitCode::internal, "a PNG cannot hold the text \"{}\" as \"{}\"", text, keyword);
 }
 
 /// Converts texts to libpng's structures; libpng does not change them.
@@ -101,23 +105,10 @@ std::vector<std::uint8_t> encode_png(const Image& image, const PictureTexts& tex
   bytes.reserve(image.pixels.size() / 2);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, abort_png, ignore_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  const bool encoded = info && encode(png, info, image, entries, bytes);
+  const bool encoded = info && encode(png, info, image, entries, printed_width, bytes);
   png_destroy_write_struct(&png, &info);
   if (!encoded) throw std::bad_alloc();
-  if (printed_width > 0.0) print_at(bytes, printed_width);
   return bytes;
-}
-
-void print_at(std::vector<std::uint8_t>& png, double printed_width) {
-  constexpr std::size_t header_end = 33, width_at = 16;  // bytes: the signature and the IHDR chunk
-  if (png.size() < header_end || png[1] != 'P' || png[2] != 'N' || png[3] != 'G') return;
-  const auto dots = static_cast<png_uint_32>(std::lround(png_get_uint_32(&png[width_at]) / printed_width));
-  std::array<std::uint8_t, 21> chunk = {0, 0, 0, 9, 'p', 'H', 'Y', 's'};
-  png_save_uint_32(&chunk[8], dots);
-  png_save_uint_32(&chunk[12], dots);
-  chunk[16] = PNG_RESOLUTION_METER;
-  png_save_uint_32(&chunk[17], static_cast<png_uint_32>(crc32(0, &chunk[4], 13)));
-  png.insert(png.begin() + header_end, chunk.begin(), chunk.end());
 }
 
 void write_png(const std::string& path, const Image& image, const PictureTexts& texts, double printed_width) {

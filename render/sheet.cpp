@@ -1,6 +1,7 @@
 #include "render/sheet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <optional>
 #include <utility>
@@ -72,15 +73,22 @@ Sheet sheet_of_rows(std::vector<std::vector<FrameView>> rows, int width, const F
   Sheet sheet{width, 0, {}};
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const int own = width / static_cast<int>(rows[r].size());
-    int height = 0, left = 0;
+    const std::size_t first = sheet.views.size();
+    const bool turned = rows[r].front().turn > 0.0;
+    double height = 0.0, left = 0.0, room = turned ? sheet.height : 0.0;
     for (FrameView& view : rows[r]) {
       Layout layout = lay_out(view, own, font, limits[r]);
-      height = std::max(height, layout.height);
+      height = std::max<double>(height, layout.height);
       move_by(layout, left, sheet.height);
       left += own;
+      for (std::size_t above = 0; turned && above < first; ++above)
+        room = std::min(room, room_between(sheet.views[above].layout, layout, width) - layout.em);
       sheet.views.push_back({std::move(view), std::move(layout)});
     }
-    sheet.height += height;
+    // A row of turned beds moves up along the slope of those above.
+    const int up = static_cast<int>(std::max(0.0, room));
+    for (std::size_t k = first; k < sheet.views.size(); ++k) move_by(sheet.views[k].layout, 0.0, -up);
+    sheet.height += static_cast<int>(height) - up;
   }
   return sheet;
 }
@@ -94,7 +102,7 @@ int width_of(const FrameView& view, std::size_t k, const Arrangement& arrangemen
 }
 
 /// Adapts views to their cells: font sizes refer to the width of the sheet, and curves alone are as high as a
-/// bed next to them.
+/// bed next to them or, in a row of their own, as the arrangement says.
 void fit_to_cells(std::vector<FrameView>& views, const Arrangement& arrangement) {
   double height = 0.0;  // height of the bed, in font sizes
   for (std::size_t k = 0; k < views.size(); ++k) {
@@ -105,15 +113,19 @@ void fit_to_cells(std::vector<FrameView>& views, const Arrangement& arrangement)
     if (view.x_max > view.x_min)
       height = std::max(height, view.letters * (view.y_max - view.y_min) / (view.x_max - view.x_min));
   }
-  for (FrameView& view : views)
-    if (view.x_max <= view.x_min && !view.traces.empty())
-      view.trace_height =
-          std::max(view.trace_height, std::floor(height / static_cast<double>(view.traces.size())));
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    FrameView& view = views[k];
+    if (view.x_max > view.x_min || view.traces.empty()) continue;
+    const double largest = std::floor(height / static_cast<double>(view.traces.size()));
+    const bool own_row = k % static_cast<std::size_t>(arrangement.columns) == 0;
+    view.trace_height =
+        std::max(view.trace_height, own_row ? std::min(arrangement.trace_height, largest) : largest);
+  }
 }
 
 Arrangement arrange_with(std::vector<std::vector<FrameView>> pictures, int width, int columns, int cell,
-                         const Font& font) {
-  Arrangement found{width, 0, columns, cell, 0, 0, {}, {}};
+                         const Font& font, double trace_height = 0.0) {
+  Arrangement found{width, 0, columns, cell, 0, 0, {}, {}, trace_height};
   LayoutLimits common;
   const std::size_t count = pictures.front().size();
   for (std::vector<FrameView>& views : pictures) {
@@ -179,9 +191,16 @@ Arrangement arrange(std::vector<std::vector<FrameView>> pictures, int width, int
       best = std::move(found);
   if (!best)
     throw Error(ExitCode::usage,
-                fmt::format("the maps with their texts do not fit into {} x {} px; use a larger size, "
-                            "or fewer maps",
-                            width, height));
+                "the maps with their texts do not fit into {} x {} px; use a larger size, or fewer maps",
+                width, height);
+  // Curves below the beds take the room that is left.
+  const std::vector<FrameView>& views = pictures.front();
+  const double curves = static_cast<double>(views.back().traces.size()) * best->limits.back().largest_em;
+  if (curves > 0.0 && views.back().x_max <= views.back().x_min) {
+    const double higher = views.back().trace_height + std::floor((height - best->height) / curves);
+    const Arrangement filled = arrange_with(pictures, width, best->columns, best->cell, font, higher);
+    if (filled.height <= height) best = filled;
+  }
   best->left = (width - best->columns * best->cell) / 2;
   best->top = (height - best->height) / 2;
   best->height = height;

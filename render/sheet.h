@@ -39,6 +39,7 @@ struct Arrangement {
   int left = 0, top = 0;             ///< position of the first view, px
   std::vector<int> rows;             ///< heights of the rows, px
   std::vector<LayoutLimits> limits;  ///< one for each row
+  double trace_height = 0.0;         ///< height of curves in a row of their own, in font sizes
 };
 
 /// Fits pictures with the same number of views into `height`, in the number of columns that makes the beds

@@ -22,9 +22,9 @@ function showDetails(go) {
   byId("sentence").replaceChildren(rich(data.sentence));
   byId("scenario").textContent = data.scenario;
   const events = data.events.map((event) => [
-    element("button", { type: "button", class: "plain", onclick: () => go(Math.round(event.place)) }, `${event.tilt.toFixed(2)}°`),
-    rich(event.label || "–"), rich(event.what)]);
-  byId("events").append(events.length > 0 ? table(["θ", "", "event"], events) : element("p", {}, "No events are known for this run."));
+    element("button", { type: "button", class: "plain", onclick: () => go(Math.round(event.place)) }, event.at.toFixed(2) + axis.unit),
+    ...(frames.by_time ? [tiltText(event.tilt, 2)] : []), rich(event.label || "–"), rich(event.what)]);
+  byId("events").append(events.length > 0 ? table([axis.symbol, ...(frames.by_time ? ["θ"] : []), "", "event"], events) : element("p", {}, "No events are known for this run."));
   byId("definitions").append(
     element("p", {}, "Lengths are in mean diameters D, angles in degrees; g is gravity, ρ the density of the grains. Stresses are positive in compression. " +
       "The paper is Staron, Vilotte and Radjai, Multiscale Analysis of the Stress State in a Granular Slope in Transition to Failure."),

@@ -1,17 +1,20 @@
 // Values of a grain: next to the mouse, and on the card of the selected grain.
 
 /** Formats a value with its unit; a count (digits: 0) is a whole number. */
-function valueText({ value, digits, unit }) {
+function valueText(value, { digits, unit }) {
   if (!Number.isFinite(value)) return "–";
   return (digits === 0 ? String(value) : numberText(value, digits)) + (unit ? `\u00a0${unit}` : "");
 }
 
+/** Motion in a flow, in which the tilt does not grow, is not per degree. */
+const unitIn = (quantity, frame) => (frame < frames.of_tilt ? quantity : { ...quantity, unit: quantity.unit.replace(" per degree", "") });
+
 function valueRows(grain, frame) {
-  const radius = radii()[grain], places = centres(frame);
-  const known = [{ label: "diameter", value: 2 * radius, digits: 3, unit: "D" },
-                 { label: "position x, y", text: `${numberText(places[2 * grain], 4)}, ${numberText(places[2 * grain + 1], 3)}\u00a0D` },
-                 ...grainValues(grain, frame)];
-  return known.map((row) => element("div", {}, element("dt", {}, rich(row.label)), element("dd", {}, row.text || valueText(row))));
+  const places = centres(frame);
+  const known = [["diameter", valueText(2 * radii()[grain], { digits: 3, unit: "D" })],
+                 ["position x, y", `${numberText(places[2 * grain], 4)}, ${numberText(places[2 * grain + 1], 3)}\u00a0D`],
+                 ...grainQuantities.map((quantity) => [quantity.label, valueText(quantity.of(grain, frame), unitIn(quantity, frame))])];
+  return known.map(([label, text]) => element("div", {}, element("dt", {}, rich(label)), element("dd", {}, text)));
 }
 
 /** Shows the values of the grain under the mouse next to it. */
@@ -31,32 +34,15 @@ function showHover(grain, event) {
   tip.style.top = `${Math.max(4, top)}px`;
 }
 
-/** Returns the history of a grain over all frames of the page. */
-function grainHistory(name, grain) {
-  if (name === "coordination" || name === "cluster") {
-    const of = name === "cluster" ? clusterSize : (g, frame) => coordinations(frame)[g];
-    return frames.tilts.map((_, frame) => of(grain, frame));
-  }
-  const field = fieldOf(name);
-  return frames.tilts.map((_, frame) => fieldValue(field, grain, frame));
-}
-
-/** Returns the fields that a history can show. */
-function historyChoices() {
-  return [...data.fields.filter((field) => field.name !== "cluster"), ...(fieldOf("cluster") ? [{ name: "cluster", label: "grains in its cluster", unit: "" }] : []),
-          { name: "coordination", label: "contacts", unit: "" }];
-}
-
 /** Creates the card of the selected grain, with a plot of its history made by `makePlot`. */
 function grainCard(makePlot) {
   const card = byId("grain"), list = element("dl", { class: "values" });
   const heading = element("h2", {}, "Grain");
   const clear = element("button", { type: "button", class: "plain", title: "Clear the selection (Escape)", onclick: () => selectGrain(-1) }, "none");
-  const hint = element("p", { class: "hint" }, "Point at a grain on the map to read its values; click it to keep them here, with their history over the tilt.");
+  const hint = element("p", { class: "hint" }, "Point at a grain on the map to read its values; click it to keep them here, with their history.");
   const title = element("span", { class: "title" });
   const choice = element("select", { "aria-label": "Quantity of the grain" });
-  const titleOfField = (field) => field.label + (field.unit ? ` in ${field.unit}` : "");
-  for (const field of historyChoices()) choice.append(element("option", { value: field.name }, titleOfField(field)));
+  for (const { name, title: text } of grainQuantities) choice.append(element("option", { value: name }, text));
   const holder = element("div", { class: "plot" });
   const plot = makePlot(holder);
   const history = element("div", {}, chooser(title, choice), holder);
@@ -70,15 +56,14 @@ function grainCard(makePlot) {
     hint.hidden = chosen;
     for (const part of [clear, list, history]) part.hidden = !chosen;
     sides.classList.toggle("alone", !chosen);
-    if (!chosen) return;
-    list.replaceChildren(...valueRows(view.grain, view.frame));
+    if (chosen) list.replaceChildren(...valueRows(view.grain, view.frame));
   };
   const showHistory = () => {
     if (view.grain < 0) return;
-    const tilts = frames.tilts.slice(0, frames.of_tilt);
-    title.replaceChildren(rich(titleOfField(historyChoices().find((field) => field.name === choice.value))));
-    plot.describe(`Grain ${view.grain}, ${choice.value}, over the tilt`);
-    plot.set({ curves: [{ label: "", x: tilts, y: grainHistory(choice.value, view.grain).slice(0, frames.of_tilt), points: true }] });
+    const quantity = grainQuantities.find(({ name }) => name === choice.value), x = frames.places.slice(0, frames.of_tilt);
+    title.replaceChildren(rich(quantity.title));
+    plot.describe(`Grain ${view.grain}, ${choice.value}, over ${axis.name}`);
+    plot.set([{ label: "", x, y: x.map((_, frame) => quantity.of(view.grain, frame)), points: true }]);
   };
   choice.addEventListener("change", showHistory);
   return { show, showHistory, plot };

@@ -1,8 +1,8 @@
 // Legend of the map, its scale, and the direction of gravity.
 
 function barElement(bar, ramp) {
-  const fills = colourBytes(ramp.fills), stops = [];
-  for (let k = 0; k < 256; k += 15) stops.push(`rgb(${fills[3 * k]} ${fills[3 * k + 1]} ${fills[3 * k + 2]})`);
+  const stops = [];
+  for (let k = 0; k < 256; k += 15) stops.push(`#${ramp.fills.slice(6 * k, 6 * k + 6)}`);
   const colours = element("div", { class: "colours" });
   colours.style.backgroundImage = `linear-gradient(to right, ${stops.join(", ")})`;
   const ticks = element("div", { class: "ticks" });
@@ -18,11 +18,10 @@ function barElement(bar, ramp) {
 
 function swatchElement(swatch) {
   const svg = shape("svg", { viewBox: "0 0 20 20", width: 16, height: 16, "aria-hidden": "true" });
-  const css = (text) => cssColour(colourBytes(text), 0);
   if (swatch.kind === "disc")
-    svg.append(shape("circle", { cx: 10, cy: 10, r: 8.4, fill: css(swatch.fill), stroke: css(swatch.rim), "stroke-width": 2.4 }));
+    svg.append(shape("circle", { cx: 10, cy: 10, r: 8.4, fill: swatch.fill, stroke: swatch.rim, "stroke-width": 2.4 }));
   else
-    svg.append(shape("line", { x1: 3, y1: 10, x2: 17, y2: 10, stroke: css(swatch.fill), "stroke-width": Math.max(1.5, 20 * swatch.width), "stroke-linecap": "round" }));
+    svg.append(shape("line", { x1: 3, y1: 10, x2: 17, y2: 10, stroke: swatch.fill, "stroke-width": Math.max(1.5, 20 * swatch.width), "stroke-linecap": "round" }));
   return element("span", { class: "swatch" }, svg, element("span", {}, rich(swatch.label)));
 }
 
@@ -41,7 +40,7 @@ function showLegend(map, lines, frame) {
 function titleOf(map, lines, frame) {
   const titles = [map, lines].filter(Boolean).map((shown) => ofFrame(shown.titles, frame));
   if (titles.length === 0) return "Grains";
-  return titles.length === 1 ? titles[0] : `${titles[0]}; ${firstLower(titles[1])}`;
+  return titles.length === 1 ? titles[0] : `${titles[0]}; ${titles[1].charAt(0).toLowerCase()}${titles[1].slice(1)}`;
 }
 
 /** Shows a scale bar with a round number of diameters, and an arrow along gravity in the turned picture. */
@@ -56,9 +55,7 @@ function showScale(frame) {
     const hx = tipX - 8 * (Math.sin(fall) - side * Math.cos(fall)), hy = tipY - 8 * (Math.cos(fall) + side * Math.sin(fall));
     return `M${hx.toFixed(2)} ${hy.toFixed(2)}L${tipX.toFixed(2)} ${tipY.toFixed(2)}`;
   });
-  svg.setAttribute("width", width + 68);
-  svg.setAttribute("height", height);
-  svg.setAttribute("viewBox", `0 0 ${width + 68} ${height}`);
+  furnish(svg, { width: width + 68, height, viewBox: `0 0 ${width + 68} ${height}` });
   svg.replaceChildren(
     shape("path", { class: "ink", d: `M1 19v8M1 23H${width}M${width} 19v8` }),
     shape("text", { x: width / 2, y: 14, "text-anchor": "middle" }, `${diameters} D`),

@@ -1,6 +1,6 @@
 // Connects buttons, keys, time line, map and plots.
 
-const plotNames = ["packing/stress_ratio", "overloaded/fraction", "lc/max", "clusters/largest_share", "packing/volume_strain",
+const plotNames = ["tilt", "packing/stress_ratio", "overloaded/fraction", "lc/max", "clusters/largest_share", "packing/volume_strain",
                    "contacts/coordination_number", "contacts/critical_share"];
 const shownPlots = 6;
 
@@ -11,9 +11,7 @@ function goTo(frame) {
   if (view.turned) turnCamera(view.width, view.height, turnOf(frame));
   if (view.turned && view.whole) fitCamera(view.width, view.height, turnOf(frame));
   line.move(frame);
-  const tilt = frames.tilts[frame];
-  for (const cell of cells) cell.plot.cursor(tilt);
-  card.plot.cursor(tilt);
+  for (const { plot } of [...cells, card]) plot.cursor(frames.places[frame]);
   card.show();
   redraw();
   writeState(cells);
@@ -29,33 +27,26 @@ function selectGrain(grain) {
   view.grain = grain >= 0 && grain < bed.free ? grain : -1;
   card.show();
   card.showHistory();
-  card.plot.cursor(frames.tilts[view.frame]);
+  card.plot.cursor(frames.places[view.frame]);
   redraw();
   writeState(cells);
 }
 
-/** Creates a row of buttons of which exactly one is pressed. */
-function choiceButtons(holder, choices, chosen, choose) {
-  const buttons = choices.map(({ value, label, help }) =>
-    element("button", { type: "button", title: help, "aria-pressed": String(value === chosen()), onclick: () => { choose(value); update(); } }, label));
-  const update = () => buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(choices[k].value === chosen())));
-  holder.replaceChildren(...buttons);
-  return update;
+/** Creates a row of buttons of which exactly one is pressed, for a member of the view. Returns a function that chooses. */
+function choiceButtons(holder, member, choices) {
+  const valueOf = (choice) => (choice.value === null ? null : choice);
+  const buttons = choices.map((choice) => element("button", { type: "button", title: choice.help, onclick: () => choose(valueOf(choice)) }, choice.name));
+  const choose = (value) => {
+    view[member] = value;
+    buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(valueOf(choices[k]) === value)));
+    redraw();
+    writeState(cells);
+  };
+  byId(holder).replaceChildren(...buttons);
+  return choose;
 }
 
-let updateMaps = null, updateLines = null;
-
-function setMap(map) {
-  view.map = map;
-  redraw();
-  writeState(cells);
-}
-
-function setLines(lines) {
-  view.lines = lines;
-  redraw();
-  writeState(cells);
-}
+let setMap = null, setLines = null;
 
 function setTurned(turned) {
   view.turned = turned;
@@ -65,10 +56,8 @@ function setTurned(turned) {
 }
 
 function makeButtons() {
-  updateMaps = choiceButtons(byId("maps"), [...data.maps.map((map) => ({ value: map, label: map.name, help: map.help })),
-    { value: null, label: "outlines", help: "only the outlines of the grains" }], () => view.map, setMap);
-  updateLines = choiceButtons(byId("lines"), [{ value: null, label: "no lines", help: "only the map" },
-    ...data.lines.map((lines) => ({ value: lines, label: lines.name, help: lines.help }))], () => view.lines, setLines);
+  setMap = choiceButtons("maps", "map", [...data.maps, { value: null, name: "outlines", help: "only the outlines of the grains" }]);
+  setLines = choiceButtons("lines", "lines", [{ value: null, name: "no lines", help: "only the map" }, ...data.lines]);
   byId("turned").addEventListener("click", () => setTurned(!view.turned));
   byId("fit").addEventListener("click", fitMap);
 }
@@ -82,7 +71,6 @@ function zoomBy(factor) {
 function nextLines() {
   const all = [null, ...data.lines];
   setLines(all[(all.indexOf(view.lines) + 1) % all.length]);
-  updateLines();
 }
 
 const keyActions = {
@@ -107,7 +95,7 @@ function listenToKeys() {
     // The space bar presses a focused button.
     if (event.key === " " && event.target.closest("button, summary")) return;
     const digit = /^[1-9]$/.test(event.key) ? Number(event.key) : 0;
-    const action = digit > 0 && digit <= data.maps.length ? () => { setMap(data.maps[digit - 1]); updateMaps(); } : keyActions[event.key];
+    const action = digit > 0 && digit <= data.maps.length ? () => setMap(data.maps[digit - 1]) : keyActions[event.key];
     if (!action) return;
     event.preventDefault();
     action(event);
@@ -115,24 +103,22 @@ function listenToKeys() {
 }
 
 function makePlots(state) {
-  const known = plotNames.filter((name) => data.curves.quantities.some((quantity) => quantity.name === name));
-  const asked = (state.plots || "").split(",").filter((name) => data.curves.quantities.some((quantity) => quantity.name === name));
-  const names = asked.concat(known.filter((name) => !asked.includes(name))).slice(0, shownPlots);
-  const go = (tilt) => goByHand(frameAtTilt(tilt));
-  cells = names.map((name) => quantityCell(name, go, () => writeState(cells)));
+  const known = new Set(data.curves.quantities.map((quantity) => quantity.name)), go = (place) => goByHand(frameNear(frames.places, place));
+  const names = new Set([...(state.plots || "").split(","), ...plotNames].filter((name) => known.has(name)));
+  cells = [...names].slice(0, shownPlots).map((name) => quantityCell(name, go, () => writeState(cells)));
   byId("grain").parentElement.append(...cells.map((cell) => cell.cell));
   card = grainCard((holder) => curvePlot(holder, go));
   for (const cell of cells) cell.show();
 }
 
 function tellEvent(event) {
-  byId("event").replaceChildren(event ? rich(`${event.tilt.toFixed(2)}°: ${event.what}`) : "");
+  byId("event").replaceChildren(event ? rich(`${frames.by_time ? `${placeText(event.at)}, θ = ` : ""}${tiltText(event.tilt, 2)}: ${event.what}`) : "");
 }
 
 /** Writes the data that a test requests with "#check=1" into the document. */
 function writeCheck() {
   const places = Array.from({ length: frames.count }, (_, frame) => Array.from(centres(frame)));
-  const check = { drawing: view.drawer.name, frames: frames.count, tilts: frames.tilts, centres: places, radii: Array.from(radii()),
+  const check = { frames: frames.count, tilts: frames.tilts, centres: places, radii: Array.from(radii()),
     values: Object.fromEntries(data.fields.map((field) => [field.name, Array.from({ length: frames.count }, (_, frame) =>
       Array.from({ length: bed.free }, (_unused, grain) => fieldValue(field, grain, frame)))])),
     coordination: Array.from(coordinations(view.frame)), box: byId("bed").getBoundingClientRect(),
@@ -146,13 +132,12 @@ async function start() {
     throw new Error("this browser is too old for the page: it needs Chromium 80, Firefox 113, Safari 16.4, or later");
   const state = readState();
   showDetails(goByHand);
-  await readTables(["radius", "x", "y", "cluster", "a", "b", "shift", "force", "sliding", ...data.fields.map((field) => field.name)]);
-  const best = data.maps.find((map) => map.name === "clusters") || data.maps[0];
-  view.map = state.map === "none" ? null : data.maps.find((map) => map.name === state.map) || best;
-  view.lines = data.lines.find((lines) => lines.name === state.lines) || null;
-  chooseDrawer(state.draw);
-  makeButtons();
+  await readTables();
   makePlots(state);
+  makeButtons();
+  const named = (list, name) => list.find((entry) => entry.name === name);
+  setMap(state.map === "none" ? null : named(data.maps, state.map) || named(data.maps, "clusters") || data.maps[0]);
+  setLines(named(data.lines, state.lines) || null);
   line = timeLine(goByHand, tellEvent);
   play = player(() => {
     goTo((view.frame + 1) % frames.count);

@@ -2,26 +2,10 @@
 
 const view = {
   frame: 0, map: null, lines: null, turned: false, grain: -1, hovered: -1,
-  width: 0, height: 0, ratio: 1, fitted: 1, whole: true, drawer: null, drawn: "", waiting: false,
+  width: 0, height: 0, ratio: 1, fitted: 1, whole: true, content: "", drawn: "", waiting: false,
 };
 
 const turnOf = (frame) => (view.turned ? (Math.max(0, frames.tilts[frame]) * Math.PI) / 180 : 0);
-
-/** Chooses WebGL or Canvas 2D. A canvas keeps its kind of context, so another kind requires another canvas. */
-function chooseDrawer(wanted) {
-  if (wanted !== "2d") view.drawer = webglDrawer(byId("discs"));
-  if (!view.drawer) {
-    byId("discs").replaceWith(element("canvas", { id: "discs" }));
-    view.drawer = canvasDrawer(byId("discs"));
-  }
-  byId("discs").addEventListener("webglcontextlost", (event) => {
-    event.preventDefault();
-    view.drawer = null;
-    chooseDrawer("2d");
-    view.drawn = "";
-    sizeMap();
-  });
-}
 
 /** Sets the size of the map. Its height follows from the bed, to avoid empty space. */
 function sizeMap() {
@@ -31,13 +15,9 @@ function sizeMap() {
   const natural = (width * (box.high - box.low)) / (box.right - box.left);
   const height = Math.round(Math.min(Math.max(natural, 110), Math.max(260, 0.62 * window.innerHeight)));
   holder.style.height = `${height}px`;
-  view.width = width;
-  view.height = height;
-  view.ratio = window.devicePixelRatio || 1;
-  for (const id of ["discs", "marks"]) {
-    byId(id).width = Math.round(width * view.ratio);
-    byId(id).height = Math.round(height * view.ratio);
-  }
+  Object.assign(view, { width, height, ratio: window.devicePixelRatio || 1, drawn: "" });
+  for (const canvas of [byId("discs"), byId("marks")])
+    Object.assign(canvas, { width: Math.round(width * view.ratio), height: Math.round(height * view.ratio) });
   const before = { ...camera };
   fitCamera(width, height, turnOf(view.frame));
   view.fitted = camera.scale;
@@ -48,14 +28,6 @@ function sizeMap() {
 function fitMap() {
   view.whole = true;
   sizeMap();
-}
-
-/** Updates the shapes if frame, map or lines have changed; moving the camera does not require it. */
-function updateShapes() {
-  const wanted = `${view.frame} ${view.map && view.map.name} ${view.lines && view.lines.name}`;
-  if (wanted === view.drawn) return;
-  view.drawn = wanted;
-  view.drawer.set({ discs: discShapes(view.frame), looks: looksOf(view.map, view.frame), lines: lineShapes(view.lines, view.map, view.frame) });
 }
 
 function drawMarks() {
@@ -102,15 +74,24 @@ function drawRing(pen, grain, width) {
   }
 }
 
+/** Draws what has changed: grains and lines, or only the marks over them if the mouse points at another grain. */
 function drawMap() {
-  updateShapes();
-  view.drawer.draw(view.ratio);
+  const { frame, map, lines } = view, content = `${frame} ${map && map.name} ${lines && lines.name}`;
+  const drawn = `${content} ${Object.values(camera)}`;
+  if (content !== view.content) {
+    const title = titleOf(map, lines, frame);
+    Object.assign(view, { content, looks: looksOf(map, frame), shownLines: linesOf(lines, map, frame) });
+    byId("map-title").replaceChildren(rich(title));
+    byId("map-caption").replaceChildren(rich(captionOf(frame)));
+    byId("bed").setAttribute("aria-label", plainText(`${title}, ${captionOf(frame)}`));
+    showLegend(map, lines, frame);
+  }
+  if (drawn !== view.drawn) {
+    view.drawn = drawn;
+    drawBed(byId("discs"), frame, view.looks, view.shownLines, view.ratio);
+    showScale(frame);
+  }
   drawMarks();
-  byId("map-title").replaceChildren(rich(titleOf(view.map, view.lines, view.frame)));
-  byId("map-caption").replaceChildren(rich(frames.captions[view.frame]));
-  byId("bed").setAttribute("aria-label", plainText(`${titleOf(view.map, view.lines, view.frame)}, ${frames.captions[view.frame]}`));
-  showLegend(view.map, view.lines, view.frame);
-  showScale(view.frame);
 }
 
 function redraw() {

@@ -1,28 +1,23 @@
 // State of the page, stored in the address after "#", so that a copied address shows the same content.
 
-function readState() {
-  return Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
-}
+const readState = () => Object.fromEntries(new URLSearchParams(location.hash.slice(1)));
 
-/** Returns the frame of the tilt phase nearest to a tilt. */
-function frameAtTilt(tilt) {
+/** Returns the first frame of the tilt phase nearest to a value in a list: a tilt in frames.tilts, or a place in frames.places. */
+function frameNear(list, value) {
   let best = 0;
-  for (let k = 1; k < frames.of_tilt; ++k) if (Math.abs(frames.tilts[k] - tilt) < Math.abs(frames.tilts[best] - tilt)) best = k;
+  for (let k = 1; k < frames.of_tilt; ++k) if (Math.abs(list[k] - value) < Math.abs(list[best] - value)) best = k;
   return best;
 }
 
 /** Returns the last frame before failure or, without failure, the last of the tilt phase. */
 function frameAtRepose() {
-  const last = Math.max(0, frames.of_tilt - 1);
-  if (data.theta_c === null) return last;
-  let found = 0;
-  for (let k = 0; k <= last; ++k) if (frames.tilts[k] <= data.theta_c) found = k;
-  return found;
+  const before = frames.places.slice(0, frames.of_tilt).filter((place) => failure === null || place <= failure);
+  return Math.max(0, before.length - 1);
 }
 
 /** Returns the frame given by its number on the page or by the nearest angle. */
 function frameOfState(state) {
-  if (state.at !== undefined && Number.isFinite(Number(state.at))) return frameAtTilt(Number(state.at));
+  if (state.at !== undefined && Number.isFinite(Number(state.at))) return frameNear(frames.tilts, Number(state.at));
   const frame = Math.round(Number(state.frame));
   return Number.isFinite(frame) ? Math.min(Math.max(frame, 0), frames.count - 1) : null;
 }

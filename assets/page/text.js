@@ -3,18 +3,12 @@
 const byId = (id) => document.getElementById(id);
 
 /** Creates an element with attributes ("on..." are listeners) and children: nodes or plain texts. */
-function element(tag, attributes = {}, ...children) {
-  const made = document.createElement(tag);
-  return furnish(made, attributes, children);
-}
+const element = (tag, attributes = {}, ...children) => furnish(document.createElement(tag), attributes, children);
 
 /** Creates an SVG element in the same way. */
-function shape(tag, attributes = {}, ...children) {
-  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  return furnish(made, attributes, children);
-}
+const shape = (tag, attributes = {}, ...children) => furnish(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
 
-function furnish(made, attributes, children) {
+function furnish(made, attributes, children = []) {
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
     else if (value !== null && value !== undefined && value !== false) made.setAttribute(name, value === true ? "" : value);
@@ -26,15 +20,7 @@ function furnish(made, attributes, children) {
 /** Returns the nodes of a rich text, in which "_c" sets c as a subscript. */
 function rich(text) {
   const parts = document.createDocumentFragment();
-  let plain = "";
-  const letters = Array.from(text);
-  for (let k = 0; k < letters.length; ++k) {
-    if (letters[k] === "_" && k + 1 < letters.length) {
-      parts.append(plain, element("sub", {}, letters[++k]));
-      plain = "";
-    } else plain += letters[k];
-  }
-  parts.append(plain);
+  text.split(/_(.)/u).forEach((part, k) => parts.append(k % 2 === 0 ? part : element("sub", {}, part)));
   return parts;
 }
 
@@ -62,20 +48,14 @@ function onWidth(of, use) {
   })).observe(of);
 }
 
-const firstLower = (text) => text.charAt(0).toLowerCase() + text.slice(1);
-
 /** Formats a number with `digits` significant digits; a dash for none. */
 function numberText(value, digits = 3) {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-4 ? powerText(size, digits) : fixedText(size, digits);
-  return (value < 0 ? "−" : "") + text;
-}
-
-function fixedText(size, digits) {
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
-  return size.toFixed(Math.min(decimals, 12));
+  const text = size >= 1e5 || size < 1e-4 ? powerText(size, digits) : size.toFixed(Math.min(decimals, 12));
+  return (value < 0 ? "−" : "") + text;
 }
 
 const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";

@@ -1,6 +1,6 @@
 // The time line: a place for each frame, and a mark for each event.
 
-const lineLeft = 14, lineRight = 14, lineY = 58, lineHeight = 84;
+const lineLeft = 14, lineRight = 14, lineY = 58, lineHeight = frames.by_time ? 100 : 84;
 
 /**
  * Creates the time line. Calls `go` with a frame, and `report` with an event or null. The result has `show`, which
@@ -12,54 +12,63 @@ function timeLine(go, report) {
   const last = Math.max(1, frames.count - 1);
   const toX = (place) => lineLeft + ((width - lineLeft - lineRight) * place) / last;
 
-  /** Creates a bar on the line whose height shows the size of the rearrangement. */
-  const rearrangementMark = (event, x) => {
-    const mark = shape("g", { class: `event ${event.kind}` },
-      shape("path", { class: "bar", d: `M${x} ${lineY - 3}v${-3 - 9 * event.size}` }),
-      shape("rect", { x: x - 3, y: lineY - 16, width: 6, height: 16, fill: "transparent" }));
-    mark.addEventListener("pointerenter", () => report(event));
-    mark.addEventListener("pointerleave", () => report(null));
-    return mark;
+  const eventMark = (event, ...parts) =>
+    shape("g", { class: `event ${event.kind}`, onpointerenter: () => report(event), onpointerleave: () => report(null) }, ...parts);
+  /** Places labels of events in rows, that of failure first, so that none touches another one or its stem. */
+  const placedLabels = () => {
+    const placed = [], failureFirst = [...data.events].sort((a, b) => (b.kind === "failure") - (a.kind === "failure"));
+    for (const event of failureFirst.filter(({ label }) => label)) {
+      const half = 1 + 3.6 * plainText(event.label).length, stem = toX(event.place), x = Math.min(Math.max(stem, half), width - half);
+      const row = [0, 1, 2].find((free) => placed.every((other) => (other.row === free ? Math.abs(other.x - x) > other.half + half
+        : other.row > free ? Math.abs(other.stem - x) > half : Math.abs(stem - other.x) > other.half)));
+      if (row !== undefined) placed.push({ event, half, stem, x, row, y: lineY - 20 - 13 * row });
+    }
+    return placed;
   };
-  /** Creates the marks, with labels in rows so that neighbours do not overlap. */
+  /** Creates the marks; a bar shows the size of a rearrangement. */
   const eventMarks = () => {
-    const ends = [-Infinity, -Infinity, -Infinity];
+    const placed = placedLabels();
     return data.events.map((event) => {
-      const x = toX(event.place);
-      if (event.kind === "rearrangement") return rearrangementMark(event, x);
-      const half = 4 + 3.6 * plainText(event.label).length;
-      const row = event.label ? ends.findIndex((end) => x - half > end) : -1;
-      if (row >= 0) ends[row] = x + half;
-      const mark = shape("g", { class: `event ${event.kind}` },
-        shape("path", { class: "stem", d: `M${x} ${row >= 0 ? lineY - 20 - 13 * row + 4 : lineY - 12}V${lineY - 3}` }),
+      const x = toX(event.place), label = placed.find((each) => each.event === event);
+      if (event.kind === "rearrangement")
+        return eventMark(event, shape("path", { class: "bar", d: `M${x} ${lineY - 3}v${-3 - 9 * event.size}` }),
+          shape("rect", { x: x - 3, y: lineY - 16, width: 6, height: 16, fill: "transparent" }));
+      const half = label ? label.half : 4;
+      const mark = eventMark(event,
+        shape("path", { class: "stem", d: `M${x} ${label ? label.y + 4 : lineY - 12}V${lineY - 3}` }),
         shape("circle", { cx: x, cy: lineY, r: 3.5 }),
         shape("rect", { x: x - half, y: 0, width: 2 * half, height: lineY, fill: "transparent" }));
-      if (row >= 0) mark.append(richShape(event.label, { x, y: lineY - 20 - 13 * row, "text-anchor": "middle" }));
-      mark.addEventListener("pointerenter", () => report(event));
-      mark.addEventListener("pointerleave", () => report(null));
+      if (label) mark.append(richShape(event.label, { x: label.x, y: label.y, "text-anchor": "middle" }));
       return mark;
     });
   };
-  /** Creates labels at round angles of the tilt, as many as fit, and at the beginning of the flow. */
+  /** Creates labels at round places of the axis, as many as fit, with the tilt below a time; and at the beginning of the flow. */
   const labels = () => {
-    const parts = [], tilts = frames.tilts.slice(0, frames.of_tilt);
+    const parts = [], places = frames.places.slice(0, frames.of_tilt), flows = frames.of_tilt > 0 && frames.of_tilt < frames.count;
+    const label = (x, row, text) => parts.push(shape("text", { x, y: lineY + 21 + 16 * row, "text-anchor": "middle" }, text));
     for (let k = 0; k < frames.count; ++k) parts.push(shape("path", { class: "tick", d: `M${toX(k).toFixed(1)} ${lineY - 3}v6` }));
-    if (tilts.length > 1 && tilts[tilts.length - 1] > tilts[0]) {
-      const room = (toX(tilts.length - 1) - toX(0)) / 42;
-      for (const tick of roundTicks(tilts[0], tilts[tilts.length - 1], Math.max(1, room)).ticks) {
-        const after = Math.max(1, tilts.findIndex((tilt) => tilt >= tick.value - 1e-6));
-        const place = after - 1 + (tick.value - tilts[after - 1]) / (tilts[after] - tilts[after - 1]);
-        parts.push(shape("text", { x: toX(Math.max(0, place)), y: lineY + 21, "text-anchor": "middle" }, `${tick.label}°`));
+    const flowX = Math.min(toX(frames.of_tilt) + 14, width - lineRight), right = flows ? flowX - 18 : width;
+    if (places.length > 1 && places[places.length - 1] > places[0]) {
+      const room = (toX(places.length - 1) - toX(0)) / (frames.by_time ? 64 : 42);
+      const { ticks, step } = roundTicks(places[0], places[places.length - 1], Math.max(1, room));
+      let left = 0;
+      for (const tick of ticks) {
+        const after = Math.max(1, places.findIndex((place) => place >= tick.value - 1e-6 * step)), [from, to] = frames.tilts.slice(after - 1);
+        const share = Math.max(0, (tick.value - places[after - 1]) / (places[after] - places[after - 1]));
+        const text = tick.label + axis.unit, half = 3.6 * text.length, x = Math.min(Math.max(toX(after - 1 + share), half), width - half);
+        if (x - half < left || x + half > right) continue;
+        left = x + half + 6;
+        label(x, 0, text);
+        if (frames.by_time) label(x, 1, tiltText(from + share * (to - from), 1));
       }
     }
-    if (frames.of_tilt > 0 && frames.of_tilt < frames.count)
-      parts.push(shape("text", { x: toX(frames.of_tilt), y: lineY + 21 }, "flow"));
+    if (flows) label(flowX, 0, "flow");
     return parts;
   };
   const show = () => {
     width = svg.clientWidth;
     if (width === 0) return;
-    svg.setAttribute("viewBox", `0 0 ${width} ${lineHeight}`);
+    furnish(svg, { height: lineHeight, viewBox: `0 0 ${width} ${lineHeight}` });
     handle = shape("g", { class: "handle" }, shape("circle", { r: 7.5 }));
     passed = shape("path", { class: "passed" });
     svg.replaceChildren(shape("path", { class: "line", d: `M${toX(0)} ${lineY}H${toX(last)}` }), passed, ...labels(), ...eventMarks(), handle);
@@ -69,10 +78,7 @@ function timeLine(go, report) {
     if (!handle) return;
     handle.setAttribute("transform", `translate(${toX(frame)} ${lineY})`);
     passed.setAttribute("d", `M${toX(0)} ${lineY}H${toX(frame)}`);
-    svg.setAttribute("aria-valuemin", 0);
-    svg.setAttribute("aria-valuemax", frames.count - 1);
-    svg.setAttribute("aria-valuenow", frame);
-    svg.setAttribute("aria-valuetext", plainText(frames.captions[frame]));
+    furnish(svg, { "aria-valuemin": 0, "aria-valuemax": frames.count - 1, "aria-valuenow": frame, "aria-valuetext": plainText(captionOf(frame)) });
   };
 
   let held = false;

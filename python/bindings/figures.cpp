@@ -9,8 +9,9 @@
 #include <numeric>
 #include <tuple>
 
-#include "analysis/contacts/weak_contacts.h"
-#include "analysis/events/power_law.h"
+#include "analysis/contacts/contact_network.h"
+#include "analysis/events/events.h"
+#include "analysis/failure/transition.h"
 #include "analysis/overload/coarse_graining.h"
 #include "analysis/quantities.h"
 #include "analysis/topology/topology.h"
@@ -19,12 +20,10 @@
 #include "base/output_file.h"
 #include "base/version.h"
 #include "core/trigonometry.h"
-#include "ensemble/averages_reader.h"
+#include "ensemble/averages.h"
 #include "ensemble/ensemble_manifest.h"
-#include "ensemble/member_reader.h"
-#include "ensemble/member_state.h"
-#include "ensemble/plus_minus.h"
-#include "io/seal.h"
+#include "ensemble/member_results.h"
+#include "io/durable_file.h"
 #include "pictures/frame_choice.h"
 #include "pictures/maps.h"
 #include "pictures/panel.h"
@@ -32,15 +31,15 @@
 #include "render/document.h"
 #include "render/png.h"
 #include "render/renderer.h"
-#include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
 #include "runs/event_catalogue.h"
 #include "runs/run_view.h"
 #include "scenario/scripted_command.h"
 #include "session/command.h"
-#include "session/run_identity.h"
+#include "session/run_header.h"
 #include "stress/free_surface.h"
-#include "stress/overload.h"
+#include "stress/stress.h"
 
 namespace py = pybind11;
 
@@ -135,11 +134,10 @@ std::unique_ptr<AnalysedRun> analysed_run(const std::string& path, const std::ve
 
 /// Returns the members of an ensemble.h5.
 std::vector<std::unique_ptr<AnalysedRun>> stored_runs(const std::string& path) {
-  std::vector<std::unique_ptr<AnalysedRun>> runs;
-  for (const ensemble::StoredVariant& variant : ensemble::read_averages(path))
-    for (std::size_t m = 0; m < variant.seeds.size(); ++m)
-      runs.push_back(std::make_unique<AnalysedRun>(AnalysedRun{ensemble::view_of_values(path, variant, m)}));
-  return runs;
+  std::vector<std::unique_ptr<AnalysedRun>> members;
+  for (runs::RunView& view : ensemble::read_averages(path))
+    members.push_back(std::make_unique<AnalysedRun>(AnalysedRun{std::move(view)}));
+  return members;
 }
 
 /// Returns the analysed runs of the finished members of an ensemble.
@@ -316,7 +314,7 @@ void bind_choices(py::class_<AnalysedRun>& type) {
   // The frames of the last rise: the first, the magnitudes of their tilts, and whether the bed slopes
   // backwards.
   type.def_property_readonly("rise", [](const AnalysedRun& run) {
-    const analysis::FramesOfRise rise = runs::last_rise_of(run.view);
+    const analysis::FramesOfRise rise = analysis::last_rise(run.view.analysis.frames);
     return py::make_tuple(rise.first, array_of(in_degrees(rise.tilts)), rise.mirrored_slope);
   });
   type.def_property_readonly("repose_frame", [](const AnalysedRun& run) {
@@ -354,7 +352,7 @@ void bind_figures(py::module_& module) {
   module.def("_analysed_run", analysed_run);
   module.def("_stored_runs", stored_runs);
   module.def("_member_runs", member_runs);
-  module.def("_holds_averages", ensemble::holds_averages);
+  module.def("_holds_averages", io::begins_as_averages);
   module.def("_begins_as_run", io::begins_as_run);
   module.def("_parse_settings",
              [](const std::vector<std::string>& settings) { runs::parse_analysis_settings(settings); });

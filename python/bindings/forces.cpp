@@ -11,8 +11,8 @@
 #include "analysis/frame_analysis.h"
 #include "base/errors.h"
 #include "problems/step_problem.h"
-#include "runs/analysis_input.h"
 #include "runs/analysis_parameters.h"
+#include "runs/analysis_run.h"
 #include "session/measure.h"
 #include "solver/solve.h"
 

@@ -1,14 +1,9 @@
 /// Extension module talus._core: thin bindings of Simulation for Python. The public interface is
 /// python/talus/simulation.py.
 
-#include <pthread.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-#include <signal.h>
-#include <stdlib.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -25,8 +20,11 @@
 #include "dynamics/failure.h"
 #include "figures.h"
 #include "forces.h"
+#include "interpreter.h"
 #include "io/child_process.h"
 #include "library/talus.h"
+#include "pictures.h"
+#include "render/frame_view.h"
 #include "scenario/scenario.h"
 #include "stress/free_surface.h"
 
@@ -34,142 +32,6 @@ namespace py = pybind11;
 
 namespace talus {
 namespace {
-
-/// Number of threads that step, or use files, without holding the interpreter; they must end before it does.
-std::atomic<int> steps_under_way = 0;
-std::atomic<bool> interpreter_ends = false;
-std::atomic<int> draws_under_way = 0;
-/// Flags of a forked child whose parent had another thread that was drawing, or was in a simulation, which
-/// may have been writing: the locks of Mesa and HDF5 stay as they were at the fork.
-bool cannot_draw = false, cannot_use_files = false;
-
-/// Prepares for forked children, which lack the other threads. Mesa draws without threads of its own, because
-/// a child would wait for them when it draws or ends.
-void survive_forks() {
-  ::setenv("LP_NUM_THREADS", "0", 0);
-  ::pthread_atfork(nullptr, nullptr, [] {
-    cannot_draw = cannot_draw || draws_under_way > 0;
-    cannot_use_files = cannot_use_files || steps_under_way > 0;
-    steps_under_way = draws_under_way = 0;
-  });
-}
-
-/// Increments a counter during its lifetime.
-class Count {
- public:
-  explicit Count(std::atomic<int>& of) : of_(of) { ++of_; }
-  ~Count() { --of_; }
-  Count(const Count&) = delete;
-  Count& operator=(const Count&) = delete;
-
- private:
-  std::atomic<int>& of_;
-};
-
-bool is_main_thread() { return ::gettid() == ::getpid(); }
-
-/// Keeps a daemon thread, as Python does, if the interpreter ends.
-void wait_if_the_interpreter_ends() {
-  if (!interpreter_ends || is_main_thread()) return;
-  const py::gil_scoped_release let_go;
-  while (true) ::pause();
-}
-
-/// Runs `work` without holding the interpreter: another thread may be in h5py with the lock of HDF5, and need
-/// the interpreter. A thread without it could never continue once the interpreter ends, so it is waited for,
-/// and from then on the main thread, the only one left, does not let go.
-template <typename Work>
-auto without_interpreter(Work&& work) {
-  wait_if_the_interpreter_ends();
-  std::optional<Count> count;
-  std::optional<py::gil_scoped_release> let_go;
-  if (!interpreter_ends) {
-    count.emplace(steps_under_way);
-    let_go.emplace();
-  }
-  return work();
-}
-
-// Python delivers signals to the main thread only. Other threads compare the time of the last SIGINT with
-// their own.
-
-using Nanoseconds = std::int64_t;
-constexpr Nanoseconds one_second = 1'000'000'000;
-std::atomic<Nanoseconds> interrupted_at = 0;  ///< time of the last SIGINT
-void (*handler_of_python)(int) = nullptr;     ///< handler of SIGINT that Python has set
-
-Nanoseconds now() {
-  timespec time{};
-  ::clock_gettime(CLOCK_MONOTONIC, &time);
-  return time.tv_sec * one_second + time.tv_nsec;
-}
-
-void note_interrupt(int number) {
-  interrupted_at = now();
-  handler_of_python(number);
-}
-
-/// Has Python's handler of SIGINT note the time as well. Handlers in Python are unaffected. Python replaces
-/// this when it sets one, until the next call; handlers of other libraries are left alone. Call while holding
-/// the interpreter.
-void watch_interrupts() {
-  struct sigaction action {};
-  if (::sigaction(SIGINT, nullptr, &action) != 0 || (action.sa_flags & SA_SIGINFO) != 0) return;
-  if (action.sa_handler == SIG_DFL || action.sa_handler == SIG_IGN) return;
-  if (handler_of_python == nullptr) handler_of_python = action.sa_handler;
-  if (action.sa_handler != handler_of_python) return;
-  action.sa_handler = note_interrupt;
-  ::sigaction(SIGINT, &action, nullptr);
-}
-
-/// Simulations that a thread other than the main one steps.
-struct Attention {
-  Nanoseconds since = 0;  ///< interrupts from this time on are meant for it
-  Nanoseconds left = 0;   ///< end of its last call
-  Nanoseconds asked = 0;  ///< time at which the state of the main thread was last looked at
-};
-thread_local Attention attention;
-
-/// Throws KeyboardInterrupt if the main thread has been interrupted while this thread was busy with
-/// simulations, or waits for this thread because of an interrupt. Call while holding the interpreter, in
-/// another thread than the main one.
-void raise_if_interrupted() {
-  constexpr Nanoseconds pause = one_second / 20;
-  watch_interrupts();
-  const Nanoseconds time = now(), at = interrupted_at;
-  const py::module_ interrupts = py::module_::import("talus.interrupts");
-  bool ends = false;
-  if (at >= attention.since) {
-    attention.since = at + 1;
-    ends = interrupts.attr("are_raised")().cast<bool>();
-  }
-  if (!ends && time - attention.asked >= pause) {
-    attention.asked = time;
-    ends = interrupts.attr("end_the_main_thread")().cast<bool>();
-  }
-  if (!ends) return;
-  PyErr_SetNone(PyExc_KeyboardInterrupt);
-  throw py::error_already_set();
-}
-
-/// A call that steps, in a thread other than the main one. A thread whose last call ended less than a second
-/// ago is still busy with simulations.
-class AttentiveCall {
- public:
-  AttentiveCall() {
-    if (is_main_) return;
-    if (now() - attention.left > one_second) attention.since = now();
-    raise_if_interrupted();
-  }
-  ~AttentiveCall() {
-    if (!is_main_) attention.left = now();
-  }
-  AttentiveCall(const AttentiveCall&) = delete;
-  AttentiveCall& operator=(const AttentiveCall&) = delete;
-
- private:
-  const bool is_main_ = is_main_thread();
-};
 
 /// A simulation and its current user. While a thread steps it, no other thread may use it, and callbacks of
 /// the step may only read it.
@@ -215,8 +77,7 @@ class Driven {
     simulation_.interrupt_if([&tick] {
       if (interpreter_ends) return true;
       const py::gil_scoped_acquire hold;
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (!is_main_thread()) raise_if_interrupted();
+      raise_if_interrupted();
       if (!tick.is_none()) tick();
       return false;
     });
@@ -328,27 +189,6 @@ py::array rows(const Values& values) {
   return array_of<double>(values.numbers, shape);
 }
 
-/// Returns an array (height, width, 4), sRGB and alpha.
-py::array pixels(const render::Image& image) {
-  py::array_t<std::uint8_t> array({image.height, image.width, 4});
-  std::uint8_t* to = array.mutable_data();
-  const auto channels = static_cast<std::size_t>(image.channels);
-  for (std::size_t k = 0; k < image.pixels.size(); k += channels, to += 4) {
-    for (std::size_t c = 0; c < 3; ++c) to[c] = image.pixels[k + (channels == 1 ? 0 : c)];
-    to[3] = channels == 4 ? image.pixels[k + 3] : 255;
-  }
-  return array;
-}
-
-py::bytes png_of(const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>& array) {
-  if (array.ndim() != 3 || array.shape(2) != 4)
-    throw Error(ExitCode::usage, "a picture: expected an array (h, w, 4)");
-  render::Image image{static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)), 4, {}};
-  image.pixels.assign(array.data(), array.data() + array.size());
-  const std::vector<std::uint8_t> bytes = render::encode_png(image);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 const char* name_of(session::Phase phase) {
   switch (phase) {
     case session::Phase::deposition:
@@ -378,25 +218,6 @@ void translate(std::exception_ptr thrown) {
                     text, static_cast<py::ssize_t>(std::strlen(text)), "backslashreplace")));
     PyErr_SetObject(py::type::of(raised).ptr(), raised.ptr());
   }
-}
-
-/// Throws if HDF5 cannot be used in this process; call before using it.
-void require_files() {
-  if (cannot_use_files)
-    throw Error(ExitCode::unavailable,
-                "this process was forked while another thread was using Talus, and can neither read nor "
-                "record runs: start it with the method \"spawn\" of multiprocessing");
-}
-
-/// Returns the picture that a simulation or a frame draws.
-template <typename Draw>
-py::array drawn(Draw&& draw) {
-  if (cannot_draw)
-    throw Error(ExitCode::unavailable,
-                "this process was forked while another thread was drawing, and cannot draw: start it with "
-                "the method \"spawn\" of multiprocessing");
-  const Count count(draws_under_way);
-  return pixels(draw());
 }
 
 /// Waits for steps in other threads, because they end in the interpreter, and commits recorded data.
@@ -556,6 +377,21 @@ void bind_measurements(Type& type, const Apply& apply) {
   names("_contact_quantities", &MeasuredFrame::contact_quantities);
 }
 
+/// Binds the map of a frame, drawn or for a panel or a movie; `use` calls a function with the frame.
+template <typename Type, typename Use>
+void bind_maps(Type& type, const Use& use) {
+  using Owner = typename Type::type;
+  type.def("_draw",
+           [use](Owner& owner, const pictures::MapChoice& what, const pictures::MapOptions& options) {
+             return pixels(while_drawing([&] {
+               return use(owner, [&](const MeasuredFrame& frame) { return frame.draw(what, options); });
+             }));
+           });
+  type.def("_map", [use](Owner& owner, const pictures::MapChoice& what, const pictures::MapOptions& options) {
+    return use(owner, [&](const MeasuredFrame& frame) { return frame.map(what, options); });
+  });
+}
+
 void bind_measures(py::class_<Driven, Holder>& type) {
   bind_measurements(type, [](Driven& driven, const auto& work) {
     return driven.use([&](Simulation& simulation) { return work(simulation.measured()); });
@@ -563,9 +399,8 @@ void bind_measures(py::class_<Driven, Holder>& type) {
   type.def("_set_analysis", [](Driven& driven, const std::vector<std::string>& settings) {
     driven.use([&](Simulation& simulation) { simulation.set_analysis(settings); });
   });
-  type.def("_draw", [](Driven& driven, const std::string& map, const pictures::MapOptions& options) {
-    return drawn(
-        [&] { return driven.use([&](Simulation& simulation) { return simulation.draw(map, options); }); });
+  bind_maps(type, [](Driven& driven, const auto& work) {
+    return driven.use([&](Simulation& simulation) { return work(simulation.measured()); });
   });
 }
 
@@ -594,21 +429,6 @@ void bind_motion(py::module_& module, py::class_<Driven, Holder>& type) {
   module.attr("rest_steps") = dynamics::rest_steps;
 }
 
-/// Binds the options of maps.
-void bind_options(py::module_& module) {
-  py::class_<pictures::MapOptions>(module, "MapOptions")
-      .def(py::init())
-      .def_readwrite("width", &pictures::MapOptions::width)
-      .def_readwrite("theta_c", &pictures::MapOptions::theta_c)
-      .def_readwrite("colours", &pictures::MapOptions::colours)
-      .def_readwrite("l_min", &pictures::MapOptions::l_min)
-      .def_readwrite("length", &pictures::MapOptions::length)
-      .def_readwrite("threshold", &pictures::MapOptions::threshold)
-      .def_readwrite("range", &pictures::MapOptions::range)
-      .def_readwrite("turned", &pictures::MapOptions::turned)
-      .def_readwrite("bare", &pictures::MapOptions::bare);
-}
-
 /// Binds frames of files, which have the same measures as simulations.
 void bind_frames(py::module_& module) {
   py::class_<MeasuredFrame> type(module, "MeasuredFrame");
@@ -617,10 +437,7 @@ void bind_frames(py::module_& module) {
     return without_interpreter([&] { return measured_frame(path, k, settings); });
   }));
   bind_measurements(type, [](MeasuredFrame& frame, const auto& work) { return work(frame); });
-  type.def("_draw",
-           [](const MeasuredFrame& frame, const std::string& map, const pictures::MapOptions& options) {
-             return drawn([&] { return frame.draw(map, options); });
-           });
+  bind_maps(type, [](MeasuredFrame& frame, const auto& work) { return work(frame); });
 }
 
 /// Returns the scenario of a file or of `tables`, as TOML. Commands in `tables` replace those of the file;
@@ -673,11 +490,10 @@ PYBIND11_MODULE(_core, module) {
     driven.use([&](Simulation& simulation) { simulation.record(path, overwrite); });
   });
   type.def("commit", [](Driven& driven) { driven.use([](Simulation& simulation) { simulation.commit(); }); });
-  bind_options(module);
+  bind_pictures(module);
   bind_frames(module);
   bind_figures(module);
   bind_forces(module);
-  module.def("_png", &png_of);
   module.def("_end_steps", &end_steps);
   module.def("_require_files", &require_files);
   module.def("_departures", &departures);

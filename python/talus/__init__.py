@@ -10,14 +10,15 @@ Names of data sets are those of docs/file_format.md and docs/analysis.md; signs 
 downslope, y away from the floor, compression positive, rotation counter-clockwise. docs/cookbook.md has ten recipes."""
 
 from talus.contacts import Contacts
+from talus.drawing import Image, animate, panel
 from talus.ensemble import Ensemble, Mean, Member, mean_of, open_ensemble
 from talus.errors import Error
 from talus.frame import Frame
 from talus.run import Run, open
-from talus.simulation import Image, Simulation, resume
+from talus.simulation import Simulation, resume
 from talus.stress import stress_ratio
 from talus.table import Table
 from talus.version import __version__
 
 __all__ = ["Contacts", "Ensemble", "Error", "Frame", "Image", "Mean", "Member", "Run", "Simulation", "Table", "__version__",
-           "mean_of", "open", "open_ensemble", "resume", "stress_ratio"]
+           "animate", "mean_of", "open", "open_ensemble", "panel", "resume", "stress_ratio"]

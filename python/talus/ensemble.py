@@ -1,5 +1,6 @@
 """Ensembles: many runs of one scenario in a folder, and the results of each."""
 
+import json
 import os
 import re
 import tomllib
@@ -13,7 +14,6 @@ import numpy as np
 
 from talus.checked_file import read_text, text_hash
 from talus.errors import Closed, Error, MissingFile, MissingName, WrongType, WrongValue, check_text, short, suggestion
-from talus.manifest import is_sealed
 from talus.optional import need
 from talus.places import numbers_at_places
 from talus.run import Run, as_path
@@ -23,7 +23,8 @@ from talus.storage import is_file, unreadable
 from talus.table import numbered
 from talus.units import Units, check_units
 
-FIRST_LINE = "talus ensemble 1"
+FORMAT = "talus ensemble 2"
+EARLIER_LINE = "talus ensemble 1\n"  # of manifests that were no JSON
 #: Types and shapes of the scalars of a run, with one value per run, threshold or strain.
 NUMBERS = tuple(("float64", shape) for shape in ("", "F", "2"))
 #: Results of a run that need no analysis, with their units in the table of members.
@@ -170,39 +171,47 @@ class Ensemble(Closed):
             text = read_text(path)
         except (ValueError, OSError):
             refuse_manifest(path)
-        lines = text.split("\n")[:-1]
-        if not lines or lines[0] != FIRST_LINE or not is_sealed(text):
+        if text.startswith(EARLIER_LINE):
+            raise Error(f"{path} was written by an earlier revision of Talus; start another ensemble from its scenario, and move the "
+                        "runs there")
+        body, key, seal = text.rpartition('"hash": ')
+        if seal != f'"{text_hash(body + key)}"\n}}\n':
             refuse_manifest(path)
-        for number, line in enumerate(lines[1:], 2):
-            kind, _, rest = line.partition(" ")
-            try:
-                self._take_line(kind, rest)
-            except (IndexError, ValueError) as error:
-                refuse_manifest(path, f", in line {number}: {line!r} ({error})")
-        if not self.seeds or not self.variants:
+        try:
+            manifest = json.loads(text, object_pairs_hook=object_without_copies)
+        except (ValueError, RecursionError):
             refuse_manifest(path)
+        place = ""
 
-    def _take_line(self, kind: str, rest: str) -> None:
-        """Adds the contents of a line of the manifest. Raises ValueError for an invalid line."""
-        if kind == "version":
-            self.version = rest
-        elif kind == "until":
-            self.until = check_precision(rest)
-        elif kind == "keep":
-            self.keep = check_keep(rest)
-        elif kind == "seeds":
-            self.seeds = parse_seeds(rest)
-        elif kind == "variant":
-            scenario, _, name = rest.partition(" ")
-            check_name(name, self.variants)
-            self.variants.append(name)
-            self._origins.append({"scenario": scenario})
-        elif kind == "full":
-            self.full_names[self.variants[-1]] = rest
-        elif kind == "bed":
-            self._origins[-1]["bed"] = rest
-        elif kind not in ("task", "hash"):
-            raise ValueError(f"there is no {short(kind)}")
+        def read(part: Any, parent: str, name: str) -> str:
+            nonlocal place
+            place = parent + name
+            if not isinstance(part, dict) or not isinstance(part.get(name), str):
+                raise ValueError("expected a text")
+            return str(part[name])
+
+        try:
+            if read(manifest, "/", "format") != FORMAT:
+                raise ValueError(f"expected {FORMAT}: another version of Talus wrote it")
+            self.version = read(manifest, "/", "version")
+            self.seeds = parse_seeds(read(manifest, "/", "seeds"))
+            if until := read(manifest, "/", "until"):
+                self.until = check_precision(until)
+            if keep := read(manifest, "/", "keep"):
+                self.keep = check_keep(keep)
+            variants = manifest.get("variants")
+            place = "/variants"
+            if not isinstance(variants, list) or not variants:
+                raise ValueError("expected a list of variants")
+            for k, variant in enumerate(variants):
+                parent = f"/variants/{k}/"
+                check_name(name := read(variant, parent, "name"), self.variants)
+                self.variants.append(name)
+                if full_name := read(variant, parent, "full_name"):
+                    self.full_names[name] = full_name
+                self._origins.append({key: read(variant, parent, key) for key in ("scenario", "bed")})
+        except ValueError as error:
+            refuse_manifest(path, f", at {place}: {error}")
 
     def _refuse_copies(self) -> None:
         """Raises Error if two seeds of a variant have the same state hash, except for beds from a file, in which nothing
@@ -283,10 +292,24 @@ class Ensemble(Closed):
         except ValueError:
             raise WrongValue(f"{self.folder}: the function gives arrays of several shapes; expected one") from None
 
+    def settings(self, variant: str | None = None) -> dict[str, Any]:
+        """Returns the keys in which the variants differ, with the values of one of them: {"contact.friction": 0.3}.
+        Raises Error as `scenario` does."""
+        return self._all_settings()[self._variant(variant)]
+
+    def _all_settings(self) -> dict[str, dict[str, Any]]:
+        scenarios = {variant: flat(self.scenario(variant)) for variant in self.variants}
+        first = scenarios[self.variants[0]]
+        varied = [key for key in first if any(each.get(key) != first[key] for each in scenarios.values())]
+        return {variant: {key: each.get(key) for key in varied} for variant, each in scenarios.items()}
+
     def to_pandas(self) -> Any:
-        """Returns a DataFrame like `members.csv`: one row for each finished member, with variant, seed, state_hash,
-        version, seconds, and its numbers. Raises ImportError without pandas."""
-        rows = [{"variant": m.variant, "seed": m.seed, "state_hash": m.state_hash, "version": m.version,
+        """Returns a DataFrame like `members.csv`, with all digits: one row for each finished member, with variant, the
+        keys in which variants differ, seed, state_hash, version, seconds, and its numbers. Raises ImportError without
+        pandas."""
+        settings = {variant: {key: ", ".join(value) if isinstance(value, list) else value for key, value in each.items()}
+                    for variant, each in self._all_settings().items()}
+        rows = [{"variant": m.variant, **settings[m.variant], "seed": m.seed, "state_hash": m.state_hash, "version": m.version,
                  "seconds": m.seconds, **m.numbers} for m in self.done()]
         return need("pandas", "to_pandas()").DataFrame(rows)
 
@@ -299,13 +322,28 @@ class Ensemble(Closed):
         return variant
 
 
+def flat(scenario: dict[str, Any]) -> dict[str, Any]:
+    """Returns the keys of a scenario with their sections, "bed.length"; those of command 1 are "command.1.kind", ...,
+    in the order of docs/scenario.md."""
+    keys: dict[str, Any] = {}
+    for name, value in scenario.items():
+        if isinstance(value, list) and name == "command":
+            commands = [{"at": "none", "time": "none", "kind": "", "grain": -1, "x": 0.0, "y": 0.0, **each} for each in value]
+            keys |= {f"command.{k}.{key}": each for k, command in enumerate(commands, 1) for key, each in command.items()}
+        elif isinstance(value, dict):
+            keys |= {f"{name}.{key}": each for key, each in value.items()}
+        else:
+            keys[name] = value
+    return keys
+
+
 def parse_seeds(text: str) -> list[int]:
     """Parses "1-3,8" as 1, 2, 3, 8, each once. Raises ValueError if the text has another form, or too many or too large
     seeds for an ensemble."""
     seeds: set[int] = set()
     for part in text.split(","):
         first, dash, last = part.partition("-")
-        if not all(digits.isascii() and digits.isdigit() and len(digits) < 20 for digits in (first, last or first)):
+        if not all(digits.isascii() and digits.isdigit() and len(digits) < 20 for digits in (first, last if dash else first)):
             raise ValueError("expected seeds such as 1-3,8")
         begin, end = int(first), int(last if dash else first)
         if end < begin or end > LARGEST_SEED or end - begin >= MOST_SEEDS:
@@ -314,6 +352,14 @@ def parse_seeds(text: str) -> list[int]:
         if len(seeds) > MOST_SEEDS:
             raise ValueError(f"expected at most {MOST_SEEDS} seeds")
     return sorted(seeds)
+
+
+def object_without_copies(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Returns an object of JSON. Raises ValueError if two of its members have one name."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("expected unique names")
+    return found
 
 
 def refuse_manifest(path: Path, reason: str = "") -> NoReturn:
@@ -339,9 +385,7 @@ def check_keep(text: str) -> str:
 
 def check_name(name: str, others: Sequence[str]) -> None:
     """Raises ValueError if the name of a variant is not that of a folder in the ensemble's folder, or is already used."""
-    parts = name.split("/") if name else []
-    if not name.isprintable() or "\ufffd" in name or any(
-            part in ("", ".", "..") or len(part.encode()) > LONGEST_NAME for part in parts):
+    if not name.isprintable() or "\ufffd" in name or "/" in name or name in (".", "..") or len(name.encode()) > LONGEST_NAME:
         raise ValueError("expected a variant whose name is a folder in this one")
     if (name or "scenario") in [other or "scenario" for other in others]:
         raise ValueError("expected unique names")

@@ -2,6 +2,7 @@
 
 import difflib
 import errno
+import re
 from collections.abc import Iterable
 from typing import Any
 
@@ -82,8 +83,8 @@ CLASSES = {64: WrongValue, 65: WrongValue, 66: MissingFile, 71: OutOfMemory, 73:
 
 
 def error_of_code(code: int, text: str) -> Error:
-    """Returns the error of the extension with an exit code."""
-    error: Error = CLASSES.get(code, Error)(text)
+    """Returns the error of the extension with an exit code. A key is named as in Python, not as an option of a command."""
+    error: Error = CLASSES.get(code, Error)(re.sub("^--set .*?: error: (?=key |unknown key )", "", text))
     error.exit_code = code
     return error
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from talus.contacts import Contacts
+from talus.drawing import Image, draw, map_of
 from talus.errors import Closed, MissingAttribute, MissingName, WrongValue, check_text, suggestion
 from talus.optional import need
 
@@ -119,11 +120,13 @@ class Frame(Closed):
         """The grains: `frame.grains["gamma"]`, a quantity of docs/export.md, `frame.grains.position`, ..."""
         return FrameGrains(self)
 
-    def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Any:
+    def draw(self, map: Any = "gamma", *, width: int = 900, label: str | None = None, unit: str = "", **options: Any) -> Image:
         """Draws a map of the frame, like Simulation.draw."""
-        from talus.simulation import draw
+        return draw(self._measured, map, width, label, unit, options)
 
-        return draw(self._measured, map, width, options)
+    def map(self, map: Any = "gamma", *, label: str | None = None, unit: str = "", **options: Any) -> Any:
+        """Returns this map for talus.panel and talus.animate."""
+        return map_of(self._measured, map, label, unit, options)
 
     def _repr_png_(self) -> bytes:
         return self.draw()._repr_png_()
@@ -228,6 +231,16 @@ class Frame(Closed):
                    "angular_velocity": self.angular_velocity, "gamma": self.gamma, **moment}
         pandas = need("pandas", "to_pandas()")
         return pandas.DataFrame(columns, index=pandas.Index(self.run.id, name="id"))
+
+    def to_lammps(self, folder: Any, *, k_n: float = 1e5, k_t: float | None = None, forces: bool = True,
+                  overwrite: bool = False) -> None:
+        """Writes slope.data and in.slope to a folder: the bed at rest as LAMMPS continues it, with soft contacts of the
+        stiffnesses k_n and k_t (k_n / 2) in m g/D, m the mass of a disk of diameter D. Overlaps and tangential springs
+        give the contact forces of the frame; without `forces` grains keep their positions, and gravity grows from 0. Existing
+        files are kept, and the call fails, unless `overwrite` is true."""
+        from talus.lammps import write
+
+        write(self, folder, k_n, k_t, forces, overwrite)
 
     def to_networkx(self) -> Any:
         """Returns the contact network as a networkx.MultiGraph (two grains of a short periodic bed can touch twice), with

@@ -18,7 +18,7 @@ DEPTH = 40.0  #: of the paper's beds, D
 LC_CUT = 30.0  #: largest l_c of its data processing, D
 #: k_L - k_0 of its Eq. 15, and its accuracy.
 WALL_COEFFICIENT, WALL_ACCURACY = 2.5, 0.25
-READING_VERSION = "2 "  #: beginning of the keys of further analyses (src/ensemble/readings.cpp)
+READING_VERSION = "2 "  #: beginning of the keys of further analyses (src/ensemble/member_task.cpp)
 THRESHOLDS = 2  #: of the analysis with default parameters: Gamma_c and 2 Gamma_c
 
 
@@ -304,7 +304,7 @@ class Reading(NamedTuple):
 
 
 #: All readings: those without a change are single grains with the printed threshold and with twice it, and grains with their
-#: first neighbours. The names of analyses are their parameters, which src/ensemble/readings.cpp sets.
+#: first neighbours. The names of analyses are their parameters, which src/ensemble/member_task.cpp sets.
 READINGS = [
     *(Reading(base, change, analysis, f)
       for f, base in enumerate(("single grains, gamma >= Gamma_c", "single grains, gamma >= 2 Gamma_c"))

@@ -5,7 +5,7 @@ import numpy as np
 from talus.run import Run, last_rise
 from talus.table import numbered
 
-#: Places of each quantity; the same table is in src/analysis/failure/place.cpp.
+#: Places of each quantity; the same table is in src/analysis/failure/transition.cpp.
 PLACES = {
     "packing/solid_fraction": ("0", "theta_c"),
     "contacts/coordination_number": ("0", "theta_d", "theta_c"),

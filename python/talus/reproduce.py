@@ -441,7 +441,7 @@ SECTIONS = {
 
 def agreement_recipe(found: Reproduction) -> Recipe:
     """Returns the recipe of the chart of the distance of each value from the paper's."""
-    return Recipe("agreement", agreement.TITLE, "a value that can be compared", "values",
+    return Recipe("agreement", agreement.TITLE, "a value that can be compared",
                   lambda groups, wanted: agreement.data_of(found, [run for group in groups for run in group.runs]),
                   agreement.draw, TWO_COLUMNS)
 

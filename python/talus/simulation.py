@@ -4,7 +4,6 @@ import atexit
 import copy
 import operator
 import os
-import re
 import sys
 import tomllib
 from collections.abc import Callable, Mapping
@@ -13,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from talus.drawing import Image, draw, map_of
 from talus.errors import Closed, MissingPackage, WrongType, WrongValue, check_flag, check_text, short
 from talus.frame import named
 
@@ -129,35 +129,6 @@ def _settings(*mappings: Mapping[str, Any]) -> list[str]:
         except RecursionError:
             raise WrongType(f"{short(keys)}: a list or a table contains itself, or is nested too deeply") from None
     return [f"{key}={value}" for key, value in values.items()]
-
-
-class Image(np.ndarray):
-    """Picture, (h, w, 4) of uint8, sRGB and alpha, rows from top to bottom. A notebook displays it."""
-
-    def _repr_png_(self) -> bytes:
-        return _extension()._png(np.asarray(self))
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the picture as a PNG file."""
-        with open(_path(path), "wb") as file:
-            file.write(self._repr_png_())
-
-
-def draw(core: Any, map: str, width: int, options: Mapping[str, Any]) -> Image:
-    """Draws a map of a simulation or frame of the extension."""
-    check_text(map, "map")
-    chosen = _extension().MapOptions()
-    for name, value in {"width": width, **options}.items():
-        try:
-            setattr(chosen, name, value)
-        except AttributeError:
-            raise WrongType(f"draw has no option {short(name)}") from None
-        except TypeError:
-            raise WrongType(f"draw: {name} = {short(value)}: expected a value of another type") from None
-    try:
-        return core._draw(map, chosen).view(Image)
-    except WrongValue as error:  # names options as the command line does
-        raise WrongValue(re.sub("--([a-z-]*[a-z])", lambda found: found[1].replace("-", "_"), str(error))) from None
 
 
 class Grains(Closed):
@@ -556,10 +527,16 @@ class Simulation(Closed):
         """Sets parameters of the analysis, as with `talus analyze --set`: l_min=0, gamma_c=0.3."""
         self._core._set_analysis(_settings(parameters))
 
-    def draw(self, map: str = "gamma", *, width: int = 900, **options: Any) -> Image:
-        """Draws a map of the state, like `talus render --map`, `width` px wide, with its options theta_c, l_min,
-        length, threshold, range, colours, turned and bare."""
-        return draw(self._core, map, width, options)
+    def draw(self, map: Any = "gamma", *, width: int = 900, label: str | None = None, unit: str = "", **options: Any) -> Image:
+        """Draws a map of the state, like `talus render --map`, `width` px wide, with the options theta_c (degrees), l_min,
+        length, threshold, range, colours, turned and bare. Instead of a name, `map` can be values of your own: an array
+        with a number (NaN: none), a label (integer, below 0: none) or True or False for each free grain, each grain or
+        each contact that carries force, with a label and a unit for the legend."""
+        return draw(self._core, map, width, label, unit, options)
+
+    def map(self, map: Any = "gamma", *, label: str | None = None, unit: str = "", **options: Any) -> Any:
+        """Returns this map as it is now, for talus.panel and talus.animate."""
+        return map_of(self._core, map, label, unit, options)
 
     def _repr_png_(self) -> bytes:
         return self.draw()._repr_png_()

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from talus.ensemble import Ensemble, Mean, Member, mean_of, open_ensemble, parse_seeds
+from talus.ensemble import Ensemble, Mean, Member, flat, mean_of, open_ensemble, parse_seeds
 from talus.errors import Error
 from talus.figures.means import half_interval, paired_difference
 from talus.figures.tables import short_text
@@ -208,8 +208,7 @@ def solution_of(run: Run) -> dict[str, float]:
 
 def baseline_of(ensemble: Ensemble, variants: Sequence[str]) -> str:
     """Returns the values that the keys varied by the variants have in the first of them."""
-    keys = {f"{section}.{key}": value for section, table in ensemble.scenario(variants[0]).items()
-            if isinstance(table, dict) for key, value in table.items()}
+    keys = flat(ensemble.scenario(variants[0]))
     varied: dict[str, str] = {}
     for variant in variants[1:]:
         name = ensemble.full_names.get(variant, variant)

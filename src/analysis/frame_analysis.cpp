@@ -4,18 +4,14 @@
 #include <cmath>
 
 #include "analysis/contacts/contact_network.h"
-#include "analysis/contacts/weak_contacts.h"
-#include "analysis/deformation/coarse_fields.h"
+#include "analysis/deformation/deformation.h"
 #include "analysis/failure/failure_distance.h"
 #include "analysis/free_grains.h"
-#include "analysis/packing/local_solid_fraction.h"
 #include "analysis/packing/packing.h"
-#include "analysis/packing/pair_correlation.h"
-#include "analysis/texture/fabric.h"
 #include "analysis/texture/texture.h"
-#include "analysis/topology/rigid_clusters.h"
+#include "analysis/topology/topology.h"
 #include "core/trigonometry.h"
-#include "stress/bed.h"
+#include "stress/stress.h"
 
 namespace talus::analysis {
 namespace {
@@ -44,10 +40,7 @@ void exclude_rattlers(int min_contacts, Index free_count, Frame& frame) {
 void measure_packing(const BedFrame& bed, int sections, FrameRecord& record) {
   record.volume = frame_volume(bed);
   record.bulk_solid_fraction = bulk_solid_fraction(bed, record.volume);
-  const PackingStress stress = packing_stress(bed, record.volume);
-  record.stress = {stress.sigma.xx, stress.sigma.xy, stress.sigma.yx, stress.sigma.yy};
-  record.sigma_t_over_n = stress.shear_over_normal;
-  record.stress_ratio = stress.state.ratio;
+  measure_packing_stress(bed, record.volume, record);
   for (const Tensor2& section : section_stresses(bed, record.volume, sections))
     record.section_sigma_xx.push_back(section.xx);
 }
@@ -72,7 +65,8 @@ void take_directions(const Frame& frame, int bins, FrameRecord& record) {
   record.direction_density = per_radian(normal_directions(frame, bins, false).density());
   record.direction_density_by_force = per_radian(normal_directions(frame, bins, true).density());
   std::ranges::transform(direction_peaks(frame), record.direction_peak.begin(), radians);
-  const FabricComponent second = fabric_component(frame, 2), sixth = fabric_component(frame, 6);
+  const FabricComponent second = fabric_component(frame.contacts, 2),
+                        sixth = fabric_component(frame.contacts, 6);
   record.fabric_amplitude = {second.amplitude, sixth.amplitude};
   record.fabric_angle = {radians(second.angle), radians(sixth.angle)};
 }
@@ -139,10 +133,6 @@ Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const Analysis
   return with_gamma_of_neighbourhoods(std::move(frame), statics, parameters.l_min * statics.mean_diameter);
 }
 
-std::vector<Link> links_of(const BedFrame& bed, Joining joining) {
-  return joining == Joining::contacts ? force_links(bed) : neighbour_links(bed);
-}
-
 void measure_overloaded(const stress::OverloadCount& count, const RunStatics& statics,
                         FrameThreshold& record) {
   record.overloaded_fraction = count.fraction();
@@ -197,7 +187,8 @@ std::vector<FrameThreshold> analyse_thresholds(const BedFrame& bed, const Analys
                                                const Analysis& analysis, double volume) {
   std::vector<FrameThreshold> records;
   if (analysis.thresholds.empty()) return records;
-  const ClusterGround ground = {links_of(bed, parameters.joining), bed_edges(bed)};
+  const bool by_contact = parameters.joining == Joining::contacts;
+  const ClusterGround ground = {by_contact ? force_links(bed) : neighbour_links(bed), bed_edges(bed)};
   for (const RunThreshold& threshold : analysis.thresholds)
     records.push_back(analyse_threshold(bed,
                                         {.threshold = threshold.gamma,

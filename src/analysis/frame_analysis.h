@@ -5,13 +5,10 @@
 #include <vector>
 
 #include "analysis/overload/clusters.h"
-#include "analysis/overload/links.h"
-#include "analysis/overload/percolation.h"
-#include "analysis/parameters.h"
+#include "analysis/overload/coarse_graining.h"
 #include "analysis/record.h"
-#include "core/bed_frame.h"
 #include "core/snapshot.h"
-#include "stress/overload.h"
+#include "stress/stress.h"
 
 namespace talus::analysis {
 
@@ -20,9 +17,6 @@ namespace talus::analysis {
 /// kept. Each remaining gamma is then replaced by that of the neighbourhood of diameter `l_min` around the
 /// grain (with_gamma_of_neighbourhoods).
 Frame with_analysed_gamma(Frame frame, const RunStatics& statics, const AnalysisParameters& parameters);
-
-/// Returns the pairs of grains that may join clusters.
-std::vector<Link> links_of(const BedFrame& bed, Joining joining);
 
 /// Set the members of a record that describe the overloaded grains as a whole, their l_c, and their clusters;
 /// the values of single grains are not set.

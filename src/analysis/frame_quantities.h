@@ -10,20 +10,21 @@
 #include <vector>
 
 #include "analysis/record.h"
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
 
 namespace talus::analysis {
 
 /// A frame and the data needed to compute the quantities of its grains.
 struct GrainSource : BedFrame {     // the frame as stored, with the gamma of single grains
+  const Frame* earlier = nullptr;   ///< reference frame of motion; null if it does not exist yet
+  bool per_degree = true;           ///< whether maps show motion per degree of tilt
   std::size_t number = 0;           ///< number of the frame in the run, counted from 0
   std::span<const double> gamma{};  ///< gamma of the neighbourhood of each grain
   /// First frame of the run, the reference of displacements; null if it does not exist yet.
   const Frame* first = nullptr;
   std::span<const double> factors{};             ///< thresholds, in units of Gamma_c
   std::span<const FrameThreshold> thresholds{};  ///< l_c and clusters at each of them
-  const Frame* earlier = nullptr;  ///< reference frame of the deformation; null if it does not exist yet
-  /// Degrees of tilt since that frame, by which the deformation is divided; 1 for no division.
+  /// Degrees of tilt since the earlier frame, by which the deformation is divided; 1 for no division.
   double degrees = 1.0;
   double length = not_known;  ///< diameter over which fields are coarse-grained, m
 };

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
 #include "core/tensor.h"
 
 namespace talus::analysis {

@@ -6,19 +6,20 @@
 #include <numbers>
 
 #include "analysis/contacts/contact_network.h"
-#include "analysis/deformation/coarse_fields.h"
-#include "analysis/deformation/local_deformation.h"
+#include "analysis/deformation/deformation.h"
 #include "analysis/frame_quantities.h"
 #include "analysis/free_grains.h"
 #include "analysis/overload/coarse_graining.h"
-#include "analysis/packing/local_solid_fraction.h"
+#include "analysis/packing/packing.h"
 #include "core/trigonometry.h"
-#include "stress/bed.h"
+#include "stress/stress.h"
 
 namespace talus::analysis {
 namespace {
 
 using Numbers = std::vector<double>;
+using enum FieldNumber;
+using FieldShape::scalar, FieldShape::vector;
 
 /// Returns the values of each function for each grain by id, or each contact by number, row by row.
 template <typename... Functions>
@@ -34,17 +35,23 @@ Numbers each_grain(const GrainSource& source, const Functions&... functions) {
   return each(source.frame.grain_count(), functions...);
 }
 
+/// Returns a function for an entry of an array that outlives it.
 template <typename Number>
 auto in(const std::vector<Number>& array) {
-  return [&array](Index k) { return array[static_cast<std::size_t>(k)]; };
+  return [&array](Index k) { return array[k]; };
 }
 
-template <typename Number>
-Numbers copied(const std::vector<Number>& array) {
-  return {array.begin(), array.end()};
+/// Return arrays of the frame, or of its contacts, row by row.
+template <auto... arrays>
+Numbers of_grains(const GrainSource& source, std::size_t) {
+  return each_grain(source, in(source.frame.*arrays)...);
+}
+template <auto... arrays>
+Numbers of_contacts(const GrainSource& source, std::size_t) {
+  return each(source.frame.contacts.count(), in(source.frame.contacts.*arrays)...);
 }
 
-Numbers displacements(const GrainSource& source) {
+Numbers displacements(const GrainSource& source, std::size_t) {
   const std::size_t count = source.frame.x.size();
   if (source.first == nullptr || source.first->x.size() != count) return Numbers(2 * count, not_known);
   return each_grain(
@@ -52,14 +59,14 @@ Numbers displacements(const GrainSource& source) {
       [&](Index i) { return displacement(source, *source.first, i).y; });
 }
 
-Numbers moments(const GrainSource& source) {
+Numbers moments(const GrainSource& source, std::size_t) {
   const std::vector<Tensor2>& moment = source.frame.internal_moment;
   return each_grain(
       source, [&](Index i) { return moment[i].xx; }, [&](Index i) { return moment[i].xy; },
       [&](Index i) { return moment[i].yx; }, [&](Index i) { return moment[i].yy; });
 }
 
-Numbers pressures(const GrainSource& source) {
+Numbers pressures(const GrainSource& source, std::size_t) {
   return each_grain(source, [&](Index i) {
     const Tensor2& moment = source.frame.internal_moment[i];
     const double radius = source.statics.radius[i];
@@ -67,18 +74,19 @@ Numbers pressures(const GrainSource& source) {
   });
 }
 
-Numbers coordination(const GrainSource& source) {
+Numbers coordination(const GrainSource& source, std::size_t) {
   const FrameContacts& contacts = source.frame.contacts;
-  return copied(stress::contacts_of_grains(contacts.a, contacts.b, source.frame.grain_count()));
+  return each_grain(source,
+                    in(stress::contacts_of_grains(contacts.a, contacts.b, source.frame.grain_count())));
 }
 
-Numbers sliding(const GrainSource& source) {
+Numbers sliding(const GrainSource& source, std::size_t) {
   const FrameContacts& contacts = source.frame.contacts;
   Numbers counts(source.frame.x.size(), 0.0);
   for (std::size_t c = 0; c < contacts.a.size(); ++c) {
     if (contacts.status[c] != ContactStatus::sliding) continue;
     for (const Index body : {contacts.a[c], contacts.b[c]})
-      if (body < source.frame.grain_count()) counts[static_cast<std::size_t>(body)] += 1.0;
+      if (body < source.frame.grain_count()) counts[body] += 1.0;
   }
   return counts;
 }
@@ -133,8 +141,7 @@ template <typename Value>
 Numbers deformation_numbers(const GrainSource& source, const Value& value) {
   std::vector<LocalDeformation> all;
   if (source.earlier != nullptr) all = local_deformations(*source.earlier, source);
-  return since_earlier(source,
-                       [&](const Frame&, Index i) { return value(all[static_cast<std::size_t>(i)]); });
+  return since_earlier(source, [&](const Frame&, Index i) { return value(all[i]); });
 }
 
 template <double (*strain)(const Tensor2&)>
@@ -164,7 +171,7 @@ double pressure(const CoarseField& field, const RunStatics&) {
 }
 
 double rate_of_shear(const CoarseField& field, const RunStatics&) {
-  return shear_rate(field.velocity_gradient);
+  return shear_strain(field.velocity_gradient);
 }
 
 template <double (*value)(const CoarseField& field, const RunStatics& statics)>
@@ -183,71 +190,58 @@ constexpr FrameQuantity mapped(FrameQuantity quantity, const MapRule& map) {
 }
 
 constexpr auto all_of_grains = std::to_array<FrameQuantity>({
-    {"id", FieldShape::scalar, FieldNumber::integer, "1", "stable id of a grain; free grains come first",
+    {"id", scalar, integer, "1", "stable id of a grain; free grains come first",
      [](const GrainSource& source, std::size_t) { return each_grain(source, [](Index i) { return i; }); }},
-    {"type", FieldShape::scalar, FieldNumber::integer, "1", "1 free grain, 2 grain glued to the floor",
+    {"type", scalar, integer, "1", "1 free grain, 2 grain glued to the floor",
      [](const GrainSource& source, std::size_t) {
        return each_grain(source, [&](Index i) { return i < source.statics.free_count ? 1 : 2; });
      }},
-    {"", FieldShape::vector, FieldNumber::single, "m",
-     "centre: x along the bed, downslope, y across it, above the floor",
-     [](const GrainSource& source, std::size_t) {
-       return each_grain(source, in(source.frame.x), in(source.frame.y));
-     }},
-    {"radius", FieldShape::scalar, FieldNumber::real, "m", "radius",
+    {"", vector, single, "m", "centre: x along the bed, downslope, y across it, above the floor",
+     of_grains<&Frame::x, &Frame::y>},
+    {"radius", scalar, real, "m", "radius",
      [](const GrainSource& source, std::size_t) { return source.statics.radius; }},
-    {"mass", FieldShape::scalar, FieldNumber::real, "kg/m", "mass, per metre of thickness",
+    {"mass", scalar, real, "kg/m", "mass, per metre of thickness",
      [](const GrainSource& source, std::size_t) { return source.statics.mass; }},
-    {"image", FieldShape::vector, FieldNumber::integer, "1",
+    {"image", vector, integer, "1",
      "number of exits through the right periodic edge minus those through the left, and 0",
      [](const GrainSource& source, std::size_t) {
        return each_grain(source, in(source.frame.image), [](Index) { return 0; });
      }},
-    {"velocity", FieldShape::vector, FieldNumber::single, "m/s", "velocity",
-     [](const GrainSource& source, std::size_t) {
-       return each_grain(source, in(source.frame.vx), in(source.frame.vy));
-     }},
-    {"angle", FieldShape::scalar, FieldNumber::single, "rad",
-     "angle turned since the beginning of the run, counter-clockwise positive",
-     [](const GrainSource& source, std::size_t) { return source.frame.angle; }},
-    {"angular_velocity", FieldShape::scalar, FieldNumber::single, "rad/s",
-     "rotation velocity, counter-clockwise positive",
-     [](const GrainSource& source, std::size_t) { return source.frame.omega; }},
-    {"displacement", FieldShape::vector, FieldNumber::real, "m",
-     "displacement since the first frame of the run",
-     [](const GrainSource& source, std::size_t) { return displacements(source); }},
-    {"internal_moment", FieldShape::tensor, FieldNumber::single, "J/m",
+    {"velocity", vector, single, "m/s", "velocity", of_grains<&Frame::vx, &Frame::vy>},
+    {"angle", scalar, single, "rad",
+     "angle turned since the beginning of the run, counter-clockwise positive", of_grains<&Frame::angle>},
+    {"angular_velocity", scalar, single, "rad/s", "rotation velocity, counter-clockwise positive",
+     of_grains<&Frame::omega>},
+    {"displacement", vector, real, "m", "displacement since the first frame of the run", displacements},
+    {"internal_moment", FieldShape::tensor, single, "J/m",
      "internal moment tensor M_ij per metre of thickness (paper, Eq. 4), compression positive; the stress is "
      "M over an area",
-     [](const GrainSource& source, std::size_t) { return moments(source); }},
+     moments},
     // Below a depth of H grains the mean pressure in grains is about 2 rho g H and that of the bed about 1.5
     // rho g H. Both are larger where forces concentrate.
-    mapped({"pressure", FieldShape::scalar, FieldNumber::real, "Pa",
-            "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk",
-            [](const GrainSource& source, std::size_t) { return pressures(source); }},
-           {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain",
-            "P = σ_1 + σ_2 in ρgD", "P", ScaleRule::by_depth, 0.0, 3.0}),
-    {"gamma", FieldShape::scalar, FieldNumber::single, "1",
-     "stress ratio q/p of the single grain; no value if it carries nothing",
-     [](const GrainSource& source, std::size_t) { return source.frame.gamma; }},
-    {"gamma_neighbourhood", FieldShape::scalar, FieldNumber::real, "1",
+    mapped(
+        {"pressure", scalar, real, "Pa",
+         "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk", pressures},
+        {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain", "P = σ_1 + σ_2 in ρgD",
+         "P", ScaleRule::by_depth, 0.0, 3.0}),
+    {"gamma", scalar, single, "1", "stress ratio q/p of the single grain; no value if it carries nothing",
+     of_grains<&Frame::gamma>},
+    {"gamma_neighbourhood", scalar, real, "1",
      "stress ratio of the neighbourhood of the grain, of diameter l_min; no value if the grain carries "
      "nothing",
      [](const GrainSource& source, std::size_t) {
        return Numbers(source.gamma.begin(), source.gamma.end());
      }},
-    {"coordination", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that carry force",
-     [](const GrainSource& source, std::size_t) { return coordination(source); }},
-    {"sliding", FieldShape::scalar, FieldNumber::integer, "1", "contacts of the grain that slide",
-     [](const GrainSource& source, std::size_t) { return sliding(source); }},
-    mapped({"speed", FieldShape::scalar, FieldNumber::single, "m/s", "magnitude of the velocity",
+    {"coordination", scalar, integer, "1", "contacts of the grain that carry force", coordination},
+    {"sliding", scalar, integer, "1", "contacts of the grain that slide", sliding},
+    mapped({"speed", scalar, single, "m/s", "magnitude of the velocity",
             [](const GrainSource& source, std::size_t) {
               return each_grain(source,
                                 [&](Index i) { return std::hypot(source.frame.vx[i], source.frame.vy[i]); });
             }},
            {"speed", "speed of each grain, over sqrt(g D)", "Speed of grains", "in √(gD)", "speed",
             ScaleRule::sizes, 1e-5, 1.0}),
-    mapped({"mobilised_friction", FieldShape::scalar, FieldNumber::real, "1",
+    mapped({"mobilised_friction", scalar, real, "1",
             "mobilised friction, the mean over the contacts of a grain; no value without contacts",
             [](const GrainSource& source, std::size_t) {
               return with_floor(mobilised_friction_of_grains(source), source);
@@ -255,7 +249,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
            {"mobilised", "mobilised friction of each grain, the mean over its contacts",
             "Mobilised friction of grains", "|f_t| / μf_n, mean over the contacts of a grain", "|f_t| / μf_n",
             ScaleRule::fixed, 0.0, 1.0, true, "no contact"}),
-    mapped({"solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
+    mapped({"solid_fraction", scalar, real, "1",
             "share of its cell that a grain fills; no value at the free surface",
             [](const GrainSource& source, std::size_t) {
               return with_floor(local_solid_fractions(source), source);
@@ -263,27 +257,27 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
            {"cells", "local solid fraction: the share of its cell that each grain fills",
             "Local solid fraction", "area of a grain over that of its cell", "solid fraction",
             ScaleRule::fixed, 0.65, 0.95, true, "at the surface"}),
-    {"overloaded", FieldShape::scalar, FieldNumber::integer, "1",
+    {"overloaded", scalar, integer, "1",
      "1 for an overloaded grain, a free grain whose gamma_neighbourhood is at least the threshold; else 0",
      overloaded, FrameNeed::threshold, true},
-    {"lc", FieldShape::scalar, FieldNumber::single, "m",
+    {"lc", scalar, single, "m",
      "coarse-graining length l_c of an overloaded grain; no value for other grains",
      [](const GrainSource& source, std::size_t threshold) {
        return at_threshold(source, threshold, &FrameThreshold::lc, not_known);
      },
      FrameNeed::threshold},
-    {"cluster", FieldShape::scalar, FieldNumber::integer, "1",
+    {"cluster", scalar, integer, "1",
      "cluster of an overloaded grain, 0 the largest of the frame; -1 for other grains", clusters,
      FrameNeed::threshold},
-    mapped({"distance", FieldShape::scalar, FieldNumber::real, "m", "distance that a grain has moved",
-            distances, FrameNeed::earlier_frame},
+    mapped({"distance", scalar, real, "m", "distance that a grain has moved", distances,
+            FrameNeed::earlier_frame},
            {"displacement", "distance that each grain has moved; over another map: arrows", "Displacement",
             "in D", "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
-    mapped({"rotation", FieldShape::scalar, FieldNumber::real, "rad",
-            "rotation of a grain, counter-clockwise positive", rotations, FrameNeed::earlier_frame},
+    mapped({"rotation", scalar, real, "rad", "rotation of a grain, counter-clockwise positive", rotations,
+            FrameNeed::earlier_frame},
            {"rotation", "rotation of each grain", "Rotation", "in °", "rotation", ScaleRule::about_zero,
             -30.0, 30.0, false, "", -10.0, 10.0, turned}),
-    mapped({"nonaffine_displacement", FieldShape::scalar, FieldNumber::real, "m",
+    mapped({"nonaffine_displacement", scalar, real, "m",
             "root mean square displacement of the neighbours relative to their common strain",
             [](const GrainSource& source, std::size_t) {
               return deformation_numbers(
@@ -296,33 +290,33 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
             "Non-affine displacement", "D_m_i_n in D", "D_m_i_n", ScaleRule::sizes, 1e-4, 1.0, false, "",
             1e-5, 1.0}),
     mapped(
-        {"shear_strain", FieldShape::scalar, FieldNumber::real, "1",
-         "shear strain s1 - s2 of the neighbourhood", strains<shear_strain>, FrameNeed::earlier_frame},
+        {"shear_strain", scalar, real, "1", "shear strain s1 - s2 of the neighbourhood",
+         strains<shear_strain>, FrameNeed::earlier_frame},
         {"shear", "shear strain of the neighbourhood of each grain", "Shear strain",
          "s_1 − s_2 of neighbourhoods", "shear strain", ScaleRule::sizes, 1e-4, 1.0, false, "", 1e-5, 1.0}),
-    mapped({"area_strain", FieldShape::scalar, FieldNumber::real, "1",
-            "relative change of area of the neighbourhood; dilation positive", strains<area_strain>,
-            FrameNeed::earlier_frame},
-           {"dilation", "change of area of the neighbourhood of each grain", "Dilation",
-            "ΔA/A of neighbourhoods", "ΔA/A", ScaleRule::about_zero, -0.2, 0.2, false, "", -0.1, 0.1}),
-    mapped({"vorticity", FieldShape::scalar, FieldNumber::real, "1",
+    mapped(
+        {"area_strain", scalar, real, "1", "relative change of area of the neighbourhood; dilation positive",
+         strains<area_strain>, FrameNeed::earlier_frame},
+        {"dilation", "change of area of the neighbourhood of each grain", "Dilation",
+         "ΔA/A of neighbourhoods", "ΔA/A", ScaleRule::about_zero, -0.2, 0.2, false, "", -0.1, 0.1}),
+    mapped({"vorticity", scalar, real, "1",
             "twice the angle by which the neighbourhood has turned, counter-clockwise positive",
             strains<vorticity>, FrameNeed::earlier_frame},
            {"vorticity", "twice the rotation of the neighbourhood of each grain", "Vorticity",
             "2 × turn in rad", "vorticity", ScaleRule::about_zero, -0.5, 0.5, false, "", -0.2, 0.2, turned}),
-    mapped({"coarse_solid_fraction", FieldShape::scalar, FieldNumber::real, "1",
-            "coarse-grained solid fraction", coarse_values<solid_fraction>, FrameNeed::length},
+    mapped({"coarse_solid_fraction", scalar, real, "1", "coarse-grained solid fraction",
+            coarse_values<solid_fraction>, FrameNeed::length},
            {"density", "coarse-grained solid fraction", "Solid fraction", "area of grains over area",
             "solid fraction", ScaleRule::fixed, 0.7, 0.9, true}),
-    mapped({"coarse_pressure", FieldShape::scalar, FieldNumber::real, "Pa",
-            "P = s1 + s2 of the coarse-grained stress", coarse_values<pressure>, FrameNeed::length},
+    mapped({"coarse_pressure", scalar, real, "Pa", "P = s1 + s2 of the coarse-grained stress",
+            coarse_values<pressure>, FrameNeed::length},
            {"stress", "coarse-grained pressure, over rho g D", "Pressure", "P = σ_1 + σ_2 in ρgD", "P",
             ScaleRule::by_depth, 0.0, 2.0, true}),
-    mapped({"coarse_shear_rate", FieldShape::scalar, FieldNumber::real, "1/s", "coarse-grained shear rate",
+    mapped({"coarse_shear_rate", scalar, real, "1/s", "coarse-grained shear rate",
             coarse_values<rate_of_shear>, FrameNeed::length},
            {"shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "Shear rate", "in √(g/D)",
             "shear rate", ScaleRule::sizes, 1e-6, 0.1, true}),
-    mapped({"temperature", FieldShape::scalar, FieldNumber::real, "m^2/s^2", "granular temperature",
+    mapped({"temperature", scalar, real, "m^2/s^2", "granular temperature",
             [](const GrainSource& source, std::size_t) {
               return with_floor(granular_temperatures(source, 0.5 * source.length), source);
             },
@@ -331,7 +325,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
             ScaleRule::sizes, 1e-10, 1e-2, true}),
 });
 
-Numbers strong(const GrainSource& source) {
+Numbers strong(const GrainSource& source, std::size_t) {
   const FrameContacts& contacts = source.frame.contacts;
   double sum = 0.0;
   for (const double force : contacts.fn) sum += force;
@@ -339,42 +333,30 @@ Numbers strong(const GrainSource& source) {
 }
 
 constexpr auto all_of_contacts = std::to_array<FrameQuantity>({
-    {"a", FieldShape::scalar, FieldNumber::integer, "1", "id of the first grain",
-     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.a); }},
-    {"b", FieldShape::scalar, FieldNumber::integer, "1",
+    {"a", scalar, integer, "1", "id of the first grain", of_contacts<&FrameContacts::a>},
+    {"b", scalar, integer, "1",
      "id of the second body; an id not below the number of grains is a plane: a side wall or a smooth floor",
-     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.b); }},
-    {"shift", FieldShape::scalar, FieldNumber::integer, "1",
-     "periodic image: b touches a from x_b + shift * L",
-     [](const GrainSource& source, std::size_t) { return copied(source.frame.contacts.shift); }},
-    {"point", FieldShape::vector, FieldNumber::single, "m", "contact point",
-     [](const GrainSource& source, std::size_t) {
-       return each(source.frame.contacts.count(), in(source.frame.contacts.px), in(source.frame.contacts.py));
-     }},
-    {"normal", FieldShape::vector, FieldNumber::single, "1", "unit normal n, from a to b",
-     [](const GrainSource& source, std::size_t) {
-       return each(source.frame.contacts.count(), in(source.frame.contacts.nx), in(source.frame.contacts.ny));
-     }},
-    {"normal_force", FieldShape::scalar, FieldNumber::single, "N/m",
-     "f_n on b along n, per metre of thickness; compression positive",
-     [](const GrainSource& source, std::size_t) { return source.frame.contacts.fn; }},
-    {"tangential_force", FieldShape::scalar, FieldNumber::single, "N/m",
-     "f_t on b along t = (-n_y, n_x), per metre of thickness",
-     [](const GrainSource& source, std::size_t) { return source.frame.contacts.ft; }},
-    {"mobilisation", FieldShape::scalar, FieldNumber::real, "1",
-     "mobilised friction, the magnitude of f_t over mu f_n",
+     of_contacts<&FrameContacts::b>},
+    {"shift", scalar, integer, "1", "periodic image: b touches a from x_b + shift * L",
+     of_contacts<&FrameContacts::shift>},
+    {"point", vector, single, "m", "contact point", of_contacts<&FrameContacts::px, &FrameContacts::py>},
+    {"normal", vector, single, "1", "unit normal n, from a to b",
+     of_contacts<&FrameContacts::nx, &FrameContacts::ny>},
+    {"normal_force", scalar, single, "N/m", "f_n on b along n, per metre of thickness; compression positive",
+     of_contacts<&FrameContacts::fn>},
+    {"tangential_force", scalar, single, "N/m", "f_t on b along t = (-n_y, n_x), per metre of thickness",
+     of_contacts<&FrameContacts::ft>},
+    {"mobilisation", scalar, real, "1", "mobilised friction, the magnitude of f_t over mu f_n",
      [](const GrainSource& source, std::size_t) {
        return each(source.frame.contacts.count(), [&](Index c) { return mobilisation_of(source, c); });
      }},
-    {"status", FieldShape::scalar, FieldNumber::integer, "1",
-     "1 sticking, 2 sliding (friction fully mobilised)",
+    {"status", scalar, integer, "1", "1 sticking, 2 sliding (friction fully mobilised)",
      [](const GrainSource& source, std::size_t) {
        return each(source.frame.contacts.count(),
                    [&](Index c) { return static_cast<int>(source.frame.contacts.status[c]); });
      }},
-    {"strong", FieldShape::scalar, FieldNumber::integer, "1",
-     "1 if f_n is above its mean over the contacts of the frame, else 0",
-     [](const GrainSource& source, std::size_t) { return strong(source); }, FrameNeed::nothing, true},
+    {"strong", scalar, integer, "1", "1 if f_n is above its mean over the contacts of the frame, else 0",
+     strong, FrameNeed::nothing, true},
 });
 
 }  // namespace

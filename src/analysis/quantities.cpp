@@ -198,11 +198,6 @@ double scaled(std::string_view unit, double value, double mean_diameter) {
   return unit == "rad" ? degrees(value) : value;
 }
 
-double unscaled(std::string_view unit, double value, double mean_diameter) {
-  if (unit == "m") return value * mean_diameter;
-  return unit == "rad" ? radians(value) : value;
-}
-
 std::string scaled_unit(std::string_view unit) {
   if (unit == "m") return "D";
   return std::string(unit == "rad" ? "deg" : unit);

@@ -1,4 +1,8 @@
 #pragma once
+/// Analysis measures frames and runs. analyse_frame (frame_analysis.h) makes a FrameRecord of a frame, a
+/// Quantity of the table below names each number of it, and an Analysis (record.h) holds all of a run. Each
+/// folder is one subject of measurement.
+///
 /// Table of all quantities of an analysis: the member that holds each quantity, its storage, its definition,
 /// and its display. The run file, JSON, plots, traces and figures use this table; a test compares
 /// docs/analysis.md with it. In the code a quantity is identified by its member; names are for files and
@@ -41,11 +45,11 @@ struct Display {
 /// A row of the table of quantities.
 struct Quantity {
   QuantityMember member;
-  std::string name;        ///< "lc/mean": below /analysis in a file, and in JSON
-  std::string shape;       ///< "T F": letters are sizes (docs/analysis.md); empty for a single number
-  std::string unit;        ///< SI, or "1"
-  std::string definition;  ///< one sentence or phrase
-  std::string parameters;  ///< names of the parameters that it depends on, separated by blanks; may be empty
+  std::string name;             ///< "lc/mean": below /analysis in a file, and in JSON
+  std::string shape;            ///< "T F": letters are sizes (docs/analysis.md); empty for a single number
+  std::string unit;             ///< SI, or "1"
+  std::string definition;       ///< one sentence or phrase
+  std::string parameters = {};  ///< names of the parameters that it depends on, separated by blanks
   Display display{};
 };
 
@@ -95,8 +99,6 @@ bool is_of_events(const Quantity& quantity);
 /// Converts from the unit of the table of quantities to that of tables for users: lengths from m to mean
 /// diameters, angles from rad to degrees; other values are unchanged.
 double scaled(std::string_view unit, double value, double mean_diameter);
-/// Converts back.
-double unscaled(std::string_view unit, double value, double mean_diameter);
 /// Returns "D", "deg", or the unit itself.
 std::string scaled_unit(std::string_view unit);
 
@@ -108,5 +110,8 @@ std::string axis_title(std::string_view text, std::string_view unit);
 /// and the title with this unit: "Volume strain ΔV/V (%)".
 double shown(const Quantity& quantity, double value, double mean_diameter);
 std::string shown_title(const Quantity& quantity);
+
+/// Returns the quantities of all events together, then those of each event.
+std::vector<Quantity> event_quantities();
 
 }  // namespace talus::analysis

@@ -13,6 +13,10 @@ namespace talus::app {
 /// estimator. Lengths are in mean diameters, angles in degrees.
 std::string analysis_text(const runs::RunView& run);
 
+/// Returns lines on the distributions of events: count, sizes, waiting angles, fraction that dilates the bed;
+/// or the reason why a number is missing.
+std::string event_summary(const runs::RunView& run);
+
 /// Returns a clause to append to a statement of theta_c (rad) if tilting continued to `tilt` (rad), more than
 /// a degree beyond theta_c, before the flow had failed the slope; else an empty text.
 std::string beyond_repose(double theta_c, double tilt);

@@ -8,11 +8,12 @@
 
 #include "app/commands.h"
 #include "app/json.h"
+#include "app/options.h"
 #include "app/progress.h"
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/text.h"
-#include "io/run_repair.h"
+#include "io/run_file.h"
 #include "scenario/keys.h"
 #include "scenario/scripted_command.h"
 #include "scenario/text.h"
@@ -45,84 +46,72 @@ Json scenario_json(const scenario::Scenario& scenario) {
   return json;
 }
 
-void print_json(const CheckArguments& arguments, const scenario::Scenario& scenario,
-                const session::Estimate& expected) {
-  const Json estimate = {{"grains", expected.grains},
-                         {"floor_grains", expected.floor_grains},
-                         {"contacts", expected.contacts},
-                         {"time_step_s", expected.time_step},
-                         {"deposition_steps", expected.deposition_steps},
-                         {"tilt_steps", expected.tilt_steps},
-                         {"program_parts", expected.program_parts},
-                         {"flow_steps", expected.flow_steps},
-                         {"frames", expected.frames},
-                         {"observable_rows", expected.observable_rows},
-                         {"time_s", expected.seconds},
-                         {"memory_bytes", expected.memory},
-                         {"disk_bytes", expected.disk}};
-  const Json json = {{"path", arguments.scenario},
-                     {"valid", true},
-                     {"scenario", scenario_json(scenario)},
-                     {"estimate", estimate}};
-  print("%s\n", json_text(json).c_str());
-}
-
-std::string duration(double seconds) {
-  if (seconds < 90.0) return fmt::format("{:.0f} s", std::ceil(seconds));
-  if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  if (seconds < 172800.0) return fmt::format("{:.1f} h", seconds / 3600.0);
-  return fmt::format("{:.0f} days", seconds / 86400.0);
-}
-
-void print_line(const char* name, const std::string& text) { print("#   %-11s %s\n", name, text.c_str()); }
-
-/// Prints text that is itself a valid scenario: everything that is not TOML is a comment.
-void print_report(const CheckArguments& arguments, const scenario::Scenario& scenario,
-                  const session::Estimate& expected) {
-  print("# %s is valid\n\n%s\n", arguments.scenario.c_str(), scenario::resolved_toml(scenario).c_str());
-  if (std::string remark; scenario.deposition.method == scenario::DepositionMethod::file) {
-    session::initial_bed(scenario, &remark);
-    if (!remark.empty()) print("# %s\n\n", remark.c_str());
-  }
-  print("# Estimates\n");
-  print_line("grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains));
-  print_line("contacts", fmt::format("about {} at rest", expected.contacts));
-  print_line("time step", scenario::short_text(expected.time_step) + " s (tilt.step / tilt.rate)");
+std::vector<Fact> facts_of(const scenario::Scenario& scenario, const session::Estimate& expected) {
   const scenario::TiltProgram program(scenario);
   const bool until_failure = program.empty() ? !scenario.tilt.end_angle : program.ends_at_repose();
-  if (!program.empty())
-    print_line("programme",
-               fmt::format(
-                   "{} parts, repetitions included, {} s{}", program.segments().size(),
+  const auto at_failure = [until_failure](const char* format) {
+    return until_failure ? fmt::format(fmt::runtime(format), session::assumed_repose) : "";
+  };
+  return {
+      {"grains", fmt::format("{} free, {} on the floor", expected.grains, expected.floor_grains), "grains",
+       expected.grains},
+      {"", "", "floor_grains", expected.floor_grains},
+      {"contacts", fmt::format("about {} at rest", expected.contacts), "contacts", expected.contacts},
+      {"time step", scenario::short_text(expected.time_step) + " s (tilt.step / tilt.rate)", "time_step_s",
+       expected.time_step},
+      {program.empty() ? "" : "programme",
+       fmt::format("{} parts, repetitions included, {} s{}", program.segments().size(),
                    scenario::short_text(
                        std::round(1e3 * expected.time_step * static_cast<double>(expected.tilt_steps)) / 1e3),
-                   until_failure ? fmt::format(" if it fails at {} deg", session::assumed_repose) : ""));
-  print_line(
-      "steps",
-      fmt::format("about {} of deposition, {}{} of tilt{}{}", expected.deposition_steps,
-                  until_failure ? "about " : "", expected.tilt_steps,
-                  until_failure ? fmt::format(" (failure at {} deg)", session::assumed_repose) : "",
-                  expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""));
-  print_line("output",
-             fmt::format("{}, {} of observables", counted(static_cast<std::size_t>(expected.frames), "frame"),
-                         counted(static_cast<std::size_t>(expected.observable_rows), "row")));
-  print_line("time", fmt::format("about {} on one core", duration(expected.seconds)));
-  print_line("memory", "up to about " + session::size_text(expected.memory));
-  print_line("disk", fmt::format("about {}, 2.5 times that while the run is packed",
-                                 session::size_text(expected.disk)));
+                   at_failure(" if it fails at {} deg")),
+       "program_parts", expected.program_parts},
+      {"steps",
+       fmt::format("about {} of deposition, {}{} of tilt{}{}", expected.deposition_steps,
+                   until_failure ? "about " : "", expected.tilt_steps, at_failure(" (failure at {} deg)"),
+                   expected.flow_steps > 0 ? fmt::format(", at most {} of flow", expected.flow_steps) : ""),
+       "deposition_steps", expected.deposition_steps},
+      {"", "", "tilt_steps", expected.tilt_steps},
+      {"", "", "flow_steps", expected.flow_steps},
+      {"output",
+       fmt::format("{}, {} of observables", counted(static_cast<std::size_t>(expected.frames), "frame"),
+                   counted(static_cast<std::size_t>(expected.observable_rows), "row")),
+       "frames", expected.frames},
+      {"", "", "observable_rows", expected.observable_rows},
+      {"time", fmt::format("about {} on one core", session::duration_text(expected.seconds)), "time_s",
+       expected.seconds},
+      {"memory", "up to about " + session::size_text(expected.memory), "memory_bytes", expected.memory},
+      {"disk",
+       fmt::format("about {}, 2.5 times that while the run is packed", session::size_text(expected.disk)),
+       "disk_bytes", expected.disk}};
+}
+
+/// Prints JSON, or text that is itself a valid scenario: everything that is not TOML is a comment.
+void check_scenario(const CheckArguments& arguments) {
+  const scenario::Scenario scenario = scenario::read_scenario(arguments.scenario, arguments.settings);
+  const std::vector<Fact> facts = facts_of(scenario, session::estimate(scenario));
+  if (arguments.json)
+    return print_text(json_text({{"path", arguments.scenario},
+                                 {"valid", true},
+                                 {"scenario", scenario_json(scenario)},
+                                 {"estimate", members_of(facts)}}) +
+                      "\n");
+  print("# {} is valid\n\n{}\n", arguments.scenario, scenario::resolved_toml(scenario));
+  if (std::string remark; scenario.deposition.method == scenario::DepositionMethod::file) {
+    session::initial_bed(scenario, &remark);
+    if (!remark.empty()) print("# {}\n\n", remark);
+  }
+  print_text("# Estimates\n" + lines_of(facts, 12, "#   "));
 }
 
 /// Reports which pieces of the run are damaged, then rethrows `refusal`.
 [[noreturn]] void report_damage(const CheckArguments& arguments, const Error& refusal) {
   const std::vector<std::string> pieces = io::damaged_pieces(arguments.scenario);
-  if (arguments.json) {
-    const Json json = {{"path", arguments.scenario}, {"whole", false}, {"faults", pieces}};
-    print("%s\n", json_text(json).c_str());
-  } else {
-    print("%s: damaged\n", arguments.scenario.c_str());
-    for (const std::string& piece : pieces) print("  fault: %s\n", piece.c_str());
-    if (pieces.empty()) print("  every piece of the run itself is intact\n");
-  }
+  std::vector<Fact> facts = {
+      {"", "", "path", arguments.scenario}, {"", "", "whole", false}, {"", "", "faults", pieces}};
+  for (const std::string& piece : pieces) facts.push_back({"fault: " + piece, ""});
+  if (pieces.empty()) facts.push_back({"every piece of the run itself is intact", ""});
+  if (!arguments.json) print("{}: damaged\n", arguments.scenario);
+  print_facts(facts, arguments.json, 0, "  ");
   throw Error(refusal);
 }
 
@@ -136,46 +125,40 @@ io::RunFile open_verified(const CheckArguments& arguments) {
   }
 }
 
-void print_run_json(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
-  const Json json = {{"path", path},
-                     {"whole", check.faults.empty()},
-                     {"complete", run.complete()},
-                     {"lost", run.lost()},
-                     {"frames", check.frames},
-                     {"observable_rows", check.rows},
-                     {"steps", check.steps},
-                     {"commands", check.commands},
-                     {"largest_overlap_d", check.largest_overlap},
-                     {"largest_mobilisation", check.largest_mobilisation},
-                     {"frames_at_rest", check.frames_at_rest},
-                     {"largest_imbalance_mg", check.largest_imbalance},
-                     {"largest_moment_error", check.largest_moment_error},
-                     {"faults", check.faults}};
-  print("%s\n", json_text(json).c_str());
-}
-
-void print_run(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
-  print("%s: %s, %s\n", path.c_str(), check.faults.empty() ? "intact" : "damaged",
-        run.complete() ? "complete" : "incomplete");
-  if (!run.lost().empty()) print("  lost        %s (before it was repaired)\n", run.lost().c_str());
-  if (check.changed == 0)
-    print("  hashes      correct\n");
-  else
-    print("  hashes      wrong for %zu of the data sets and frames\n", check.changed);
-  print("  series      %s, %s of observables, %s, %s\n", counted(check.frames, "frame").c_str(),
-        counted(check.rows, "row").c_str(), counted(check.steps, "step").c_str(),
-        counted(check.commands, "command").c_str());
-  if (run.has_frames()) {
-    print("  overlap     at most %.2g D\n", check.largest_overlap);
-    print("  friction    at most %.6f of the Coulomb limit\n", check.largest_mobilisation);
-    print("  balance     forces and weight differ by at most %.2g m g (rms) in %s at rest\n",
-          check.largest_imbalance, counted(check.frames_at_rest, "frame").c_str());
-    print("  moments     differ from those of the contacts by at most %.2g of the largest\n",
-          check.largest_moment_error);
-  } else {
-    print("  frames      not kept (--keep analysis), so not checked\n");
-  }
-  for (const std::string& fault : check.faults) print("  fault: %s\n", fault.c_str());
+std::vector<Fact> facts_of(const std::string& path, const io::RunFile& run, const session::RunCheck& check) {
+  const auto shown = [&run](const char* label) { return std::string(run.has_frames() ? label : ""); };
+  std::vector<Fact> facts = {
+      {"", "", "path", path},
+      {"", "", "whole", check.faults.empty()},
+      {"", "", "complete", run.complete()},
+      {run.lost().empty() ? "" : "lost", run.lost() + " (before it was repaired)", "lost", run.lost()},
+      {"hashes", check.changed == 0 ? "correct"
+                                    : fmt::format("wrong for {} of the data sets and frames", check.changed)},
+      {"series",
+       fmt::format("{}, {} of observables, {}, {}", counted(check.frames, "frame"),
+                   counted(check.rows, "row"), counted(check.steps, "step"),
+                   counted(check.commands, "command")),
+       "frames", check.frames},
+      {"", "", "observable_rows", check.rows},
+      {"", "", "steps", check.steps},
+      {"", "", "commands", check.commands},
+      {shown("overlap"), fmt::format("at most {:.2g} D", check.largest_overlap), "largest_overlap_d",
+       check.largest_overlap},
+      {shown("friction"), fmt::format("at most {:.6f} of the Coulomb limit", check.largest_mobilisation),
+       "largest_mobilisation", check.largest_mobilisation},
+      {"", "", "frames_at_rest", check.frames_at_rest},
+      {shown("balance"),
+       fmt::format("forces and weight differ by at most {:.2g} m g (rms) in {} at rest",
+                   check.largest_imbalance, counted(check.frames_at_rest, "frame")),
+       "largest_imbalance_mg", check.largest_imbalance},
+      {shown("moments"),
+       fmt::format("differ from those of the contacts by at most {:.2g} of the largest",
+                   check.largest_moment_error),
+       "largest_moment_error", check.largest_moment_error}};
+  if (!run.has_frames()) facts.push_back({"frames", "not kept (--keep analysis), so not checked"});
+  for (const std::string& fault : check.faults) facts.push_back({"fault: " + fault, ""});
+  facts.push_back({"", "", "faults", check.faults});
+  return facts;
 }
 
 /// Prints the result of all checks; throws Error(bad_data) if the run is damaged.
@@ -189,13 +172,12 @@ void check_run_file(const CheckArguments& arguments) {
     progress(0, frames);
     return session::check_run(run, [&](std::size_t done) { progress(done, frames); });
   }();
-  if (arguments.json)
-    print_run_json(arguments.scenario, run, check);
-  else
-    print_run(arguments.scenario, run, check);
+  if (!arguments.json)
+    print("{}: {}, {}\n", arguments.scenario, check.faults.empty() ? "intact" : "damaged",
+          run.complete() ? "complete" : "incomplete");
+  print_facts(facts_of(arguments.scenario, run, check), arguments.json, 12, "  ");
   if (!check.faults.empty())
-    throw Error(ExitCode::bad_data,
-                fmt::format("{} is damaged: {}", arguments.scenario, check.faults.front()));
+    throw Error(ExitCode::bad_data, "{} is damaged: {}", arguments.scenario, check.faults.front());
 }
 
 }  // namespace
@@ -209,20 +191,51 @@ void add_check_command(CLI::App& app) {
       ->add_option("SCENARIO", arguments->scenario,
                    "Scenario file (TOML; see docs/scenario.md) or run file (RUN.h5)")
       ->required();
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario, e.g. --set contact.friction=0.3")
-      ->allow_extra_args(false);
+  add_scenario_settings(*command, arguments->settings);
   command->add_flag("--json", arguments->json, "Print JSON, with units in the names");
   command->callback([arguments] {
     if (io::is_run(arguments->scenario)) return check_run_file(*arguments);
-    const scenario::Scenario scenario = scenario::read_scenario(arguments->scenario, arguments->settings);
-    const session::Estimate expected = session::estimate(scenario);
-    if (arguments->json)
-      print_json(*arguments, scenario, expected);
-    else
-      print_report(*arguments, scenario, expected);
+    check_scenario(*arguments);
   });
+}
+
+namespace {
+
+struct RepairArguments {
+  std::string run;
+  std::string output;
+  bool overwrite = false;
+};
+
+void print_lines(const char* name, const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) print("  {:<5} {}\n", name, line);
+}
+
+void repair(const RepairArguments& arguments) {
+  const io::RepairReport report = io::repair_run({arguments.run, arguments.output, arguments.overwrite});
+  if (report.was_whole) {
+    print("{} is intact: nothing to repair, and nothing was written\n", arguments.run);
+    return;
+  }
+  print("{}: intact pieces of {}\n", arguments.output, arguments.run);
+  print_lines("kept", report.kept);
+  print_lines("lost", report.lost);
+  if (report.of_folder)
+    print("it cannot be continued; talus info prints its scenario, to compute it again\n");
+}
+
+}  // namespace
+
+void add_repair_command(CLI::App& app) {
+  auto arguments = std::make_shared<RepairArguments>();
+  CLI::App* command = app.add_subcommand(
+      "repair", "Save the intact pieces of a damaged run as a new run; the damaged run is not changed");
+  add_run_argument(*command, arguments->run);
+  add_option(*command, "-o,--output", arguments->output, "FILE",
+             "New run (HDF5); a missing folder is created")
+      ->required();
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing run of this name");
+  command->callback([arguments] { repair(*arguments); });
 }
 
 }  // namespace talus::app

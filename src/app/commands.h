@@ -1,12 +1,15 @@
 #pragma once
-/// The subcommands of `talus`, one file each. Each function adds its command to the parser; the command's
-/// callback does the work and throws Error with the exit code of the cause.
+/// App is the program `talus`. Each function here adds one subcommand to the parser; its callback does the
+/// work and throws Error with the exit code of the cause, which main reports (program_end.h). Commands share
+/// options (options.h, frame_options.h, map_options.h), print facts as text or JSON (json.h), and start runs
+/// (open_run.h) or ensembles (ensemble_workers.h).
 
 #include <CLI/CLI.hpp>
 
 namespace talus::app {
 
-/// Adds all commands, in the groups of the help.
+/// Adds --version, all commands in the groups of the help, and the hidden command `program-help`, by which
+/// the build makes the man pages.
 void add_commands(CLI::App& app);
 
 void add_run_command(CLI::App& app);

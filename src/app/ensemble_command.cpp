@@ -6,27 +6,21 @@
 #include <functional>
 #include <memory>
 
-#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
 #include "app/ensemble_submit.h"
 #include "app/ensemble_workers.h"
-#include "app/jobs_option.h"
-#include "app/member_trials.h"
 #include "app/open_run.h"
+#include "app/options.h"
+#include "app/program_end.h"
 #include "app/progress.h"
-#include "app/stop_signals.h"
 #include "app/terminal.h"
-#include "app/wall_time.h"
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/text.h"
-#include "ensemble/kept_runs.h"
-#include "ensemble/pool.h"
-#include "ensemble/readings.h"
-#include "ensemble/until.h"
+#include "ensemble/member_results.h"
+#include "ensemble/member_task.h"
 #include "ensemble/worker.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
@@ -35,18 +29,14 @@
 namespace talus::app {
 namespace {
 
-struct EnsembleArguments {
+struct EnsembleArguments : EnsembleWorkers {
   std::string scenario;
-  std::string folder;
   std::string member;
   std::string seeds = "1-4";
   std::vector<std::string> axes;
   std::vector<std::string> settings;
   std::string until;
   std::string keep;
-  std::string max_wall;  ///< HH:MM; empty: no limit
-  ensemble::ClaimTimes times;
-  int jobs = default_jobs();
   bool json = false;
 };
 
@@ -63,8 +53,9 @@ void run_ensemble(const EnsembleArguments& arguments) {
       ensemble::plan_variants(arguments.scenario, arguments.settings, arguments.axes),
       ensemble::PlainTask{},
       arguments.keep};
-  const EnsembleView view = compute_ensemble(
-      wanted, {arguments.folder, arguments.times, arguments.max_wall, arguments.jobs}, {arguments.scenario});
+  if (const std::uint64_t seed = wanted.seeds.front(); wanted.seeds.size() == 1 && seed > 1)
+    print_error("talus: note: one seed, number {0}; --seeds 1-{0} are {0} seeds\n", seed);
+  const EnsembleView view = compute_ensemble(wanted, arguments, {arguments.scenario});
   print_text(arguments.json ? ensemble_json(view) + "\n" : ensemble_text(view));
   refuse_failures(view.plan, "left out of the means");
 }
@@ -95,9 +86,9 @@ void compute_member(const EnsembleArguments& arguments) {
   const ensemble::EnsemblePlan plan = ensemble::plan_of(manifest, arguments.folder);
   const auto member = std::ranges::find(plan.members, arguments.member, &ensemble::Member::name);
   if (member == plan.members.end())
-    throw Error(ExitCode::usage, fmt::format("{} has no member {}", arguments.folder, arguments.member));
+    throw Error(ExitCode::usage, "{} has no member {}", arguments.folder, arguments.member);
   if (const std::string damage = io::set_damaged_aside(member->path); !damage.empty())
-    print_error("talus: note: %s; the member is restarted\n", damage.c_str());
+    print_error("talus: note: {}; the member is restarted\n", damage);
   if (ensemble::is_complete(*member)) return;  // another worker was faster
   session::RunControl control;
   control.stop = stop_request();
@@ -121,27 +112,26 @@ void compute_member(const EnsembleArguments& arguments) {
   const CommitOnSignals commit;
   if (session::run_to_end(open.session, open.store, control) == session::RunEnd::stopped)
     throw Error(ExitCode::stopped, "the member was stopped; its run continues from its checkpoint");
-  print("%s is done: state %s\n", member->name.c_str(), hash_text(state_hash(open.session.world())).c_str());
+  print("{} is done: state {}\n", member->name, hash_text(state_hash(open.session.world())));
 }
 
 void work(const EnsembleArguments& arguments) {
   ensemble::WorkerOptions options{
       arguments.folder, arguments.times, {}, [](const std::string& member, int code) {
-        print("%s %s\n", member.c_str(),
+        print("{} {}\n", member,
               code < 0    ? "begun"
               : code == 0 ? "done"
-                          : fmt::format("ended with exit code {}", code).c_str());
+                          : fmt::format("ended with exit code {}", code));
         std::fflush(stdout);
       }};
   options.on_wait = on_wait;
   if (!arguments.max_wall.empty()) options.max_wall = parse_wall_time("--max-wall", arguments.max_wall);
   const ensemble::EnsemblePlan plan =
       ensemble::plan_of(ensemble::read_ensemble(arguments.folder), arguments.folder);
-  refuse_old_tables(plan);
   ensemble::drop_leftovers(plan);
   const ensemble::WorkerEnd end = ensemble::work_on_ensemble(options);
   ensemble::drop_leftovers(plan);
-  print("%zu done and %zu failed here; %zu are under way elsewhere%s\n", end.done, end.failed, end.elsewhere,
+  print("{} done and {} failed here; {} are under way elsewhere{}\n", end.done, end.failed, end.elsewhere,
         end.enough ? "; the requested precision is reached" : "");
 }
 
@@ -164,8 +154,9 @@ void retry(const EnsembleArguments& arguments) {
     io::remove_file(ensemble::failure_path(plan.members[m].path));
     ++count;
   }
-  print("%zu members are waiting again; talus ensemble work %s computes them\n", count,
-        shell_quoted(arguments.folder).c_str());
+  print("{} again; talus ensemble work {} computes {}\n",
+        count == 1 ? "1 member is waiting" : fmt::format("{} members are waiting", count),
+        shell_quoted(arguments.folder), count == 1 ? "it" : "them");
 }
 
 /// Adds the subcommand `ensemble NAME FOLDER`.
@@ -177,12 +168,11 @@ CLI::App* add_folder_command(CLI::App& ensemble, const std::shared_ptr<EnsembleA
 }
 
 void add_time_options(CLI::App& command, const std::shared_ptr<EnsembleArguments>& arguments) {
-  command.add_option("--max-wall", arguments->max_wall,
-                     "Stop with checkpoints before this wall time is over, HH:MM or HH:MM:SS");
-  command
-      .add_option("--stale", arguments->times.stale,
-                  "Seconds without a heartbeat after which a worker on another machine is considered dead; "
-                  "must be the same for all workers")
+  add_option(command, "--max-wall", arguments->max_wall, "HH:MM[:SS]",
+             "Stop with checkpoints before this wall time is over, HH:MM or HH:MM:SS");
+  add_option(command, "--stale", arguments->times.stale, "S",
+             "Seconds without a heartbeat after which a worker on another machine is considered dead; must "
+             "be the same for all workers")
       ->capture_default_str()
       ->check(in_range(1.0, 86400.0));
 }
@@ -199,7 +189,7 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
     ensemble::KnownMembers known;
     const EnsembleView view = view_of_ensemble(arguments->folder, known);
     const EnsembleJobs jobs = jobs_of_ensemble(arguments->folder);
-    print("%s", (arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs)).c_str());
+    print_text(arguments->json ? ensemble_json(view, jobs) + "\n" : ensemble_text(view, jobs));
   });
   add_folder_command(command, arguments, "average",
                      "Write members.csv, averages.csv and ensemble.h5 of the members that are done")
@@ -209,8 +199,8 @@ void add_subcommands(CLI::App& command, const std::shared_ptr<EnsembleArguments>
   CLI::App* member =
       add_folder_command(command, arguments, "member", "Compute one member, which a worker has claimed");
   member->add_option("name", arguments->member, "Its name, such as seed-7")->required();
-  member->add_option("--max-wall", arguments->max_wall,
-                     "Stop with a checkpoint before this wall time is over");
+  add_option(*member, "--max-wall", arguments->max_wall, "HH:MM[:SS]",
+             "Stop with a checkpoint before this wall time is over");
   member->group("");  // internal: called by workers
   member->callback([arguments] { compute_member(*arguments); });
 }
@@ -223,26 +213,22 @@ void add_ensemble_command(CLI::App& app) {
       "ensemble",
       "Compute many beds of one scenario, on one machine or several; repeat the command to continue");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)");
-  command->add_option(
-      "-o,--output", arguments->folder,
-      "Folder of the ensemble; complete members are kept, and new seeds and values are added");
-  command->add_option("--seeds", arguments->seeds, "Seeds, e.g. 1-50 or 1-3,8")->capture_default_str();
-  command
-      ->add_option("--vary", arguments->axes,
-                   "Values of a key, e.g. contact.friction=0.3,0.5; if given several times, all combinations "
-                   "are computed")
+  add_option(*command, "-o,--output", arguments->folder, "FOLDER",
+             "Folder of the ensemble; complete members are kept, and new seeds and values are added");
+  add_option(*command, "--seeds", arguments->seeds, "SEEDS", "Seeds, e.g. 1-50 or 1-3,8")
+      ->capture_default_str();
+  add_option(
+      *command, "--vary", arguments->axes, "KEY=VALUE,...",
+      "Values of a key, e.g. contact.friction=0.3,0.5 or the range 0.2:0.6:0.1; if given several times, all "
+      "combinations are computed")
       ->allow_extra_args(false);
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario in all members, e.g. --set bed.length=100")
-      ->allow_extra_args(false);
-  command->add_option(
-      "--until", arguments->until,
-      "Start no new members once the standard error of a mean is this small, e.g. theta_c:0.2");
+  add_scenario_settings(*command, arguments->settings, " in all members");
+  add_option(*command, "--until", arguments->until, "MEAN:ERROR",
+             "Start no new members once the standard error of a mean is this small, e.g. theta_c:0.2");
   add_jobs_option(*command, arguments->jobs);
-  command->add_option("--keep", arguments->keep,
-                      "Data kept of a finished member: all (default), analysis (everything except the "
-                      "frames), or N (analysis, plus the frames of the N lowest seeds)");
+  add_option(*command, "--keep", arguments->keep, "all|analysis|N",
+             "Data kept of a finished member: all (default), analysis (everything except the frames), or N "
+             "(analysis, plus the frames of the N lowest seeds)");
   command->add_flag("--json", arguments->json, "Print the result as JSON");
   add_time_options(*command, arguments);
   add_subcommands(*command, arguments);

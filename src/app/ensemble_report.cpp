@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fmt/core.h>
 
+#include "base/locked_file.h"
 #include "base/text.h"
-#include "base/text_table.h"
-#include "base/visible_text.h"
 #include "core/statistics.h"
-#include "ensemble/claim.h"
-#include "ensemble/plus_minus.h"
-#include "ensemble/until.h"
-#include "scenario/text.h"
+#include "ensemble/averages.h"
+#include "ensemble/member_results.h"
+#include "ensemble/member_state.h"
+#include "io/durable_file.h"
+#include "scenario/keys.h"
 
 namespace talus::app {
 namespace {
@@ -32,10 +33,10 @@ std::vector<double> values_of(const EnsembleView& view, std::size_t variant, con
 }
 
 std::string unit_of(const EnsembleView& view, const std::string& quantity) {
-  for (const ensemble::MemberNumbers& member : view.numbers)
-    for (const ensemble::NamedNumber& number : member.numbers)
-      if (number.name == quantity) return number.unit;
-  return "";
+  const bool is_known = std::ranges::any_of(view.numbers, [&](const ensemble::MemberNumbers& member) {
+    return find_value(member.numbers, quantity).has_value();
+  });
+  return is_known ? ensemble::unit_of_number(quantity) : "";
 }
 
 /// Returns "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty if no member has the
@@ -49,8 +50,8 @@ std::string mean_line(const EnsembleView& view, std::size_t variant, const std::
       has_error ? ensemble::plus_minus(found.mean, found.error) : fmt::format("{:.4g}", found.mean);
   const std::string spread =
       has_error ? fmt::format(", standard deviation {:.2g}", found.deviation) : std::string();
-  return fmt::format("  {} = {} {}{}, {} of {} members\n", quantity, value, unit_of(view, quantity), spread,
-                     found.count, view.plan.seeds.size());
+  return fmt::format("  {} = {} {}{}, {} of {}\n", quantity, value, unit_of(view, quantity), spread,
+                     found.count, counted(view.plan.seeds.size(), "member"));
 }
 
 std::string means_text(const EnsembleView& view) {
@@ -207,32 +208,92 @@ std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs) {
                     {"members", members}});
 }
 
+namespace {
+
+/// Returns the keys in which the variants differ.
+std::vector<std::string> varied_keys(const std::vector<ensemble::Variant>& variants) {
+  std::vector<std::string> keys = scenario::key_names(variants[0].scenario);
+  std::erase_if(keys, [&variants](const std::string& key) {
+    const std::string first = scenario::value_text(variants[0].scenario, key);
+    return std::ranges::all_of(variants, [&](const ensemble::Variant& variant) {
+      return scenario::value_text(variant.scenario, key) == first;
+    });
+  });
+  return keys;
+}
+
+/// Returns a number with ten digits: 14.419 for 14.419000000000002, which an angle in radians gives in
+/// degrees. Results mean fewer, and ensemble.h5 has them all. Empty for NaN.
+std::string rounded_text(double value) { return std::isnan(value) ? "" : fmt::format("{:.10g}", value); }
+
+/// Returns one row for each finished member: variant, varied keys, seed, hash, version, seconds, and all its
+/// numbers, with units in the column names.
 std::string members_csv(const EnsembleView& view) {
-  // Members from different versions of Talus may have different numbers.
-  std::vector<ensemble::NamedNumber> columns;
-  for (const ensemble::MemberNumbers& member : view.numbers)
-    for (const ensemble::NamedNumber& number : member.numbers)
-      if (std::ranges::find(columns, number.name, &ensemble::NamedNumber::name) == columns.end())
-        columns.push_back(number);
-  TextTable table{{{"variant"}, {"seed"}, {"state_hash"}, {"version"}, {"seconds"}}, {}};
-  for (const ensemble::NamedNumber& column : columns)
-    table.columns.push_back({fmt::format("{} ({})", column.name, column.unit)});
+  std::vector<std::string> names;
+  for (const ensemble::MemberNumbers& member : view.numbers) ensemble::add_names(member, names);
+  TextTable table{{{"variant"}}, {}};
+  const std::vector<std::string> keys = varied_keys(view.plan.variants);
+  for (const std::string& key : keys) table.columns.push_back({key});
+  table.columns.insert(table.columns.end(), {{"seed"}, {"state_hash"}, {"version"}, {"seconds"}});
+  for (const std::string& name : names)
+    table.columns.push_back({fmt::format("{} ({})", name, ensemble::unit_of_number(name))});
   for (std::size_t m = 0; m < view.plan.members.size(); ++m) {
     const ensemble::MemberNumbers& numbers = view.numbers[m];
     const ensemble::Member& member = view.plan.members[m];
     if (view.states[m].stage != ensemble::MemberStage::done) continue;
     auto& row = table.rows.emplace_back();
-    row = {{csv_quoted(view.plan.variants[member.variant].name)},
-           {std::to_string(member.seed)},
-           {numbers.state_hash},
-           {numbers.version},
-           {scenario::short_text(numbers.seconds)}};
-    for (const ensemble::NamedNumber& column : columns) {
-      const double value = ensemble::number_called(numbers, column.name);
-      row.push_back({std::isnan(value) ? "" : scenario::short_text(value)});
+    row.push_back({csv_quoted(view.plan.variants[member.variant].name)});
+    for (const std::string& key : keys) {
+      const std::string value = scenario::value_text(member.scenario, key);
+      row.push_back({parse_number<double>(value) ? value : csv_quoted(value)});
     }
+    row.insert(row.end(), {{std::to_string(member.seed)},
+                           {numbers.state_hash},
+                           {numbers.version},
+                           {rounded_text(numbers.seconds)}});
+    for (const std::string& name : names)
+      row.push_back({rounded_text(ensemble::number_called(numbers, name))});
   }
   return csv_text(table);
+}
+
+ensemble::VariantAverages averages_of_variant(const EnsembleView& view, std::size_t variant,
+                                              ensemble::KnownMembers& known) {
+  std::vector<const ensemble::MemberResult*> members;
+  for (std::size_t m = 0; m < view.plan.members.size(); ++m)
+    if (view.plan.members[m].variant == variant && view.states[m].stage == ensemble::MemberStage::done)
+      members.push_back(&ensemble::analysed_member(view.plan.members[m], known));
+  const ensemble::Variant& found = view.plan.variants[variant];
+  return ensemble::averages_of(found.name, io::read_text(found.scenario_file), std::move(members),
+                               found.scenario.output.frame_every);
+}
+
+void write_files(const std::filesystem::path& folder, const EnsembleView& view,
+                 ensemble::KnownMembers& known) {
+  std::vector<ensemble::VariantAverages> variants;
+  for (std::size_t v = 0; v < view.plan.variants.size(); ++v)
+    variants.push_back(averages_of_variant(view, v, known));
+  io::write_text((folder / "members.csv").string(), members_csv(view));
+  io::write_text((folder / "averages.csv").string(), ensemble::averages_csv(variants));
+  ensemble::write_averages((folder / "ensemble.h5").string(), variants, view.manifest.version);
+}
+
+}  // namespace
+
+EnsembleView write_averages(const std::string& folder, ensemble::KnownMembers& known) {
+  const std::filesystem::path place = folder;
+  ensemble::read_ensemble(folder);  // refuses a folder without an ensemble before a file is created in it
+  EnsembleView view;
+  while_locked((place / "averages.lock").string(), [&] {
+    const ensemble::EnsemblePlan plan = ensemble::plan_of(ensemble::read_ensemble(folder), folder);
+    std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
+    ensemble::find_damage(plan, states, known);
+    for (std::size_t m = 0; m < states.size(); ++m)
+      if (states[m].stage == ensemble::MemberStage::done) ensemble::analysed_member(plan.members[m], known);
+    view = view_of_ensemble(folder, known);
+    if (ensemble::count_of(view.states, ensemble::MemberStage::done) > 0) write_files(place, view, known);
+  });
+  return view;
 }
 
 }  // namespace talus::app

@@ -1,14 +1,13 @@
 #pragma once
-/// Reports of an ensemble: its progress and the results of its members.
+/// Reports of an ensemble: its progress, the results of its members, and their averages.
 
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include "app/ensemble_jobs.h"
+#include "app/ensemble_submit.h"
 #include "ensemble/ensemble_manifest.h"
-#include "ensemble/member_reader.h"
-#include "ensemble/member_state.h"
+#include "ensemble/member_results.h"
 
 namespace talus::app {
 
@@ -38,8 +37,10 @@ std::string count_text(const EnsembleView& view);
 std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs = {});
 std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs = {});
 
-/// Returns one row for each finished member: variant, seed, hash, version, seconds, and all its numbers, with
-/// units in the column names.
-std::string members_csv(const EnsembleView& view);
+/// Writes members.csv, averages.csv and ensemble.h5 for the members that are done into the folder of the
+/// ensemble, and returns its progress; writes nothing if no member is done. Runs without an analysis are
+/// analysed. Processes take turns, so that the files reflect the latest state. Throws as read_ensemble and
+/// analysed_member do.
+EnsembleView write_averages(const std::string& folder, ensemble::KnownMembers& known);
 
 }  // namespace talus::app

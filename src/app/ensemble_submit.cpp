@@ -1,29 +1,26 @@
 #include "app/ensemble_submit.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 
-#include "app/choices.h"
-#include "app/ensemble_jobs.h"
 #include "app/ensemble_report.h"
-#include "app/program_output.h"
-#include "app/stop_signals.h"
+#include "app/options.h"
+#include "app/other_programs.h"
+#include "app/program_end.h"
 #include "app/terminal.h"
-#include "app/wall_time.h"
 #include "base/errors.h"
 #include "base/output_file.h"
-#include "base/paths.h"
 #include "base/text.h"
-#include "base/visible_text.h"
-#include "ensemble/claim.h"
-#include "ensemble/pool.h"
+#include "ensemble/member_state.h"
 #include "ensemble/slurm.h"
-#include "ensemble/slurm_jobs.h"
+#include "ensemble/worker.h"
 #include "io/durable_file.h"
+#include "session/estimate.h"
 
 namespace talus::app {
 namespace {
@@ -68,7 +65,7 @@ void print_commands(const SubmitArguments& arguments, std::size_t missing) {
     throw Error(ExitCode::usage, "options of sbatch have no effect with --engine print; omit them");
   const std::size_t tasks = arguments.tasks > 0 ? arguments.tasks : std::min(missing, ensemble::usual_tasks);
   const std::string command = ensemble::worker_command(array_of(arguments, tasks));
-  for (std::size_t task = 0; task < tasks; ++task) print("%s\n", command.c_str());
+  for (std::size_t task = 0; task < tasks; ++task) print("{}\n", command);
 }
 
 /// Submits and records the job as one unit: a signal takes effect only after the job is recorded.
@@ -89,13 +86,30 @@ ensemble::SlurmJob submit_array(const SubmitArguments& arguments, std::size_t ta
   if (!job) {
     stop_if_asked();
     const std::string said = output.err.empty() ? output.out : output.err;
-    throw Error(ExitCode::unavailable,
-                fmt::format("sbatch submitted nothing{}", said.empty() ? "" : "; it says:\n" + said));
+    throw Error(ExitCode::unavailable, "sbatch submitted nothing{}",
+                said.empty() ? "" : "; it says:\n" + said);
   }
   job->tasks = tasks;
   ensemble::record_job(arguments.folder, *job);
-  if (!output.err.empty()) print_error("%s\n", output.err.c_str());
+  if (!output.err.empty()) print_error("{}\n", output.err);
   return *job;
+}
+
+/// Returns "; a member takes about 2 h 05 min on one core, and up to 300 MB of memory": the largest of the
+/// variants. Empty if it cannot be estimated.
+std::string cost_text(const ensemble::EnsemblePlan& plan) {
+  session::Estimate largest;
+  try {
+    for (const ensemble::Variant& variant : plan.variants) {
+      const session::Estimate each = session::estimate(variant.scenario);
+      largest.seconds = std::max(largest.seconds, each.seconds);
+      largest.memory = std::max(largest.memory, each.memory);
+    }
+  } catch (const Error&) {
+    return "";  // the file of a bed is missing; the members report it
+  }
+  return fmt::format("; a member takes about {} on one core, and up to {} of memory",
+                     session::duration_text(largest.seconds), session::size_text(largest.memory));
 }
 
 void submit(const SubmitArguments& arguments) {
@@ -103,22 +117,17 @@ void submit(const SubmitArguments& arguments) {
   const EnsembleView view = view_of_ensemble(arguments.folder, known);
   const std::size_t missing = view.states.size() - count_ended(view);
   if (missing == 0) {
-    const std::string text = nothing_text(view);
-    if (arguments.engine == "print")
-      print_error("%s", text.c_str());
-    else
-      print_text(text);
+    (arguments.engine == "print" ? print_error_text : print_text)(nothing_text(view));
     return;
   }
   if (arguments.engine == "print") return print_commands(arguments, missing);
   const EnsembleJobs jobs = jobs_of_ensemble(arguments.folder);
-  const std::size_t queued = count_queued(jobs);
+  std::size_t queued = 0;
+  for (const auto& [id, tasks] : jobs.queue) queued += ensemble::total(tasks);
   const std::string folder = shell_quoted(ensemble::path_word(arguments.folder));
   if (arguments.tasks == 0 && queued >= missing) {
-    print(
-        "%s: %zu members are missing, and %zu tasks for them are already in the queue; use --tasks to add "
-        "more\n%s",
-        arguments.folder.c_str(), missing, queued, jobs_text(jobs).c_str());
+    print("{}: {} missing, {} in the queue already; use --tasks to add more\n{}", arguments.folder,
+          counted(missing, "member"), counted(queued, "task"), jobs_text(jobs));
     return;
   }
   const std::size_t tasks =
@@ -126,17 +135,17 @@ void submit(const SubmitArguments& arguments) {
   const ensemble::SlurmJob job = submit_array(arguments, tasks);
   if (jobs.unknown.empty())
     for (const ensemble::SlurmJob& before : jobs.recorded)
-      if (!jobs.is_queued(before) && before.id != job.id) ensemble::forget_job(arguments.folder, before);
+      if (!jobs.queue.contains(before.id) && before.id != job.id)
+        ensemble::forget_job(arguments.folder, before);
   print(
-      "job %s: %zu task%s for %zu missing members; talus ensemble status %s shows them, talus ensemble "
-      "cancel %s ends them\n",
-      job.id.c_str(), tasks, tasks == 1 ? "" : "s", missing, folder.c_str(), folder.c_str());
+      "job {0}: {1} for {2}{3}; talus ensemble status {4} shows them, talus ensemble cancel {4} ends them\n",
+      job.id, counted(tasks, "task"), counted(missing, "missing member"), cost_text(view.plan), folder);
 }
 
 void cancel(const std::string& folder) {
   const std::vector<ensemble::SlurmJob> recorded = ensemble::recorded_jobs(folder);
   if (recorded.empty()) {
-    print("%s: no job of this ensemble is known\n", folder.c_str());
+    print("{}: no job of this ensemble is known\n", folder);
     return;
   }
   for (const auto& [cluster, jobs] : ensemble::by_cluster(recorded)) {
@@ -145,22 +154,21 @@ void cancel(const std::string& folder) {
                   "scancel is not on PATH: run this command on a machine from which jobs can be submitted");
     // A job that has ended and is unknown to Slurm needs no cancelling.
     if (output.status != 0 && output.err.find("Invalid job id") == std::string::npos)
-      throw Error(ExitCode::unavailable, fmt::format("scancel failed; it says:\n{}", output.err));
+      throw Error(ExitCode::unavailable, "scancel failed; it says:\n{}", output.err);
     for (const ensemble::SlurmJob& job : jobs) {
       ensemble::forget_job(folder, job);
-      print("job %s is cancelled\n", job.id.c_str());
+      print("job {} is cancelled\n", job.id);
     }
   }
-  print("computed data are kept; talus ensemble submit %s continues\n",
-        shell_quoted(ensemble::path_word(folder)).c_str());
+  print("computed data are kept; talus ensemble submit {} continues\n",
+        shell_quoted(ensemble::path_word(folder)));
 }
 
 /// Returns a number that Slurm sets in the environment of each task.
 std::string slurm_number(const char* variable) {
   const char* const value = std::getenv(variable);
   if (value == nullptr || !ensemble::is_slurm_number(value))
-    throw Error(ExitCode::usage,
-                fmt::format("{} is not a number: this command is for tasks of a job array", variable));
+    throw Error(ExitCode::usage, "{} is not a number: this command is for tasks of a job array", variable);
   return value;
 }
 
@@ -179,16 +187,15 @@ void requeue(const std::string& folder) {
   ensemble::write_memory(folder, job, task, memory);
   if (memory.idle_starts >= ensemble::max_idle_starts)
     throw Error(ExitCode::stopped,
-                fmt::format("the task is not queued again: {} consecutive starts made no progress on any "
-                            "member; give more --time or memory, and submit again",
-                            ensemble::max_idle_starts));
+                "the task is not queued again: {} consecutive starts made no progress on any member; give "
+                "more --time or memory, and submit again",
+                ensemble::max_idle_starts);
   print("queued again\n");
   std::fflush(stdout);  // Slurm ends this process too
   const ProgramOutput output = output_of(ensemble::requeue_words(job, task), ".", ProgramEnvironment::whole,
                                          "scontrol is not on PATH, so the task cannot be queued again");
   if (output.status != 0)
-    throw Error(ExitCode::unavailable,
-                fmt::format("the task cannot be queued again; scontrol says:\n{}", output.err));
+    throw Error(ExitCode::unavailable, "the task cannot be queued again; scontrol says:\n{}", output.err);
 }
 
 void add_submit(CLI::App& ensemble) {
@@ -201,16 +208,14 @@ void add_submit(CLI::App& ensemble) {
                    "slurm, or print to write one worker command per line, for GNU parallel")
       ->capture_default_str()
       ->check(one_of({"slurm", "print"}));
-  command
-      ->add_option("--tasks", arguments->tasks,
-                   "Number of workers [as many as members are missing and not yet queued for, at most 100]")
+  add_option(*command, "--tasks", arguments->tasks, "N",
+             "Number of workers [as many as members are missing and not yet queued for, at most 100]")
       ->check(in_range(std::size_t{1}, ensemble::max_tasks));
-  command->add_option(
-      "--time", arguments->time,
+  add_option(
+      *command, "--time", arguments->time, "HH:MM[:SS]",
       "Time limit of a task, HH:MM or HH:MM:SS; its worker stops in time, and the task is queued again");
-  command
-      ->add_option("--stale", arguments->stale,
-                   "Seconds without a heartbeat after which a worker on another machine is considered dead")
+  add_option(*command, "--stale", arguments->stale, "S",
+             "Seconds without a heartbeat after which a worker on another machine is considered dead")
       ->capture_default_str()
       ->check(in_range(1.0, 86400.0));
   command->add_option("options", arguments->options,
@@ -230,6 +235,83 @@ void add_submit_commands(CLI::App& ensemble) {
   command->add_option("FOLDER", *folder, "Folder of the ensemble")->required();
   command->group("");  // internal: called by the script of a task
   command->callback([folder] { requeue(*folder); });
+}
+
+namespace {
+
+/// Queries squeue for the jobs of one cluster.
+void query_squeue(const std::vector<ensemble::SlurmJob>& jobs, EnsembleJobs& found) {
+  try {
+    const ProgramOutput output =
+        output_of(ensemble::squeue_words(jobs), ".", ProgramEnvironment::whole,
+                  "squeue is not on PATH: this machine is not part of a Slurm cluster");
+    // Jobs that Slurm has forgotten are an error of squeue if it is asked for no other job.
+    const bool gone = output.err.find("Invalid job id") != std::string::npos;
+    if (output.status != 0 && !gone) found.unknown = output.err.empty() ? "squeue failed" : output.err;
+    found.queue.merge(ensemble::parse_queue(output.out));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::unavailable) throw;
+    found.unknown = error.what();
+  }
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::string tasks_text(const ensemble::QueuedTasks& tasks) {
+  std::vector<std::string> parts;
+  for (const auto& [state, count] : tasks.count) {
+    const std::string why = state == "PENDING" && !tasks.reasons.empty()
+                                ? fmt::format(" ({})", visible_word(joined(tasks.reasons, ", "), 120))
+                                : "";
+    parts.push_back(fmt::format("{} {}{}", count, lower(visible_word(state)), why));
+  }
+  return joined(parts, ", ");
+}
+
+Json tasks_json(const ensemble::QueuedTasks& tasks) {
+  Json states = Json::object();
+  for (const auto& [state, count] : tasks.count) states[lower(state)] = count;
+  return states;
+}
+
+}  // namespace
+
+EnsembleJobs jobs_of_ensemble(const std::string& folder) {
+  EnsembleJobs found{ensemble::recorded_jobs(folder), {}, ""};
+  for (const auto& [cluster, jobs] : ensemble::by_cluster(found.recorded)) query_squeue(jobs, found);
+  return found;
+}
+
+std::string jobs_text(const EnsembleJobs& jobs) {
+  std::string text;
+  for (const ensemble::SlurmJob& job : jobs.recorded) {
+    const auto tasks = jobs.queue.find(job.id);
+    if (tasks != jobs.queue.end())
+      text += fmt::format("job {}: {}\n", job.id, tasks_text(tasks->second));
+    else if (jobs.unknown.empty())
+      text += fmt::format("job {}: no longer in the queue\n", job.id);
+    else
+      text += fmt::format("job {}: unknown, {}\n", job.id, visible(jobs.unknown));
+  }
+  return text;
+}
+
+Json jobs_json(const EnsembleJobs& jobs) {
+  Json json = Json::object();
+  for (const ensemble::SlurmJob& job : jobs.recorded) {
+    const auto found = jobs.queue.find(job.id);
+    const bool known = found != jobs.queue.end();
+    const ensemble::QueuedTasks tasks = known ? found->second : ensemble::QueuedTasks{};
+    json[job.id] = {{"cluster", job.cluster},
+                    {"tasks", job.tasks},
+                    {"queued", known || jobs.unknown.empty() ? tasks_json(tasks) : Json()},
+                    {"reasons", tasks.reasons}};
+  }
+  return json;
 }
 
 }  // namespace talus::app

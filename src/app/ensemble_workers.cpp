@@ -6,25 +6,21 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
-#include <optional>
 #include <thread>
 #include <vector>
 
-#include "app/ensemble_averages.h"
 #include "app/ensemble_report.h"
-#include "app/output_files.h"
 #include "app/progress.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/output_file.h"
-#include "base/visible_text.h"
+#include "base/text.h"
 #include "ensemble/ensemble_manifest.h"
-#include "ensemble/kept_runs.h"
 #include "ensemble/member_state.h"
-#include "ensemble/pool.h"
 #include "ensemble/worker.h"
+#include "io/run_folder.h"
 #include "io/run_store.h"
-#include "io/writer_lock.h"
 
 namespace talus::app {
 namespace {
@@ -145,7 +141,7 @@ std::size_t restart_damaged_members(const ensemble::EnsemblePlan& plan, ensemble
   for (std::size_t m = 0; m < states.size(); ++m) {
     if (states[m].damage.empty()) continue;
     if (const std::string damage = io::set_damaged_aside(plan.members[m].path); !damage.empty())
-      print_error("talus: note: %s; the member is restarted\n", damage.c_str());
+      print_error("talus: note: {}; the member is restarted\n", damage);
     ++count;
   }
   return count;
@@ -178,19 +174,9 @@ void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known) {
   ensemble::drop_leftovers(plan);
   if (const std::size_t dropped = ensemble::drop_frames(manifest, plan, folder, known); dropped > 0)
     print_error(
-        "talus: note: the frames of %zu member%s that %s done were removed (--keep %s); all other data "
-        "are kept\n",
-        dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep).c_str());
-}
-
-void refuse_old_tables(const ensemble::EnsemblePlan& plan) {
-  const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
-  for (std::size_t m = 0; m < states.size(); ++m)
-    if (states[m].has_old_table && states[m].stage != ensemble::MemberStage::done)
-      throw Error(ExitCode::bad_data,
-                  fmt::format("{} is the table of a member whose run was not kept by an earlier version of "
-                              "Talus; use another folder, or remove the table to compute the member again",
-                              ensemble::path_with_extension(plan.members[m].path, ".csv")));
+        "talus: note: the frames of {} member{} that {} done were removed (--keep {}); all other data are "
+        "kept\n",
+        dropped, dropped == 1 ? "" : "s", dropped == 1 ? "is" : "are", visible_word(manifest.keep));
 }
 
 /// Reports variants that a corrected command has withdrawn from an ensemble.
@@ -198,15 +184,14 @@ static void report_withdrawn(const std::vector<ensemble::Variant>& before,
                              const std::vector<ensemble::Variant>& now) {
   for (const ensemble::Variant& variant : before)
     if (std::ranges::find(now, variant.name, &ensemble::Variant::name) == now.end())
-      print_error("talus: note: %s is withdrawn from the ensemble: none of its members could be computed\n",
-                  variant.name.empty() ? "the earlier scenario" : variant.name.c_str());
+      print_error("talus: note: {} is withdrawn from the ensemble: none of its members could be computed\n",
+                  variant.name.empty() ? "the earlier scenario" : variant.name);
 }
 
 void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest& wanted,
                     const std::vector<std::string>& inputs, ensemble::KnownMembers& known) {
   const bool is_new = !ensemble::is_ensemble(folder);
   ensemble::EnsembleManifest asked = wanted;
-  ensemble::take_earlier_names(asked.variants, folder);
   ensemble::hash_beds(asked.variants, folder);
   if (is_new)
     for (const ensemble::Member& member : ensemble::plan_of(asked, folder).members)
@@ -217,7 +202,6 @@ void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest&
   for (const char* name : {"members.csv", "averages.csv", "ensemble.h5"})
     output_target((std::filesystem::path(folder) / name).string(), {true, inputs});
   report_withdrawn(before, ensemble::extend_ensemble(folder, asked).variants);
-  refuse_old_tables(ensemble::plan_of(ensemble::read_ensemble(folder), folder));
   note_missing_locks();
   drop_old_frames(folder, known);
 }
@@ -246,7 +230,7 @@ void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& cons
 }
 
 void on_wait(const std::string& member, const std::string& writer) {
-  print_error("talus: note: %s is postponed: %s is writing its run\n", member.c_str(), writer.c_str());
+  print_error("talus: note: {} is postponed: {} is writing its run\n", member, writer);
 }
 
 }  // namespace talus::app

@@ -1,11 +1,18 @@
 #pragma once
-/// Workers of an ensemble as parallel processes on this machine, with their progress on stderr.
+/// Workers of an ensemble as parallel processes on this machine, with their progress on stderr; and the
+/// trials of `talus perturb` during the run of a member.
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/ensemble_report.h"
-#include "ensemble/claim.h"
+#include "app/options.h"
+#include "core/observables.h"
+#include "ensemble/member_state.h"
+#include "ensemble/member_task.h"
+#include "io/run_file.h"
+#include "session/session.h"
 
 namespace talus::app {
 
@@ -13,7 +20,8 @@ struct EnsembleWorkers {
   std::string folder;
   ensemble::ClaimTimes times;
   std::string max_wall;  ///< HH:MM; empty: no limit
-  int jobs = 1;  ///< parallel workers, each on one thread; 0: missing members are left to other workers
+  /// Parallel workers, each on one thread; 0: missing members are left to other workers.
+  int jobs = processor_count();
 };
 
 /// Moves damaged members aside (set_damaged_aside), reports each on stderr, and leaves them waiting to be
@@ -30,12 +38,8 @@ void compute_members(const EnsembleWorkers& workers, ensemble::KnownMembers& kno
 /// workers. Reports on stderr how many members lost their frames.
 void drop_old_frames(const std::string& folder, ensemble::KnownMembers& known);
 
-/// Throws Error(bad_data) if the folder has the table of a member without its run, as an earlier version of
-/// Talus left it.
-void refuse_old_tables(const ensemble::EnsemblePlan& plan);
-
 /// Creates an ensemble in the folder, or adds missing members to the existing one. `inputs`: files that are
-/// read and never replaced. Throws as extend_ensemble and refuse_old_tables do, and Error(bad_data), before
+/// read and never replaced. Throws as extend_ensemble does, and Error(bad_data), before
 /// the ensemble is created, if a run of another scenario has the name of a member.
 void begin_ensemble(const std::string& folder, const ensemble::EnsembleManifest& wanted,
                     const std::vector<std::string>& inputs, ensemble::KnownMembers& known);
@@ -51,5 +55,17 @@ void refuse_failures(const ensemble::EnsemblePlan& plan, const std::string& cons
 
 /// Reports that a worker postpones a member, and which process is writing its run.
 void on_wait(const std::string& member, const std::string& writer);
+
+/// Fact in the provenance of a run that states the plan of its trials, as plan_text does.
+inline constexpr const char* trials_fact = "trials";
+
+/// Throws Error(bad_data) if the run `path` does not have the trials of this plan.
+void require_trials(const io::RunFile& run, const ensemble::TrialsTask& plan, const std::string& path);
+
+/// Returns a function for RunControl::trials of the run `path`: when the run reaches a state of the plan
+/// whose trials are not stored yet, talus.perturb makes them on a copy of the bed that is held at its tilt.
+/// Throws as require_trials and output_of_python_module do.
+std::function<std::vector<TrialRow>(const session::Session&)> member_trials(const ensemble::TrialsTask& plan,
+                                                                            const std::string& path);
 
 }  // namespace talus::app

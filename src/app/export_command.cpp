@@ -1,24 +1,24 @@
 /// `talus export`: writes runs in formats of other programs.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
-#include <optional>
+#include <sstream>
 
 #include "analysis/record.h"
-#include "app/choices.h"
 #include "app/commands.h"
 #include "app/frame_options.h"
-#include "app/output_files.h"
+#include "app/map_options.h"
+#include "app/options.h"
+#include "app/program_end.h"
 #include "app/progress.h"
-#include "app/stop_signals.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
-#include "base/nearest_word.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "exports/export_files.h"
 #include "io/durable_file.h"
 #include "runs/analysis_parameters.h"
@@ -33,17 +33,28 @@ struct ExportArguments {
   std::string output;
   FrameOptions frames;
   std::vector<std::string> settings;
-  std::optional<double> length;
   bool overwrite = false;
   bool quiet = false;
 };
 
 exports::ExportFormat format_of(const std::string& name) {
   if (const auto format = exports::export_format(name)) return *format;
-  throw Error(ExitCode::usage,
-              fmt::format("--to {}: no such format; expected one of {}{}", visible_word(name),
-                          joined(exports::export_formats(), ", ", &exports::FormatEntry::name),
-                          did_you_mean(name, names_of(exports::export_formats()))));
+  const auto same = [](unsigned char one, unsigned char other) {
+    return std::tolower(one) == std::tolower(other);
+  };
+  std::string readable;  // by the program that was named
+  for (const exports::FormatEntry& entry : exports::export_formats()) {
+    std::string programs(entry.program);
+    std::ranges::replace(programs, ',', ' ');
+    std::istringstream words(programs);
+    for (std::string program; words >> program;)
+      if (std::ranges::equal(program, name, same))
+        readable += fmt::format("{}'{}'", readable.empty() ? "; did you mean " : " or ", entry.name);
+  }
+  if (!readable.empty()) readable += "?";
+  throw Error(ExitCode::usage, "--to {}: no such format; expected one of {}{}", visible_word(name),
+              joined(exports::export_formats(), ", ", &exports::FormatEntry::name),
+              readable.empty() ? did_you_mean(name, names_of(exports::export_formats())) : readable);
 }
 
 /// Reports that quantities of overloaded grains are left out if the threshold is unknown.
@@ -55,8 +66,24 @@ void report_omissions(const io::RunFile& run, const exports::ExportPlan& plan) {
       "its angle of repose is unknown; set a threshold with --set gamma_c=0.3.\n");
 }
 
-bool requests_frames(const FrameOptions& frames) {
-  return !frames.numbers.empty() || !frames.at.empty() || frames.every;
+/// The parameters of an analysis, and for vti the diameter of the coarse-graining function.
+struct ExportParameters {
+  analysis::AnalysisParameters analysis;
+  double length = exports::ExportPlan().field_width;
+};
+
+ExportParameters read_parameters(exports::ExportFormat format, const std::vector<std::string>& settings) {
+  const auto is_length = [](const std::string& setting) {
+    return scenario::trimmed(std::string_view(setting).substr(0, setting.find('='))) == "length";
+  };
+  if (format != exports::ExportFormat::vti && std::ranges::any_of(settings, is_length))
+    throw Error(ExitCode::usage,
+                "--set length: applies only to --to vti, the format of coarse-grained fields");
+  std::vector<scenario::Key<ExportParameters>> keys;
+  for (const runs::AnalysisKey& key : runs::analysis_keys())
+    keys.emplace_back(&ExportParameters::analysis, key);
+  keys.emplace_back(length_key(), &ExportParameters::length);
+  return scenario::parse_settings(keys, settings, "l_min=0");
 }
 
 exports::ExportPlan plan_export(const ExportArguments& arguments) {
@@ -65,16 +92,13 @@ exports::ExportPlan plan_export(const ExportArguments& arguments) {
   plan.output = arguments.output;
   plan.run = arguments.run;
   plan.flow = arguments.frames.flow;
-  plan.parameters = runs::parse_analysis_settings(arguments.settings);
+  const ExportParameters parameters = read_parameters(plan.format, arguments.settings);
+  plan.parameters = parameters.analysis;
+  plan.field_width = parameters.length;
   exports::check_output_name(plan.format, plan.output);
-  if (arguments.length && plan.format != exports::ExportFormat::vti)
-    throw Error(ExitCode::usage, "--length: applies only to --to vti, the format of coarse-grained fields");
-  plan.field_width = arguments.length.value_or(plan.field_width);
-  if (!exports::entry_of(plan.format).has_frames && requests_frames(arguments.frames))
-    throw Error(
-        ExitCode::usage,
-        fmt::format("--to {} writes all rows of the run; --frames, --at and --every have no effect on it",
-                    arguments.format));
+  if (!exports::entry_of(plan.format).has_frames && (!arguments.frames.at.empty() || arguments.frames.every))
+    throw Error(ExitCode::usage, "--to {} writes all rows of the run; --at and --every have no effect on it",
+                arguments.format);
   return plan;
 }
 
@@ -100,11 +124,11 @@ void export_run(const ExportArguments& arguments) {
   for (const std::string& file : stale) io::remove_file(file);
   if (arguments.quiet) return;
   if (!stale.empty())
-    print("%zu files of frames of an earlier export were removed from %s\n", stale.size(),
-          arguments.output.c_str());
+    print("removed from {}: {} of frames of an earlier export\n", arguments.output,
+          counted(stale.size(), "file"));
   if (format.has_frames) report_omissions(run, plan);
-  print("%s: %zu %s%s for %s\n", arguments.output.c_str(), count, format.has_frames ? "frame" : "row",
-        count == 1 ? "" : "s", std::string(format.program).c_str());
+  print("{}: {} for {}\n", arguments.output, counted(count, format.has_frames ? "frame" : "row"),
+        format.program);
 }
 
 }  // namespace
@@ -113,29 +137,17 @@ void add_export_command(CLI::App& app) {
   auto arguments = std::make_shared<ExportArguments>();
   CLI::App* command = app.add_subcommand(
       "export", "Write frames of a run for other programs: ParaView, OVITO, tables, web browsers");
-  command
-      ->add_option("RUN", arguments->run,
-                   "Run to export: RUN.h5, or the folder RUN.h5.run of a run under way")
-      ->required();
+  add_run_argument(*command, arguments->run);
   // Unknown names are rejected by format_of, which suggests the nearest one; the parser only shows the names.
-  command->add_option("--to", arguments->format, "Format. " + exports::list_of_formats())
-      ->required()
-      ->type_name(
-          fmt::format("FORMAT:{{{}}}", joined(exports::export_formats(), ",", &exports::FormatEntry::name)));
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "File or folder to write, depending on the format; missing folders are created")
+  add_option(
+      *command, "--to", arguments->format,
+      fmt::format("FORMAT:{{{}}}", joined(exports::export_formats(), ",", &exports::FormatEntry::name)),
+      "Format. " + exports::list_of_formats())
       ->required();
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a parameter of the analysis of overloaded grains, e.g. --set l_min=0 (see "
-                   "docs/analysis.md)")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--length", arguments->length,
-                   "For --to vti: diameter of the coarse-graining function in mean diameters; the grid "
-                   "spacing is a tenth of it [10]")
-      ->check(in_range(1.0, 1000.0));
+  add_option(*command, "-o,--output", arguments->output, "PATH",
+             "File or folder to write, depending on the format; missing folders are created")
+      ->required();
+  add_analysis_settings(*command, arguments->settings, "l_min=0, or for --to vti length=5");
   command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   add_frame_options(*command, arguments->frames, "all during the tilt");

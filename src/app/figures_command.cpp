@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/frame_options.h"
-#include "app/python_module.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "runs/run_view.h"
 
 namespace talus::app {
@@ -57,37 +57,30 @@ void add_figures_command(CLI::App& app) {
                    "Run files, folders of ensembles, or an ensemble.h5 alone; runs that differ only in their "
                    "seed are averaged. A missing analysis is computed and stored")
       ->required();
-  command->add_option("-o,--output", arguments->folder, "Folder of the figures, created if missing")
+  add_option(*command, "-o,--output", arguments->folder, "FOLDER",
+             "Folder of the figures, created if missing")
       ->required();
-  command
-      ->add_option("--only", arguments->only,
-                   "Figures to make, by name or number, separated by commas: --only fig09,12 [all]")
+  add_option(*command, "--only", arguments->only, "FIGURE,...",
+             "Figures to make, by name or number, separated by commas: --only fig09,12 [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
   add_at_option(*command, arguments->at, " [those of the paper]; only for figures that show single frames");
-  command->add_option("--size", arguments->size,
-                      "Width of the figures in cm, or WIDTHxHEIGHT; a journal column is 8.6 wide, a page "
-                      "17.8 [default of each figure]");
+  add_option(*command, "--size", arguments->size, "SIZE",
+             "Size of the figures: 8.6cm, the width of a column of a journal; 17.8x10cm; or pixels of their "
+             "PNG, as in 1600 or 1920x1080 [default of each figure]");
+  add_analysis_settings(*command, arguments->settings);
   command
-      ->add_option("--set", arguments->settings,
-                   "Change a parameter of the analysis, e.g. --set lc_cut=30 (see docs/analysis.md)")
-      ->allow_extra_args(false);
-  command
-      ->add_option(
-          "--add", arguments->additions,
-          "paper: its values for other beds too; spread: deviations and single runs of more than two "
-          "groups; svg: each figure as SVG too")
+      ->add_option("--add", arguments->additions,
+                   "paper: its values for other beds too; spread: deviations and single runs of more than "
+                   "two groups; svg: each figure as SVG too")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(one_of({"paper", "spread", "svg"}));
-  command->add_option("--style", arguments->style, "Style sheet of matplotlib, by its path or its name");
-  command
-      ->add_option("--threads", arguments->threads,
-                   "Frames analysed and figures drawn in parallel; the result does not depend on it")
-      ->capture_default_str()
-      ->check(in_range(1, 256));
+  add_option(*command, "--style", arguments->style, "FILE",
+             "Style sheet of matplotlib, by its path or its name");
+  add_threads_option(*command, arguments->threads, "Frames analysed and figures drawn in parallel");
   command->add_flag("--overwrite", arguments->overwrite, "Replace existing files");
-  command->add_flag("-q,--quiet", arguments->quiet, "Show no progress");
+  command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
   command->footer("docs/figures.md lists the figures.");
   command->callback([arguments] { make(*arguments); });
 }

@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 #include <memory>
 
-#include "app/choices.h"
 #include "app/commands.h"
 #include "app/frame_options.h"
-#include "app/python_module.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "base/errors.h"
 #include "core/types.h"
 #include "io/run_file.h"
@@ -50,18 +50,18 @@ void compare(const ForcesArguments& arguments) {
 }
 
 void add_search(CLI::App& command, ForcesArguments& search) {
-  command
-      .add_option("--solutions", search.solutions,
-                  "Number of sets of forces to look for, in addition to the solution from the stored forces")
+  add_option(command, "--solutions", search.solutions, "N",
+             "Number of sets of forces to look for, in addition to the solution from the stored forces")
       ->capture_default_str()
       ->check(in_range(1, 10000));
-  command.add_option("--tol", search.tolerance, "Natural-map residual eta that every set must reach")
+  add_option(command, "--tol", search.tolerance, "ETA", "Natural-map residual eta that every set must reach")
       ->capture_default_str()
       ->check(in_range(1e-15, 1.0));
-  command.add_option("--max-iterations", search.max_iterations, "Maximum number of iterations")
+  add_option(command, "--max-iterations", search.max_iterations, "N", "Maximum number of iterations")
       ->capture_default_str()
       ->check(in_range(0, 1000000000));
-  command.add_option("--seed", search.seed, "Seed of the random starts and orders")->capture_default_str();
+  add_option(command, "--seed", search.seed, "SEED", "Seed of the random starts and orders")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -71,13 +71,10 @@ void add_forces_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "forces",
       "Find other admissible forces for the same bed, and compare the quantities measured with them");
-  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
+  add_run_argument(*command, arguments->run);
   add_at_option(*command, arguments->at)->capture_default_str();
   add_search(*command, *arguments);
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a parameter of the analysis, e.g. --set l_min=0 (see docs/analysis.md)")
-      ->allow_extra_args(false);
+  add_analysis_settings(*command, arguments->settings, "l_min=0");
   command->add_flag("--json", arguments->json, "Print a JSON list with one object for each frame");
   command->footer(
       "The grains of each frame are kept in place, and forces that carry them are\nsought from many initial "

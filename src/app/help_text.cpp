@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <fmt/core.h>
-#include <vector>
+
+#include "app/map_options.h"
+#include "base/output_file.h"
+#include "base/version.h"
+#include "io/durable_file.h"
 
 namespace talus::app {
 namespace {
@@ -22,9 +27,9 @@ constexpr Example examples[] = {
     {"replay", "talus replay demo.h5"},
     {"repair", "talus repair damaged.h5 -o whole.h5"},
     {"view", "talus view demo.h5 --at repose --map coarse+forces"},
-    {"render", "talus render demo.h5 --map gamma,clusters --at 0,10,repose"},
-    {"panel", "talus panel demo.h5 --map clusters --at 0,10,repose -o clusters.png"},
-    {"animate", "talus animate demo.h5 --map coarse+forces --speed 2 -o demo.mp4"},
+    {"render", "talus render demo.h5 --at 0,10,repose"},
+    {"panel", "talus panel demo.h5 --map clusters --at 0,10,repose --size 8.6cm"},
+    {"animate", "talus animate demo.h5 --speed 2 --size 1920x1080"},
     {"maps", "talus maps"},
     {"analyze", "talus analyze demo.h5"},
     {"events", "talus events demo.h5 --largest 20"},
@@ -45,42 +50,69 @@ constexpr Example examples[] = {
     {"forces", "talus forces demo.h5 --at 10"},
 };
 
-void add_examples_below(CLI::App& app, const std::string& words) {
-  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    const std::string name = words + command->get_name();
-    add_examples_below(*command, name + " ");
-    const auto* const found = std::ranges::find(examples, name, &Example::command);
-    if (found == std::end(examples)) continue;
-    const std::string before = command->get_footer();
-    command->footer(fmt::format("{}{}Example:\n  {}", before, before.empty() ? "" : "\n", found->text));
-  }
-}
-
-/// Returns "DEG in [2 - 89]" for "DEG:in [2 - 89]", and the choices for "CHOICE:{a,b}"; empty for an
-/// argument, whose name is sufficient.
-std::string value_text(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t colon = type.find(":in ["), choices = type.find(":{");
-  if (choices != std::string::npos) return type.substr(choices + 1);
-  const std::string word = option.get_positional() ? "" : type.substr(0, colon);
-  const std::string range = colon == std::string::npos ? "" : type.substr(colon + 1);
-  return word + (word.empty() || range.empty() ? "" : " ") + range;
-}
-
 /// Removes the brackets in which the parser shows several values, as in "[0,10]".
 std::string without_brackets(const std::string& text) {
   const bool has_them = text.size() > 1 && text.starts_with('[') && text.ends_with(']');
   return has_them ? text.substr(1, text.size() - 2) : text;
 }
 
+/// Returns a and b for a value "{a,b}".
+std::vector<std::string> choices_of(const std::string& value) {
+  return value.starts_with('{') ? CLI::detail::split(value.substr(1, value.size() - 2), ',')
+                                : std::vector<std::string>();
+}
+
+/// Escapes text for roff, so that nothing in it is a request or an escape, and hyphens can be copied.
+std::string roff(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    const bool begins_line = result.empty() || result.back() == '\n';
+    if (begins_line && (c == '.' || c == '\'')) result += "\\&";
+    result += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
+  }
+  return result;
+}
+
+/// Returns the first clause of a description.
+std::string first_clause(const std::string& description) {
+  std::size_t end = description.size();
+  for (const char* stop : {". ", ": ", "; ", " [", ".\n"}) end = std::min(end, description.find(stop));
+  return description.substr(0, end);
+}
+
+void write_man_page(const CLI::App& app, const std::string& name, const std::string& folder) {
+  std::string dashed = name;
+  std::ranges::replace(dashed, ' ', '-');
+  io::write_text(
+      (std::filesystem::path(folder) / (dashed + ".1")).string(),
+      fmt::format(
+          ".TH \"{0}\" 1 \"\" \"Talus {1}\" \"Talus\"\n.SH NAME\n{0} \\- {2}\n.SH DESCRIPTION\n.nf\n{3}.fi\n",
+          roff(dashed), version, roff(first_clause(app.get_description())),
+          roff(HelpText().make_help(&app, name, CLI::AppFormatMode::Normal))));
+  for (const CLI::App* command : visible_commands(app))
+    write_man_page(*command, name + " " + command->get_name(), folder);
+}
+
 }  // namespace
 
-const char* const first_example =
-    "First steps, in the folder that contains assets/scenarios (in an installation\n"
-    "share/talus/scenarios):\n"
-    "  talus run assets/scenarios/demo.toml -o demo.h5\n"
-    "  talus render demo.h5 --map clusters --at 0,10,repose\n"
-    "  talus view demo.h5";
+std::vector<const CLI::App*> visible_commands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<const CLI::Option*> visible_options(const CLI::App& app) {
+  return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
+}
+
+std::string value_text(const CLI::Option& option) {
+  if (option.get_type_size() == 0 || option.get_expected_max() == 0) return {};
+  std::string type =
+      option.get_type_name();  // with the ranges of its validators: "DEG:in [2 - 89]", ":{a,b}"
+  if (const std::size_t choices = type.find(":{"); choices != std::string::npos)
+    return type.substr(choices + 1);
+  if (option.get_positional()) return {};
+  if (const std::size_t range = type.find(":in ["); range != std::string::npos) type[range] = ' ';
+  return type;
+}
 
 std::string wrapped(const std::string& text, std::size_t width) {
   std::string result, rest = text;
@@ -125,7 +157,8 @@ std::string option_row(const CLI::Option& option) {
     if (const std::string value = value_text(option); !value.empty()) text += " " + value;
     if (const std::string standard = without_brackets(option.get_default_str()); !standard.empty())
       text += fmt::format(" [{}]", standard);
-    if (option.get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
+    if (option.get_expected_max() == CLI::detail::expected_max_vector_size && !text.ends_with("..."))
+      text += " ...";
     if (option.get_required()) text += " (required)";
   }
   for (const CLI::Option* other : option.get_needs()) text += " with " + other->get_name();
@@ -141,6 +174,18 @@ std::string title(std::string group) {
   return "\n" + group + ":\n";
 }
 
+/// Returns the line that stands for the options of maps, whose page is that of `talus maps`.
+std::string maps_row(const std::vector<const CLI::Option*>& options) {
+  std::string names;
+  std::size_t count = 0;
+  for (const CLI::Option* option : options)
+    if (option->get_group() == map_group && ++count <= 3)
+      names.append(names.empty() ? "" : ", ").append(option->get_name(false, true));
+  return fmt::format("\nMaps: talus maps --help describes {}{}\n", names,
+                     count > 3 ? " and other options" : "");
+}
+std::string maps_row(const std::vector<const CLI::App*>&) { return {}; }
+
 /// Returns the rows of the items below the titles of their groups, in the order in which groups begin; the
 /// group "" is hidden.
 template <typename Items, typename Row>
@@ -151,6 +196,10 @@ std::string grouped(const Items& items, const Row& row) {
     const std::string group = first->get_group();
     if (std::ranges::find(groups, group) != groups.end()) continue;
     groups.push_back(group);
+    if (group == map_group) {
+      text += maps_row(items);
+      continue;
+    }
     text += title(group);
     for (const auto* item : items)
       if (item->get_group() == group) text += row(*item);
@@ -158,16 +207,19 @@ std::string grouped(const Items& items, const Row& row) {
   return text;
 }
 
-std::string command_row(const CLI::App& command) {
-  return help_row(command.get_name(), command.get_description());
-}
-
 }  // namespace
+
+std::string option_rows(const CLI::App& app) {
+  std::string rows;
+  for (const CLI::Option* option : app.get_options())
+    if (option != app.get_help_ptr()) rows += option_row(*option);
+  return rows;
+}
 
 std::string HelpText::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode) const {
   const auto arguments = app->get_options([](const CLI::Option* option) { return option->get_positional(); });
   const auto options = app->get_options([](const CLI::Option* option) { return option->nonpositional(); });
-  const auto commands = app->get_subcommands([](const CLI::App*) { return true; });
+  const std::vector<const CLI::App*> commands = visible_commands(*app);
 
   std::string text = app->get_description() + "\nUsage: " + name + (options.empty() ? "" : " [OPTIONS]");
   for (const CLI::Option* argument : arguments) text += argument_usage(*argument);
@@ -175,11 +227,56 @@ std::string HelpText::make_help(const CLI::App* app, std::string name, CLI::AppF
   text += "\n";
   if (!arguments.empty()) text += title("Positionals");
   for (const CLI::Option* argument : arguments) text += option_row(*argument);
-  text += grouped(options, option_row) + grouped(commands, command_row);
+  text += grouped(options, option_row) + grouped(commands, [](const CLI::App& command) {
+            return help_row(command.get_name(), command.get_description());
+          });
   const std::string footer = app->get_footer();
   return text + "\n" + footer + (footer.empty() ? "" : "\n");
 }
 
-void add_examples(CLI::App& app) { add_examples_below(app, ""); }
+void add_examples(CLI::App& app, const std::string& words) {
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    const std::string name = words + command->get_name();
+    add_examples(*command, name + " ");
+    const auto* const found = std::ranges::find(examples, name, &Example::command);
+    if (found == std::end(examples)) continue;
+    const std::string before = command->get_footer();
+    command->footer(fmt::format("{}{}Example:\n  {}", before, before.empty() ? "" : "\n", found->text));
+  }
+}
+
+void write_man_pages(const CLI::App& app, const std::string& folder) {
+  prepare_folder(folder);
+  write_man_page(app, app.get_name(), folder);
+}
+
+std::string completions(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  const CLI::Option* before = nullptr;  // the option whose value comes next
+  for (std::size_t k = 0; k + 1 < words.size(); ++k) {
+    before = words[k].starts_with('-') ? command->get_option_no_throw(words[k]) : nullptr;
+    if (before != nullptr && before->get_expected_max() == 0) before = nullptr;
+    const std::vector<const CLI::App*> below = visible_commands(*command);
+    const auto next = std::ranges::find(below, words[k], &CLI::App::get_name);
+    if (next != below.end()) command = *next;
+  }
+  std::string offers;
+  const auto offer = [&offers](const std::string& word, const std::string& description) {
+    offers += fmt::format("{}{}{}\n", word, description.empty() ? "" : " ", first_clause(description));
+  };
+  if (before != nullptr) {
+    for (const std::string& choice : choices_of(value_text(*before))) offer(choice, "");
+  } else if (!words.empty() && words.back().starts_with('-')) {
+    for (const CLI::Option* option : visible_options(*command)) {
+      for (const std::string& name : option->get_lnames()) offer("--" + name, option->get_description());
+      for (const std::string& name : option->get_snames()) offer("-" + name, option->get_description());
+    }
+  } else {
+    for (const CLI::App* below : visible_commands(*command))
+      if (words.empty() || below->get_name().starts_with(words.back()))
+        offer(below->get_name(), below->get_description());
+  }
+  return offers;
+}
 
 }  // namespace talus::app

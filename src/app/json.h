@@ -1,5 +1,5 @@
 #pragma once
-/// JSON output of commands.
+/// Facts that commands print as text or as JSON.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -23,5 +23,24 @@ Json object_of(const std::vector<std::pair<std::string, Value>>& members) {
   for (const auto& [name, value] : members) object[name] = value;
   return object;
 }
+
+/// A fact: a line of a text, a member of a JSON object, or both.
+struct Fact {
+  std::string label;     ///< label of the line; empty: no line
+  std::string text;      ///< text of the line, or of several
+  std::string key = {};  ///< name of the member; empty: no member
+  Json value = {};
+};
+
+/// Returns the text of a number, e.g. with the format "{:.3g}"; "none" for NaN.
+std::string number_text(double value, const char* format = "{:.4g}");
+
+/// Returns the members as a JSON object, and the lines with their labels in a column of this width after
+/// `margin`.
+Json members_of(const std::vector<Fact>& facts);
+std::string lines_of(const std::vector<Fact>& facts, int width, const std::string& margin = "");
+
+/// Prints the facts as JSON or as lines.
+void print_facts(const std::vector<Fact>& facts, bool json, int width, const std::string& margin = "");
 
 }  // namespace talus::app

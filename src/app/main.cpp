@@ -8,14 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "app/command_line.h"
 #include "app/commands.h"
 #include "app/help_text.h"
-#include "app/output_files.h"
 #include "app/program_end.h"
-#include "app/program_help.h"
-#include "app/stop_signals.h"
-#include "app/usage_error.h"
-#include "app/value_words.h"
+#include "app/run_files.h"
+#include "app/terminal.h"
 #include "base/errors.h"
 
 namespace {
@@ -42,17 +40,16 @@ std::vector<std::string> words_of(int argc, char** argv) {
 }
 
 void run(std::vector<std::string> words, CLI::App& app) {
-  app.set_version_flag("--version", talus::app::version_report,
-                       "Display program version information and exit");
   app.require_subcommand(1);
   app.formatter(std::make_shared<talus::app::HelpText>());
   talus::app::add_commands(app);
   talus::app::add_examples(app);
-  talus::app::name_values(app);
   app.footer(
       "Exit codes: 0 done, 64 usage, 65 bad scenario, run or problem, 66 missing input,\n69 no context, "
       "display or tool, 70 internal, 71 out of memory, 73 cannot create output,\n74 I/O error, 75 stopped "
       "and resumable.");
+  if (!words.empty() && words[0] == "complete-words")  // by completions of shells (assets/completions)
+    return talus::app::print_text(talus::app::completions(app, {words.begin() + 1, words.end()}));
   refuse_empty_words(app);
   talus::app::check_arguments(app, words);
   std::ranges::reverse(words);  // the order that the parser expects
@@ -68,8 +65,10 @@ void require_printed() {
 /// Runs the command line; converts parse errors to Error, and passes other exceptions on.
 int run_command_line(int argc, char** argv) {
   CLI::App app{
-      std::string("Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\n") +
-          talus::app::first_example + "\n",
+      "Granular slopes by Contact Dynamics, from a scenario file to maps of failure.\n\nFirst steps, in the "
+      "folder that contains assets/scenarios (in an installation\nshare/talus/scenarios):\n  talus run "
+      "assets/scenarios/demo.toml -o demo.h5\n  talus render demo.h5 --at 0,10,repose\n  talus view "
+      "demo.h5\n",
       "talus"};
   try {
     run(words_of(argc, argv), app);

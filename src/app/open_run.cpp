@@ -2,26 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/core.h>
 
 #include "app/frame_options.h"
-#include "app/output_files.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/output_file.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "base/visible_text.h"
 #include "core/trigonometry.h"
 #include "scenario/scripted_command.h"
-#include "session/branch_start.h"
 #include "session/estimate.h"
 #include "session/frame_state.h"
-#include "session/recorder.h"
+#include "session/run.h"
 #include "session/run_header.h"
-#include "session/run_identity.h"
 
 namespace talus::app {
 
@@ -55,25 +51,22 @@ void require_same_past(const RunRequest& request, const scenario::Scenario& pare
   past.commands = parent.commands;
   const std::string differences = scenario::differences(parent, past);
   if (!differences.empty())
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("a branch of {} shares its past: expected the same bed, deposition and course of the "
-                    "tilt, but {}; use a command of the kind tilt_rate to change the tilt from there on",
-                    request.branch, differences));
+    throw Error(ExitCode::bad_data,
+                "a branch of {} shares its past: expected the same bed, deposition and course of the tilt, "
+                "but {}; use a command of the kind tilt_rate to change the tilt from there on",
+                request.branch, differences);
   for (std::size_t k = 0; k < parent.commands.size(); ++k)
     if (session::is_reached(parent.commands[k], parent, start.script) &&
         std::ranges::find(branch.commands, parent.commands[k]) == branch.commands.end())
-      throw Error(
-          ExitCode::bad_data,
-          fmt::format("{} of {} was carried out before the branch begins; expected it in the branch as well",
-                      scenario::command_section(k), request.branch));
+      throw Error(ExitCode::bad_data,
+                  "{} of {} was carried out before the branch begins; expected it in the branch as well",
+                  scenario::command_section(k), request.branch);
   for (std::size_t k = 0; k < branch.commands.size(); ++k) {
     const scenario::ScriptedCommand& command = branch.commands[k];
     if (session::is_reached(command, branch, start.script) &&
         std::ranges::find(parent.commands, command) == parent.commands.end())
-      throw Error(ExitCode::bad_data,
-                  fmt::format("{} is due {}, before the branch of {} begins; expected a later one",
-                              scenario::command_section(k), scenario::moment_text(command), request.branch));
+      throw Error(ExitCode::bad_data, "{} is due {}, before the branch of {} begins; expected a later one",
+                  scenario::command_section(k), scenario::moment_text(command), request.branch);
   }
 }
 
@@ -111,10 +104,9 @@ void settle_friction(const RunRequest& request, const scenario::Scenario& parent
   }
   if (!request.scenario.empty() && !scripts_friction(session.scenario(), session.schedule()))
     throw Error(ExitCode::bad_data,
-                fmt::format("a command has set the friction of {} to {:g} before this frame, and {} has "
-                            "contact.friction = {:g}; say which holds in the branch with --set "
-                            "contact.friction=VALUE",
-                            request.branch, *commanded, request.scenario, given));
+                "a command has set the friction of {} to {:g} before this frame, and {} has contact.friction "
+                "= {:g}; say which holds in the branch with --set contact.friction=VALUE",
+                request.branch, *commanded, request.scenario, given);
   session.adopt_friction();
   start = session::start_of(session.checkpoint(0.0));
   text = scenario::resolved_toml(session.scenario());
@@ -139,9 +131,9 @@ void require_rate_in_force(const RunRequest& request, const session::Session& se
   for (const char* key : {"tilt.rate", "tilt.step", "tilt.program"})
     if (sets(request.settings, key))
       throw Error(ExitCode::bad_data,
-                  fmt::format("--set {}: a command has set the rate of the tilt of {} to {:g} deg/s before "
-                              "this frame; change it in the branch with a command of the kind tilt_rate",
-                              key, request.branch, degrees(session.tilt_rate())));
+                  "--set {}: a command has set the rate of the tilt of {} to {:g} deg/s before this frame; "
+                  "change it in the branch with a command of the kind tilt_rate",
+                  key, request.branch, degrees(session.tilt_rate()));
 }
 
 }  // namespace
@@ -155,13 +147,13 @@ OpenRun start_branch(const RunRequest& request) {
   scenario::keep_deposition_friction(parent, scenario);
   FrameOptions frame;
   frame.at = {request.at};
-  const std::size_t k = chosen_frames(run, request.branch, frame).front();
+  const std::size_t k = pictures::single_frame(chosen_frames(run, request.branch, frame), request.at);
   io::BranchOrigin origin{
       request.branch, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)), {}};
   try {
     origin.start = session::checkpoint_at_frame(run, k, &scenario);
   } catch (const Error& error) {
-    throw Error(error.code(), fmt::format("{}: {}", request.branch, error.what()));
+    throw Error(error.code(), "{}: {}", request.branch, error.what());
   }
   session::Session session(scenario, origin.start, request.branch, "/branch");
   require_same_past(request, parent, scenario, session.schedule());
@@ -170,14 +162,12 @@ OpenRun start_branch(const RunRequest& request) {
   scenario = session.scenario();
   origin.history = history_of(run, k, parent, scenario);
   if (const auto end = scenario.tilt.end_angle; end && std::abs(degrees(session.world().tilt)) >= *end)
-    throw Error(ExitCode::bad_data,
-                fmt::format("the branch of {} begins at {} deg; expected a tilt.end_angle beyond it",
-                            request.branch, degrees_text(session.world().tilt, 2)));
+    throw Error(ExitCode::bad_data, "the branch of {} begins at {} deg; expected a tilt.end_angle beyond it",
+                request.branch, degrees_text(session.world().tilt, 2));
   session::check_branch_start(origin, scenario, request.branch);
   output_target(request.output, output_of_run(request.branch, request.overwrite));
   io::RunHeader header = session::run_header(
       session, {text, request.scenario, request.command_line, request.threads, std::move(origin)});
-  prepare_folder_of(request.output);
   io::RunStore store = io::RunStore::create(request.output, header, request.overwrite);
   session.record_start();
   session::Recorder(session, store).commit();
@@ -193,15 +183,13 @@ OpenRun start_run(const RunRequest& request) {
   const session::RunOrigin origin =
       session::with_bed({text, request.scenario, request.command_line, request.threads}, session);
   if (!request.bed.empty() && request.bed != origin.bed)
-    throw Error(
-        ExitCode::bad_data,
-        fmt::format("{} (deposition.file) no longer holds the bed with which the ensemble was started; "
-                    "undo the change, then compute this member with talus ensemble retry",
-                    visible(scenario.deposition.file)));
+    throw Error(ExitCode::bad_data,
+                "{} (deposition.file) no longer holds the bed with which the ensemble was started; undo the "
+                "change, then compute this member with talus ensemble retry",
+                visible(scenario.deposition.file));
   io::RunHeader header = session::run_header(session, origin);
   header.provenance.insert(header.provenance.end(), request.facts.begin(), request.facts.end());
   output_target(request.output, output_of_scenario(request.scenario, scenario));
-  prepare_folder_of(request.output);
   io::RunStore store = io::RunStore::create(request.output, header, request.overwrite);
   store.commit({}, session.checkpoint(0.0));
   return {std::move(header), std::move(store), std::move(session)};
@@ -212,9 +200,9 @@ void require_same_scenario(const RunRequest& request, const scenario::Scenario& 
   const scenario::Scenario asked = scenario::read_scenario(request.scenario, request.settings);
   if (asked != stored)
     throw Error(ExitCode::bad_data,
-                fmt::format("{} is a run of another scenario, not of {}: {}; name another run with -o, or "
-                            "restart this one with --overwrite instead of --resume",
-                            request.output, request.scenario, scenario::differences(stored, asked)));
+                "{} is a run of another scenario, not of {}: {}; name another run with -o, or restart this "
+                "one with --overwrite instead of --resume",
+                request.output, request.scenario, scenario::differences(stored, asked));
 }
 
 OpenRun resume_run(const RunRequest& request) {
@@ -227,9 +215,9 @@ OpenRun resume_run(const RunRequest& request) {
   session::refuse_unfinished_replay(header, checkpoint.world, request.output);
   if (const std::string begun_by = runs::version_of(header.provenance); begun_by != version_and_commit())
     print_error(
-        "talus: note: %s was started by version %s and continues with %s, so results may differ in the last "
+        "talus: note: {} was started by version {} and continues with {}, so results may differ in the last "
         "digits or in how they are measured\n",
-        request.output.c_str(), begun_by.c_str(), version_and_commit().c_str());
+        request.output, begun_by, version_and_commit());
   return {std::move(header), std::move(store),
           session::Session(scenario, std::move(checkpoint), request.output)};
 }

@@ -1,45 +1,40 @@
 /// `talus perturb`: finds how strong a push starts an avalanche, at tilts before failure.
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
+#include <string>
 #include <thread>
 
-#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
-#include "app/jobs_option.h"
-#include "app/member_trials.h"
-#include "app/python_module.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "app/terminal.h"
 #include "base/errors.h"
+#include "base/hash.h"
 #include "base/output_file.h"
-#include "base/visible_text.h"
+#include "base/text.h"
+#include "core/trigonometry.h"
 #include "ensemble/worker.h"
+#include "session/run_header.h"
 
 namespace talus::app {
 namespace {
 
-struct PerturbArguments {
+struct PerturbArguments : EnsembleWorkers {
   std::string scenario;
-  std::string folder;
   std::vector<std::string> settings;
   std::string seeds = "1-4";
   std::optional<std::uint64_t> seed;
   ensemble::TrialsTask plan;
   std::string patch = "10x2";
-  int jobs = default_jobs();
 };
-
-/// Returns a manifest with one unnamed variant, whose runs are in the folder itself.
-ensemble::EnsembleManifest manifest_of(const PerturbArguments& arguments) {
-  return {.seeds = ensemble::parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
-          .variants = ensemble::plan_variants(arguments.scenario, arguments.settings, {}),
-          .task = arguments.plan};
-}
 
 /// Adds one seed to the ensemble and computes only that seed. Waits if another process computes it.
 void perturb_seed(const PerturbArguments& arguments, const ensemble::EnsembleManifest& wanted) {
@@ -69,17 +64,19 @@ void report(const PerturbArguments& arguments, const ensemble::EnsemblePlan& pla
 void run_perturb(PerturbArguments& arguments) {
   const std::optional<ensemble::SurfacePatch> patch = ensemble::parse_patch(arguments.patch);
   if (!patch)
-    throw Error(ExitCode::usage,
-                fmt::format("--patch {}: expected width and depth in mean diameters, e.g. 10x2",
-                            visible_word(arguments.patch)));
+    throw Error(ExitCode::usage, "--patch {}: expected width and depth in mean diameters, e.g. 10x2",
+                visible_word(arguments.patch));
   arguments.plan.patch = *patch;
-  const ensemble::EnsembleManifest wanted = manifest_of(arguments);
+  const ensemble::EnsembleManifest wanted{
+      // with one unnamed variant, whose runs are in the folder itself
+      .seeds = ensemble::parse_seeds(arguments.seed ? std::to_string(*arguments.seed) : arguments.seeds),
+      .variants = ensemble::plan_variants(arguments.scenario, arguments.settings, {}),
+      .task = arguments.plan};
   output_target((std::filesystem::path(arguments.folder) / "perturb.md").string(),
                 {true, {arguments.scenario}});
   output_of_python_module("perturb", {"check"});  // before long work
   if (arguments.seed) return perturb_seed(arguments, wanted);
-  const EnsembleView view =
-      compute_ensemble(wanted, {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
+  const EnsembleView view = compute_ensemble(wanted, arguments, {arguments.scenario});
   const ensemble::EnsemblePlan plan = ensemble::plan_of(wanted, arguments.folder);
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be reported");
@@ -99,30 +96,109 @@ void add_perturb_command(CLI::App& app) {
       "Push the surface at tilts up to failure, and find the weakest push that starts an avalanche");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
-  command
-      ->add_option("-o,--output", arguments->folder, "Folder of runs and tables; complete members are kept")
+  add_option(*command, "-o,--output", arguments->folder, "FOLDER",
+             "Folder of runs and tables; complete members are kept")
       ->required();
-  CLI::Option* seeds =
-      command->add_option("--seeds", arguments->seeds, "Seeds, e.g. 1-4 or 1-3,8")->capture_default_str();
-  command->add_option("--seed", arguments->seed, "Compute only this seed, without a summary; for job arrays")
+  CLI::Option* seeds = add_option(*command, "--seeds", arguments->seeds, "SEEDS", "Seeds, e.g. 1-4 or 1-3,8")
+                           ->capture_default_str();
+  add_option(*command, "--seed", arguments->seed, "SEED",
+             "Compute only this seed, without a summary; for job arrays")
       ->excludes(seeds);
-  command
-      ->add_option("--from", arguments->plan.first, "First tilt at which copies of the bed are pushed, deg")
+  add_option(*command, "--from", arguments->plan.first, "DEG",
+             "First tilt at which copies of the bed are pushed, deg")
       ->capture_default_str()
       ->check(in_range(0.0, ensemble::TrialsTask::highest));
-  command->add_option("--every", arguments->plan.every, "Interval of tilt between these states, deg")
+  add_option(*command, "--every", arguments->plan.every, "DEG", "Interval of tilt between these states, deg")
       ->capture_default_str()
       ->check(in_range(ensemble::TrialsTask::min_every, ensemble::TrialsTask::highest));
-  command
-      ->add_option("--patch", arguments->patch,
-                   "Width and depth of the pushed part of the surface, in mean diameters")
+  add_option(*command, "--patch", arguments->patch, "WIDTHxDEPTH",
+             "Width and depth of the pushed part of the surface, in mean diameters")
       ->capture_default_str();
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario, e.g. --set deposition.friction=0.15")
-      ->allow_extra_args(false);
+  add_scenario_settings(*command, arguments->settings);
   add_jobs_option(*command, arguments->jobs);
   command->callback([arguments] { run_perturb(*arguments); });
+}
+
+namespace {
+
+/// Returns the tilt of a session in deg, rounded to the step.
+double tilt_of(const session::Session& session) {
+  const double step = session.scenario().tilt.step;
+  return static_cast<double>(std::llround(degrees(session.world().tilt) / step)) * step;
+}
+
+/// Whether the session is at a tilt of the plan, before failure.
+bool is_due(const session::Session& session, const ensemble::TrialsTask& plan) {
+  if (session.phase() != session::Phase::tilt || session.angle_of_repose()) return false;
+  const auto steps = [&](double angle) { return std::llround(angle / session.scenario().tilt.step); };
+  const auto since_first = steps(tilt_of(session)) - steps(plan.first);
+  return since_first >= 0 && since_first % std::max(1LL, steps(plan.every)) == 0;
+}
+
+/// A copy of the bed as a run that can be resumed, held at its tilt: neither commands, a guard nor a failure
+/// ends it. Its file exists as long as the object.
+class HeldBed {
+ public:
+  HeldBed(const session::Session& session, std::string path) : path_(std::move(path)) {
+    session::Session held = session.copy();
+    held.apply({0, CommandKind::tilt_rate, -1, 0.0});
+    if (held.schedule().drag) held.apply({0, CommandKind::release});
+    const io::Checkpoint state = held.checkpoint(0.0);
+    scenario::Scenario scenario = session.scenario();
+    scenario.commands.clear();
+    scenario.guards.action = scenario::GuardAction::warn;
+    scenario.tilt.program.clear();
+    scenario.tilt.after_failure = scenario::AfterFailure::stop;
+    scenario.tilt.end_angle = session::steepest_tilt;
+    session::RunOrigin origin{scenario::resolved_toml(scenario), "", "", 1};
+    origin.branch = io::BranchOrigin{"a program", 0, hash_text(state_hash(held.world())), state, ""};
+    const io::RunHeader header = session::run_header(session::Session(scenario, state), origin);
+    io::RunStore::create(path_, header, true).commit({}, state);
+  }
+  ~HeldBed() {
+    std::error_code ignored;
+    std::filesystem::remove_all(io::run_folder(path_), ignored);
+  }
+  HeldBed(const HeldBed&) = delete;
+  HeldBed& operator=(const HeldBed&) = delete;
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+void require_trials(const io::RunFile& run, const ensemble::TrialsTask& plan, const std::string& path) {
+  const std::string found = find_value(run.header().provenance, trials_fact).value_or("none");
+  if (found != ensemble::plan_text(plan))
+    throw Error(ExitCode::bad_data,
+                "{} has the trials '{}', expected '{}'; use another folder, or remove the run", path,
+                visible_word(found, 120), ensemble::plan_text(plan));
+}
+
+std::function<std::vector<TrialRow>(const session::Session&)> member_trials(const ensemble::TrialsTask& plan,
+                                                                            const std::string& path) {
+  const io::RunFile run = io::RunFile::open(path);
+  require_trials(run, plan, path);
+  const std::vector<TrialRow> known = run.trials();
+  double reached = known.empty() ? -1.0 : at(known.back(), TrialField::tilt);
+  return [plan, reached, bed = path + ".trials.h5"](const session::Session& session) mutable {
+    const double tilt = tilt_of(session);
+    std::vector<TrialRow> rows;
+    if (tilt <= reached || !is_due(session, plan)) return rows;  // a tilt may be held, or fall
+    reached = tilt;
+    const HeldBed held(session, bed);
+    std::istringstream numbers =
+        text_stream(output_of_python_module("perturb", {"trials", bed, ensemble::patch_text(plan.patch)}));
+    std::string bracket;
+    std::getline(numbers, bracket);
+    print_error("{:.3f} deg: {}\n", tilt, bracket);
+    TrialRow row{static_cast<double>(session.world().step), tilt};
+    constexpr auto first = static_cast<std::size_t>(TrialField::velocity);
+    for (std::size_t k = first; numbers >> row[k]; k = k + 1 < row.size() ? k + 1 : first)
+      if (k + 1 == row.size()) rows.push_back(row);
+    return rows;
+  };
 }
 
 }  // namespace talus::app

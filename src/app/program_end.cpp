@@ -1,12 +1,14 @@
 #include "app/program_end.h"
 
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <csignal>
-#include <cstdio>
+#include <cstdint>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <new>
 #include <string>
@@ -14,46 +16,23 @@
 #include <system_error>
 
 #include "app/terminal.h"
+#include "base/child_program.h"
 #include "base/errors.h"
-#include "base/sanitizers.h"
-#include "io/file_in_use.h"
+#include "base/output_file.h"
 
 namespace talus::app {
 namespace {
 
-constexpr std::string_view out_of_memory =
-    "talus: error: out of memory: use a smaller bed (bed.length, bed.depth)\n";
-
-/// Reports a requested stop, which is not an error, in one plain sentence.
-int report_stopped(std::string sentence) {
-  if (!sentence.empty())
-    sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  print_error("%s.\n", sentence.c_str());
-  return static_cast<int>(ExitCode::stopped);
-}
-
 int report(ExitCode code, const char* message) {
-  print_error("talus: error: %s\n", message);
+  print_error("talus: error: {}\n", message);
   return static_cast<int>(code);
 }
 
-/// Writes to stderr without allocating; safe in a signal handler.
-void write_to_stderr(std::string_view text) {
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
-}
-
+/// Reports lack of memory without allocating any.
 int report_out_of_memory() {
-  write_to_stderr(out_of_memory);
+  constexpr char text[] = "talus: error: out of memory: use a smaller bed (bed.length, bed.depth)\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, sizeof text - 1);
   return static_cast<int>(ExitCode::out_of_memory);
-}
-
-int report_malformed(std::string_view path) {
-  write_to_stderr("talus: error: ");
-  // visible() would allocate memory.
-  for (const char& c : path) write_to_stderr(c >= ' ' && c <= '~' ? std::string_view(&c, 1) : "?");
-  write_to_stderr(
-      ": HDF5 crashes on this file: it is malformed, although its hash is right; restore it from a copy\n");
-  return static_cast<int>(ExitCode::bad_data);
 }
 
 /// Ends the program on exceptions that main does not see: those of threads, or before main begins. There is
@@ -61,46 +40,15 @@ int report_malformed(std::string_view path) {
 [[noreturn]] void end_without_main() noexcept {
   if (std::current_exception()) _exit(report_exception());
   if (errno == ENOMEM) _exit(report_out_of_memory());
-  _exit(report(ExitCode::internal, "ended for an unknown reason"));
+  std::abort();
 }
 
-/// Reports lack of memory at exit, because HDF5 calls exit(-1) if some of its allocations fail.
-void report_exit_out_of_memory() {
-  if (errno == ENOMEM) _exit(report_out_of_memory());
-}
-
-/// Whether a sanitizer reports crashes.
-constexpr bool crashes_are_reported = sanitizes_addresses || sanitizes_threads;
-
-/// Signals raised in HDF5 if other allocations of it fail, or if a file is malformed.
-constexpr int crash_signals[] = {SIGSEGV, SIGBUS, SIGABRT};
-
-/// Reports a crash as lack of memory if the last system error was ENOMEM, because errno stays until the next
-/// error; otherwise as a malformed file if HDF5 is reading one. Any other crash takes its usual course and
-/// leaves a core.
-void report_crash(int signal) {
-  if (errno == ENOMEM) _exit(report_out_of_memory());
-  if (io::file_in_use != nullptr) _exit(report_malformed(io::file_in_use));
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
-
-/// Installs the crash handler on a separate stack, because a crash may be an endless recursion.
-void catch_crashes() {
-  alignas(16) static char stack[16384];
-  const stack_t other = {.ss_sp = stack, .ss_flags = 0, .ss_size = sizeof stack};
-  sigaltstack(&other, nullptr);
-  struct sigaction action = {};
-  action.sa_handler = report_crash;
-  action.sa_flags = SA_ONSTACK;
-  for (const int signal : crash_signals) sigaction(signal, &action, nullptr);
-}
-
-/// Runs before all other initialisation.
+/// Runs before all other initialisation. HDF5 calls exit(-1) if some of its allocations fail.
 [[gnu::constructor(101)]] void install_handlers() {
   std::set_terminate(end_without_main);
-  std::atexit(report_exit_out_of_memory);
-  if (!crashes_are_reported) catch_crashes();
+  std::atexit([] {
+    if (errno == ENOMEM) _exit(report_out_of_memory());
+  });
 }
 
 }  // namespace
@@ -109,21 +57,121 @@ int report_exception() {
   try {
     throw;
   } catch (const LocatedError& error) {
-    print_error("%s\n", error.what());
+    print_error("{}\n", error.what());
     return static_cast<int>(error.code());
   } catch (const Error& error) {
-    if (error.code() == ExitCode::stopped) return report_stopped(error.what());
-    return report(error.code(), error.what());
+    if (error.code() != ExitCode::stopped) return report(error.code(), error.what());
+    std::string sentence = error.what();  // a requested stop is not an error
+    if (!sentence.empty())
+      sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
+    print_error("{}.\n", sentence);
+    return static_cast<int>(ExitCode::stopped);
   } catch (const std::bad_alloc&) {
     return report_out_of_memory();
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::not_enough_memory) return report_out_of_memory();
-    const bool no_thread = error.code() == std::errc::resource_unavailable_try_again;
-    return report(no_thread ? ExitCode::out_of_memory : ExitCode::internal,
-                  no_thread ? "the system cannot start more threads; use --threads 1" : error.what());
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report(ExitCode::out_of_memory, "the system cannot start more threads; use --threads 1");
+    return report(ExitCode::internal, error.what());
   } catch (const std::exception& error) {
     return report(ExitCode::internal, error.what());
   }
+}
+
+namespace {
+
+constexpr const char* sentence = "stopped; unfinished results are not kept";
+
+volatile std::sig_atomic_t stop_requested = 0;
+volatile std::sig_atomic_t commits_first = 0;
+volatile std::sig_atomic_t checkpoint_requested = 0;
+
+void set_alarm(int microseconds) {
+  const itimerval once = {{0, 0}, {0, microseconds}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+/// Monotonic time of the first signal, ns; 0 before it.
+std::atomic<std::int64_t> first_signal = 0;
+
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  return std::int64_t{1'000'000'000} * time.tv_sec + time.tv_nsec;
+}
+
+/// Whether a signal after the first ends the process at once, as every file is complete at any time.
+bool ends_at_once(const siginfo_t& signal, std::int64_t since_first) {
+  if (const auto request = passed_on(signal)) return *request == StopRequest::at_once;
+  return static_cast<double>(since_first) >= 1e9 * repeats_end;
+}
+
+/// Handles the first signal as a request to stop.
+void handle_stop(int, siginfo_t* signal, void*) {
+  const std::int64_t time = now();
+  std::int64_t first = 0;
+  if (!first_signal.compare_exchange_strong(first, time)) {
+    if (ends_at_once(*signal, time - first)) _exit(static_cast<int>(ExitCode::stopped));
+    return;
+  }
+  stop_requested = 1;
+  if (commits_first == 0) set_alarm(300'000);  // a command that checks stop_request() can clean up until then
+}
+
+void handle_alarm(int) {
+  constexpr std::string_view text = "Stopped; unfinished results are not kept.\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+  remove_unfinished_files();
+  _exit(static_cast<int>(ExitCode::stopped));
+}
+
+void handle_checkpoint(int) { checkpoint_requested = 1; }
+
+void catch_signal(int signal, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+void catch_stop(int signal) {
+  struct sigaction action = {};
+  action.sa_sigaction = handle_stop;
+  action.sa_flags = SA_RESTART | SA_SIGINFO;
+  sigaction(signal, &action, nullptr);
+}
+
+bool is_ignored(int signal) {
+  struct sigaction action = {};
+  return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+}  // namespace
+
+void end_on_signals() {
+  catch_signal(SIGALRM, handle_alarm);
+  for (const int signal : {SIGINT, SIGTERM}) catch_stop(signal);
+  if (!is_ignored(SIGHUP)) catch_stop(SIGHUP);
+}
+
+const volatile std::sig_atomic_t* stop_request() { return &stop_requested; }
+
+bool asked_to_stop() { return stop_requested != 0; }
+
+void stop_if_asked() {
+  if (asked_to_stop()) throw Error(ExitCode::stopped, sentence);
+}
+
+CommitOnSignals::CommitOnSignals() {
+  commits_first = 1;
+  set_alarm(0);
+}
+
+CommitOnSignals::~CommitOnSignals() { commits_first = 0; }
+
+volatile std::sig_atomic_t* catch_checkpoint_signal() {
+  catch_signal(SIGUSR1, handle_checkpoint);
+  return &checkpoint_requested;
 }
 
 }  // namespace talus::app

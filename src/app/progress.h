@@ -1,15 +1,18 @@
 #pragma once
-/// Progress on stderr: one line, rewritten in place on a terminal, printed at intervals in a log.
+/// Progress on stderr: one line, rewritten in place on a terminal, printed at intervals in a log; and a
+/// remark at the end of a run on steps that did not reach their tolerance.
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/watch.h"
+#include "core/types.h"
 #include "session/run.h"
+#include "session/session.h"
 
 namespace talus::app {
 
@@ -79,5 +82,12 @@ CountDone count_shown(std::string label, bool quiet);
 /// Returns a function that shows the state of a run in the same way; the line ends when the last copy of the
 /// function is destroyed.
 std::function<void(const session::RunProgress&)> run_shown(bool quiet);
+
+struct StepRemark {
+  bool usual = true;  ///< false: the text is a warning
+  std::string text;   ///< empty if all steps converged
+};
+/// Returns the remark on a run of `steps` steps in total.
+StepRemark remark_on(const session::SolverRecord& record, std::int64_t steps);
 
 }  // namespace talus::app

@@ -1,24 +1,22 @@
 /// `talus replay`: recomputes a run from its scenario and its commands, and compares the end states.
 
-#include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
 #include <optional>
-#include <thread>
 
-#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/open_run.h"
-#include "app/output_files.h"
+#include "app/options.h"
+#include "app/program_end.h"
 #include "app/progress.h"
-#include "app/stop_signals.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/hash.h"
-#include "base/paths.h"
-#include "base/visible_text.h"
+#include "base/output_file.h"
+#include "base/text.h"
 #include "io/run_file.h"
 #include "session/run_header.h"
 
@@ -28,7 +26,7 @@ namespace {
 struct ReplayArguments {
   std::string run;
   std::string output;  ///< empty: the recomputed run is not kept
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int threads = processor_count();
   bool overwrite = false;
   bool quiet = false;
 };
@@ -57,11 +55,9 @@ std::optional<io::RunStore> begin_output(const ReplayArguments& arguments, const
   if (arguments.output.empty()) return std::nullopt;
   refuse_same(arguments);
   if (!arguments.overwrite && io::run_presence(arguments.output) != io::RunPresence::none)
-    throw Error(
-        ExitCode::cannot_create,
-        fmt::format("{} exists already; replace it with --overwrite, or choose another output with -o",
-                    arguments.output));
-  prepare_folder_of(arguments.output);
+    throw Error(ExitCode::cannot_create,
+                "{} exists already; replace it with --overwrite, or choose another output with -o",
+                arguments.output);
   io::RunHeader header = session::run_header(
       session, session::with_bed({run.header().scenario_given, fact(run.header().provenance, "scenario_file"),
                                   command_line(), arguments.threads, run.header().branch},
@@ -73,8 +69,7 @@ std::optional<io::RunStore> begin_output(const ReplayArguments& arguments, const
 
 void compare(const ReplayArguments& arguments, const io::RunFile& run, const World& recomputed) {
   const World& stored = run.checkpoint().world;
-  if (!arguments.quiet)
-    print("stored      %s\nrecomputed  %s\n", end_text(stored).c_str(), end_text(recomputed).c_str());
+  if (!arguments.quiet) print("stored      {}\nrecomputed  {}\n", end_text(stored), end_text(recomputed));
   if (state_hash(stored) == state_hash(recomputed)) return;
   // Runs of earlier versions do not record the bed that they started with.
   const std::string file = runs::stored_scenario(run.header(), arguments.run).deposition.file;
@@ -82,12 +77,10 @@ void compare(const ReplayArguments& arguments, const io::RunFile& run, const Wor
       !file.empty() && !run.header().branch && session::bed_of(run.header().provenance).empty();
   throw Error(
       ExitCode::internal,
-      fmt::format("{}: its scenario and commands give an end state that differs from the stored one; it "
-                  "was computed by version {}, whose results may differ in the last digits{}",
-                  arguments.run, runs::version_of(run.header().provenance),
-                  may_be_bed
-                      ? fmt::format(", or its bed (deposition.file) in {} has changed since", visible(file))
-                      : ""));
+      "{}: its scenario and commands give an end state that differs from the stored one; it was computed by "
+      "version {}, whose results may differ in the last digits{}",
+      arguments.run, runs::version_of(run.header().provenance),
+      may_be_bed ? fmt::format(", or its bed (deposition.file) in {} has changed since", visible(file)) : "");
 }
 
 void replay_run(const ReplayArguments& arguments) {
@@ -107,8 +100,8 @@ void replay_run(const ReplayArguments& arguments) {
   control.stop = stop_request();
   control.on_step = run_shown(arguments.quiet);
   if (!arguments.quiet)
-    print("%s: %lld steps, %zu commands\n", arguments.run.c_str(),
-          static_cast<long long>(run.checkpoint().world.step), commands.size());
+    print("{}: {} steps, {}\n", arguments.run, run.checkpoint().world.step,
+          counted(commands.size(), "command"));
   const session::RunEnd end = [&] {
     const CommitOnSignals commit;
     return session::replay(session, store ? &*store : nullptr, commands, run.checkpoint().world.step,
@@ -116,10 +109,9 @@ void replay_run(const ReplayArguments& arguments) {
   }();
   control.on_step = {};  // ends the line
   if (end == session::RunEnd::stopped)
-    throw Error(
-        ExitCode::stopped,
-        fmt::format("stopped after {} of {} steps: nothing was compared; repeat the replay from its start",
-                    session.world().step, run.checkpoint().world.step));
+    throw Error(ExitCode::stopped,
+                "stopped after {} of {} steps: nothing was compared; repeat the replay from its start",
+                session.world().step, run.checkpoint().world.step);
   compare(arguments, run, session.world());
 }
 
@@ -129,13 +121,10 @@ void add_replay_command(CLI::App& app) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = app.add_subcommand(
       "replay", "Recompute a run from its scenario and its commands, and compare the end states");
-  command->add_option("RUN", arguments->run, "Run file, or the name of an incomplete run")->required();
-  CLI::Option* output =
-      command->add_option("-o,--output", arguments->output, "Keep the recomputed run in this file (HDF5)");
-  command
-      ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
-      ->capture_default_str()
-      ->check(in_range(1, 256));
+  add_run_argument(*command, arguments->run);
+  CLI::Option* output = add_option(*command, "-o,--output", arguments->output, "FILE",
+                                   "Keep the recomputed run in this file (HDF5)");
+  add_threads_option(*command, arguments->threads, "Threads of the solver");
   command
       ->add_flag("--overwrite", arguments->overwrite,
                  "Replace an existing run of this name; the old file is kept until the new run is complete")

@@ -1,31 +1,28 @@
 /// `talus reproduce`: runs and analyses the paper's beds. The module talus.reproduce of the Python package
 /// draws them, and writes a report that compares them with the paper.
 
-#include <algorithm>
 #include <cstdio>
 #include <fmt/core.h>
 #include <memory>
 
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
-#include "app/jobs_option.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "app/progress.h"
-#include "app/python_module.h"
 #include "app/terminal.h"
 #include "base/text.h"
 #include "ensemble/member_state.h"
-#include "ensemble/paper_beds.h"
-#include "ensemble/readings.h"
+#include "ensemble/member_task.h"
+#include "ensemble/plan.h"
 #include "session/estimate.h"
 
 namespace talus::app {
 namespace {
 
-struct ReproduceArguments {
+struct ReproduceArguments : EnsembleWorkers {
   bool quick = false;
-  std::string folder;
   std::string seeds;
-  int jobs = default_jobs();
 };
 
 /// Reports the number of missing runs and their estimated time.
@@ -34,9 +31,9 @@ void announce(const ensemble::EnsemblePlan& plan, int jobs) {
   for (const ensemble::Member& member : plan.members) seconds += session::estimate(member.scenario).seconds;
   const std::vector<std::size_t> done = ensemble::done_members(plan);
   for (const std::size_t m : done) seconds -= session::estimate(plan.members[m].scenario).seconds;
-  print_error("%zu of %zu runs to compute, about %s on %d processor%s; then their analyses, and figures\n",
-              plan.members.size() - done.size(), plan.members.size(),
-              session::duration_text(seconds / jobs).c_str(), jobs, jobs == 1 ? "" : "s");
+  print_error("{} of {} runs to compute, about {} on {} processor{}; then their analyses, and figures\n",
+              plan.members.size() - done.size(), plan.members.size(), session::duration_text(seconds / jobs),
+              jobs, jobs == 1 ? "" : "s");
 }
 
 /// Completes readings of finished members that are missing or from another version.
@@ -66,9 +63,8 @@ void reproduce(ReproduceArguments arguments) {
       ensemble::parse_seeds(arguments.seeds), ensemble::paper_beds(arguments.quick), arguments.folder);
   output_of_python_module("reproduce", {"--help"});  // before runs that take hours: is everything installed?
   if (arguments.jobs > 0) announce(plan, arguments.jobs);
-  const EnsembleView view =
-      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants, .task = ensemble::ReadingsTask{}},
-                       {arguments.folder, {}, "", arguments.jobs}, {});
+  const EnsembleView view = compute_ensemble(
+      {.seeds = plan.seeds, .variants = plan.variants, .task = ensemble::ReadingsTask{}}, arguments, {});
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be reported");
     print_text(ensemble_text(view));  // other workers compute it
@@ -89,11 +85,11 @@ void add_reproduce_command(CLI::App& app) {
   command->add_flag(
       "--quick", arguments->quick,
       "Use beds of half the depth, for a quick look; their lengths cannot be compared with the paper");
-  command->add_option(
-      "-o,--output", arguments->folder,
+  add_option(
+      *command, "-o,--output", arguments->folder, "FOLDER",
       "Folder of runs, figures and report; complete members are kept [reproduction, or reproduction-quick]");
-  command->add_option("--seeds", arguments->seeds,
-                      "Seeds of each bed, e.g. 1-4 or 1-3,8 [1-2; with --quick: 1]");
+  add_option(*command, "--seeds", arguments->seeds, "SEEDS",
+             "Seeds of each bed, e.g. 1-4 or 1-3,8 [1-2; with --quick: 1]");
   add_jobs_option(*command, arguments->jobs);
   command->callback([arguments] { reproduce(*arguments); });
 }

@@ -9,22 +9,19 @@
 #include <thread>
 
 #include "app/analysis_report.h"
-#include "app/choices.h"
 #include "app/commands.h"
 #include "app/map_options.h"
 #include "app/open_run.h"
-#include "app/output_files.h"
+#include "app/options.h"
+#include "app/program_end.h"
 #include "app/progress.h"
-#include "app/seed_option.h"
-#include "app/stop_signals.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
-#include "app/unconverged_steps.h"
-#include "app/wall_time.h"
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
-#include "io/mistaken_path.h"
+#include "io/run_store.h"
 #include "pictures/live_maps.h"
 #include "scenario/scripted_command.h"
 #include "session/run_header.h"
@@ -32,20 +29,16 @@
 namespace talus::app {
 namespace {
 
-struct RunArguments {
-  std::string scenario;  ///< empty: scenario of the run
-  std::string branch;    ///< run whose frame the branch starts from; empty: none
-  std::string at;        ///< frame that the branch starts from
-  std::string output;
-  std::vector<std::string> settings;
-  std::string seed;  ///< empty: seed of the scenario
-  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+/// The request without its seed and command line; an empty scenario stands for that of the run.
+struct RunArguments : RunRequest {
+  std::string seed;      ///< empty: seed of the scenario
   std::string max_wall;  ///< HH:MM; empty: no limit
   bool resume = false;
-  bool overwrite = false;
   bool quiet = false;
   std::string frames;  ///< folder of maps drawn during the run; empty: none
-  pictures::MapOptions maps;
+  MapArguments maps;
+
+  RunArguments() { threads = processor_count(); }
 };
 
 std::string command_line_of(const RunArguments& arguments) {
@@ -65,7 +58,7 @@ void settle_names(RunArguments& arguments) {
     throw Error(ExitCode::usage, "a branch has the bed of its parent run: omit --seed");
   if (arguments.scenario.empty()) {
     if (arguments.output.empty())
-      throw Error(ExitCode::usage, fmt::format("name the branch of {} with -o", arguments.branch));
+      throw Error(ExitCode::usage, "name the branch of {} with -o", arguments.branch);
     return;
   }
   const bool names_run =
@@ -85,22 +78,28 @@ void settle_names(RunArguments& arguments) {
   if (run.ends_with(io::run_folder(""))) run.resize(run.size() - io::run_folder("").size());
   if (io::run_presence(run) == io::RunPresence::none)
     throw Error(ExitCode::missing_input,
-                fmt::format("{}: no run to resume; expected a run file, or its folder {} with a first "
-                            "commit; start it with: talus run SCENARIO -o {}",
-                            run, io::run_folder(run), run));
+                "{}: no run to resume; expected a run file, or its folder {} with a first commit; start it "
+                "with: talus run SCENARIO -o {}",
+                run, io::run_folder(run), run);
+}
+
+/// Moves the settings of maps from those of the scenario, which have other names. Throws Error(usage) for one
+/// without --pictures.
+void take_map_settings(RunArguments& arguments) {
+  std::erase_if(arguments.settings, [&arguments](const std::string& setting) {
+    if (!is_map_setting(setting)) return false;
+    if (arguments.frames.empty())
+      throw Error(ExitCode::usage, "--set {}: a parameter of maps requires --pictures",
+                  visible_word(setting));
+    arguments.maps.settings.push_back(setting);
+    return true;
+  });
 }
 
 /// Returns the request, with the seed among its settings.
 RunRequest request_of(const RunArguments& arguments) {
-  RunRequest request;
-  request.scenario = arguments.scenario;
-  request.output = arguments.output;
-  request.branch = arguments.branch;
-  request.at = arguments.at;
-  request.settings = arguments.settings;
+  RunRequest request = arguments;
   if (!arguments.seed.empty()) request.settings.push_back(fmt::format("seed={}", arguments.seed));
-  request.threads = arguments.threads;
-  request.overwrite = arguments.overwrite;
   request.command_line = command_line_of(arguments);
   return request;
 }
@@ -108,63 +107,59 @@ RunRequest request_of(const RunArguments& arguments) {
 void print_rest(const session::Session& session) {
   const std::string tilt = degrees_text(session.world().tilt, 3);
   if (const std::optional<double> theta_r = session.angle_at_rest())
-    print("Its flow stopped at a tilt of %s deg: angle at rest theta_r = %.3f deg.\n", tilt.c_str(),
+    print("Its flow stopped at a tilt of {} deg: angle at rest theta_r = {:.3f} deg.\n", tilt,
           degrees(*theta_r));
   else
-    print("Its flow had not stopped when the run ended, at a tilt of %s deg: no angle at rest.\n",
-          tilt.c_str());
+    print("Its flow had not stopped when the run ended, at a tilt of {} deg: no angle at rest.\n", tilt);
 }
 
 /// Warns of commands of the scenario that a complete run did not reach.
 void warn_of_waiting_commands(const session::Session& session) {
   const scenario::Scenario& scenario = session.scenario();
   for (const std::size_t k : session::waiting_commands(scenario, session.schedule()))
-    print_error("talus: warning: %s (%s, %s) was not carried out: the run ended earlier, at %s deg\n",
-                scenario::command_section(k).c_str(),
-                session::command_text(scenario::command_of(scenario.commands[k])).c_str(),
-                scenario::moment_text(scenario.commands[k]).c_str(),
-                degrees_text(session.world().tilt, 3).c_str());
+    print_error("talus: warning: {} ({}, {}) was not carried out: the run ended earlier, at {} deg\n",
+                scenario::command_section(k),
+                session::command_text(scenario::command_of(scenario.commands[k])),
+                scenario::moment_text(scenario.commands[k]), degrees_text(session.world().tilt, 3));
 }
 
 void print_end(const RunArguments& arguments, const session::Session& session) {
   warn_of_waiting_commands(session);
   const StepRemark remark = remark_on(session.schedule().record, session.world().step);
-  if (!remark.usual) print_error("talus: warning: %s\n", remark.text.c_str());
+  if (!remark.usual) print_error("talus: warning: {}\n", remark.text);
   for (std::size_t k = 0; k < session::guard_count; ++k)
     if (const std::int64_t steps = session.schedule().warnings.steps[k]; steps > 0)
-      print_error("talus: warning: guards.%s was exceeded in %lld steps, first in step %lld\n",
-                  std::string(session::guard_names[k]).c_str(), static_cast<long long>(steps),
-                  static_cast<long long>(session.schedule().warnings.first[k]));
+      print_error("talus: warning: guards.{} was exceeded in {} steps, first in step {}\n",
+                  session::guard_names[k], steps, session.schedule().warnings.first[k]);
   if (arguments.quiet) return;
   const std::optional<double> theta_c = session.angle_of_repose();
   const scenario::AfterFailure after = session.scenario().tilt.after_failure;
   if (theta_c)
-    print(
-        "The slope failed: angle of repose theta_c = %.3f deg%s.\n", degrees(*theta_c),
-        after == scenario::AfterFailure::lower ? "" : beyond_repose(*theta_c, session.world().tilt).c_str());
+    print("The slope failed: angle of repose theta_c = {:.3f} deg{}.\n", degrees(*theta_c),
+          after == scenario::AfterFailure::lower ? "" : beyond_repose(*theta_c, session.world().tilt));
   else
-    print("The slope is stable at %s deg.\n", degrees_text(session.world().tilt, 3).c_str());
+    print("The slope is stable at {} deg.\n", degrees_text(session.world().tilt, 3));
   if (theta_c && after != scenario::AfterFailure::stop) print_rest(session);
-  if (remark.usual && !remark.text.empty()) print("%s\n", remark.text.c_str());
-  print("%s: %lld steps, state hash %s\n", arguments.output.c_str(),
-        static_cast<long long>(session.world().step), hash_text(state_hash(session.world())).c_str());
+  if (remark.usual && !remark.text.empty()) print("{}\n", remark.text);
+  print("{}: {} steps, state hash {}\n", arguments.output, session.world().step,
+        hash_text(state_hash(session.world())));
 }
 
 /// Returns the maps drawn during the run, if any. Throws on invalid options before the run is touched.
 std::optional<pictures::LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request,
                                                bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
-  const pictures::MapPlan plan = pictures::plan_live_maps(arguments.maps);
+  const pictures::MapPlan plan = pictures::plan_live_maps(map_options(arguments.maps));
   if (!request.scenario.empty())
     scenario::read_scenario(request.scenario, request.settings);  // creates no folder for an invalid scenario
   if (plan.maps[0].theta_c_assumed && !arguments.quiet)
     print_error(
-        "talus: note: the angle of repose is unknown before the slope fails: maps are scaled by %g deg; "
-        "--theta-c DEG sets another angle\n",
+        "talus: note: the angle of repose is unknown before the slope fails: maps are scaled by {:g} deg; "
+        "--set gamma_c=0.34 sets another threshold, its sine\n",
         pictures::assumed_theta_c);
   return std::optional<pictures::LiveMaps>(
       std::in_place, plan, arguments.frames, resumed, arguments.overwrite,
-      [](const std::string& failure) { print_error("talus: warning: %s\n", failure.c_str()); });
+      [](const std::string& failure) { print_error("talus: warning: {}\n", failure); });
 }
 
 /// Whether the tilt of a scenario does not only grow.
@@ -191,11 +186,9 @@ void finish_maps(pictures::LiveMaps& maps, const RunArguments& arguments) {
   try {
     maps.finish();
   } catch (const Error& error) {
-    throw Error(
-        error.code(),
-        fmt::format(
-            "{}; the run is complete, but its maps in {} are not: draw them with talus render from {}",
-            error.what(), arguments.frames, arguments.output));
+    throw Error(error.code(),
+                "{}; the run is complete, but its maps in {} are not: draw them with talus render from {}",
+                error.what(), arguments.frames, arguments.output);
   }
 }
 
@@ -215,7 +208,7 @@ void resume_complete(const RunArguments& arguments) {
   const scenario::Scenario scenario = runs::stored_scenario(file.header(), arguments.output + ":/parameters");
   require_same_scenario(request_of(arguments), scenario);
   io::discard_folder(arguments.output);
-  if (!arguments.quiet) print("%s is already complete.\n", arguments.output.c_str());
+  if (!arguments.quiet) print("{} is already complete.\n", arguments.output);
   draw_missing_maps(arguments, file, scenario);
 }
 
@@ -223,7 +216,7 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
   OpenRun open = resumed ? resume_run(request) : start_run(request);
   open.session.use_threads(arguments.threads);
   if (const std::string& remark = open.session.bed_remark(); !remark.empty() && !arguments.quiet)
-    print("%s\n", remark.c_str());
+    print("{}\n", remark);
   note_missing_locks();  // reported now, because a run takes long
   const std::vector<scenario::ScriptedCommand>& commands = open.session.scenario().commands;
   const std::optional<double> end = open.session.scenario().tilt.end_angle;
@@ -245,9 +238,8 @@ OpenRun open_run(const RunArguments& arguments, const RunRequest& request, bool 
 }
 
 [[noreturn]] void end_stopped(const RunArguments& arguments, const World& world, bool by_signal) {
-  throw Error(ExitCode::stopped,
-              fmt::format("stopped at {} deg{}; talus run --resume {} continues", degrees_text(world.tilt, 3),
-                          by_signal ? "" : " for --max-wall", arguments.output));
+  throw Error(ExitCode::stopped, "stopped at {} deg{}; talus run --resume {} continues",
+              degrees_text(world.tilt, 3), by_signal ? "" : " for --max-wall", arguments.output);
 }
 
 /// Draws maps of the frames during the run. Meanwhile the solver uses one thread fewer if no processor is
@@ -273,6 +265,7 @@ void run(const RunArguments& arguments) {
   if (arguments.resume && presence == io::RunPresence::packed) return resume_complete(arguments);
   const RunRequest request = request_of(arguments);
   const bool resumed = arguments.resume && presence == io::RunPresence::folder;
+  if (!resumed) io::require_run_name(arguments.output);  // before the folder of maps exists
   std::optional<pictures::LiveMaps> maps = prepare_maps(arguments, request, resumed);
   OpenRun open = open_run(arguments, request, resumed);
   if (maps) begin_maps(*maps, open, arguments);
@@ -296,44 +289,36 @@ void add_run_command(CLI::App& app) {
   command->add_option(
       "SCENARIO", arguments->scenario,
       "Scenario file (TOML; see docs/scenario.md), or the run to resume; optional with --branch");
-  command->add_option("-o,--output", arguments->output,
-                      "Run file to write (HDF5) [name of the scenario + .h5]");
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario, e.g. --set contact.friction=0.3")
-      ->allow_extra_args(false);
+  add_option(*command, "-o,--output", arguments->output, "FILE",
+             "Run file to write (HDF5) [name of the scenario + .h5]");
+  add_scenario_settings(*command, arguments->settings, " or, with --pictures, a parameter of maps");
   add_seed_option(*command, arguments->seed);
-  command
-      ->add_option("--threads", arguments->threads, "Threads of the solver; the result does not depend on it")
-      ->capture_default_str()
-      ->check(in_range(1, 256));
+  add_threads_option(*command, arguments->threads, "Threads of the solver");
   CLI::Option* resume = command->add_flag("--resume", arguments->resume,
                                           "Continue from the last checkpoint: talus run --resume RUN. With "
                                           "SCENARIO -o RUN --resume a missing run is started");
   CLI::Option* branch =
-      command
-          ->add_option(
-              "--branch", arguments->branch,
-              "Start from a frame of this run, with its bed and, unless another is given, its scenario")
+      add_option(*command, "--branch", arguments->branch, "RUN",
+                 "Start from a frame of this run, with its bed and, unless another is given, its scenario")
           ->excludes(resume);
-  command
-      ->add_option("--at", arguments->at,
-                   "Frame that the branch starts from: an angle in degrees, repose for the last frame before "
-                   "failure, or frameN")
+  add_option(*command, "--at", arguments->at, "DEG",
+             "Frame that the branch starts from: an angle in degrees, repose for the last frame before "
+             "failure, or frameN")
       ->needs(branch);
-  command->add_option("--max-wall", arguments->max_wall,
-                      "Stop with a checkpoint before this wall time is over, HH:MM or HH:MM:SS");
+  add_option(*command, "--max-wall", arguments->max_wall, "HH:MM[:SS]",
+             "Stop with a checkpoint before this wall time is over, HH:MM or HH:MM:SS");
   command
       ->add_flag("--overwrite", arguments->overwrite,
                  "Replace an existing run of this name; the old file is kept until the new run is complete")
       ->excludes(resume);
   command->add_flag("-q,--quiet", arguments->quiet, "Print errors and warnings only");
-  CLI::Option* frames = command->add_option("--pictures", arguments->frames,
-                                            "Folder for maps of each frame, drawn during the run; any value, "
-                                            "even a number, is taken as its name; needs --map");
+  CLI::Option* frames = add_option(
+      *command, "--pictures", arguments->frames, "FOLDER",
+      "Folder for maps of each frame, drawn during the run: gamma and overloaded, unless --map names others");
   add_map_options(*command, arguments->maps, MapOptionSet::drawn_live, frames);
   command->callback([arguments] {
     if (!arguments->branch.empty() && arguments->at.empty()) throw CLI::RequiredError("--at");
+    take_map_settings(*arguments);
     settle_names(*arguments);
     run(*arguments);
   });

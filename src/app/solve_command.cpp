@@ -1,22 +1,25 @@
 /// `talus solve`: solves a contact problem from a file, written by Talus or another program.
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
 #include <limits>
 #include <memory>
 #include <optional>
 
-#include "app/choices.h"
 #include "app/commands.h"
+#include "app/frame_options.h"
 #include "app/json.h"
-#include "app/moving_step.h"
+#include "app/options.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
+#include "base/errors.h"
 #include "base/output_file.h"
+#include "base/text.h"
+#include "core/trigonometry.h"
+#include "pictures/frame_choice.h"
 #include "problems/local_solvers.h"
 #include "problems/problem_file.h"
-#include "problems/siconos_error.h"
 #include "scenario/text.h"
 
 namespace talus::app {
@@ -45,25 +48,29 @@ struct SolveResult {
   double carried_weight = std::numeric_limits<double>::quiet_NaN();
   double seconds = 0.0;
   solver::LocalSolution solution;
-
-  double nanoseconds_per_contact() const {
-    return 1e9 * seconds / (static_cast<double>(contacts) * report.iterations);
-  }
 };
 
 const char* name_of(solver::SolverKind kind) {
   return kind == solver::SolverKind::gauss_seidel ? "gauss-seidel" : "accelerated";
 }
 
-const char* name_of(ToleranceSource tolerance_source) {
-  if (tolerance_source == ToleranceSource::default_value) return "default";
-  return tolerance_source == ToleranceSource::option ? "option" : "run";
+/// Returns a sentence on a step in which the bed was moving, so that the run required less than for a bed at
+/// rest: the velocity of the bed, and which of the two tolerances of the run a solve has reached.
+std::string remark_on_moving(const problems::StepTolerance& run_tolerance, double eta) {
+  // The criterion of the solvers (solver/solve.cpp).
+  const auto reached = [eta](double tolerance) { return eta <= tolerance * (1.0 + 1e-9); };
+  return fmt::format(
+      "The bed was moving in this step, at {:.2g} g h (rms), so the run required {:.1e} instead of the "
+      "{:.1e} of a bed at rest; this solve has reached {}.",
+      run_tolerance.velocity, run_tolerance.asked, run_tolerance.at_rest,
+      reached(run_tolerance.at_rest) ? "both of them"
+      : reached(run_tolerance.asked) ? "only the first"
+                                     : "neither of them");
 }
 
-const char* words_of(ToleranceSource tolerance_source) {
-  if (tolerance_source == ToleranceSource::default_value) return "default";
-  return tolerance_source == ToleranceSource::option ? "--tol" : "the run";
-}
+/// Sources of the tolerance, in words and in JSON.
+constexpr std::pair<const char*, const char*> tolerance_sources[] = {
+    {"--tol", "option"}, {"the run", "run"}, {"default", "default"}};
 
 /// Chooses the tolerance: that of the option, else that of the run from which the problem comes.
 void choose_tolerance(const problems::StoredProblem& stored, SolveArguments& arguments) {
@@ -118,56 +125,45 @@ SolveResult solve(const problems::StoredProblem& stored, const SolveArguments& a
   return result;
 }
 
-void print_json(const SolveArguments& arguments, const SolveResult& result) {
+std::vector<Fact> facts_of(const SolveArguments& arguments, const SolveResult& result) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const problems::StepTolerance run_tolerance =
-      result.run_tolerance.value_or(problems::StepTolerance{none, none, none});
-  const Json json = {{"problem", arguments.problem},
-                     {"solver", name_of(arguments.settings.kind)},
-                     {"form", result.bodies > 0 ? "bodies" : "local"},
-                     {"start", arguments.cold ? "zero" : "guess"},
-                     {"contacts", result.contacts},
-                     {"tolerance", arguments.settings.tolerance},
-                     {"asked_by", name_of(arguments.tolerance_source)},
-                     {"converged", result.report.converged},
-                     {"iterations", result.report.iterations},
-                     {"eta", result.report.residual.eta},
-                     {"siconos_error", result.siconos_error},
-                     {"largest_residual", result.report.residual.largest},
-                     {"carried_weight", result.carried_weight},
-                     {"bed_velocity", run_tolerance.velocity},
-                     {"run_tolerance", run_tolerance.asked},
-                     {"run_tolerance_at_rest", run_tolerance.at_rest},
-                     {"seconds", result.seconds},
-                     {"ns_per_contact_iteration", result.nanoseconds_per_contact()}};
-  print("%s\n", json_text(json).c_str());
-}
-
-void print_number(const char* name, const char* format, double value) {
-  print("%-25s", name);
-  if (std::isfinite(value))
-    print(format, value);
-  else
-    print("none");
-  print("\n");
-}
-
-void print_report(const SolveArguments& arguments, const SolveResult& result) {
   const solver::SolverReport& report = result.report;
-  print("%-25s%s, on %s, from %s\n", "solver", name_of(arguments.settings.kind),
-        result.bodies > 0 ? "bodies" : "W, q and mu alone", arguments.cold ? "zero" : "the guess");
-  print("%-25s%d\n", "contacts", result.contacts);
-  print("%-25s%d\n", "iterations", report.iterations);
-  print("%-25s%.3e (%s, %.1e required by %s)\n", "residual eta", report.residual.eta,
-        report.converged ? "converged" : "NOT CONVERGED", arguments.settings.tolerance,
-        words_of(arguments.tolerance_source));
-  print_number("largest of one contact", "%.3e", report.residual.largest);
-  print_number("Siconos's error", "%.3e", result.siconos_error);
-  print_number("weight carried", "%.6f", result.carried_weight);
-  print_number("seconds", "%.6f", result.seconds);
-  print_number("ns / contact / iteration", "%.2f", result.nanoseconds_per_contact());
-  if (result.run_tolerance && is_moving(*result.run_tolerance))
-    print("%s\n", remark_on_moving(*result.run_tolerance, report.residual.eta).c_str());
+  const problems::StepTolerance run =
+      result.run_tolerance.value_or(problems::StepTolerance{none, none, none});
+  const double tolerance = arguments.settings.tolerance;
+  const double nanoseconds =
+      1e9 * result.seconds / (static_cast<double>(result.contacts) * result.report.iterations);
+  const char* const solver = name_of(arguments.settings.kind);
+  const auto& [words, asked_by] = tolerance_sources[static_cast<std::size_t>(arguments.tolerance_source)];
+  return {
+      {"", "", "problem", arguments.problem},
+      {"solver",
+       fmt::format("{}, on {}, from {}", solver, result.bodies > 0 ? "bodies" : "W, q and mu alone",
+                   arguments.cold ? "zero" : "the guess"),
+       "solver", solver},
+      {"", "", "form", result.bodies > 0 ? "bodies" : "local"},
+      {"", "", "start", arguments.cold ? "zero" : "guess"},
+      {"contacts", std::to_string(result.contacts), "contacts", result.contacts},
+      {"iterations", std::to_string(report.iterations), "iterations", report.iterations},
+      {"residual eta",
+       fmt::format("{:.3e} ({}, {:.1e} required by {})", report.residual.eta,
+                   report.converged ? "converged" : "NOT CONVERGED", tolerance, words),
+       "eta", report.residual.eta},
+      {"", "", "tolerance", tolerance},
+      {"", "", "asked_by", asked_by},
+      {"", "", "converged", report.converged},
+      {"largest of one contact", number_text(report.residual.largest, "{:.3e}"), "largest_residual",
+       report.residual.largest},
+      {"Siconos's error", number_text(result.siconos_error, "{:.3e}"), "siconos_error", result.siconos_error},
+      {"weight carried", number_text(result.carried_weight, "{:.6f}"), "carried_weight",
+       result.carried_weight},
+      {"", "", "bed_velocity", run.velocity},
+      {"", "", "run_tolerance", run.asked},
+      {"", "", "run_tolerance_at_rest", run.at_rest},
+      {"seconds", number_text(result.seconds, "{:.6f}"), "seconds", result.seconds},
+      {"ns / contact / iteration", number_text(nanoseconds, "{:.2f}"), "ns_per_contact_iteration",
+       nanoseconds},
+      {run.asked > run.at_rest ? remark_on_moving(run, report.residual.eta) : "", ""}};
 }
 
 void run(SolveArguments& arguments) {
@@ -175,10 +171,7 @@ void run(SolveArguments& arguments) {
   const problems::StoredProblem stored = problems::read_problem(arguments.problem);
   choose_tolerance(stored, arguments);
   const SolveResult result = solve(stored, arguments);
-  if (arguments.json)
-    print_json(arguments, result);
-  else
-    print_report(arguments, result);
+  print_facts(facts_of(arguments, result), arguments.json, 25);
   if (arguments.output.empty()) return;
   prepare_folder_of(arguments.output);
   problems::write_solution(arguments.problem, arguments.output, result.solution);
@@ -195,21 +188,14 @@ void add_settings(CLI::App& command, SolveArguments& arguments) {
           "accelerated, or the reference gauss-seidel")
       ->default_str("accelerated")
       ->check(one_of({"accelerated", "gauss-seidel"}));
-  command
-      .add_option(
-          "--tol", arguments.tolerance,
-          fmt::format("Natural-map residual eta to reach [that required by the run, or {} if unknown]",
-                      scenario::short_text(settings.tolerance)))
+  add_option(command, "--tol", arguments.tolerance, "ETA",
+             fmt::format("Natural-map residual eta to reach [that required by the run, or {} if unknown]",
+                         scenario::short_text(settings.tolerance)))
       ->check(in_range(1e-15, 1.0));
-  command.add_option("--max-iterations", settings.max_iterations, "Maximum number of iterations")
+  add_option(command, "--max-iterations", settings.max_iterations, "N", "Maximum number of iterations")
       ->capture_default_str()
       ->check(in_range(0, 1000000000));
-  command
-      .add_option(
-          "--threads", settings.threads,
-          "Threads of the accelerated solver, if the bodies are known; the result does not depend on it")
-      ->capture_default_str()
-      ->check(in_range(1, 256));
+  add_threads_option(command, settings.threads, "Threads of the accelerated solver, if the bodies are known");
 }
 
 }  // namespace
@@ -224,8 +210,8 @@ void add_solve_command(CLI::App& app) {
       ->required();
   add_settings(*command, *arguments);
   command->add_flag("--cold", arguments->cold, "Start from zero instead of the guess in the file");
-  command->add_option("-o,--output", arguments->output,
-                      "Write a copy of the problem that includes the solution in /solution");
+  add_option(*command, "-o,--output", arguments->output, "FILE",
+             "Write a copy of the problem that includes the solution in /solution");
   command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
   command->add_flag("--json", arguments->json, "Print JSON; the seconds are those of the solver alone");
   command->footer(
@@ -233,6 +219,50 @@ void add_solve_command(CLI::App& app) {
       "code is 0. If the bed was moving in the step, a\nsentence says so and compares the result with the "
       "tolerance that the run\nrequired.");
   command->callback([arguments] { run(*arguments); });
+}
+
+namespace {
+
+struct DumpArguments {
+  std::string run;
+  std::string output;
+  std::string at;  ///< syntax of frames_at
+  bool overwrite = false;
+};
+
+void dump(const DumpArguments& arguments) {
+  output_target(arguments.output, output_of_run(arguments.run, arguments.overwrite));
+  const io::RunFile run = io::RunFile::open(arguments.run);
+  const std::size_t k = pictures::single_frame(
+      chosen_frames(run, arguments.run, {.at = {arguments.at}, .every = {}}), arguments.at);
+  const std::int64_t number = run.frame(k).step + 1;
+  const problems::StepProblem step = problems::problem_after_frame(run, k);
+  const std::string from = fmt::format("step {} at {} deg", number, degrees_text(step.scales.tilt, 3));
+  prepare_folder_of(arguments.output);
+  problems::write_problem(arguments.output, step,
+                          fmt::format("Talus, {} of a run with seed {}", from, run.header().seed));
+  print("{}: {}, after frame {}: {} contacts of {} bodies{}\n", arguments.output, from, k,
+        step.problem.contact_count(), step.problem.body_count(),
+        number == run.checkpoint().world.step + 1 ? ", bit-identical to the run"
+                                                  : ", from a frame in single precision");
+}
+
+}  // namespace
+
+void add_dump_command(CLI::App& app) {
+  auto arguments = std::make_shared<DumpArguments>();
+  CLI::App* command = app.add_subcommand(
+      "dump", "Write the contact problem of a step for external solvers (FCLIB local problem)");
+  add_run_argument(*command, arguments->run);
+  add_option(*command, "--at", arguments->at, "DEG",
+             "Frame that precedes the step: an angle in degrees (nearest frame), repose for the last frame "
+             "before failure, or frame42 by number")
+      ->required();
+  add_option(*command, "-o,--output", arguments->output, "FILE",
+             "Problem file to write (HDF5; see docs/problem_files.md)")
+      ->required();
+  command->add_flag("--overwrite", arguments->overwrite, "Replace an existing file");
+  command->callback([arguments] { dump(*arguments); });
 }
 
 }  // namespace talus::app

@@ -6,11 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include "app/choices.h"
 #include "app/commands.h"
 #include "app/ensemble_workers.h"
-#include "app/jobs_option.h"
-#include "app/python_module.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "app/terminal.h"
 #include "base/output_file.h"
 #include "ensemble/ensemble_manifest.h"
@@ -19,14 +18,12 @@
 namespace talus::app {
 namespace {
 
-struct StudyArguments {
+struct StudyArguments : EnsembleWorkers {
   std::string scenario;
-  std::string folder;
   std::vector<std::string> axes;
   std::vector<std::string> settings;
   std::string seeds = "1-4";
   std::optional<double> reference;
-  int jobs = default_jobs();
   bool json = false;
 };
 
@@ -43,15 +40,13 @@ std::string make_tables(const StudyArguments& arguments, const ensemble::Ensembl
 void study(const StudyArguments& arguments) {
   std::vector<ensemble::Variant> variants =
       ensemble::plan_one_at_a_time(arguments.scenario, arguments.settings, arguments.axes);
-  ensemble::take_earlier_names(variants, arguments.folder);
   const ensemble::EnsemblePlan plan =
       ensemble::plan_ensemble(ensemble::parse_seeds(arguments.seeds), std::move(variants), arguments.folder);
   for (const char* table : {"study.csv", "study.md"})
     output_target((std::filesystem::path(arguments.folder) / table).string(), {true, {arguments.scenario}});
   output_of_python_module("study", {"--help"});  // before runs that take hours: is everything installed?
   const EnsembleView view =
-      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants},
-                       {arguments.folder, {}, "", arguments.jobs}, {arguments.scenario});
+      compute_ensemble({.seeds = plan.seeds, .variants = plan.variants}, arguments, {arguments.scenario});
   if (ensemble::done_members(plan).empty()) {
     refuse_failures(plan, "nothing can be compared");
     print_text(ensemble_text(view));  // other workers compute it
@@ -69,22 +64,18 @@ void add_study_command(CLI::App& app) {
       "study", "Vary one setting of a scenario at a time, and compare the results over seeds");
   command->add_option("SCENARIO", arguments->scenario, "Scenario file (TOML; see docs/scenario.md)")
       ->required();
-  command->add_option("-o,--output", arguments->folder, "Folder of the study; complete members are kept")
+  add_option(*command, "-o,--output", arguments->folder, "FOLDER",
+             "Folder of the study; complete members are kept")
       ->required();
-  command
-      ->add_option("--vary", arguments->axes,
-                   "Values of a key, e.g. tilt.step=0.002,0.0005; or of several keys together, e.g. "
-                   "tilt.rate:tilt.step=2:0.002,0.5:0.0005")
+  add_option(*command, "--vary", arguments->axes, "KEY=VALUE,...",
+             "Values of a key, e.g. tilt.step=0.002,0.0005; or of several keys together, e.g. "
+             "tilt.rate:tilt.step=2:0.002,0.5:0.0005")
       ->allow_extra_args(false);
-  command->add_option("--seeds", arguments->seeds, "Seeds of each variation, e.g. 1-4 or 1-3,8")
+  add_option(*command, "--seeds", arguments->seeds, "SEEDS", "Seeds of each variation, e.g. 1-4 or 1-3,8")
       ->capture_default_str();
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario in all runs, e.g. --set contact.friction=0.3")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--reference", arguments->reference,
-                   "Tilt at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
+  add_scenario_settings(*command, arguments->settings, " in all runs");
+  add_option(*command, "--reference", arguments->reference, "DEG",
+             "Tilt at which beds are compared, deg [smallest theta_c, rounded down to a whole degree]")
       ->check(in_range(0.0, 60.0));
   add_jobs_option(*command, arguments->jobs);
   command->add_flag("--json", arguments->json, "Print JSON");

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
 #include <memory>
@@ -11,24 +11,24 @@
 #include <thread>
 #include <utility>
 
-#include "app/choices.h"
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/output_files.h"
+#include "app/map_options.h"
+#include "app/options.h"
+#include "app/other_programs.h"
 #include "app/plot_export.h"
-#include "app/python_module.h"
-#include "app/seed_option.h"
-#include "app/stop_signals.h"
+#include "app/program_end.h"
+#include "app/run_files.h"
 #include "app/terminal.h"
 #include "base/errors.h"
 #include "base/output_file.h"
-#include "base/paths.h"
-#include "gui/offscreen.h"
-#include "gui/window.h"
+#include "base/text.h"
+#include "gui/screen.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
 #include "pictures/map_kind.h"
 #include "render/image.h"
+#include "render/layout.h"
 #include "render/png.h"
 #include "scenario/scenario.h"
 
@@ -46,24 +46,27 @@ struct ViewArguments {
   std::string second_map;    ///< map of the second view
   std::string second_minus;  ///< angle of the frame subtracted in the second view
   std::string screenshot;
+  std::string context = "auto";
   std::string size = "1400x900";
   double scale = 0.0;  ///< 0: scale of the display
   std::string theme = "light";
-  std::string context = "auto";
   std::string places;
 };
 
 constexpr int picture_width = 1600;  ///< px, width of saved maps
 
-/// Parses "1400x900": width and height, px.
-std::pair<int, int> parse_size(const std::string& text) {
-  int width = 0, height = 0, end = 0;
-  const bool read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end) == 2;
-  if (!read || static_cast<std::size_t>(end) != text.size() || width < 200 || height < 200 || width > 16384 ||
-      height > 16384)
-    throw Error(ExitCode::usage,
-                fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 200 to 16384", text));
-  return {width, height};
+/// Returns width and height of the window, px. A size in cm is that on a screen of 96 px per inch; a window
+/// without a height has the usual shape.
+std::pair<int, int> window_size(const std::string& text) {
+  constexpr double px_per_cm = 96.0 / 2.54, shape = 9.0 / 14.0, smallest = 200.0;
+  const WrittenSize size = parse_size(text);
+  const double unit = size.in_cm ? px_per_cm : 1.0, width = std::round(unit * size.width),
+               height = std::round(size.height > 0.0 ? unit * size.height : shape * width);
+  const auto possible = [](double side) { return side >= smallest && side <= render::largest_side; };
+  if (!possible(width) || !possible(height))
+    throw Error(ExitCode::usage, "--size {}: a window of {} x {} px; expected {} to {} px on each side", text,
+                width, height, smallest, render::largest_side);
+  return {static_cast<int>(width), static_cast<int>(height)};
 }
 
 /// Opens the second view, if requested.
@@ -75,19 +78,13 @@ void show_second_view(view::ViewModel& model, const ViewArguments& arguments) {
   second_view.shown = second_view.minus || !second_view.layers.empty();
 }
 
-std::vector<std::string> names_of_themes() {
-  std::vector<std::string> names;
-  for (const view::Theme theme : view::themes()) names.emplace_back(view::theme_name(theme));
-  return names;
-}
-
 /// Applies the options that set the initial display.
 void show_first(view::ViewModel& model, const ViewArguments& arguments) {
   if (!arguments.map.empty()) model.state.map.layers = pictures::map_layers(arguments.map);
   if (!arguments.at.empty()) model.go_to(model.frame_at_angle(arguments.at));
   if (arguments.grain && *arguments.grain >= model.statics().free_count)
-    throw Error(ExitCode::usage, fmt::format("--grain {}: the grains are numbered 0 to {}", *arguments.grain,
-                                             model.statics().free_count - 1));
+    throw Error(ExitCode::usage, "--grain {}: the grains are numbered 0 to {}", *arguments.grain,
+                model.statics().free_count - 1);
   model.state.selected = arguments.grain;
   model.state.theme = view::theme_of(arguments.theme);
   model.state.scale = arguments.scale;
@@ -106,7 +103,7 @@ OutputRule output_of_view(const ViewArguments& arguments) {
 /// Draws when background work has finished: nothing new for half a second.
 void take_screenshot(const ViewArguments& arguments) {
   using namespace std::chrono_literals;
-  const auto [width, height] = parse_size(arguments.size);
+  const auto [width, height] = window_size(arguments.size);
   const std::optional<render::ContextKind> kind = render::context_kind(arguments.context);
   output_target(arguments.screenshot, output_of_view(arguments));
   view::ViewModel model =
@@ -158,10 +155,10 @@ std::string close(view::ViewModel model) {
 
 void save_picture(const std::string& path, gui::GuiWindow& window, view::ViewModel& model) {
   output_target(path, {.overwrite = false});
-  render::Image picture = window.draw_image(model.first().furnished_map(), picture_width);
+  render::Image picture = window.screen().draw_image(model.first().furnished_map(), picture_width);
   if (model.state.second_view.shown)
-    picture =
-        render::side_by_side({picture, window.draw_image(model.second().furnished_map(), picture_width)});
+    picture = render::side_by_side(
+        {picture, window.screen().draw_image(model.second().furnished_map(), picture_width)});
   render::write_png(path, picture);
   model.state.message = "written: " + path;
 }
@@ -173,7 +170,7 @@ void open(const std::string& path, std::optional<std::size_t> frame, view::ViewM
   view::ViewModel next = view::ViewModel::open(path, {}, "", false, command_line());
   if (frame) next.go_to(*frame);
   const std::string kept = close(std::exchange(model, std::move(next)));
-  if (!kept.empty()) print("%s\n", kept.c_str());
+  if (!kept.empty()) print("{}\n", kept);
   std::fflush(stdout);
 }
 
@@ -191,8 +188,7 @@ void save_plots(const std::string& folder, view::ViewModel& model) {
   const MemoryFile file("plots");
   std::ofstream(file.path()) << json_text(plots);
   output_of_python_module("figures.plots", {file.path(), folder, command_line()});
-  model.state.message =
-      fmt::format("written: {} plot{} in {}", plots.size(), plots.size() == 1 ? "" : "s", folder);
+  model.state.message = fmt::format("written: {} in {}", counted(plots.size(), "plot"), folder);
 }
 
 /// Serves requests of widgets that the model cannot; errors are shown in the window.
@@ -210,12 +206,11 @@ void serve_requests(const gui::GuiRequests& requests, gui::GuiWindow& window, vi
 void show(view::ViewModel& model, const std::string& places, gui::GuiWindow& window,
           const volatile std::sig_atomic_t* stop) {
   std::string written;
-  while (!(window.closed() && model.may_discard()) && *stop == 0) {
-    window.stay_open();
+  while (*stop == 0) {
     const gui::GuiRequests requests = window.next_picture(model);
     if (requests.quit) return;
     serve_requests(requests, window, model);
-    if (!places.empty()) write_places(places, window.places(), written);
+    if (!places.empty()) write_places(places, window.screen().places(), written);
   }
 }
 
@@ -231,27 +226,23 @@ OutputRule checked_input(const ViewArguments& arguments) {
 
 void view(const ViewArguments& arguments) {
   if (!arguments.screenshot.empty()) return take_screenshot(arguments);
-  const auto [width, height] = parse_size(arguments.size);
+  const auto [width, height] = window_size(arguments.size);
   const OutputRule rule = checked_input(arguments);
   gui::GuiWindow window(width, height);  // not shown yet; without a display no run is started
-  if (!arguments.output.empty()) {
-    output_target(arguments.output, rule);
-    prepare_folder_of(arguments.output);
-  }
+  if (!arguments.output.empty()) output_target(arguments.output, rule);
   view::ViewModel model = view::ViewModel::open(arguments.file, arguments.settings, arguments.output,
                                                 arguments.overwrite, command_line());
   const CommitOnSignals commit;
   show_first(model, arguments);
   if (model.is_live() && arguments.output.empty())
-    print("This run is not kept until it is saved; talus view %s -o RUN.h5 records it.\n",
-          arguments.file.c_str());
+    print("This run is not kept until it is saved; talus view {} -o RUN.h5 records it.\n", arguments.file);
   std::fflush(stdout);
   const volatile std::sig_atomic_t* stop = stop_request();
   show(model, arguments.places, window, stop);
   const std::string kept = close(std::move(model));
   if (*stop != 0)
     throw Error(ExitCode::stopped, kept.empty() ? "the window was closed by a signal" : "stopped; " + kept);
-  if (!kept.empty()) print("%s\n", kept.c_str());
+  if (!kept.empty()) print("{}\n", kept);
 }
 
 }  // namespace
@@ -264,45 +255,39 @@ void add_view_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("view", "Show a run in a window: a scenario during its computation, or a run file");
   command->add_option("FILE", arguments->file, "Scenario (SCENARIO.toml) or run (RUN.h5)")->required();
-  CLI::Option* output =
-      command->add_option("-o,--output", arguments->output,
-                          "Record a computed run in this run file [in memory, until it is saved]");
-  command
-      ->add_option("--set", arguments->settings,
-                   "Change a key of the scenario, e.g. --set contact.friction=0.3")
-      ->allow_extra_args(false);
+  CLI::Option* output = add_option(*command, "-o,--output", arguments->output, "FILE",
+                                   "Record a computed run in this run file [in memory, until it is saved]");
+  add_scenario_settings(*command, arguments->settings);
   add_seed_option(*command, *seed);
   command->add_flag("--overwrite", arguments->overwrite,
                     "Replace an existing run or screenshot of this name");
-  command->add_option("--at", arguments->at,
-                      "Start a replay at this angle in degrees, or at repose, the last frame before failure");
-  command->add_option("--map", arguments->map, "Start with this map, or two overlaid as in gamma+forces");
-  command->add_option("--grain", arguments->grain, "Select this grain, by number")
+  add_option(*command, "--at", arguments->at, "DEG",
+             "Start a replay at this angle in degrees, or at repose, the last frame before failure");
+  add_option(*command, "--map", arguments->map, "MAP",
+             "Start with this map, or two overlaid as in gamma+forces");
+  add_option(*command, "--grain", arguments->grain, "ID", "Select this grain, by number")
       ->check(in_range(0, 1000000000));
-  command->add_option("--second-map", arguments->second_map,
-                      "Show this map in a second view [map of the first view]");
-  command->add_option("--second-minus", arguments->second_minus,
-                      "Show in a second view the changes since the frame at this angle, or at repose: "
-                      "grains, and contacts gained and lost");
-  command->add_option("--size", arguments->size, "Width and height of the window, px")->capture_default_str();
-  CLI::Option* screenshot =
-      command
-          ->add_option("--screenshot", arguments->screenshot,
-                       "Write a picture of the window as a PNG file and exit; needs no display")
-          ->excludes(output);
+  add_option(*command, "--second-map", arguments->second_map, "MAP",
+             "Show this map in a second view [map of the first view]");
+  add_option(*command, "--second-minus", arguments->second_minus, "DEG",
+             "Show in a second view the changes since the frame at this angle, or at repose: grains, and "
+             "contacts gained and lost");
+  add_option(*command, "--size", arguments->size, "SIZE",
+             "Size of the window: 1400x900, or its width alone; in pixels, or in cm as in 36x24cm")
+      ->capture_default_str();
+  add_option(*command, "--screenshot", arguments->screenshot, "FILE",
+             "Write a picture of the window as a PNG file and exit; needs no display")
+      ->excludes(output);
+  add_option(*command, "--context", arguments->context, "CONTEXT",
+             "Rendering context of the screenshot: auto, osmesa or egl")
+      ->capture_default_str()
+      ->needs("--screenshot");
   command->add_option("--theme", arguments->theme, "Colours of the window; print suits paper")
       ->capture_default_str()
-      ->check(one_of(names_of_themes()));
-  command
-      ->add_option(
-          "--scale", arguments->scale,
-          "Size of text and widgets, 1 on a standard display [that of the display; 1 in a screenshot]")
+      ->check(one_of({view::theme_names.begin(), view::theme_names.end()}));
+  add_option(*command, "--scale", arguments->scale, "FACTOR",
+             "Size of text and widgets, 1 on a standard display [that of the display; 1 in a screenshot]")
       ->check(in_range(0.5, 4.0));
-  command
-      ->add_option("--context", arguments->context,
-                   "Rendering context of the screenshot: auto, osmesa or egl")
-      ->capture_default_str()
-      ->needs(screenshot);
   command->add_option("--places", arguments->places, "Write the positions of the widgets to this file")
       ->group("");
   command->callback([arguments, seed] {

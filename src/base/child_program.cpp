@@ -14,7 +14,6 @@
 #include <cstdlib>
 #include <fmt/core.h>
 
-#include "base/descriptor.h"
 #include "base/errors.h"
 
 namespace talus {
@@ -55,8 +54,6 @@ struct Start {
   pid_t parent;
 };
 
-void connect_stream(int stream, int from, int nowhere) { ::dup2(from < 0 ? nowhere : from, stream); }
-
 /// Runs between fork and exec, with calls that are safe there. Returns only if it fails.
 void become(const Start& start) {
   prctl(PR_SET_PDEATHSIG, start.end_signal);
@@ -69,9 +66,9 @@ void become(const Start& start) {
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-  connect_stream(STDIN_FILENO, start.streams.in, nowhere);
-  connect_stream(STDOUT_FILENO, start.streams.out, nowhere);
-  connect_stream(STDERR_FILENO, start.streams.err, nowhere);
+  const auto& [in, out, err] = start.streams;
+  for (const auto& [stream, from] : {std::pair{STDIN_FILENO, in}, {STDOUT_FILENO, out}, {STDERR_FILENO, err}})
+    ::dup2(from < 0 ? nowhere : from, stream);
   if (::chdir(start.folder) == 0) ::execvpe(start.file, start.words.data(), start.variables.data());
 }
 

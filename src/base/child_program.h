@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/descriptor.h"
+#include "base/output_file.h"
 
 namespace talus {
 

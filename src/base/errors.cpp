@@ -2,12 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fmt/core.h>
 
 namespace talus {
 
 Error system_error(ExitCode code, const std::string& action, const std::string& path, int errno_value) {
-  return Error(code, fmt::format("{}: cannot {}: {}", path, action, std::strerror(errno_value)));
+  return Error(code, "{}: cannot {}: {}", path, action, std::strerror(errno_value));
 }
 
 Error creation_error(const std::string& action, const std::string& path, int errno_value) {

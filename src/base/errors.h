@@ -1,8 +1,16 @@
 #pragma once
+/// Base holds what every room needs and no physics: errors with an exit code, texts for people (text.h),
+/// files that appear complete or not at all (output_file.h), threads with the same results for any number of
+/// them (thread_team.h), and hashes (hash.h).
+///
 /// Errors by cause. Each cause has an exit code (docs/errors.md).
 
+#if __has_include(<fmt/core.h>)
+#include <fmt/core.h>
+#endif
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace talus {
 
@@ -25,6 +33,12 @@ enum class ExitCode : int {
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+#if defined FMT_VERSION && FMT_VERSION >= 80000  // programs that use the library may lack it
+  /// Formats the message.
+  template <typename First, typename... Rest>
+  Error(ExitCode code, fmt::format_string<First, Rest...> form, First&& first, Rest&&... rest)
+      : Error(code, fmt::format(form, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+#endif
   ExitCode code() const { return code_; }
 
  private:

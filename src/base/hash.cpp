@@ -3,7 +3,6 @@
 #include <xxhash.h>
 
 #include <charconv>
-#include <cstdio>
 #include <fmt/core.h>
 #include <new>
 
@@ -25,6 +24,8 @@ std::uint64_t Hasher::value() const { return XXH3_64bits_digest(state_); }
 std::uint64_t hash_bytes(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+std::string text_hash(std::string_view text) { return hash_text(hash_bytes(std::as_bytes(std::span(text)))); }
 
 std::uint64_t parse_hash(const std::string& text) {
   std::uint64_t hash = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 struct XXH3_state_s;
@@ -41,6 +42,9 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes);
 
 /// Returns a hash as 16 lower-case hexadecimal digits.
 std::string hash_text(std::uint64_t hash);
+
+/// Returns the hash of the bytes of a text in this form.
+std::string text_hash(std::string_view text);
 
 /// Returns the hash of a text made by hash_text; 0 for any other text.
 std::uint64_t parse_hash(const std::string& text);

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fmt/core.h>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -21,7 +20,6 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/paths.h"
 
 namespace talus {
 namespace {
@@ -32,14 +30,6 @@ namespace fs = std::filesystem;
 /// same name meanwhile. On a file system that renumbers its files at each access, the name never matches the
 /// open file.
 constexpr int attempts = 100;
-
-[[noreturn]] void throw_foreign_lock(const std::string& path) {
-  throw Error(
-      ExitCode::cannot_create,
-      fmt::format("{}: cannot lock: it was replaced by another file at each of {} attempts; choose an "
-                  "output on another file system",
-                  path, attempts));
-}
 
 /// Error of the first lock that the file system refused; 0: none.
 std::atomic<int>& lock_problem() {
@@ -71,24 +61,12 @@ bool acquire_lock(const Descriptor& file, const std::string& path) {
          (lock(file, LOCK_SH | LOCK_NB, path) && lock(file, LOCK_EX, path));
 }
 
-/// Whether a path is of the given kind (file or folder) itself, and not a link to one.
-bool is_of_kind(const std::string& path, mode_t kind) {
+/// Whether a path is of the given kind (file or folder) itself, and not a link to one, and, if `ours`,
+/// belongs to this user.
+bool is_of_kind(const std::string& path, mode_t kind, bool ours) {
   struct stat status {};
-  return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind;
-}
-
-/// Whether a path is of the given kind and belongs to this user.
-bool is_ours(const std::string& path, mode_t kind) {
-  struct stat status {};
-  return is_of_kind(path, kind) && ::lstat(path.c_str(), &status) == 0 && status.st_uid == ::geteuid();
-}
-
-/// Throws the error for an existing item that Talus has not created. The item is left in place.
-[[noreturn]] void refuse_foreign(const std::string& path) {
-  throw Error(ExitCode::cannot_create,
-              path +
-                  " is in the way: Talus needs this name for a temporary file, and did not "
-                  "create the existing one; remove it, or choose another output");
+  return ::lstat(path.c_str(), &status) == 0 && (status.st_mode & S_IFMT) == kind &&
+         (!ours || status.st_uid == ::geteuid());
 }
 
 /// Opens a path without following a link, and without waiting for the other end of a FIFO.
@@ -125,9 +103,12 @@ std::optional<Descriptor> create_locked(const std::string& path) {
     Descriptor made(::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     const bool is_new = made.get() >= 0;
     if (!is_new && errno != EEXIST) throw creation_error("create", path, errno);
-    if (!is_new && !is_of_kind(path, S_IFREG)) {
+    if (!is_new && !is_of_kind(path, S_IFREG, false)) {
       if (errno == ENOENT) continue;  // removed meanwhile
-      refuse_foreign(path);
+      throw Error(ExitCode::cannot_create,
+                  path +
+                      " is in the way: Talus needs this name for a temporary file, and did not "
+                      "create the existing one; remove it, or choose another output");
     }
     Descriptor file = is_new ? std::move(made) : open_found(path, O_RDWR);
     if (file.get() < 0 && errno == ENOENT) continue;
@@ -137,7 +118,10 @@ std::optional<Descriptor> create_locked(const std::string& path) {
     if (is_new) return file;
     if (::unlink(path.c_str()) != 0 && errno != ENOENT) throw creation_error("replace", path, errno);
   }
-  throw_foreign_lock(path);
+  throw Error(ExitCode::cannot_create,
+              "{}: cannot lock: it was replaced by another file at each of {} attempts; choose an "
+              "output on another file system",
+              path, attempts);
 }
 
 void while_locked(const std::string& path, const std::function<void()>& work) {
@@ -171,10 +155,10 @@ void remove_figure_folder(const std::string& path) {
   std::error_code unknown;
   const std::vector<std::string> files = names_in(path, unknown);
   const auto is_of_figure = [&](const std::string& file) {
-    return file.starts_with(name) && is_ours((fs::path(path) / file).string(), S_IFREG);
+    return file.starts_with(name) && is_of_kind(path_in(path, file), S_IFREG, true);
   };
   if (!std::ranges::all_of(files, is_of_figure)) return;
-  for (const std::string& file : files) ::unlink((fs::path(path) / file).c_str());
+  for (const std::string& file : files) ::unlink(path_in(path, file).c_str());
   ::rmdir(path.c_str());
 }
 
@@ -182,9 +166,9 @@ void remove_figure_folder(const std::string& path) {
 /// be shared. A process about to lock a file that it has just created finds the lock shared, waits, finds
 /// that the name no longer exists, and creates another file (create_locked).
 void clear(const std::string& path) {
-  const bool is_file = is_ours(path, S_IFREG);
-  if (!is_file && !is_ours(path, S_IFDIR)) return;
-  const Descriptor left(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const bool is_file = is_of_kind(path, S_IFREG, true);
+  if (!is_file && !is_of_kind(path, S_IFDIR, true)) return;
+  const Descriptor left = open_found(path, O_RDONLY);
   if (left.get() < 0 || ::flock(left.get(), LOCK_SH | LOCK_NB) != 0 || !is_named(path, left)) return;
   if (is_file)
     ::unlink(path.c_str());
@@ -222,7 +206,7 @@ void clear_leftovers(const std::string& folder) {
   // One process at a time: of two processes that share a lock, one could remove a file made by a third since.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (place.get() < 0 || ::flock(place.get(), LOCK_EX | LOCK_NB) != 0) return;
-  for (const std::string& name : names) clear((fs::path(folder) / name).string());
+  for (const std::string& name : names) clear(path_in(folder, name));
 }
 
 }  // namespace talus

@@ -13,17 +13,87 @@
 #include <fmt/core.h>
 #include <map>
 #include <mutex>
-#include <optional>
-#include <utility>
 
 #include "base/errors.h"
 #include "base/locked_file.h"
-#include "base/paths.h"
 
 namespace talus {
-namespace {
+
+bool Descriptor::close() {
+  const int file = std::exchange(file_, -1);
+  return file < 0 || ::close(file) == 0;
+}
+
+std::size_t read_at_most(const Descriptor& file, std::span<std::byte> buffer, const std::string& path) {
+  std::size_t done = 0;
+  while (done < buffer.size()) {
+    const ssize_t count = ::read(file.get(), buffer.data() + done, buffer.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw system_error(ExitCode::io_error, "read", path, errno);
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
 
 namespace fs = std::filesystem;
+
+bool is_there(const std::string& path) {
+  std::error_code unknown;
+  return fs::exists(path, unknown);
+}
+
+bool is_file(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_regular_file(path, unknown);
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code unknown;
+  return fs::is_directory(path, unknown);
+}
+
+std::optional<FileMark> mark_of_file(const std::string& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return std::nullopt;
+  return FileMark{file.st_dev, file.st_ino, static_cast<std::uint64_t>(file.st_size), file.st_mtim.tv_sec,
+                  file.st_mtim.tv_nsec};
+}
+
+std::string path_in(const std::string& folder, std::string_view name) {
+  return (fs::path(folder) / name).string();
+}
+
+std::string absolute_path(const std::string& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path, error);
+  return error ? path : whole.string();
+}
+
+std::string resolved_path(const std::string& path) {
+  std::error_code error;
+  // Absolute first, because weakly_canonical leaves a relative path relative if none of it exists.
+  const std::string whole = absolute_path(path);
+  const fs::path resolved = fs::weakly_canonical(whole, error);
+  return error ? fs::path(whole).lexically_normal().string() : resolved.string();
+}
+
+std::vector<std::string> names_in(const std::string& folder, std::error_code& error) {
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    names.push_back(entry->path().filename().string());
+  if (error) names.clear();
+  return names;
+}
+
+std::vector<std::string> names_in(const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> names = names_in(folder, error);
+  if (error) throw system_error(ExitCode::io_error, "read the folder", folder, error.value());
+  return names;
+}
+
+namespace {
 
 const char* kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
@@ -132,10 +202,9 @@ std::string output_target(const std::string& path, const OutputRule& rule) {
   if (!S_ISREG(file.st_mode))
     refuse(path, std::string(" is ") + kind_of(file.st_mode) + "; choose another output with -o");
   if (is_input(file, target, rule))
-    throw Error(rule.overwrite ? ExitCode::usage : ExitCode::cannot_create,
-                path +
-                    " is read by this command and cannot be its output as well; choose another output "
-                    "with -o");
+    throw Error(
+        rule.overwrite ? ExitCode::usage : ExitCode::cannot_create,
+        path + " is read by this command and cannot be its output as well; choose another output with -o");
   if (!rule.overwrite) refuse(path, " exists; give --overwrite to replace it, or another -o");
   if (const std::string reason = write_protection(target, file); !reason.empty())
     refuse(path, " " + reason + "; chmod u+w makes it writable, or choose another output with -o");
@@ -234,8 +303,8 @@ void OutputFile::flush() {
   if (::fstat(file_.get(), &file) != 0)
     throw system_error(ExitCode::io_error, "read the size of", path_, errno);
   if (const auto size = static_cast<std::uint64_t>(file.st_size); size != written_)
-    throw Error(ExitCode::io_error,
-                fmt::format("{}: has {} bytes on the disk, but {} were written", path_, size, written_));
+    throw Error(ExitCode::io_error, "{}: has {} bytes on the disk, but {} were written", path_, size,
+                written_);
 }
 
 void OutputFile::commit() {
@@ -251,6 +320,14 @@ void OutputFile::commit() {
 
 namespace {
 
+/// Moves to the beginning of a file in memory and returns its size, bytes.
+std::size_t rewind(const Descriptor& file, const std::string& name) {
+  const off_t size = ::lseek(file.get(), 0, SEEK_END);
+  if (size <= 0) throw Error(ExitCode::io_error, "{}: nothing was written", name);
+  ::lseek(file.get(), 0, SEEK_SET);
+  return static_cast<std::size_t>(size);
+}
+
 void copy(const Descriptor& from, const std::string& name, OutputFile& to) {
   std::vector<std::byte> part(std::size_t{1} << 20);
   while (const std::size_t count = read_at_most(from, part, name)) to.write(std::span(part).first(count));
@@ -265,22 +342,13 @@ MemoryFile::MemoryFile(const std::string& name) : name_(name), file_(::memfd_cre
 std::string MemoryFile::path() const { return fmt::format("/proc/{}/fd/{}", ::getpid(), file_.get()); }
 
 void MemoryFile::copy_to(OutputFile& file) const {
-  if (::lseek(file_.get(), 0, SEEK_END) <= 0)
-    throw Error(ExitCode::io_error, name_ + ": nothing was written");
-  ::lseek(file_.get(), 0, SEEK_SET);
+  rewind(file_, name_);
   copy(file_, name_, file);
 }
 
 std::vector<std::uint8_t> MemoryFile::bytes() const {
-  const off_t size = ::lseek(file_.get(), 0, SEEK_END);
-  if (size <= 0) throw Error(ExitCode::io_error, name_ + ": nothing was written");
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got =
-        ::pread(file_.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
-    if (got <= 0) throw system_error(ExitCode::io_error, "read", name_, errno);
-    done += static_cast<std::size_t>(got);
-  }
+  std::vector<std::uint8_t> bytes(rewind(file_, name_));
+  bytes.resize(read_at_most(file_, std::as_writable_bytes(std::span(bytes)), name_));
   return bytes;
 }
 
@@ -313,10 +381,9 @@ namespace {
 
 /// Creates a folder and its parents, and makes their names durable.
 void make_with_parents(const std::string& folder) {
-  std::error_code unknown;
-  if (fs::is_directory(folder, unknown)) return;
+  if (is_folder(folder)) return;
   if (const std::string parent = parent_folder(folder); parent != folder) make_with_parents(parent);
-  if (::mkdir(folder.c_str(), 0777) != 0 && (errno != EEXIST || !fs::is_directory(folder, unknown)))
+  if (::mkdir(folder.c_str(), 0777) != 0 && (errno != EEXIST || !is_folder(folder)))
     throw creation_error("create the folder", folder, errno == EEXIST ? ENOTDIR : errno);
   const Descriptor above(::open(parent_folder(folder).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (above.get() >= 0) sync(above, folder);
@@ -333,8 +400,7 @@ void prepare_folder(const std::string& folder) {
 
 void prepare_folder_of(const std::string& path) {
   const std::string folder = parent_folder(path);
-  std::error_code unknown;
-  if (fs::is_directory(folder, unknown))
+  if (is_folder(folder))
     clear_leftovers(folder);
   else
     prepare_folder(folder);

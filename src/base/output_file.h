@@ -1,15 +1,81 @@
 #pragma once
-/// Output files that appear complete or not at all, and the rule for the files that they may replace.
+/// Files and paths. Output files appear complete or not at all; the rule for the files that they may replace
+/// is here as well.
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "base/descriptor.h"
-
 namespace talus {
+
+// A file descriptor that is closed by its destructor.
+
+class Descriptor {
+ public:
+  explicit Descriptor(int file) : file_(file) {}
+  Descriptor(Descriptor&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(file_, other.file_);
+    return *this;
+  }
+  ~Descriptor() { close(); }
+
+  int get() const { return file_; }  ///< negative if opening failed, with the reason in errno
+  /// Closes the file; returns false, with the reason in errno, if the system reports an error of an earlier
+  /// write.
+  bool close();
+
+ private:
+  int file_;
+};
+
+/// Fills `buffer` from the file, incompletely only at the end of the file; returns the number of bytes read.
+/// Throws Error(io_error), naming `path`.
+std::size_t read_at_most(const Descriptor& file, std::span<std::byte> buffer, const std::string& path);
+
+// Queries of paths. None of them throws exceptions of std::filesystem: a loop of links, a name that is too
+// long or a folder without permission gives a result, or an Error with a message.
+
+/// Whether a path exists, is a regular file, or a folder, after following links; false if that cannot be
+/// determined.
+bool is_there(const std::string& path);
+bool is_file(const std::string& path);
+bool is_folder(const std::string& path);
+
+/// Identifies a file and its contents, which stay the same with it.
+struct FileMark {
+  std::uint64_t device = 0, inode = 0, size = 0;
+  std::int64_t seconds = 0, nanoseconds = 0;  ///< time of the last change
+  bool operator==(const FileMark&) const = default;
+  bool operator<(const FileMark& other) const {
+    return std::tie(device, inode, size, seconds, nanoseconds) <
+           std::tie(other.device, other.inode, other.size, other.seconds, other.nanoseconds);
+  }
+};
+/// Returns the mark of a file; no value, with the reason in errno, if there is none.
+std::optional<FileMark> mark_of_file(const std::string& path);
+
+/// Returns the path of a name in a folder.
+std::string path_in(const std::string& folder, std::string_view name);
+
+/// Returns the path from the root, without following links; the path itself if the working folder is missing.
+std::string absolute_path(const std::string& path);
+
+/// Returns the absolute path without links, dots and doubled slashes, which is equal for all names of a file.
+/// Parts that do not exist or cannot be followed are kept.
+std::string resolved_path(const std::string& path);
+
+/// Returns the names in a folder, in no order; none, with the reason in `error`, if it cannot be read.
+std::vector<std::string> names_in(const std::string& folder, std::error_code& error);
+/// Returns the names in a folder. Throws Error(io_error) if it cannot be read.
+std::vector<std::string> names_in(const std::string& folder);
 
 /// Rule for the files that an output may replace.
 struct OutputRule {

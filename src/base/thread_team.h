@@ -62,7 +62,7 @@ void distribute(ThreadTeam* team, std::size_t count, const Do& what) {
   if (team == nullptr) return what(std::size_t{0}, count);
   const std::size_t size = static_cast<std::size_t>(team->size());
   team->run([&what, count, size](int member) {
-    const auto own = static_cast<std::size_t>(member);
+    const std::size_t own = member;
     what(count * own / size, count * (own + 1) / size);
   });
 }

@@ -8,7 +8,7 @@
 namespace talus {
 
 bool is_with_wall(const Frame& frame, Index c) {
-  const auto k = static_cast<std::size_t>(c);
+  const std::size_t k = c;
   return frame.contacts.b[k] >= frame.grain_count() && std::abs(frame.contacts.nx[k]) > 0.5;
 }
 
@@ -18,7 +18,7 @@ double friction_of_contact(const Frame& frame, Index c) {
 
 double force_threshold(std::span<const double> mass, Index free_count, double gravity) {
   if (free_count <= 0) return std::numeric_limits<double>::infinity();
-  const auto free = mass.first(static_cast<std::size_t>(free_count));
+  const auto free = mass.first(free_count);
   return 1e-9 * gravity * std::accumulate(free.begin(), free.end(), 0.0) / free_count;
 }
 
@@ -50,7 +50,7 @@ void clear_unloaded_grains(Frame& frame) {
   std::vector<bool> touched(frame.gamma.size(), false);
   for (const auto* bodies : {&frame.contacts.a, &frame.contacts.b})
     for (const Index body : *bodies)
-      if (body < frame.grain_count()) touched[static_cast<std::size_t>(body)] = true;
+      if (body < frame.grain_count()) touched[body] = true;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     if (touched[i]) continue;
     frame.gamma[i] = not_known;

@@ -1,5 +1,5 @@
 #pragma once
-/// Data that a run records: frames for maps and analysis, series of observables and of steps.
+/// Data that a run records: frames for maps and analysis, and the constants of the run that they belong to.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/contacts.h"
 #include "core/observables.h"
 #include "core/types.h"
 #include "core/world.h"
@@ -28,7 +27,7 @@ struct FrameContacts {
   std::vector<ContactStatus> status;
   std::vector<double> moment{};  ///< N m on b (per metre of thickness); empty if no contact resists rolling
 
-  Index count() const { return static_cast<Index>(a.size()); }
+  Index count() const { return a.size(); }
 };
 
 /// Coefficients of friction in force in a step.
@@ -53,7 +52,7 @@ struct Frame {
   FrameContacts contacts;
   Friction friction;  ///< friction in the step that led to this state, and thus to its forces
 
-  Index grain_count() const { return static_cast<Index>(x.size()); }
+  Index grain_count() const { return x.size(); }
 };
 
 /// Constants of a run.
@@ -104,6 +103,20 @@ std::optional<Value> find_value(const std::vector<std::pair<std::string, Value>>
   for (const auto& [key, value] : named)
     if (key == name) return value;
   return std::nullopt;
+}
+
+// A frame of a bed together with the constants of its run.
+
+/// References to a frame and to the constants of its run; owns neither.
+struct BedFrame {
+  const Frame& frame;
+  const RunStatics& statics;
+};
+
+/// Returns the displacement of grain i since an earlier frame, m, continued across a periodic edge.
+inline Vec2 displacement(const BedFrame& bed, const Frame& before, Index i) {
+  const double periods = bed.statics.periodic ? bed.frame.image[i] - before.image[i] : 0;
+  return {bed.frame.x[i] - before.x[i] + periods * bed.statics.length, bed.frame.y[i] - before.y[i]};
 }
 
 }  // namespace talus

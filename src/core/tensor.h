@@ -3,6 +3,7 @@
 /// matrix(M) += r * f.transpose().
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "core/types.h"
 

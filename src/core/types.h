@@ -1,7 +1,9 @@
 #pragma once
 /// Small types shared by every room.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace talus {
@@ -26,6 +28,16 @@ struct Tensor2 {
   double xy = 0.0;
   double yx = 0.0;
   double yy = 0.0;
+};
+
+// Callbacks for progress and interruption of long operations.
+
+/// Callback with the number of finished items and the total; may be empty.
+using CountDone = std::function<void(std::size_t done, std::size_t count)>;
+
+struct Watch {
+  CountDone progress;             ///< may be empty
+  std::function<bool()> stopped;  ///< whether to stop; called before each item
 };
 
 }  // namespace talus

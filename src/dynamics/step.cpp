@@ -10,8 +10,6 @@
 
 #include "base/errors.h"
 #include "contact/detection.h"
-#include "contact/memory.h"
-#include "dynamics/form_problem.h"
 
 namespace talus::dynamics {
 namespace {
@@ -91,7 +89,7 @@ void copy_positions(const Grains& from, std::size_t first, std::size_t last, Gra
   copy(from.image, to.image);
 }
 
-std::size_t free_grains(const World& world) { return static_cast<std::size_t>(world.grains.free_count); }
+std::size_t free_grains(const World& world) { return world.grains.free_count; }
 
 /// Moves the grains to the midpoint (T2) and stores their positions in `before`.
 void begin_motion(World& world, double h, ThreadTeam* team, Grains& before) {
@@ -162,7 +160,7 @@ double largest_overlap(const Contacts& contacts) {
 /// Computes the first guess of the solve: the forces that persist from the last step, times h (T18).
 void guess_impulses(const Contacts& contacts, double h, const solver::ContactProblem& problem,
                     ThreadTeam* team, solver::ContactSolution& solution) {
-  const auto count = static_cast<std::size_t>(contacts.count());
+  const std::size_t count = contacts.count();
   solution.pn.resize(count);
   solution.pt.resize(count);
   distribute(team, count, [&](std::size_t first, std::size_t last) {
@@ -173,7 +171,7 @@ void guess_impulses(const Contacts& contacts, double h, const solver::ContactPro
   });
   solution.pr.resize(contacts.moment.size());
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
-    solution.pr[c] = contacts.moment[c] * h / solver::rolling_length(problem, static_cast<Index>(c));
+    solution.pr[c] = contacts.moment[c] * h / solver::rolling_length(problem, c);
 }
 
 /// Stores the impulses as mean forces over the step, so that the memory remains valid if h changes (T18).
@@ -186,8 +184,7 @@ void store_impulses(const solver::ContactProblem& problem, const solver::Contact
     }
   });
   for (std::size_t c = 0; c < solution.pr.size(); ++c)
-    contacts.moment[c] =
-        solver::rolling_length(problem, static_cast<Index>(c)) * solution.pr[c] / h;  // (T41)
+    contacts.moment[c] = solver::rolling_length(problem, c) * solution.pr[c] / h;  // (T41)
 }
 
 bool finite(const std::vector<double>& values, std::size_t first, std::size_t last) {

@@ -4,115 +4,124 @@
 #include <cmath>
 #include <functional>
 
+#include "analysis/failure/transition.h"
+#include "analysis/quantities.h"
+#include "core/trigonometry.h"
+
 namespace talus::ensemble {
 namespace {
 
+using analysis::Quantity;
+
 constexpr double same_angle = 1e-6;  // deg, far below the spacing of frames
 
-void summarise(AveragedQuantity& quantity, std::size_t points) {
-  for (std::size_t point = 0; point < points; ++point) {
-    std::vector<double> values;
-    for (std::size_t k = point; k < quantity.values.size(); k += points) values.push_back(quantity.values[k]);
-    quantity.summaries.push_back(summary_of(values));
-  }
-}
+/// The way of a member to failure: the frames of its last rise up to theta_c, or all of a slope that has not
+/// failed. Of frames at one held tilt the first counts.
+struct Course {
+  double diameter = 1.0;  ///< m
+  double theta_c = 0.0;   ///< deg; NaN if the slope has not failed
+  bool mirrored_slope = false;
+  std::vector<const analysis::FrameRecord*> frames;
+  std::vector<double> tilts;              ///< deg, ascending
+  std::vector<std::vector<double>> bins;  ///< edges and centres of the bins of lists
+};
 
-/// Collects the names of all quantities, in order of first appearance. Members of different versions may have
-/// different quantities.
-template <typename Item, typename ItemsOf>
-std::vector<AveragedQuantity> all_quantities(const std::vector<MemberResult>& members,
-                                             const ItemsOf& items_of) {
-  std::vector<AveragedQuantity> all;
-  for (const MemberResult& member : members)
-    for (const Item& item : items_of(member))
-      if (std::ranges::find(all, item.name, &AveragedQuantity::name) == all.end())
-        all.push_back({item.name, item.unit, {}, {}});
-  return all;
-}
-
-std::vector<AveragedQuantity> averaged_numbers(const std::vector<MemberResult>& members) {
-  auto all = all_quantities<NamedNumber>(
-      members,
-      [](const MemberResult& member) -> const std::vector<NamedNumber>& { return member.numbers.numbers; });
-  for (AveragedQuantity& quantity : all) {
-    for (const MemberResult& member : members)
-      quantity.values.push_back(number_called(member.numbers, quantity.name));
-    summarise(quantity, 1);
-  }
-  return all;
-}
-
-/// Averages the quantities of all members over a grid of angles. `tilt_at(member, angle)` returns the tilt of
-/// a member (deg) at a point of the grid.
-AveragedCurves averaged_curves(const std::vector<MemberResult>& members, std::vector<double> angles,
-                               const std::function<double(const MemberResult&, double)>& tilt_at) {
-  AveragedCurves curves{std::move(angles), {}};
-  curves.quantities = all_quantities<NamedSeries>(
-      members,
-      [](const MemberResult& member) -> const std::vector<NamedSeries>& { return member.series.series; });
-  const std::size_t points = curves.angles.size();
-  for (AveragedQuantity& quantity : curves.quantities) {
-    quantity.values.assign(members.size() * points, std::nan(""));
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      const MemberResult& member = members[m];
-      const auto series = std::ranges::find(member.series.series, quantity.name, &NamedSeries::name);
-      if (series != member.series.series.end())
-        for (std::size_t point = 0; point < points; ++point)
-          quantity.values[m * points + point] =
-              interpolated(member.series.theta, series->values, tilt_at(member, curves.angles[point]));
+Course course_of(const MemberResult& member) {
+  const analysis::Analysis& analysis = member.analysis;
+  const analysis::FramesOfRise rise = analysis::last_rise(analysis.frames);
+  Course course{
+      member.mean_diameter, number_called(member.numbers, "theta_c"), rise.mirrored_slope, {}, {}, {}};
+  for (const analysis::FrameRecord* frame : rise.frames)
+    if (!(std::abs(frame->tilt) > analysis.theta_c) &&
+        (course.frames.empty() || std::abs(frame->tilt) > std::abs(course.frames.back()->tilt))) {
+      course.frames.push_back(frame);
+      course.tilts.push_back(degrees(std::abs(frame->tilt)));
     }
-    summarise(quantity, points);
+  for (const Quantity& quantity : analysis::quantities())
+    if (analysis::is_list_of_run(quantity))
+      course.bins.push_back(std::get<std::vector<double>>(analysis::values_of(quantity, analysis)));
+  return course;
+}
+
+/// Returns the values of a quantity in all frames, an equal number for each, in the units of tables.
+std::vector<double> series_of(const Course& course, const Quantity& quantity, std::size_t f) {
+  std::vector<double> values;
+  for (const analysis::FrameRecord* frame : course.frames)
+    if (analysis::is_number_of_frame(quantity)) {
+      values.push_back(analysis::number_on_one_side(quantity, *frame, f, course.mirrored_slope));
+    } else {
+      const std::vector<double> list = analysis::list_of(quantity, *frame, f);
+      values.insert(values.end(), list.begin(), list.end());
+    }
+  for (double& value : values) value = analysis::scaled(quantity.unit, value, course.diameter);
+  return values;
+}
+
+/// The values of all members at the points of a grid. `tilt_at` returns the tilt of a member (deg) at an
+/// angle of the grid.
+struct Grid {
+  const std::vector<Course>& courses;
+  const std::vector<double>& angles;  ///< deg
+  std::function<double(const Course&, double)> tilt_at;
+};
+
+/// Averages a quantity, at threshold f if it depends on one. It has no width if no member has it.
+AveragedQuantity average(const Grid& grid, const Quantity& quantity, std::size_t f) {
+  const auto& [courses, angles, tilt_at] = grid;
+  AveragedQuantity found{element_name(quantity.name, f), analysis::scaled_unit(quantity.unit),
+                         quantity.definition, !analysis::is_number_of_frame(quantity), 0};
+  std::vector<std::vector<double>> values;  // of the members, for each number at each point
+  const Course* first = nullptr;
+  for (const Course& course : courses) {
+    if (course.frames.empty()) continue;
+    if (first == nullptr) first = &course;
+    const std::vector<double> series = series_of(course, quantity, f);
+    const std::size_t width = series.size() / course.frames.size();
+    if (found.width == 0) values.resize(angles.size() * (found.width = width));
+    if (width != found.width || (found.is_list && course.bins != first->bins)) continue;
+    for (std::size_t k = 0; k < width; ++k) {
+      std::vector<double> one;
+      for (std::size_t at = k; at < series.size(); at += width) one.push_back(series[at]);
+      for (std::size_t point = 0; point < angles.size(); ++point)
+        values[point * width + k].push_back(interpolated(course.tilts, one, tilt_at(course, angles[point])));
+    }
   }
-  return curves;
-}
-
-double theta_c_of(const MemberResult& member) { return number_called(member.numbers, "theta_c"); }
-
-AveragedCurves averages_over_tilt(const std::vector<MemberResult>& members, double spacing) {
-  double largest = -spacing;
-  for (const MemberResult& member : members)
-    if (!member.series.theta.empty()) largest = std::max(largest, member.series.theta.back());
-  return averaged_curves(members, grid_up_to(largest, spacing),
-                         [](const MemberResult&, double angle) { return angle; });
-}
-
-AveragedCurves averages_before_failure(const std::vector<MemberResult>& members, double spacing) {
-  double largest = -1.0;
-  for (const MemberResult& member : members)
-    if (const double theta_c = theta_c_of(member); !std::isnan(theta_c)) largest = std::max(largest, theta_c);
-  if (largest < 0.0) return {};
-  return averaged_curves(members, grid_up_to(largest, spacing),
-                         [](const MemberResult& member, double angle) { return theta_c_of(member) - angle; });
-}
-
-/// Whether a number is the angle of an event, rather than the width of a range or an error.
-bool is_event(const std::string& name) {
-  if (name == "theta_c" || name == "first_slide" || name == "theta_r") return true;
-  return name.starts_with("theta_d/") && name.find("_error") == std::string::npos &&
-         name.find("_low") == std::string::npos && name.find("_high") == std::string::npos &&
-         name.find("_size") == std::string::npos;
-}
-
-AngleCorrelations correlations_of(const std::vector<AveragedQuantity>& numbers) {
-  std::vector<std::vector<double>> angles;
-  AngleCorrelations found;
-  for (const AveragedQuantity& quantity : numbers) {
-    if (!is_event(quantity.name)) continue;
-    found.names.push_back(quantity.name);
-    angles.push_back(quantity.values);
-  }
-  for (const std::vector<double>& left : angles)
-    for (const std::vector<double>& right : angles) found.pairs.push_back(correlation_of(left, right));
+  for (const std::vector<double>& of_members : values)
+    found.summaries.push_back(found.is_list ? Summary{.statistics = statistics_of(of_members)}
+                                            : summary_of(of_members));
   return found;
 }
 
-}  // namespace
-
-std::vector<double> grid_up_to(double largest, double spacing) {
-  std::vector<double> angles;
-  for (int k = 0; k * spacing <= largest + same_angle; ++k) angles.push_back(k * spacing);
-  return angles;
+/// Averages the quantities of frames. Directions of axes are left out: they are defined only up to half a
+/// turn and have no mean.
+std::vector<AveragedQuantity> averaged_quantities(const Grid& grid, std::size_t thresholds) {
+  std::vector<AveragedQuantity> all;
+  for (const Quantity& quantity : analysis::quantities()) {
+    if (!analysis::is_number_of_frame(quantity) &&
+        !(analysis::is_list_of_frame(quantity) && quantity.unit != "rad"))
+      continue;
+    const std::size_t count = analysis::needs_threshold(quantity) ? thresholds : 1;
+    for (std::size_t f = 0; f < count; ++f)
+      if (AveragedQuantity found = average(grid, quantity, f); found.width > 0)
+        all.push_back(std::move(found));
+  }
+  return all;
 }
+
+std::vector<AveragedQuantity> averaged_numbers(const std::vector<const MemberResult*>& members) {
+  std::vector<std::string> names;
+  for (const MemberResult* member : members) add_names(member->numbers, names);
+  std::vector<AveragedQuantity> all;
+  for (const std::string& name : names) {
+    std::vector<double> values;
+    for (const MemberResult* member : members) values.push_back(number_called(member->numbers, name));
+    all.push_back(
+        {.name = name, .unit = unit_of_number(name), .definition = {}, .summaries = {summary_of(values)}});
+  }
+  return all;
+}
+
+}  // namespace
 
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta) {
   const auto upper = std::ranges::lower_bound(tilts, theta - same_angle);
@@ -124,16 +133,29 @@ double interpolated(const std::vector<double>& tilts, const std::vector<double>&
   return values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
-Averages averages_of(const std::vector<MemberResult>& members, double frame_every) {
-  Averages averages;
-  for (const MemberResult& member : members) {
-    averages.seeds.push_back(member.seed);
-    averages.state_hashes.push_back(member.numbers.state_hash);
+VariantAverages averages_of(std::string name, std::string scenario, std::vector<const MemberResult*> members,
+                            double frame_every) {
+  VariantAverages averages{std::move(name), std::move(scenario), std::move(members), {}, {}, {}};
+  averages.numbers = averaged_numbers(averages.members);
+  std::vector<Course> courses;
+  std::size_t thresholds = 0;
+  double largest_tilt = -frame_every, largest_theta_c = -1.0;
+  for (const MemberResult* member : averages.members) {
+    const Course& course = courses.emplace_back(course_of(*member));
+    thresholds = std::max(thresholds, member->analysis.thresholds.size());
+    if (!course.tilts.empty()) largest_tilt = std::max(largest_tilt, course.tilts.back());
+    if (!std::isnan(course.theta_c)) largest_theta_c = std::max(largest_theta_c, course.theta_c);
   }
-  averages.numbers = averaged_numbers(members);
-  averages.correlations = correlations_of(averages.numbers);
-  averages.over_tilt = averages_over_tilt(members, frame_every);
-  averages.before_failure = averages_before_failure(members, frame_every);
+  const auto curves = [&](double largest, const std::function<double(const Course&, double)>& tilt_at) {
+    AveragedCurves found;
+    for (int k = 0; k * frame_every <= largest + same_angle; ++k) found.angles.push_back(k * frame_every);
+    found.quantities = averaged_quantities({courses, found.angles, tilt_at}, thresholds);
+    return found;
+  };
+  averages.over_tilt = curves(largest_tilt, [](const Course&, double angle) { return angle; });
+  if (largest_theta_c >= 0.0)
+    averages.before_failure =
+        curves(largest_theta_c, [](const Course& course, double angle) { return course.theta_c - angle; });
   return averages;
 }
 

@@ -1,57 +1,66 @@
 #pragma once
-/// Averages over the members of an ensemble: scalar results, and every quantity of the analysis on a common
-/// grid of tilt and on a grid of theta_c - theta.
+/// Averages over the members of a variant of an ensemble, and their files (docs/ensembles.md): ensemble.h5,
+/// which has all of them and the analyses of the members, and averages.csv.
+///
+/// Every scalar result of the runs is averaged, and every quantity of their frames on two grids: of tilt, and
+/// of theta_c - theta. Values between frames are interpolated linearly and never extrapolated, so that a
+/// member contributes up to its last frame before theta_c.
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/statistics.h"
-#include "ensemble/member_values.h"
+#include "ensemble/member_results.h"
+#include "runs/run_view.h"
 
 namespace talus::ensemble {
 
-/// A quantity at the points of a grid.
+/// A quantity at the points of a grid, averaged over the members that have it there.
 struct AveragedQuantity {
-  std::string name;  ///< same name as in the tables of the members
-  std::string unit;
-  std::vector<double> values;      ///< members x points; NaN if a member has no value there
-  std::vector<Summary> summaries;  ///< statistics over the members, one for each point
+  std::string name;  ///< for example "overloaded/fraction"; "overloaded/fraction[1]" is at threshold 1
+  std::string unit;  ///< unit in tables: deg, D, ...
+  std::string definition;
+  bool is_list = false;                 ///< a distribution, a correlation or a tensor, without quartiles
+  std::size_t width = 1;                ///< numbers at each point
+  std::vector<Summary> summaries = {};  ///< points x width
 };
 
-/// Quantities on a common grid.
 struct AveragedCurves {
   std::vector<double> angles;  ///< deg, multiples of the frame spacing, starting at 0
   std::vector<AveragedQuantity> quantities;
 };
 
-/// Correlations between the angles of events: theta_c, first_slide, theta_r, and theta_d by each estimator.
-struct AngleCorrelations {
-  std::vector<std::string> names;
-  std::vector<Correlation> pairs;  ///< names x names, row by row
-};
-
-/// The averages of one variant.
-struct Averages {
-  std::vector<std::uint64_t> seeds;
-  std::vector<std::string> state_hashes;
-  std::vector<AveragedQuantity> numbers;  ///< scalar results, each with one point
-  AngleCorrelations correlations;
+/// The members of a variant and their averages.
+struct VariantAverages {
+  std::string name;                          ///< name of the variant; empty if there is only one
+  std::string scenario;                      ///< TOML with every key
+  std::vector<const MemberResult*> members;  ///< ascending by seed
+  std::vector<AveragedQuantity> numbers;     ///< scalar results, each with one point
   AveragedCurves over_tilt;
   AveragedCurves before_failure;  ///< grid of theta_c - theta; no quantities if no slope failed
 };
 
-/// Averages members that are in the order of their seeds. `frame_every` is the spacing of the grids, deg.
-/// Values between frames are interpolated linearly and never extrapolated, so that a member contributes up to
-/// its last frame before theta_c. The result depends only on the set of members, not on the order in which
-/// they finished.
-Averages averages_of(const std::vector<MemberResult>& members, double frame_every);
-
-/// Returns the points of a grid: multiples of the spacing from 0 to `largest`, deg.
-std::vector<double> grid_up_to(double largest, double spacing);
+/// Averages members. `frame_every` is the spacing of the grids, deg. Lists are averaged over the members with
+/// the bins of the first one. The result depends only on the set of members, not on the order in which they
+/// finished.
+VariantAverages averages_of(std::string name, std::string scenario, std::vector<const MemberResult*> members,
+                            double frame_every);
 
 /// Interpolates a series linearly at `theta` (deg); NaN outside the range of its frames.
 double interpolated(const std::vector<double>& tilts, const std::vector<double>& values, double theta);
+
+/// Returns a CSV row for each scalar quantity at each angle: variant, grid, angle, quantity, unit, n, mean,
+/// standard deviation, standard error, 95 % interval of the mean, quartiles.
+std::string averages_csv(const std::vector<VariantAverages>& variants);
+
+/// Writes ensemble.h5. Throws the errors of write_durably.
+void write_averages(const std::string& path, const std::vector<VariantAverages>& variants,
+                    const std::string& version);
+
+/// Reads the members of all variants from ensemble.h5, as runs without a run file: their analyses have the
+/// scalars of the run, of each threshold and of each frame. Throws Error(missing_input) if the file does not
+/// exist, and Error(bad_data) if write_averages cannot have written it.
+std::vector<runs::RunView> read_averages(const std::string& path);
 
 }  // namespace talus::ensemble

@@ -29,29 +29,15 @@ bool is_ensemble(const std::string& folder);
 /// Returns the plan of the members, with their files in the folder.
 EnsemblePlan plan_of(const EnsembleManifest& manifest, const std::string& folder);
 
+/// Returns the text of a manifest: JSON, whose last member is the hash of the text before it.
+std::string manifest_text(const EnsembleManifest& manifest);
+/// Parses the text of the manifest at `path`, without the scenarios. Throws Error(bad_data), with the place,
+/// unless it is exactly the text of a manifest.
+EnsembleManifest parse_manifest(const std::string& text, const std::string& path);
+
 /// Reads the manifest and the scenarios. Throws Error(missing_input) if there is no ensemble, and
-/// Error(bad_data) if the manifest is damaged or has a line that talus never writes (with its number), or if
-/// a scenario differs from the original one.
+/// Error(bad_data) if talus does not write such a manifest, or if a scenario differs from the original one.
 EnsembleManifest read_ensemble(const std::string& folder);
-
-/// Returns the variants of a scenario: one for each combination of values of the axes
-/// ("contact.friction=0.3,0.5"), named by folder_name. Without axes it returns the scenario itself, without a
-/// name. Their seed is 1 and has no effect. The file of a bed becomes an absolute path, because members are
-/// computed in other working directories. Throws the errors of read_scenario and parse_axis, and Error(usage)
-/// for too many variants and for a path that no scenario file can hold.
-std::vector<Variant> plan_variants(const std::string& scenario_file, const std::vector<std::string>& settings,
-                                   const std::vector<std::string>& axes);
-
-/// Returns the variants of a study: the scenario itself, called "baseline", and each value of each axis alone
-/// ("tilt.step=0.002", "tilt.rate=2,tilt.step=0.002"), without those that equal an earlier one. An axis
-/// overrides `settings`. Throws as plan_variants does.
-std::vector<Variant> plan_one_at_a_time(const std::string& scenario_file,
-                                        const std::vector<std::string>& settings,
-                                        const std::vector<std::string>& axes);
-
-/// Replaces the names of variants that an ensemble already contains by their stored names, because earlier
-/// versions named variants differently.
-void take_earlier_names(std::vector<Variant>& variants, const std::string& folder);
 
 /// Reads the beds of variants with deposition.file, and stores their hashes. Throws the errors of bed_of_file
 /// unless the ensemble in the folder already has the variant, whose members then report them. Throws

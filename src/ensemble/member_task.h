@@ -1,18 +1,22 @@
 #pragma once
-/// The tasks of the members of an ensemble in addition to runs and their analyses.
+/// The tasks of the members of an ensemble in addition to runs and their analyses: trials of pushes, and the
+/// readings of the paper's definitions (docs/reproduce.md).
 
 #include <optional>
 #include <string>
 #include <variant>
 
+#include "ensemble/plan.h"
+#include "io/run_file.h"
+#include "io/run_store.h"
+#include "runs/analysis_run.h"
+
 namespace talus::ensemble {
 
 /// No additional task: a member is a run and its analysis.
-struct PlainTask {
-  bool operator==(const PlainTask&) const = default;
-};
+using PlainTask = std::monostate;
 
-/// Analyses periodic beds again for each reading of the paper's definitions (readings.h).
+/// Analyses periodic beds again for each reading of the paper's definitions (make_readings).
 struct ReadingsTask {
   bool operator==(const ReadingsTask&) const = default;
 };
@@ -52,5 +56,14 @@ std::string task_text(const MemberTask& task);
 
 /// Parses such a text. Throws Error(bad_data), naming `path`, for any other text.
 MemberTask parse_task(const std::string& text, const std::string& path);
+
+/// Analyses the run of a periodic bed for each reading and returns the values; valid stored readings are
+/// reused. A bed between walls has none. Throws as analyse_run does.
+std::vector<io::StoredReading> make_readings(const Member& member, const io::RunFile& run,
+                                             const runs::AnalysisProgress& progress);
+
+/// Computes and stores the readings that the complete, analysed run of a member lacks. Throws as
+/// store_readings does.
+void complete_readings(const Member& member);
 
 }  // namespace talus::ensemble

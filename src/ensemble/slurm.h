@@ -1,12 +1,15 @@
 #pragma once
-/// An ensemble as a Slurm job array: the script of its tasks, the arguments of Slurm's commands, and the
-/// parsing of their output. Nothing here starts a program.
+/// An ensemble as a Slurm job array: the script of its tasks, the arguments of Slurm's commands and the
+/// parsing of their output, and the files that record jobs and their progress. Nothing here starts a program.
 
-#include <cstddef>
+#include <compare>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "ensemble/plan.h"
 
 namespace talus::ensemble {
 
@@ -34,8 +37,9 @@ std::string time_text(double seconds);
 /// if a path contains a line break.
 std::string worker_command(const SlurmArray& array);
 
-/// Returns the bash script of each task. It runs a worker, and calls `talus ensemble requeue` to be started
-/// again if the time was over or the worker was killed. Paths are quoted by shell_quoted.
+/// Returns the bash script of each task. It runs a worker for each processor of the task, and calls `talus
+/// ensemble requeue` to be started again if the time was over or a worker was killed. Paths are quoted by
+/// shell_quoted.
 std::string job_script(const SlurmArray& array);
 
 /// Returns the `sbatch` command for that script, which is `slurm/job.sh` in the working directory of sbatch.
@@ -76,5 +80,43 @@ std::map<std::string, QueuedTasks> parse_queue(const std::string& printed);
 
 /// Groups jobs by cluster, because Slurm's commands address one cluster at a time.
 std::map<std::string, std::vector<SlurmJob>> by_cluster(const std::vector<SlurmJob>& jobs);
+
+/// Returns DIR/slurm, which contains the script job.sh and a file for each job, job-12.csv.
+std::string slurm_folder(const std::string& folder);
+
+/// Record and remove a job. Each job has its own file, so that any number of processes may do this
+/// concurrently. Throw the errors of write_text and remove_file.
+void record_job(const std::string& folder, const SlurmJob& job);
+void forget_job(const std::string& folder, const SlurmJob& job);
+
+/// Returns the jobs that were recorded and not removed, ordered by number. Throws Error(bad_data) if a file
+/// is not in the form that record_job writes.
+std::vector<SlurmJob> recorded_jobs(const std::string& folder);
+
+/// Progress of an ensemble. Completed members are compared first, because their steps no longer count.
+struct EnsembleMark {
+  std::uint64_t done = 0;   ///< completed members
+  std::uint64_t steps = 0;  ///< steps committed in the runs under way
+  auto operator<=>(const EnsembleMark&) const = default;
+};
+EnsembleMark mark_of(const EnsemblePlan& plan);
+
+/// Number of consecutive starts without progress of any member after which a task is not queued again.
+inline constexpr int max_idle_starts = 3;
+
+/// The progress that a task remembers from one start to the next.
+struct TaskMemory {
+  EnsembleMark mark;
+  int idle_starts = 0;
+};
+
+/// Returns `before` updated by one more start, after which the ensemble is at `now`.
+TaskMemory after_start(const TaskMemory& before, const EnsembleMark& now);
+
+/// Reads the memory of task `task` of a job, DIR/slurm/task-12_3.csv; that of a first start if the file is
+/// missing or unreadable.
+TaskMemory read_memory(const std::string& folder, const std::string& job, const std::string& task);
+void write_memory(const std::string& folder, const std::string& job, const std::string& task,
+                  const TaskMemory& memory);
 
 }  // namespace talus::ensemble

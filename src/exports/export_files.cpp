@@ -1,6 +1,7 @@
 #include "exports/export_files.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <fmt/core.h>
@@ -14,11 +15,10 @@
 #include "analysis/packing/packing.h"
 #include "base/errors.h"
 #include "base/output_file.h"
-#include "base/paths.h"
-#include "exports/page/run_page.h"
+#include "base/text.h"
 #include "exports/writers.h"
 #include "io/durable_file.h"
-#include "runs/analysis_input.h"
+#include "runs/analysis_run.h"
 
 namespace talus::exports {
 namespace {
@@ -27,10 +27,32 @@ std::string path_in(const ExportPlan& plan, const std::string& name) {
   return (std::filesystem::path(plan.output) / name).string();
 }
 
-/// Returns the file name of a frame, such as "frames/grains_0012.vtp" for frame 12, so that names sort by
-/// time.
-std::string frame_name(const char* what, std::size_t number, std::string_view ending) {
-  return fmt::format("{}_{:04}{}", what, number, ending);
+/// VTK files of the frames, such as frames/grains_0012.vtp, and grains.pvd, which lists them over time.
+struct VtkSeries {
+  std::string_view name, ending;
+  std::string (*text)(const analysis::GrainSource& frame, const ExportPlan& plan);
+};
+
+/// Returns the series of a format; none for a format that is not VTK.
+std::span<const VtkSeries> series_of(ExportFormat format) {
+  static constexpr VtkSeries bodies[] = {
+      {"grains", ".vtp",
+       [](const analysis::GrainSource& frame, const ExportPlan&) { return grains_vtp(frame); }},
+      {"contacts", ".vtp",
+       [](const analysis::GrainSource& frame, const ExportPlan&) { return contacts_vtp(frame); }}};
+  static constexpr VtkSeries fields[] = {
+      {"fields", ".vti", [](const analysis::GrainSource& frame, const ExportPlan& plan) {
+         return fields_vti(frame, plan.field_width * frame.statics.mean_diameter);
+       }}};
+  if (format == ExportFormat::paraview) return bodies;
+  return format == ExportFormat::vti ? fields : std::span<const VtkSeries>();
+}
+
+std::string pvd_name(const VtkSeries& series) { return fmt::format("{}.pvd", series.name); }
+
+/// Returns the file name of a frame, such as "grains_0012.vtp" for frame 12, so that names sort by time.
+std::string frame_name(const VtkSeries& series, std::size_t number) {
+  return fmt::format("{}_{:04}{}", series.name, number, series.ending);
 }
 
 /// Calls `write` with each frame of the plan.
@@ -46,14 +68,13 @@ void for_each_frame(const io::RunFile& run, const ExportPlan& plan, const Watch&
   const Frame first = run.frame(0);
   for (std::size_t done = 0; done < plan.frames.size(); ++done) {
     if (watch.stopped && watch.stopped())
-      throw Error(ExitCode::stopped,
-                  fmt::format("stopped after {} of {} frames; repeat the command with --overwrite", done,
-                              plan.frames.size()));
+      throw Error(ExitCode::stopped, "stopped after {} of {} frames; repeat the command with --overwrite",
+                  done, plan.frames.size());
     const std::size_t k = plan.frames[done];
     const Frame frame = run.frame(k), seen = runs::analysed_frame(run, plan.parameters, k, frame);
     const std::vector<analysis::FrameThreshold> thresholds = analysis::analyse_thresholds(
         {seen, statics}, plan.parameters, analysis, analysis::frame_volume({seen, statics}));
-    write({{frame, statics}, k, seen.gamma, &first, factors, thresholds});
+    write({{frame, statics}, nullptr, true, k, seen.gamma, &first, factors, thresholds});
     if (watch.progress) watch.progress(done + 1, plan.frames.size());
   }
 }
@@ -61,30 +82,20 @@ void for_each_frame(const io::RunFile& run, const ExportPlan& plan, const Watch&
 void write(OutputFile& file, std::string_view text) { file.write(std::as_bytes(std::span(text))); }
 
 /// Writes the .pvd files last, because they refer to the other files.
-void export_paraview(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
+void export_vtk(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
+  const std::span<const VtkSeries> series = series_of(plan.format);
+  std::vector<std::vector<PvdEntry>> entries(series.size());
+  if (plan.format == ExportFormat::vti)
+    check_field_width(run.header().statics, plan.field_width * run.header().statics.mean_diameter);
   prepare_folder(path_in(plan, "frames"));
-  std::vector<PvdEntry> grains, contacts;
   for_each_frame(run, plan, watch, [&](const analysis::GrainSource& frame) {
-    grains.push_back({frame.frame.time, frame_name("frames/grains", frame.number, ".vtp")});
-    contacts.push_back({frame.frame.time, frame_name("frames/contacts", frame.number, ".vtp")});
-    io::write_text(path_in(plan, grains.back().file), grains_vtp(frame));
-    io::write_text(path_in(plan, contacts.back().file), contacts_vtp(frame));
+    for (std::size_t s = 0; s < series.size(); ++s) {
+      entries[s].push_back({frame.frame.time, "frames/" + frame_name(series[s], frame.number)});
+      io::write_text(path_in(plan, entries[s].back().file), series[s].text(frame, plan));
+    }
   });
-  io::write_text(path_in(plan, "grains.pvd"), pvd_text(grains));
-  io::write_text(path_in(plan, "contacts.pvd"), pvd_text(contacts));
-}
-
-void export_fields(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
-  const RunStatics& statics = run.header().statics;
-  const double width = plan.field_width * statics.mean_diameter;
-  check_field_width(statics, width);
-  prepare_folder(path_in(plan, "frames"));
-  std::vector<PvdEntry> fields;
-  for_each_frame(run, plan, watch, [&](const analysis::GrainSource& frame) {
-    fields.push_back({frame.frame.time, frame_name("frames/fields", frame.number, ".vti")});
-    io::write_text(path_in(plan, fields.back().file), fields_vti(frame, width));
-  });
-  io::write_text(path_in(plan, "fields.pvd"), pvd_text(fields));
+  for (std::size_t s = 0; s < series.size(); ++s)
+    io::write_text(path_in(plan, pvd_name(series[s])), pvd_text(entries[s]));
 }
 
 /// Writes all frames consecutively to one file, after a header.
@@ -141,68 +152,33 @@ std::size_t export_observables(const io::RunFile& run, const ExportPlan& plan) {
 
 void check_output_name(ExportFormat format, const std::string& output) {
   const FormatEntry& entry = entry_of(format);
-  if (entry.output == ExportOutput::file && !output.ends_with(entry.ending))
-    throw Error(ExitCode::usage, fmt::format("{}: expected a name that ends in {}", output, entry.ending));
+  const bool is_file = entry.output == ExportOutput::file;
+  if (output.ends_with(entry.ending) != is_file)
+    throw Error(ExitCode::usage, "{}: expected {} in {}", output,
+                is_file ? "a name that ends" : "the name of a folder, which does not end", entry.ending);
 }
 
 std::vector<std::string> files_of(const ExportPlan& plan) {
+  if (plan.format == ExportFormat::csv)
+    return {path_in(plan, "frames.csv"), path_in(plan, "grains.csv"), path_in(plan, "contacts.csv")};
+  const std::span<const VtkSeries> series = series_of(plan.format);
+  if (series.empty()) return {plan.output};
   std::vector<std::string> files;
-  switch (plan.format) {
-    case ExportFormat::paraview:
-      files = {path_in(plan, "grains.pvd"), path_in(plan, "contacts.pvd")};
-      for (const std::size_t number : plan.frames)
-        for (const char* what : {"frames/grains", "frames/contacts"})
-          files.push_back(path_in(plan, frame_name(what, number, ".vtp")));
-      return files;
-    case ExportFormat::vti:
-      files = {path_in(plan, "fields.pvd")};
-      for (const std::size_t number : plan.frames)
-        files.push_back(path_in(plan, frame_name("frames/fields", number, ".vti")));
-      return files;
-    case ExportFormat::csv:
-      return {path_in(plan, "frames.csv"), path_in(plan, "grains.csv"), path_in(plan, "contacts.csv")};
-    case ExportFormat::xyz:
-    case ExportFormat::lammps:
-    case ExportFormat::observables:
-    case ExportFormat::html:
-      break;
-  }
-  return {plan.output};
+  for (const VtkSeries& each : series) files.push_back(path_in(plan, pvd_name(each)));
+  for (const std::size_t number : plan.frames)
+    for (const VtkSeries& each : series) files.push_back(path_in(plan, "frames/" + frame_name(each, number)));
+  return files;
 }
 
 namespace {
 
-/// Names of the files of frames in a format, which are in the folder "frames".
-struct FrameFiles {
-  std::vector<const char*> kinds;
-  std::string_view ending;
-};
-
-FrameFiles frame_files(ExportFormat format) {
-  switch (format) {
-    case ExportFormat::paraview:
-      return {{"grains", "contacts"}, ".vtp"};
-    case ExportFormat::vti:
-      return {{"fields"}, ".vti"};
-    case ExportFormat::csv:
-    case ExportFormat::xyz:
-    case ExportFormat::lammps:
-    case ExportFormat::observables:
-    case ExportFormat::html:
-      break;
-  }
-  return {};
-}
-
-/// Whether a name is that of a frame in a format.
-bool is_frame_name(const std::string& name, const FrameFiles& files) {
-  return std::ranges::any_of(files.kinds, [&](const char* kind) {
-    const std::size_t begin = std::string_view(kind).size() + 1;
-    std::size_t number = 0;
-    if (name.size() <= begin) return false;
-    std::from_chars(name.data() + begin, name.data() + name.size(), number);
-    return name == frame_name(kind, number, files.ending);
-  });
+/// Whether a name is that of a frame of a series.
+bool is_frame_name(const std::string& name, const VtkSeries& series) {
+  const std::size_t begin = series.name.size() + 1;
+  std::size_t number = 0;
+  if (name.size() <= begin) return false;
+  std::from_chars(name.data() + begin, name.data() + name.size(), number);
+  return name == frame_name(series, number);
 }
 
 /// Whether a file begins as those that Talus writes in XML.
@@ -217,17 +193,18 @@ bool is_by_talus(const std::string& path) {
 }  // namespace
 
 std::vector<std::string> stale_files(const ExportPlan& plan) {
-  const FrameFiles files = frame_files(plan.format);
+  const std::span<const VtkSeries> series = series_of(plan.format);
   const std::string folder = path_in(plan, "frames");
   const std::vector<std::string> written = files_of(plan);
   std::vector<std::string> stale;
   std::error_code unknown;
-  if (files.kinds.empty()) return stale;
+  if (series.empty()) return stale;
   for (const std::string& name : names_in(folder, unknown)) {
     const std::string path = (std::filesystem::path(folder) / name).string();
-    const bool is_written = std::ranges::find(written, path) != written.end();
-    if (!is_written && is_frame_name(name, files) && std::filesystem::is_regular_file(path, unknown) &&
-        is_by_talus(path))
+    const bool is_frame =
+        std::ranges::any_of(series, [&](const VtkSeries& each) { return is_frame_name(name, each); });
+    if (is_frame && std::ranges::find(written, path) == written.end() &&
+        std::filesystem::is_regular_file(path, unknown) && is_by_talus(path))
       stale.push_back(path);
   }
   return stale;
@@ -236,10 +213,8 @@ std::vector<std::string> stale_files(const ExportPlan& plan) {
 std::size_t export_files(const io::RunFile& run, const ExportPlan& plan, const Watch& watch) {
   switch (plan.format) {
     case ExportFormat::paraview:
-      export_paraview(run, plan, watch);
-      break;
     case ExportFormat::vti:
-      export_fields(run, plan, watch);
+      export_vtk(run, plan, watch);
       break;
     case ExportFormat::xyz:
       export_series(run, plan, watch, "", xyz_text);
@@ -257,6 +232,45 @@ std::size_t export_files(const io::RunFile& run, const ExportPlan& plan, const W
       break;
   }
   return plan.frames.size();
+}
+
+namespace {
+
+constexpr auto entries = std::to_array<FormatEntry>({
+    {ExportFormat::paraview, "paraview", "ParaView and VTK", ExportOutput::folder, ".pvd",
+     "grains.pvd and contacts.pvd over time, with grains as points and contacts as lines"},
+    {ExportFormat::vti, "vti", "ParaView and VTK", ExportOutput::folder, ".pvd",
+     "fields.pvd over time, with density, momentum, stress and strain rate of the bed as a continuum on a "
+     "grid"},
+    {ExportFormat::xyz, "xyz", "OVITO and ASE", ExportOutput::file, ".xyz",
+     "grains of all frames as extended XYZ, lengths in D"},
+    {ExportFormat::lammps, "lammps", "OVITO", ExportOutput::file, ".dump",
+     "grains of all frames as the text of a LAMMPS dump"},
+    {ExportFormat::csv, "csv", "pandas, R and spreadsheets", ExportOutput::folder, ".csv",
+     "frames.csv, grains.csv and contacts.csv, one row for each"},
+    {ExportFormat::observables, "observables", "pandas, R and spreadsheets", ExportOutput::file, ".csv",
+     "observables of the tilt as CSV, one row for each time at which they were recorded", false},
+    {ExportFormat::html, "html", "web browsers", ExportOutput::file, ".html",
+     "one page with maps, time line and curves, readable without Talus or a network", true, true},
+});
+
+}  // namespace
+
+std::span<const FormatEntry> export_formats() { return entries; }
+
+const FormatEntry& entry_of(ExportFormat format) {
+  return *std::ranges::find(entries, format, &FormatEntry::format);
+}
+
+std::optional<ExportFormat> export_format(std::string_view name) {
+  const auto entry = std::ranges::find(entries, name, &FormatEntry::name);
+  return entry == entries.end() ? std::nullopt : std::optional(entry->format);
+}
+
+std::string list_of_formats() {
+  return joined(entries, "; ", [](const FormatEntry& entry) {
+    return fmt::format("{}: {}, for {}", entry.name, entry.help, entry.program);
+  });
 }
 
 }  // namespace talus::exports

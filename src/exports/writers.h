@@ -1,29 +1,51 @@
 #pragma once
 /// Frames as text in all export formats.
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "analysis/deformation/coarse_fields.h"
+#include "analysis/deformation/deformation.h"
 #include "analysis/frame_quantities.h"
+#include "analysis/record.h"
 #include "core/observables.h"
-#include "exports/fields.h"
+#include "core/types.h"
+#include "io/run_file.h"
+#include "pictures/maps.h"
 
 namespace talus::exports {
 
-// bounds.cpp
-// The box around a bed, which formats of molecular dynamics require.
+// The quantities of a frame (frame_quantities.h) as columns, in the order of their table, which all writers
+// follow; and the names that other programs use for some of them. Centres of grains are excluded, because
+// each format stores them in its own place.
 
-/// The box, m. Along x it is the period, or reaches from wall to wall; along y it reaches from the lowest to
-/// the highest point of the grains in the frame; in the empty direction z it is one mean diameter thick.
-struct BedBounds {
-  double x_low = 0.0, x_high = 0.0, y_low = 0.0, y_high = 0.0, z_low = 0.0, z_high = 0.0;
+/// A quantity of a frame.
+struct FieldColumn {
+  const analysis::FrameQuantity& field;
+  std::string ending;          ///< suffix of its threshold, if it has one: "_1_5" for 1.5
+  std::vector<double> values;  ///< one entry per row
+
+  std::string name() const { return std::string(field.name) + ending; }
 };
-BedBounds bed_bounds(const analysis::GrainSource& frame);
 
-// csv.cpp
+/// Number of columns of grains, id and type, that precede the centre in tables.
+inline constexpr std::size_t columns_before_centre = 2;
+
+/// Returns the columns of all grains, floor included, in the order of their ids.
+std::vector<FieldColumn> grain_columns(const analysis::GrainSource& frame);
+/// Returns the columns of all contacts, in the order of their keys.
+std::vector<FieldColumn> contact_columns(const analysis::GrainSource& frame);
+
+/// Returns the names of a column's components in tables: "velocity_x", "velocity_y", "lc_1_5".
+std::vector<std::string> component_names(const FieldColumn& column);
+
+/// Returns the box, m. Along x it is the period, or reaches from wall to wall; along y it reaches from the
+/// lowest to the highest point of the grains in the frame. In the empty direction z it is one mean diameter
+/// thick.
+pictures::MapExtent bed_bounds(const analysis::GrainSource& frame);
+
 // Frames and observables as tables. The first line names columns, with their units in brackets: "time (s)". A
 // missing number is an empty field.
 
@@ -41,7 +63,6 @@ CsvRows contacts_csv(const analysis::GrainSource& frame);
 /// Returns a table of all observables.
 std::string observables_csv(std::span<const ObservableRow> rows);
 
-// xyz.cpp
 // Frames as extended XYZ, for OVITO and ASE.
 
 /// Returns a frame, to be appended to the preceding one in the same file. Lengths are in mean diameters, and
@@ -50,7 +71,6 @@ std::string observables_csv(std::span<const ObservableRow> rows);
 /// in m.
 std::string xyz_text(const analysis::GrainSource& frame);
 
-// lammps_dump.cpp
 // Frames as the text of a LAMMPS dump (custom style), for OVITO.
 
 /// Written only before the first frame, as LAMMPS does; after a second header, OVITO would not find the
@@ -61,7 +81,6 @@ inline constexpr std::string_view lammps_dump_head = "ITEM: UNITS\nsi\n";
 /// column z, which shows OVITO that the frame is two-dimensional.
 std::string lammps_dump_text(const analysis::GrainSource& frame);
 
-// vtp.cpp
 // Frames as VTK XML PolyData, for ParaView.
 
 /// Returns grains as points (vertices), m, with their fields as point data.
@@ -81,7 +100,6 @@ struct PvdEntry {
 /// Returns a .pvd: files over time.
 std::string pvd_text(std::span<const PvdEntry> entries);
 
-// vti.cpp
 // Coarse-grained fields of frames on a grid, as VTK XML ImageData, for ParaView.
 
 /// A field of the bed as a continuum; a test compares docs/export.md with the table of these.
@@ -111,5 +129,14 @@ void check_field_width(const RunStatics& statics, double width);
 
 /// Returns the file of a frame. Throws the errors of check_field_width.
 std::string fields_vti(const analysis::GrainSource& frame, double width);
+
+// A run as a single self-contained HTML page, readable without Talus: maps, time line, curves and texts.
+// docs/export.md describes the page; its source is in assets/page.
+
+/// Returns the page of these frames (indices in the run, ascending) of the run file at `path`, whose name is
+/// in the title; `analysis` is that of the entire run. The same run, frames and analysis give the same bytes.
+/// Throws Error(stopped) if it was stopped, and the errors of RunFile::frame.
+std::string run_page(const io::RunFile& file, const std::string& path, const analysis::Analysis& analysis,
+                     const std::vector<std::size_t>& frames, const Watch& watch);
 
 }  // namespace talus::exports

@@ -1,6 +1,7 @@
 #pragma once
-/// Widgets of `talus view`, drawn by Dear ImGui, with the view model as their data. Only this folder includes
-/// imgui.h.
+/// Gui is the widgets of `talus view`, drawn by Dear ImGui, with the view model as their data. draw_gui draws
+/// one picture of the whole window: its panels (panels.h) of named widgets (widgets.cpp), in a GuiWindow or,
+/// for tests and screenshots, an OffscreenGui. Only this folder includes imgui.h.
 
 #include <functional>
 #include <optional>
@@ -31,8 +32,9 @@ struct GuiRequests {
   std::string plots_folder;               ///< folder for the plots shown, as figures with their data
 };
 
-/// Draws one picture of the entire window; call between ImGui::NewFrame and ImGui::Render. Fills `places`
-/// with the places of the widgets.
-GuiRequests draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places);
+/// Draws one picture of the entire window; call between ImGui::NewFrame and ImGui::Render. Adds the places of
+/// the widgets to `places`, and their requests to `requests`.
+void draw_gui(view::ViewModel& model, const DrawMap& draw_map, std::vector<WidgetPlace>& places,
+              GuiRequests& requests);
 
 }  // namespace talus::gui

@@ -40,99 +40,77 @@ constexpr NamedKey named_keys[] = {{ImGuiKey_Tab, key_tab},
                                    {ImGuiKey_Y, 'Y'},
                                    {ImGuiKey_Z, 'Z'}};
 
-/// Returns whether `key` is the left or right key of a pair; in GLFW the code of the right key is larger by
-/// 4.
-bool is_modifier(int key, int left) { return key == left || key == left + 4; }
-
-}  // namespace
-
 #if IMGUI_VERSION_NUM < 18700  // the state of input is written by the program, under its own key codes
 
-namespace {
-
+int code_of(KeyCode key) { return key; }
+void move_mouse(ImGuiIO& io, float x, float y) { io.MousePos = {x, y}; }
+void set_button(ImGuiIO& io, int button, bool down) { io.MouseDown[button] = down; }
+void turn_wheel(ImGuiIO& io, float x, float y) {
+  io.MouseWheelH += x;
+  io.MouseWheel += y;
+}
 void set_key(ImGuiIO& io, int key, bool down) {
-  if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown)) return;
-  io.KeysDown[key] = down;
-  if (is_modifier(key, key_left_shift)) io.KeyShift = down;
-  if (is_modifier(key, key_left_control)) io.KeyCtrl = down;
-  if (is_modifier(key, key_left_alt)) io.KeyAlt = down;
-  if (is_modifier(key, key_left_super)) io.KeySuper = down;
+  if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown)) io.KeysDown[key] = down;
 }
-
-}  // namespace
-
-void prepare_input(ImGuiIO& io) {
-  for (const NamedKey& named : named_keys) io.KeyMap[named.name] = named.key;
-}
-
-bool key_pressed(KeyCode key, bool repeat) { return ImGui::IsKeyPressed(key, repeat); }
-
-void forward_event(ImGuiIO& io, const InputEvent& event) {
-  switch (event.kind) {
-    case InputEvent::Kind::position:
-      io.MousePos = {event.x, event.y};
-      break;
-    case InputEvent::Kind::button:
-      if (event.code < IM_ARRAYSIZE(io.MouseDown)) io.MouseDown[event.code] = event.down;
-      break;
-    case InputEvent::Kind::wheel:
-      io.MouseWheelH += event.x;
-      io.MouseWheel += event.y;
-      break;
-    case InputEvent::Kind::key:
-      set_key(io, event.code, event.down);
-      break;
-    case InputEvent::Kind::character:
-      io.AddInputCharacter(static_cast<unsigned>(event.code));
-      break;
-  }
-}
+constexpr bool ImGuiIO::*modifiers[] = {&ImGuiIO::KeyShift, &ImGuiIO::KeyCtrl, &ImGuiIO::KeyAlt,
+                                        &ImGuiIO::KeySuper};
+void set_modifier(ImGuiIO& io, bool ImGuiIO::*modifier, bool down) { io.*modifier = down; }
 
 #else  // the program adds events to a queue of ImGui, under its key codes
 
-namespace {
-
-ImGuiKey name_of(int key) {
+ImGuiKey code_of(int key) {
   for (const NamedKey& named : named_keys)
     if (named.key == key) return named.name;
   return ImGuiKey_None;
 }
-
-void add_key(ImGuiIO& io, int key, bool down) {
-  if (const ImGuiKey name = name_of(key); name != ImGuiKey_None) io.AddKeyEvent(name, down);
-  if (is_modifier(key, key_left_shift)) io.AddKeyEvent(ImGuiMod_Shift, down);
-  if (is_modifier(key, key_left_control)) io.AddKeyEvent(ImGuiMod_Ctrl, down);
-  if (is_modifier(key, key_left_alt)) io.AddKeyEvent(ImGuiMod_Alt, down);
-  if (is_modifier(key, key_left_super)) io.AddKeyEvent(ImGuiMod_Super, down);
+void move_mouse(ImGuiIO& io, float x, float y) { io.AddMousePosEvent(x, y); }
+void set_button(ImGuiIO& io, int button, bool down) { io.AddMouseButtonEvent(button, down); }
+void turn_wheel(ImGuiIO& io, float x, float y) { io.AddMouseWheelEvent(x, y); }
+void set_key(ImGuiIO& io, int key, bool down) {
+  if (const ImGuiKey name = code_of(key); name != ImGuiKey_None) io.AddKeyEvent(name, down);
 }
+#if IMGUI_VERSION_NUM < 18900
+constexpr ImGuiKey modifiers[] = {ImGuiKey_ModShift, ImGuiKey_ModCtrl, ImGuiKey_ModAlt, ImGuiKey_ModSuper};
+#else
+constexpr ImGuiKey modifiers[] = {ImGuiMod_Shift, ImGuiMod_Ctrl, ImGuiMod_Alt, ImGuiMod_Super};
+#endif
+void set_modifier(ImGuiIO& io, ImGuiKey modifier, bool down) { io.AddKeyEvent(modifier, down); }
+
+#endif
 
 }  // namespace
 
-void prepare_input(ImGuiIO& io) { io.ConfigInputTrickleEventQueue = false; }  // InputQueue spreads events
+void prepare_input(ImGuiIO& io) {
+#if IMGUI_VERSION_NUM < 18700
+  for (const NamedKey& named : named_keys) io.KeyMap[named.name] = named.key;
+#else
+  io.ConfigInputTrickleEventQueue = false;  // InputQueue spreads events
+#endif
+}
 
-bool key_pressed(KeyCode key, bool repeat) { return ImGui::IsKeyPressed(name_of(key), repeat); }
+bool key_pressed(KeyCode key, bool repeat) { return ImGui::IsKeyPressed(code_of(key), repeat); }
 
 void forward_event(ImGuiIO& io, const InputEvent& event) {
   switch (event.kind) {
     case InputEvent::Kind::position:
-      io.AddMousePosEvent(event.x, event.y);
-      break;
+      return move_mouse(io, event.x, event.y);
     case InputEvent::Kind::button:
-      if (event.code < ImGuiMouseButton_COUNT) io.AddMouseButtonEvent(event.code, event.down);
-      break;
+      if (event.code < ImGuiMouseButton_COUNT) set_button(io, event.code, event.down);
+      return;
     case InputEvent::Kind::wheel:
-      io.AddMouseWheelEvent(event.x, event.y);
-      break;
+      return turn_wheel(io, event.x, event.y);
     case InputEvent::Kind::key:
-      add_key(io, event.code, event.down);
-      break;
+      set_key(io, event.code, event.down);
+      // GLFW: shift, control, alt and super follow each other, first those on the left, then those on the
+      // right.
+      for (int k = 0; k < IM_ARRAYSIZE(modifiers); ++k)
+        if (event.code == key_left_shift + k || event.code == key_left_shift + k + 4)
+          set_modifier(io, modifiers[k], event.down);
+      return;
     case InputEvent::Kind::character:
-      io.AddInputCharacter(static_cast<unsigned>(event.code));
-      break;
+      return io.AddInputCharacter(static_cast<unsigned>(event.code));
   }
 }
-
-#endif
 
 void keep_wheel() {
 #if IMGUI_VERSION_NUM < 18900
@@ -144,22 +122,25 @@ void keep_wheel() {
 
 #if IMGUI_VERSION_NUM < 19200
 
-ImTextureID font_texture(const ImFontAtlas& atlas) { return atlas.TexID; }
-float font_size(const ImFont& font) { return font.FontSize; }
-bool has_letter(ImFont& font, ImWchar letter) { return font.FindGlyphNoFallback(letter) != nullptr; }
 void push_font(ImFont& font) { ImGui::PushFont(&font); }
 void scale_fonts(float scale) { ImGui::GetIO().FontGlobalScale = scale; }
 
 #else
 
-ImTextureID font_texture(const ImFontAtlas& atlas) { return atlas.TexRef.GetTexID(); }
-float font_size(const ImFont& font) { return font.LegacySize; }
-bool has_letter(ImFont& font, ImWchar letter) {
-  return font.GetFontBaked(font.LegacySize)->FindGlyphNoFallback(letter) != nullptr;
-}
 void push_font(ImFont& font) { ImGui::PushFont(&font, font.LegacySize); }
 void scale_fonts(float scale) { ImGui::GetStyle().FontScaleMain = scale; }
 
 #endif
+
+void InputQueue::forward_events(ImGuiIO& io) {
+  bool pressed = false;  // after a button or key has changed, only its own character may follow
+  while (!events_.empty()) {
+    const InputEvent& event = events_.front();
+    if (pressed && event.kind != InputEvent::Kind::character) break;
+    pressed = pressed || event.kind == InputEvent::Kind::button || event.kind == InputEvent::Kind::key;
+    forward_event(io, event);
+    events_.pop_front();
+  }
+}
 
 }  // namespace talus::gui

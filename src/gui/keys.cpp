@@ -3,10 +3,9 @@
 
 #include "base/text.h"
 #include "core/trigonometry.h"
-#include "gui/actions.h"
 #include "gui/panels.h"
 #include "pictures/map_kind.h"
-#include "render/colour_map.h"
+#include "render/colour.h"
 
 namespace talus::gui {
 namespace {
@@ -27,7 +26,7 @@ void toggle(Gui& gui, bool& shown, const std::string& on, const std::string& off
 
 /// Returns the text for an element drawn only at a selected grain, which says so if none is selected.
 std::string selected_only_text(const Gui& gui, const std::string& what) {
-  return what + (gui.model.state.selected ? "." : ", once a grain is selected.");
+  return what + (gui.state.selected ? "." : ", once a grain is selected.");
 }
 
 /// Changes a number of the map by a step within its limits, and reports the new value.
@@ -39,13 +38,13 @@ void change_number(Gui& gui, double& value, double step, double low, double high
 }
 
 void show_map_message(Gui& gui) {
-  const pictures::MapLayers& layers = gui.model.state.map.layers;
+  const pictures::MapLayers& layers = gui.state.map.layers;
   show_message(
       gui, fmt::format("Map: {}{}.", pictures::layers_name(layers), layers.size() > 1 ? "" : ", no overlay"));
 }
 
 void choose_map(Gui& gui, ImWchar digit) {
-  pictures::MapLayers& layers = gui.model.state.map.layers;
+  pictures::MapLayers& layers = gui.state.map.layers;
   if (const auto k = static_cast<std::size_t>(digit - '1'); k < pictures::map_kinds().size()) {
     layers[0] = pictures::map_kinds()[k];
     if (layers.size() > 1 && layers[1] == layers[0]) layers.pop_back();
@@ -53,8 +52,8 @@ void choose_map(Gui& gui, ImWchar digit) {
   show_map_message(gui);
 }
 
-void next_overlay(Gui& gui, ImWchar) {
-  pictures::MapLayers& layers = gui.model.state.map.layers;
+void choose_overlay(Gui& gui, ImWchar key) {
+  pictures::MapLayers& layers = gui.state.map.layers;
   const auto kinds = pictures::map_kinds();
   const std::size_t count = kinds.size();
   std::size_t next = layers.size() > 1
@@ -62,14 +61,14 @@ void next_overlay(Gui& gui, ImWchar) {
                          : 0;
   if (next < count && kinds[next] == layers[0]) ++next;
   layers.resize(1);
-  if (next < count) layers.push_back(kinds[next]);
+  if (key == 'o' && next < count) layers.push_back(kinds[next]);
   show_map_message(gui);
 }
 
 /// Cycles through the bar's own colours and all colour maps; for clusters without a bar, through the
 /// palettes.
 void next_colours(Gui& gui, ImWchar) {
-  pictures::MapSettings& map = gui.model.state.map;
+  pictures::MapSettings& map = gui.state.map;
   if (pictures::shows(map.layers, pictures::MapKind::clusters) && !pictures::has_bar(map.layers)) {
     const std::size_t count = pictures::cluster_palettes.size();
     map.palette = pictures::cluster_palettes.at((static_cast<std::size_t>(map.palette) + 1) % count);
@@ -86,7 +85,7 @@ void next_colours(Gui& gui, ImWchar) {
 }
 
 void change_reference(Gui& gui, ImWchar) {
-  std::optional<double>& since = gui.model.state.since;
+  std::optional<double>& since = gui.state.since;
   since = since ? std::nullopt : std::optional(gui.model.frame().tilt);
   show_message(gui, since ? fmt::format("Maps of motion and strain show the change since {}°.",
                                         degrees_text(*since, 2))
@@ -95,17 +94,12 @@ void change_reference(Gui& gui, ImWchar) {
 
 void move_by_key(Gui& gui, ImWchar key) {
   const double step = 3.0 * gui.model.mean_diameter();
-  move_picture(gui,
-               key == 'x'   ? step
-               : key == 'a' ? -step
-                            : 0.0,
-               key == 'w'   ? step
-               : key == 'z' ? -step
-                            : 0.0);
+  const int x = (key == 'x' ? 1 : 0) - (key == 'a' ? 1 : 0), y = (key == 'w' ? 1 : 0) - (key == 'z' ? 1 : 0);
+  move_picture(gui, step * x, step * y);
 }
 
 void zoom_by_key(Gui& gui, ImWchar key) {
-  const view::ViewCamera& camera = gui.model.state.camera;
+  const view::ViewCamera& camera = gui.state.camera;
   zoom_about(gui, key == '-' ? 0.8 : 1.25, camera.centre_x, camera.centre_y);
 }
 
@@ -124,15 +118,14 @@ void go_by_key(Gui& gui, ImWchar key) {
 
 /// Selects the next grain. Escape closes the list of keys or, if it is closed, clears the selection.
 void select_by_key(Gui& gui, ImWchar key) {
-  view::ViewState& state = gui.model.state;
-  const bool selected =
-      state.selected || !state.selecting.selection.grains.empty() || state.selecting.selection.contact;
+  const bool selected = gui.state.selected || !gui.state.selecting.selection.grains.empty() ||
+                        gui.state.selecting.selection.contact;
   if (key == 'n')
-    gui.model.select(state.selected ? (*state.selected + 1) % gui.model.statics().free_count : 0);
+    gui.model.select(gui.state.selected ? (*gui.state.selected + 1) % gui.model.statics().free_count : 0);
   else if (ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup))
     return;  // the list closes itself
-  else if (state.show_help)
-    state.show_help = false;
+  else if (gui.state.show_help)
+    gui.state.show_help = false;
   else if (selected)
     gui.model.select(std::optional<Index>());
   else
@@ -142,42 +135,51 @@ void select_by_key(Gui& gui, ImWchar key) {
 /// Multiplies the speed of a replay by a factor; in a live run, selects the next pace.
 void change_speed(Gui& gui, double factor) {
   constexpr double fastest_replay = 20.0;  // deg/s
-  view::ViewModel& model = gui.model;
-  if (model.is_live()) {
+  if (gui.model.is_live()) {
     const int last = static_cast<int>(std::size(view::live_paces)) - 1;
-    model.state.pace = std::clamp(model.state.pace + (factor < 1.0 ? -1 : 1), 0, last);
-    return show_message(gui, fmt::format("Pace of the run: {}.", view::live_paces[model.state.pace].name));
+    gui.state.pace = std::clamp(gui.state.pace + (factor < 1.0 ? -1 : 1), 0, last);
+    return show_message(gui, fmt::format("Pace of the run: {}.", view::live_paces[gui.state.pace].name));
   }
-  model.set_speed(std::min(factor * model.speed(), fastest_replay));
-  show_message(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", model.speed(),
-                                model.speed() >= fastest_replay ? ", the maximum" : ""));
+  view::Replay& replay = *gui.model.replay();
+  replay.set_speed(std::min(factor * replay.speed(), fastest_replay));
+  show_message(gui, fmt::format("Speed of the replay: {:.3g} deg/s{}.", replay.speed(),
+                                replay.speed() >= fastest_replay ? ", the maximum" : ""));
 }
 
 /// Shows or hides the second view; chooses another map for it if it would equal the first view.
 void toggle_second_view(Gui& gui) {
-  view::ViewState& state = gui.model.state;
-  view::SecondViewState& second_view = state.second_view;
+  view::SecondViewState& second_view = gui.state.second_view;
   second_view.shown = !second_view.shown;
   const bool alike =
-      !second_view.minus && (second_view.layers.empty() || second_view.layers == state.map.layers);
+      !second_view.minus && (second_view.layers.empty() || second_view.layers == gui.state.map.layers);
   if (second_view.shown && alike)
-    second_view.layers = {state.map.layers.at(0) == pictures::MapKind::displacement
+    second_view.layers = {gui.state.map.layers.at(0) == pictures::MapKind::displacement
                               ? pictures::MapKind::gamma
                               : pictures::MapKind::displacement};
 }
 
 /// Shows in the second view what changes from the frame shown on.
 void show_change_since_here(Gui& gui) {
-  view::SecondViewState& second_view = gui.model.state.second_view;
+  view::SecondViewState& second_view = gui.state.second_view;
   second_view.shown = true;
   second_view.minus = gui.model.frame().tilt;
-  gui.model.state.message =
+  gui.state.message =
       fmt::format("The second view shows the change since {}°.", degrees_text(*second_view.minus, 2));
+}
+
+// Actions of rows with one key, or with one for each of two actions.
+template <void (*action)(Gui&)>
+void just(Gui& gui, ImWchar) {
+  action(gui);
+}
+template <ImWchar key, void (*action)(Gui&), void (*other)(Gui&)>
+void either(Gui& gui, ImWchar pressed) {
+  pressed == key ? action(gui) : other(gui);
 }
 
 /// All keys in the order of the list. A test compares docs/view.md with it.
 constexpr Key all_keys[] = {
-    {"space", "play, pause", {' '}, [](Gui& gui, ImWchar) { toggle_playing(gui); }},
+    {"space", "play, pause", {' '}, just<toggle_playing>},
     {"right, left",
      "one step or frame forward; one frame back (shift 10, ctrl 100)",
      {key_right, key_left},
@@ -200,116 +202,97 @@ constexpr Key all_keys[] = {
      "the maps, in the order of their list",
      {'1', '2', '3', '4', '5', '6', '7', '8', '9'},
      choose_map},
-    {"0",
-     "no overlay",
-     {'0'},
-     [](Gui& gui, ImWchar) {
-       gui.model.state.map.layers.resize(1);
-       show_map_message(gui);
-     }},
-    {"o", "next overlay", {'o'}, next_overlay},
+    {"0, o", "no overlay; the next overlay", {'0', 'o'}, choose_overlay},
     {"m", "next colours", {'m'}, next_colours},
     {"v", "motion and strain since the angle shown, or per degree", {'v'}, change_reference},
     {"[ ]",
      "threshold of overloaded grains",
      {'[', ']'},
      [](Gui& gui, ImWchar key) {
-       change_number(gui, gui.model.state.map.threshold_factor, key == '[' ? -0.1 : 0.1, 0.1, 4.0,
+       change_number(gui, gui.state.map.threshold_factor, key == '[' ? -0.1 : 0.1, 0.1, 4.0,
                      "Threshold of overloaded grains", "Γc");
      }},
     {", .",
      "length of coarse graining",
      {',', '.'},
      [](Gui& gui, ImWchar key) {
-       change_number(gui, gui.model.state.map.length, key == ',' ? -1.0 : 1.0, 1.0, 40.0,
+       change_number(gui, gui.state.map.length, key == ',' ? -1.0 : 1.0, 1.0, 40.0,
                      "Length of coarse graining, for the maps coarse, density, stress", "D");
      }},
     {"; '",
      "neighbourhood of the selected grain",
      {';', '\''},
      [](Gui& gui, ImWchar key) {
-       change_number(gui, gui.model.state.neighbourhood, key == ';' ? -1.0 : 1.0, 1.0, 40.0,
+       change_number(gui, gui.state.neighbourhood, key == ';' ? -1.0 : 1.0, 1.0, 40.0,
                      "Neighbourhood of the selected grain", "D");
      }},
     {"t",
      "turn the bed to its slope",
      {'t'},
      [](Gui& gui, ImWchar) {
-       toggle(gui, gui.model.state.map.turned, "The bed is turned to its slope.",
+       toggle(gui, gui.state.map.turned, "The bed is turned to its slope.",
               "The bed lies along the picture.");
      }},
     {"+ -, wheel", "zoom", {'+', '=', '-'}, zoom_by_key},
     {"w a x z, drag", "move the picture", {'w', 'a', 'x', 'z'}, move_by_key},
-    {"f", "whole bed", {'f'}, [](Gui& gui, ImWchar) { show_whole_bed(gui); }},
+    {"f", "whole bed", {'f'}, just<show_whole_bed>},
     {"n", "select the next grain; escape: none", {'n', key_escape}, select_by_key},
-    {"L", "follow the selected grain", {'L'}, [](Gui& gui, ImWchar) { toggle_following(gui); }},
+    {"L", "follow the selected grain", {'L'}, just<toggle_following>},
     {"i, y",
      "outline its cluster; draw its neighbourhoods",
      {'i', 'y'},
      [](Gui& gui, ImWchar key) {
-       view::ViewState& state = gui.model.state;
        if (key == 'i')
-         toggle(gui, state.highlight_cluster,
+         toggle(gui, gui.state.highlight_cluster,
                 selected_only_text(gui, "The cluster of an overloaded grain is outlined"),
                 "No cluster is outlined.");
        else
-         toggle(gui, state.show_neighbourhoods,
+         toggle(gui, gui.state.show_neighbourhoods,
                 selected_only_text(gui, "The neighbourhoods of the grain are drawn"),
                 "No neighbourhoods are drawn.");
      }},
     {"P, D",
      "second view; in it, the change from the frame shown",
      {'P', 'D'},
-     [](Gui& gui, ImWchar key) { key == 'P' ? toggle_second_view(gui) : show_change_since_here(gui); }},
-    {"g, b",
-     "run to the angle; deposit the bed",
-     {'g', 'b'},
-     [](Gui& gui, ImWchar key) { key == 'g' ? run_to_tilt(gui) : deposit(gui); }},
-    {"r", "reset, with the given seed", {'r'}, [](Gui& gui, ImWchar) { reset(gui); }},
-    {"s", "save the state of a live run", {'s'}, [](Gui& gui, ImWchar) { save_state(gui); }},
+     either<'P', toggle_second_view, show_change_since_here>},
+    {"g, b", "run to the angle; deposit the bed", {'g', 'b'}, either<'g', run_to_tilt, deposit>},
+    {"r", "reset, with the given seed", {'r'}, just<reset>},
+    {"s", "save the state of a live run", {'s'}, just<save_state>},
     {"e",
      "write the picture to the file named under files",
      {'e'},
-     [](Gui& gui, ImWchar) { gui.requests.save_png_path = gui.model.state.picture_path; }},
-    {"u, k",
-     "push the selected grain; drop grains there",
-     {'u', 'k'},
-     [](Gui& gui, ImWchar key) { key == 'u' ? push_selected(gui) : drop_here(gui); }},
+     [](Gui& gui, ImWchar) { gui.requests.save_png_path = gui.state.picture_path; }},
+    {"u, k", "push the selected grain; drop grains there", {'u', 'k'}, either<'u', push_selected, drop_here>},
     {"N, U",
      "branch: continue from the frame shown; undo the last command",
      {'N', 'U'},
-     [](Gui& gui, ImWchar key) { key == 'N' ? branch_here(gui) : go_back(gui); }},
+     either<'N', branch_here, go_back>},
     {"R M A F G",
      "unfold run, map, act, files, grain; tab: from field to field",
      {'R', 'M', 'A', 'F', 'G'},
      [](Gui& gui, ImWchar key) {
-       gui.model.state.show_controls = true;
+       gui.state.show_controls = true;
        gui.panel_asked = group_of_key(key);
+       show_message(gui, fmt::format("Unfolded: {}.", gui.panel_asked));
      }},
-    {"h",
-     "show or hide the columns",
-     {'h'},
-     [](Gui& gui, ImWchar) {
-       view::ViewState& state = gui.model.state;
-       toggle(gui, state.show_controls, "The columns are shown if there is room.",
-              "The columns are hidden: h shows them.");
-       state.show_inspector = state.show_controls;
-     }},
-    {"l",
-     "show or hide the plots",
-     {'l'},
-     [](Gui& gui, ImWchar) {
-       toggle(gui, gui.model.state.show_plots, "The plots are shown if there is room.",
-              "The plots are hidden: l shows them.");
+    {"h, l",
+     "show or hide the column; the plots",
+     {'h', 'l'},
+     [](Gui& gui, ImWchar key) {
+       if (key == 'h')
+         toggle(gui, gui.state.show_controls, "The column is shown.", "The column is hidden: h shows it.");
+       else
+         toggle(gui, gui.state.show_plots, "The plots are shown if there is room.",
+                "The plots are hidden: l shows them.");
      }},
     {"C",
      "next theme: light, dark, print",
      {'C'},
-     [](Gui& gui, ImWchar) { gui.model.state.theme = view::next_theme(gui.model.state.theme); }},
-    {"?",
-     "this list",
-     {'?'},
-     [](Gui& gui, ImWchar) { gui.model.state.show_help = !gui.model.state.show_help; }},
+     [](Gui& gui, ImWchar) {
+       const auto theme = static_cast<std::size_t>(gui.state.theme);
+       gui.state.theme = static_cast<view::Theme>((theme + 1) % view::theme_names.size());
+     }},
+    {"?", "this list", {'?'}, [](Gui& gui, ImWchar) { gui.state.show_help = !gui.state.show_help; }},
     {"q", "quit", {'q'}, [](Gui& gui, ImWchar) { gui.requests.quit = gui.model.may_discard(); }},
 };
 
@@ -336,8 +319,7 @@ void draw_help(Gui& gui) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {0.95f * size.x, 0.95f * size.y});
-  ImGui::Begin("Keys", &gui.model.state.show_help,
-               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin("Keys", &gui.state.show_help, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize);
   for (const Key& key : all_keys) {
     ImGui::TextUnformatted(key.name);
     ImGui::SameLine(9.0f * gui.em);

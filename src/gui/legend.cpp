@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <fmt/core.h>
 #include <string>
 #include <utility>
@@ -10,13 +9,8 @@
 namespace talus::gui {
 namespace {
 
-float text_width(const std::string& text) {
-  return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
-}
-
 // Lengths in em.
-constexpr float bar_length = 12.0f, shortest_bar = 5.0f;
-constexpr float text_line = 1.2f;
+constexpr float bar_length = 12.0f, shortest_bar = 5.0f, text_line = 1.2f;
 constexpr float below_bar = 2.4f;  ///< distance from its top to the lower edge of its labels, with some space
 constexpr float swatch_text = 1.9f, after_text = 1.0f;
 
@@ -34,7 +28,7 @@ float half_label(const render::Bar& bar, bool first, float em) {
   if (bar.ticks.empty()) return 0.0f;
   const render::BarTick& tick = first ? bar.ticks.front() : bar.ticks.back();
   const float out = static_cast<float>(first ? tick.share : 1.0 - tick.share) * bar_length * em;
-  return std::max(0.0f, 0.5f * text_width(tick.label) - out);
+  return std::max(0.0f, 0.5f * rich_width(tick.label) - out);
 }
 
 /// Lays out a bar next to its title, or below it if there is no room for both.
@@ -42,7 +36,7 @@ LegendItem bar_item(const render::Bar& bar, float room, float em) {
   LegendItem item;
   item.bar = &bar;
   const float low = half_label(bar, true, em), high = half_label(bar, false, em);
-  const float title = text_width(bar.title) + 0.8f * em;
+  const float title = rich_width(bar.title) + 0.8f * em;
   item.bar_length = bar_length * em;
   item.bar_left = std::max(title, low);
   item.lines = {bar.title};
@@ -53,7 +47,7 @@ LegendItem bar_item(const render::Bar& bar, float room, float em) {
     item.bar_length = std::max(shortest_bar * em, std::min(item.bar_length, room - low - high));
   }
   item.width = item.bar_left + item.bar_length + high;
-  for (const std::string& line : item.lines) item.width = std::max(item.width, text_width(line));
+  for (const std::string& line : item.lines) item.width = std::max(item.width, rich_width(line));
   item.height = item.bar_top + below_bar * em;
   return item;
 }
@@ -63,7 +57,7 @@ LegendItem swatch_item(const render::Swatch& swatch, float room, float em) {
   item.swatch = &swatch;
   item.lines = wrapped_text(swatch.label, room - swatch_text * em);
   for (const std::string& line : item.lines)
-    item.width = std::max(item.width, swatch_text * em + text_width(line));
+    item.width = std::max(item.width, swatch_text * em + rich_width(line));
   item.height = static_cast<float>(item.lines.size()) * text_line * em;
   return item;
 }
@@ -92,7 +86,7 @@ float lay_out_legend(const render::FrameView& view, float room, float em, std::v
 /// default range.
 void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& high) {
   const float em = gui.em, length = high.x - low.x;
-  pictures::MapSettings& map = gui.model.state.map;
+  pictures::MapSettings& map = gui.state.map;
   ImGui::SetCursorScreenPos({low.x - 0.5f * em, low.y});
   ImGui::InvisibleButton("range of the bar", {length + em, high.y - low.y});
   note_place(gui, "legend bar", low, high);
@@ -100,7 +94,7 @@ void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& 
   using Part = view::HeldBar::Part;
   const Part part = x < low.x + 0.6f * em ? Part::low : x > high.x - 0.6f * em ? Part::high : Part::middle;
   const view::BarEnds ends{bar.low, bar.high, bar.logarithmic};
-  view::HeldBar& held = gui.model.state.held_bar;
+  view::HeldBar& held = gui.state.held_bar;
   if (ImGui::IsItemActivated()) held = {part, ends, static_cast<double>(x)};
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
     map.range_low.reset();
@@ -144,18 +138,17 @@ void draw_bar(Gui& gui, const LegendItem& item, const ImVec2& corner, bool of_fi
     list.AddRectFilled({x0, top}, {x1, top + height}, packed(bar.colours[k]));
   }
   list.AddRect({left, top}, {left + length, top + height}, ink);
-  {
-    float free_from = 0.0f;
-    const TextOfSize small(TextSize::small);
-    for (const render::BarTick& tick : bar.ticks) {
-      const float x = left + static_cast<float>(tick.share) * length;
-      list.AddLine({x, top + height}, {x, top + height + 0.2f * em}, ink);
-      const float label = text_width(tick.label), at = x - 0.5f * label;
-      if (at < free_from) continue;
-      free_from = at + label + 0.4f * em;
-      add_rich_text(list, {at, top + height + 0.25f * em}, ink, tick.label);
-    }
+  float free_from = 0.0f;
+  push_font(*ImGui::GetIO().Fonts->Fonts[1]);  // that of ticks
+  for (const render::BarTick& tick : bar.ticks) {
+    const float x = left + static_cast<float>(tick.share) * length;
+    list.AddLine({x, top + height}, {x, top + height + 0.2f * em}, ink);
+    const float label = rich_width(tick.label), at = x - 0.5f * label;
+    if (at < free_from) continue;
+    free_from = at + label + 0.4f * em;
+    add_rich_text(list, {at, top + height + 0.25f * em}, ink, tick.label);
   }
+  ImGui::PopFont();
   if (of_first) use_bar(gui, bar, {left, top}, {left + length, top + height});
 }
 

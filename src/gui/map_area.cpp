@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/core.h>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/trigonometry.h"
-#include "gui/actions.h"
-#include "gui/map_mouse.h"
 #include "gui/panels.h"
 #include "pictures/bed_view.h"
 #include "render/layout.h"
@@ -12,32 +14,29 @@
 namespace talus::gui {
 namespace {
 
-constexpr float min_picture = 4.0f;  ///< em
-
-constexpr float caption_line = 1.2f;  ///< em
+constexpr float min_picture = 4.0f, caption_line = 1.2f;  ///< heights, em
 
 /// Returns the height (px) of the title with the caption to its right, or below it if there is no room for
 /// both.
 float caption_height(const render::FrameView& view, float width, float em) {
-  ImFont& font = *ImGui::GetFont();
-  const bool both = rich_width(font, em, view.caption) + rich_width(font, em, view.title) + em < width;
+  const bool both = rich_width(view.caption) + rich_width(view.title) + em < width;
   const std::size_t lines =
       both ? 1 : wrapped_text(view.title, width).size() + wrapped_text(view.caption, width).size();
   return (caption_line * static_cast<float>(lines) - 0.2f) * em;
 }
 
-void draw_caption(const render::FrameView& view, float width) {
-  ImFont& font = *ImGui::GetFont();
-  const float em = ImGui::GetFontSize(), height = caption_height(view, width, em);
+/// Draws title and caption in a place of that height.
+void draw_caption(const render::FrameView& view, float width, float height) {
+  const float em = ImGui::GetFontSize();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text);
   float y = corner.y;
   const auto line = [&](const std::string& text, bool right) {
-    const float x = right ? corner.x + width - rich_width(font, em, text) : corner.x;
+    const float x = right ? corner.x + width - rich_width(text) : corner.x;
     add_rich_text(list, {x, y}, ink, text);
   };
-  if (height < caption_line * em) {
+  if (caption_height(view, width, em) < caption_line * em) {
     line(view.title, false);
     line(view.caption, true);
   } else {
@@ -70,10 +69,10 @@ void describe_grain(Gui& gui, const view::View& view, const render::Point& place
   ImGui::BeginTooltip();
   rich_text(fmt::format("{:.1f}, {:.1f} D: {}", place.x / diameter, place.y / diameter,
                         grain_text(gui.model.first(), grain)));
-  const view::GrainValues none, &shown = view.second ? view.values() : none;
+  const render::Bar* const bar = view.second ? view.bar() : nullptr;
   const auto k = static_cast<std::size_t>(grain);
-  if (k < shown.values.size() && !std::isnan(shown.values[k]))
-    rich_text(fmt::format("{}: {:.4g}", shown.title, shown.values[k]));
+  if (bar != nullptr && k < bar->values.size() && !std::isnan(bar->values[k]))
+    rich_text(fmt::format("{}: {:.4g}", bar->title, bar->values[k]));
   ImGui::EndTooltip();
 }
 
@@ -105,8 +104,7 @@ void use_mouse(Gui& gui, const view::View& view, const ShownMap& shown) {
 bool shows_gravity(float width, float em) { return width > 26.0f * em; }
 bool shows_scale(float width, float em) { return width > 40.0f * em; }
 
-/// Lengths in em.
-constexpr float gravity_room = 3.5f, scale_room = 9.0f;
+constexpr float gravity_room = 3.5f, scale_room = 9.0f;  ///< em
 
 float legend_width(float width, float em) {
   return width - (shows_gravity(width, em) ? gravity_room * em : 0.0f) -
@@ -128,14 +126,75 @@ void draw_scale(Gui& gui, const ImVec2& right, double pixels) {
   for (const float x : {left, right.x})
     list.AddLine({x, right.y - 0.3f * em}, {x, right.y + 0.3f * em}, ink, 0.1f * em);
   const std::string label = fmt::format("{:.4g} D", diameters);
-  const float wide = rich_width(*ImGui::GetFont(), em, label);
+  const float wide = rich_width(label);
   add_rich_text(list, {left + 0.5f * (length - wide), right.y + 0.3f * em}, ink, label);
   note_place(gui, "scale", {left, right.y - 0.3f * em}, {right.x, right.y + 1.3f * em});
 }
 
-/// Returns the height below the map, at least that of the arrow of gravity.
-float below_map(const render::FrameView& annotated, float width, float em) {
-  return std::max(2.6f * em, legend_height(annotated, legend_width(width, em)));
+/// Returns the height below a map; if it is `alone`, at least that of the arrow of gravity.
+float below_map(const render::FrameView& annotated, float width, float em, bool alone) {
+  return alone ? std::max(2.6f * em, legend_height(annotated, legend_width(width, em)))
+               : legend_height(annotated, width);
+}
+
+constexpr float gap = 0.8f, min_width = 12.0f;  ///< between two views, and of each of their pictures, em
+
+/// Layout of one view, or of two: side by side, or one above the other.
+struct MapLayout {
+  bool columns = true;
+  ImVec2 pane;         ///< size of each view, including everything above and below its picture
+  ImVec2 picture;      ///< room for the picture
+  float above = 0.0f;  ///< height of title and caption
+};
+
+MapLayout lay_out_maps(std::span<const view::View> views, const ImVec2& room, bool columns, float em) {
+  MapLayout layout{columns, room, {}};
+  const bool alone = views.size() == 1;
+  float& divided = columns ? layout.pane.x : layout.pane.y;
+  if (!alone) divided = 0.5f * (divided - gap * em);
+  float below = 0.0f;
+  for (const view::View& view : views) {
+    const render::FrameView& annotated = view.annotated_map();
+    layout.above = std::max(layout.above, caption_height(annotated, layout.pane.x, em));
+    below = std::max(below, below_map(annotated, layout.pane.x, em, alone));
+  }
+  layout.picture = {layout.pane.x,
+                    layout.pane.y - layout.above - below - 2.0f * ImGui::GetStyle().ItemSpacing.y};
+  return layout;
+}
+
+/// Returns the width in px that the bed fills; 0 if there is no room.
+float bed_width(const MapLayout& layout, double aspect, float em) {
+  if (layout.picture.x < min_width * em || layout.picture.y < min_picture * em) return 0.0f;
+  return std::min(layout.picture.x, layout.picture.y * static_cast<float>(aspect));
+}
+
+/// Draws a picture of the bed, handles the mouse on it, and, if it is `alone`, draws the scale and the arrow
+/// of gravity at its lower right.
+void draw_map_pane(Gui& gui, const view::View& pane, const ImVec2& room, bool alone) {
+  const int pixels = std::max(static_cast<int>(room.x), render::smallest_width);
+  const render::FrameView view = pane.map(static_cast<double>(room.x) / static_cast<double>(room.y));
+  const render::Layout layout = render::lay_out(view, pixels, render::embedded_font());
+  const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
+  ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
+  const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
+  const char* name = pane.second ? "second map" : "map";
+  ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
+                         ImGuiButtonFlags_MouseButtonLeft);
+  note_place(gui, name);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddImage(texture_id(gui.draw_map(view, pixels, pane.second ? 1 : 0)), shown.corner, end, {0.0f, 0.0f},
+                {1.0f, (end.y - shown.corner.y) / shown_height});
+  const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
+  if (shows_gravity(room.x, gui.em) && alone) {
+    draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
+    note_place(gui, "gravity", {under.x - 1.5f * gui.em, under.y - 1.1f * gui.em},
+               {under.x + 1.1f * gui.em, under.y + 1.1f * gui.em});
+  }
+  if (shows_scale(room.x, gui.em) && alone)
+    draw_scale(gui, {under.x - 2.8f * gui.em, under.y - 0.5f * gui.em},
+               pane.run.mean_diameter() * layout.bed.camera.scale);
+  use_mouse(gui, pane, shown);
 }
 
 }  // namespace
@@ -156,62 +215,57 @@ std::string grain_text(const view::View& view, Index grain) {
       else
         text += fmt::format(", {} = {:.3g}{}{}", bar.symbol, value,
                             bar.unit.empty() || bar.unit.starts_with("°") ? "" : " ", bar.unit);
-      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + pictures::reading_text(view.state.map);
+      if (bar.symbol == "γ" && !std::isnan(value)) text += ", " + pictures::reading_text(view.chosen);
     }
-  if (gamma_reported || !pictures::any_layer(view.state.map.layers, [](pictures::MapKind kind) {
+  if (gamma_reported || !pictures::any_layer(view.chosen.layers, [](pictures::MapKind kind) {
         return pictures::shows_gamma(kind);
       }))
     return text;
   const double gamma = model.frame().gamma[of_grain];
   return std::isnan(gamma)
              ? text + ", carries nothing"
-             : fmt::format("{}, γ = {:.3g}, {}", text, gamma, pictures::reading_text(view.state.map));
+             : fmt::format("{}, γ = {:.3g}, {}", text, gamma, pictures::reading_text(view.chosen));
 }
 
 float map_area_height(const render::FrameView& annotated, float width, float picture, float em) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float inner = width - 2.0f * style.WindowPadding.x;
-  return picture + caption_height(annotated, inner, em) + below_map(annotated, inner, em) +
+  return picture + caption_height(annotated, inner, em) + below_map(annotated, inner, em, true) +
          2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
-void draw_map_pane(Gui& gui, const view::View& pane, const ImVec2& room, bool with_gravity) {
-  const int pixels = std::max(static_cast<int>(room.x), render::smallest_width);
-  const render::FrameView view = pane.map(static_cast<double>(room.x) / static_cast<double>(room.y));
-  const render::Layout layout = render::lay_out(view, pixels, render::embedded_font());
-  const float shown_height = room.x * static_cast<float>(layout.height) / static_cast<float>(layout.width);
-  ShownMap shown{ImGui::GetCursorScreenPos(), layout.bed.camera};
-  const ImVec2 end{shown.corner.x + room.x, shown.corner.y + std::min(shown_height, room.y)};
-  const char* name = pane.second ? "second map" : "map";
-  ImGui::InvisibleButton(name, {room.x, std::max(1.0f, end.y - shown.corner.y)},
-                         ImGuiButtonFlags_MouseButtonLeft);
-  note_place(gui, name);
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddImage(texture_id(gui.draw_map(view, pixels, pane.second ? 1 : 0)), shown.corner, end, {0.0f, 0.0f},
-                {1.0f, (end.y - shown.corner.y) / shown_height});
-  const ImVec2 under{shown.corner.x + room.x - 1.4f * gui.em, ImGui::GetCursorScreenPos().y + 1.2f * gui.em};
-  if (shows_gravity(room.x, gui.em) && with_gravity) {
-    draw_gravity(under, gui.em, view.tilt - view.turn, packed(gui.colours.ink));
-    note_place(gui, "gravity", {under.x - 1.5f * gui.em, under.y - 1.1f * gui.em},
-               {under.x + 1.1f * gui.em, under.y + 1.1f * gui.em});
-  }
-  if (shows_scale(room.x, gui.em) && with_gravity) {
-    draw_scale(gui, {under.x - 2.8f * gui.em, under.y - 0.5f * gui.em},
-               pane.run.mean_diameter() * layout.bed.camera.scale);
-  }
-  use_mouse(gui, pane, shown);
-}
-
+/// Two views are side by side or one above the other, whichever shows more. If there is no room for two, the
+/// second is left out.
 void draw_map_area(Gui& gui) {
-  if (gui.model.state.second_view.shown && draw_pair(gui)) return;
-  const float width = ImGui::GetContentRegionAvail().x;
-  const render::FrameView& annotated = gui.model.first().annotated_map();
-  draw_caption(annotated, width);
-  const float below = below_map(annotated, width, gui.em) + ImGui::GetStyle().ItemSpacing.y;
-  const ImVec2 room{std::max(width, 1.0f),
-                    std::max(ImGui::GetContentRegionAvail().y - below, min_picture * gui.em)};
-  draw_map_pane(gui, gui.model.first(), room, true);
-  draw_legends(gui, annotated, legend_width(width, gui.em), true);
+  static constexpr const char* no_room =
+      "There is no room for two views: make the window larger, or hide panels (h, l).";
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  std::vector<view::View> views = {gui.model.first()};
+  if (gui.state.second_view.shown) views.push_back(gui.model.second());
+  const double aspect = views[0].bed_aspect();
+  MapLayout layout = lay_out_maps(views, room, true, gui.em);
+  if (views.size() == 2) {
+    const MapLayout rows = lay_out_maps(views, room, false, gui.em);
+    if (bed_width(rows, aspect, gui.em) > bed_width(layout, aspect, gui.em)) layout = rows;
+    if (gui.state.message == no_room) gui.state.message.clear();
+    if (bed_width(layout, aspect, gui.em) == 0.0f) {
+      gui.state.message = no_room;
+      views.pop_back();
+      layout = lay_out_maps(views, room, true, gui.em);
+    }
+  }
+  const bool alone = views.size() == 1;
+  layout.picture = {std::max(layout.picture.x, 1.0f), std::max(layout.picture.y, min_picture * gui.em)};
+  for (const view::View& view : views) {
+    if (view.second && layout.columns) ImGui::SameLine(0.0f, gap * gui.em);
+    ImGui::BeginChild(view.second ? "second view" : "first view", layout.pane, false,
+                      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    draw_caption(view.annotated_map(), layout.pane.x, layout.above);
+    draw_map_pane(gui, view, layout.picture, alone);
+    draw_legends(gui, view.annotated_map(), alone ? legend_width(layout.pane.x, gui.em) : layout.pane.x,
+                 !view.second);
+    ImGui::EndChild();
+  }
 }
 
 }  // namespace talus::gui

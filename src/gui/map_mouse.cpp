@@ -1,13 +1,11 @@
-#include "gui/map_mouse.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
 
 #include "base/errors.h"
-#include "core/drag_spring.h"
-#include "gui/actions.h"
+#include "core/command.h"
+#include "gui/panels.h"
 
 namespace talus::gui {
 namespace {
@@ -45,23 +43,19 @@ void draw_outline(const std::vector<Vec2>& corners, ImU32 colour) {
 
 void toggle_grain(Gui& gui, double x, double y) {
   const auto grain = view::find_grain(gui.model.bed(), x, y);
-  if (grain)
-    gui.model.select(view::toggled(gui.model.selected_grains(), *grain));
-  else
-    gui.model.state.message = "No grain is there.";
+  if (!grain) return show_message(gui, "No grain is there.");
+  gui.model.select(view::toggled(gui.model.selected_grains(), *grain));
 }
 
 void select_contact(Gui& gui, double x, double y) {
-  const auto contact = gui.model.contact_at(x, y, contact_reach * gui.model.mean_diameter());
-  if (contact)
-    gui.model.select(*contact);
-  else
-    gui.model.state.message = "No contact carries a force here.";
+  const auto contact = view::find_contact(gui.model.bed(), x, y, contact_reach * gui.model.mean_diameter());
+  if (!contact) return show_message(gui, "No contact carries a force here.");
+  gui.model.select(*contact);
 }
 
 /// Applies the finished outline when the mouse button is released.
 void finish(Gui& gui, const ShownMap& map) {
-  view::SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.state.selecting;
   const Vec2 first = selecting.outline.front();
   if (selecting.outline.size() == 1) {
     const render::Point at = map.bed_place({static_cast<float>(first.x), static_cast<float>(first.y)});
@@ -74,7 +68,7 @@ void finish(Gui& gui, const ShownMap& map) {
     corners.push_back({at.x, at.y});
   }
   gui.model.select(view::grains_within(gui.model.bed(), corners));
-  gui.model.state.message = fmt::format("Grains selected: {}.", gui.model.selected_grains().size());
+  gui.state.message = fmt::format("Grains selected: {}.", gui.model.selected_grains().size());
 }
 
 /// Returns the place where a spring that should be held at the mouse can be held: limited to the distance
@@ -88,18 +82,18 @@ std::array<double, 2> within_reach(const view::ViewModel& model, Index grain, do
 
 /// Holds the spring and reports its action; an error ends the drag.
 void hold_at(Gui& gui, Index grain, double x, double y) {
-  view::ViewModel& model = gui.model;
-  const auto [held_x, held_y] = within_reach(model, grain, x, y);
+  const auto [held_x, held_y] = within_reach(gui.model, grain, x, y);
   try {
-    model.live()->apply({0, CommandKind::drag, grain, held_x, held_y});
-    const double distance = std::hypot(held_x - model.frame().x[grain], held_y - model.frame().y[grain]);
-    model.state.message = fmt::format(
-        "Grain {} is pulled with {:.0f} m g.{}", grain, drag_stiffness * distance / model.mean_diameter(),
-        model.live()->status().running ? "" : " The run is paused: space continues.");
-    model.state.drag = view::GrainDrag{grain, x, y, model.live()->status().step};
+    gui.model.live()->apply({0, CommandKind::drag, grain, held_x, held_y});
+    const double distance =
+        std::hypot(held_x - gui.model.frame().x[grain], held_y - gui.model.frame().y[grain]);
+    gui.state.message = fmt::format(
+        "Grain {} is pulled with {:.0f} m g.{}", grain, drag_stiffness * distance / gui.model.mean_diameter(),
+        gui.model.live()->status().running ? "" : " The run is paused: space continues.");
+    gui.state.drag = view::GrainDrag{grain, x, y, gui.model.live()->status().step};
   } catch (const Error& error) {
-    model.state.message = error.what();
-    model.state.drag.reset();
+    gui.state.message = error.what();
+    gui.state.drag.reset();
   }
 }
 
@@ -117,16 +111,15 @@ std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& m
 /// Returns whether a grain would be dragged if the run had not ended. No lasso begins there then, because it
 /// would clear the selection.
 bool refuse_after_end(Gui& gui, const ShownMap& map) {
-  view::ViewModel& model = gui.model;
-  view::SelectingState& selecting = model.state.selecting;
+  view::SelectingState& selecting = gui.state.selecting;
   const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&
                      !ImGui::GetIO().KeyShift && selecting.outline.empty();
   if (waits) return true;  // the mouse still moves after the rejection
-  if (model.shows_recorded_frame() || !model.live()->status().done || !first_grain(model, map)) return false;
+  if (gui.model.shows_recorded_frame() || !gui.model.live()->status().done || !first_grain(gui.model, map))
+    return false;
   selecting.outline.clear();
-  model.state.message =
-      "The run has ended: no grain can be pulled. U undoes a command; ctrl with shift draws a "
-      "lasso.";
+  gui.state.message =
+      "The run has ended: no grain can be pulled. U undoes a command; ctrl with shift draws a lasso.";
   return true;
 }
 
@@ -139,14 +132,13 @@ void inspect_grain(view::ViewModel& model, Index grain) {
 }
 
 void release_grain(Gui& gui) {
-  view::ViewModel& model = gui.model;
-  model.state.drag.reset();
-  if (!model.live() || !model.live()->status().dragged) return;
+  gui.state.drag.reset();
+  if (!gui.model.live() || !gui.model.live()->status().dragged) return;
   send(gui, {0, CommandKind::release, -1, 0.0, 0.0});
 }
 
 void draw_spring(Gui& gui, const ShownMap& map) {
-  const view::GrainDrag& drag = *gui.model.state.drag;
+  const view::GrainDrag& drag = *gui.state.drag;
   const Frame& frame = gui.model.frame();
   const ImVec2 from = map.pixel(frame.x[drag.grain], frame.y[drag.grain]), to = map.pixel(drag.x, drag.y);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -171,7 +163,7 @@ ImVec2 ShownMap::pixel(double x, double y) const {
 
 bool select_by_outline(Gui& gui, const ShownMap& map) {
   const ImGuiIO& io = ImGui::GetIO();
-  view::SelectingState& selecting = gui.model.state.selecting;
+  view::SelectingState& selecting = gui.state.selecting;
   const Vec2 mouse{static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)};
   if (ImGui::IsItemActivated() && (io.KeyShift || io.KeyCtrl)) {
     selecting.outline = {mouse};
@@ -191,30 +183,28 @@ bool select_by_outline(Gui& gui, const ShownMap& map) {
 }
 
 void select_clicked(Gui& gui, double x, double y) {
-  view::ViewModel& model = gui.model;
-  const bool contacts = shows_contacts(model.state.map.layers);
   const auto contact =
-      contacts ? model.contact_at(x, y, small_contact_reach * model.mean_diameter()) : std::nullopt;
-  if (contact) return model.select(*contact);
-  const std::optional<Index> grain = view::find_grain(model.bed(), x, y);
-  if (!grain) model.state.message = "No grain is there.";
-  model.select(grain);
+      view::find_contact(gui.model.bed(), x, y, small_contact_reach * gui.model.mean_diameter());
+  if (contact && shows_contacts(gui.state.map.layers)) return gui.model.select(*contact);
+  const std::optional<Index> grain = view::find_grain(gui.model.bed(), x, y);
+  if (!grain) gui.state.message = "No grain is there.";
+  gui.model.select(grain);
 }
 
 bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
-  view::ViewModel& model = gui.model;
-  auto& drag = model.state.drag;
-  if (!model.is_live()) {
+  auto& drag = gui.state.drag;
+  if (!gui.model.is_live()) {
     drag.reset();
     return false;
   }
   if (!drag) {
     if (refuse_after_end(gui, map)) return true;
-    const std::optional<Index> grain = model.shows_recorded_frame() ? std::nullopt : first_grain(model, map);
+    const std::optional<Index> grain =
+        gui.model.shows_recorded_frame() ? std::nullopt : first_grain(gui.model, map);
     if (!grain) return false;
-    model.state.selecting.outline.clear();
-    model.state.selecting.follow = false;  // otherwise picture and mouse would chase each other
-    inspect_grain(model, *grain);
+    gui.state.selecting.outline.clear();
+    gui.state.selecting.follow = false;  // otherwise picture and mouse would chase each other
+    inspect_grain(gui.model, *grain);
     hold_at(gui, *grain, x, y);
     return true;
   }
@@ -223,7 +213,7 @@ bool drag_grain(Gui& gui, double x, double y, const ShownMap& map) {
     return true;
   }
   // One place per step: further places between two steps would have no effect.
-  if (model.live()->status().step != drag->step && (x != drag->x || y != drag->y))
+  if (gui.model.live()->status().step != drag->step && (x != drag->x || y != drag->y))
     hold_at(gui, drag->grain, x, y);
   if (drag) draw_spring(gui, map);
   return true;

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "base/paths.h"
-#include "gui/actions.h"
+#include "base/output_file.h"
 #include "gui/panels.h"
 
 namespace talus::gui {
@@ -35,14 +34,13 @@ std::vector<Entry> entries_of(const fs::path& folder) {
 }
 
 void draw_browser(Gui& gui) {
-  view::ViewState& state = gui.model.state;
   ImGui::TextWrapped("Open a run or a scenario: choose it, or drop it on the window.");
   ImGui::BeginChild("files", {0.0f, 12.0f * gui.em}, true);
   for (const Entry& entry :
-       entries_of(state.folder.empty() ? fs::path(resolved_path(".")) : fs::path(state.folder))) {
+       entries_of(gui.state.folder.empty() ? fs::path(resolved_path(".")) : fs::path(gui.state.folder))) {
     if (ImGui::Selectable(entry.label.c_str())) {
       if (entry.folder)
-        state.folder = entry.path;
+        gui.state.folder = entry.path;
       else
         gui.requests.open_path = entry.path;
     }
@@ -54,28 +52,22 @@ void draw_browser(Gui& gui) {
 }  // namespace
 
 void draw_file_panel(Gui& gui) {
-  view::ViewState& state = gui.model.state;
   draw_browser(gui);
   ImGui::Separator();
   ImGui::SetNextItemWidth(-1.0f);
-  named_text(gui, "picture path", "", state.picture_path, "PNG file to write");
-  double& printed = state.map.printed;
-  named_number(gui, "printed", "print width", printed, "%.1f cm",
-               "width in print, such as 8.6 for a column, at which letters are 8 points high; 0: "
-               "for a screen");
-  if (!(printed >= 4.0)) printed = 0.0;
-  printed = std::min(printed, 200.0);
+  named_text(gui, "picture path", "", gui.state.picture_path, "PNG file to write");
   if (named_button(gui, "save picture", "Save picture", "the map as talus render draws it")) {
-    if (state.picture_path.empty())
-      state.message = "Give the picture a name first.";
+    if (gui.state.picture_path.empty())
+      gui.state.message = "Give the picture a name first.";
     else
-      gui.requests.save_png_path = state.picture_path;
+      gui.requests.save_png_path = gui.state.picture_path;
   }
   if (gui.model.is_live()) {
     ImGui::Separator();
     if (gui.model.recording().output.empty()) {
       ImGui::SetNextItemWidth(-1.0f);
-      named_text(gui, "run path", "", state.run_path, "run file to write, in which the run is then recorded");
+      named_text(gui, "run path", "", gui.state.run_path,
+                 "run file to write, in which the run is then recorded");
     }
     if (named_button(gui, "save state", "Save state",
                      "saves the entire run, so that it can be continued later: s"))

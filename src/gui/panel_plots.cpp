@@ -6,21 +6,27 @@
 namespace talus::gui {
 namespace {
 
-/// Grid of plots, as wide as legibility requires and as high as there is room.
+/// Grid of plots, as wide as legibility requires and as high as there is room for whole rows, or for one.
 struct PlotGrid {
   int columns = 1;
   ImVec2 cell;
 };
 
-constexpr float min_width = 17.5f;  // em: fits the longest title
+constexpr float min_width = 17.5f, min_height = 8.0f;  // em: fits the longest title, and two numbers of y
+
+bool has_values(const view::PlotSeries& series) {
+  return !series.law && std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); });
+}
 
 PlotGrid lay_out_plots(const ImVec2& room, int count, float em) {
   PlotGrid grid;
+  count = std::max(count, 1);
   grid.columns = std::clamp(static_cast<int>(room.x / (min_width * em)), 1, count);
   const int rows = (count + grid.columns - 1) / grid.columns;
   grid.columns = (count + rows - 1) / rows;
+  const int rows_in_sight = std::clamp(static_cast<int>(room.y / (min_height * em)), 1, rows);
   grid.cell = {std::floor(room.x / static_cast<float>(grid.columns)),
-               std::max(std::floor(room.y / static_cast<float>(rows)), 10.0f * em)};
+               std::max(std::floor(room.y / static_cast<float>(rows_in_sight)), min_height * em)};
   return grid;
 }
 
@@ -47,30 +53,27 @@ void draw_and_answer(Gui& gui, const view::Plot& plot, const ImVec2& size, const
 
 /// Draws one plot at full size, with its options.
 void draw_enlarged(Gui& gui, const view::Plot& plot, const view::PlotMarks& marks, std::string& gone) {
-  view::ViewState& state = gui.model.state;
   if (named_button(gui, "all plots", "All plots", "shows all plots; so does a double click on the plot"))
-    state.enlarged_plot.clear();
+    gui.state.enlarged_plot.clear();
   ImGui::SameLine();
-  view::PlotOptions& options = state.plot_options[plot.name];
+  view::PlotOptions& options = gui.state.plot_options[plot.name];
   bool logarithmic = options.log_y.value_or(plot.log_y);
   if (named_checkbox(gui, "logarithmic", "logarithmic", logarithmic)) options.log_y = logarithmic;
   draw_and_answer(gui, plot, ImGui::GetContentRegionAvail(), marks, gone);
 }
 
-/// Chooses the abscissa of all plots along the run.
 void draw_axis(Gui& gui) {
-  constexpr std::pair<view::PlotAxis, const char*> axes[] = {
-      {view::PlotAxis::tilt, "θ"}, {view::PlotAxis::angle_left, "θ_c − θ"}, {view::PlotAxis::time, "t"}};
-  constexpr const char* names[] = {"over tilt", "over angle left", "over time"};
-  constexpr const char* tips[] = {"all curves over the tilt", "all curves over the angle left to failure",
-                                  "all curves over time"};
-  for (std::size_t k = 0; k < std::size(axes); ++k) {
-    const bool missing = !gui.model.has_plot_axis(axes[k].first);
-    const bool chosen = gui.model.plot_axis() == axes[k].first;
-    if (k > 0) ImGui::SameLine();
-    ImGui::BeginDisabled(missing);
+  using enum view::PlotAxis;
+  for (const auto& [axis, name, label, tip] :
+       {std::tuple{tilt, "over tilt", "θ", "all curves over the tilt"},
+        {angle_left, "over angle left", "θ_c − θ", "all curves over the angle left to failure"},
+        {time, "over time", "t", "all curves over time"}}) {
+    if (!gui.model.has_plot_axis(axis) && !gui.model.is_live()) continue;  // a live run may still fail
+    const bool chosen = gui.model.plot_axis() == axis;
+    if (axis != tilt) ImGui::SameLine();
+    ImGui::BeginDisabled(!gui.model.has_plot_axis(axis));
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_ButtonActive));
-    if (named_button(gui, names[k], axes[k].second, tips[k])) gui.model.set_plot_axis(axes[k].first);
+    if (named_button(gui, name, label, tip)) gui.model.set_plot_axis(axis);
     if (chosen) ImGui::PopStyleColor();
     ImGui::EndDisabled();
   }
@@ -82,7 +85,7 @@ void draw_more(Gui& gui) {
   const bool open = ImGui::BeginCombo("##add plot", "add a plot", ImGuiComboFlags_HeightLarge);
   note_place(gui, "add plot");
   if (!open) return;
-  std::string& filter = gui.model.state.quantity_filter;
+  std::string& filter = gui.state.quantity_filter;
   named_text(gui, "quantity filter", "", filter, "part of a name, such as stress");
   for (const analysis::Quantity* quantity : gui.model.more_quantities()) {
     if ((quantity->name + " " + quantity->display.title).find(filter) == std::string::npos) continue;
@@ -101,20 +104,18 @@ void draw_more(Gui& gui) {
   ImGui::EndCombo();
 }
 
-/// Exports the plots shown as figures.
 void draw_export(Gui& gui) {
-  view::ViewState& state = gui.model.state;
-  if (named_button(gui, "export plots", "export ...", "write the plots as PDF, SVG and PNG with their data"))
+  if (named_button(gui, "export plots", "export ...", "write the plots as PDF and PNG, with their data"))
     ImGui::OpenPopup("export plots");
   if (!ImGui::BeginPopup("export plots")) return;
   ImGui::SetNextItemWidth(22.0f * gui.em);
-  named_text(gui, "plots folder", "", state.plots_folder, "folder to write the plots to");
+  named_text(gui, "plots folder", "", gui.state.plots_folder, "folder to write the plots to");
   bool taken = ImGui::IsItemFocused() && key_pressed(key_enter, false);
   ImGui::SameLine();
-  const char* label = state.enlarged_plot.empty() ? "Write all plots" : "Write this plot";
+  const char* label = gui.state.enlarged_plot.empty() ? "Write all plots" : "Write this plot";
   taken = named_button(gui, "write plots", label) || taken;
   if (taken || key_pressed(key_escape, false)) ImGui::CloseCurrentPopup();
-  if (taken) gui.requests.plots_folder = state.plots_folder;
+  if (taken) gui.requests.plots_folder = gui.state.plots_folder;
   ImGui::EndPopup();
 }
 
@@ -134,11 +135,14 @@ void draw_choices(Gui& gui) {
 void draw_plots(Gui& gui) {
   draw_choices(gui);
   const auto plots = gui.model.plots();
+  const auto is_shown = [all_known = gui.model.all_values_known()](const view::Plot& plot) {
+    return plot.added || !all_known || std::ranges::any_of(plot.series, has_values);
+  };
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const PlotGrid grid = lay_out_plots(room, static_cast<int>(plots.size()), gui.em);
+  const PlotGrid grid = lay_out_plots(room, static_cast<int>(std::ranges::count_if(plots, is_shown)), gui.em);
   const view::PlotMarks marks = gui.model.plot_marks();
   std::string gone;  // removed after all are drawn
-  const auto enlarged = std::ranges::find(plots, gui.model.state.enlarged_plot, &view::Plot::name);
+  const auto enlarged = std::ranges::find(plots, gui.state.enlarged_plot, &view::Plot::name);
   if (enlarged != plots.end()) {
     draw_enlarged(gui, *enlarged, marks, gone);
     if (!gone.empty()) gui.model.remove_plot(gone);
@@ -148,7 +152,7 @@ void draw_plots(Gui& gui) {
   std::size_t drawn = 0;
   for (const bool added : {true, false})  // added plots first, so that they are visible without scrolling
     for (const view::Plot& plot : plots) {
-      if (plot.added != added) continue;
+      if (plot.added != added || !is_shown(plot)) continue;
       if (drawn++ % static_cast<std::size_t>(grid.columns) != 0) ImGui::SameLine();
       draw_and_answer(gui, plot, grid.cell, marks, gone);
     }

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "gui/panels.h"
-#include "pictures/texts.h"
+#include "pictures/scale.h"
 
 namespace talus::gui {
 namespace {
@@ -58,6 +58,19 @@ void find_ranges(const view::Plot& plot, const view::PlotOptions& options, Axes&
     for (std::size_t k = 0; k < series.x.size(); ++k) take(series.x[k], series.y[k]);
 }
 
+/// Returns at least two ticks of the y axis, if its range is not as small as the rounding of its numbers,
+/// which are decades if a logarithmic axis has two of them.
+std::vector<pictures::RoundTick> ticks_of_y(const Axes& axes, float em) {
+  const bool decades = axes.log_y && std::floor(axes.y.high) > std::ceil(axes.y.low);
+  std::vector<pictures::RoundTick> ticks;
+  const int fitting = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
+  for (int most = fitting; ticks.size() < 2 && most < fitting + 16; ++most) {
+    ticks = pictures::round_ticks(axes.y.low, axes.y.high, most);
+    if (decades) std::erase_if(ticks, [](const auto& tick) { return tick.value != std::round(tick.value); });
+  }
+  return ticks;
+}
+
 void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
   const int max_x = std::max(2, static_cast<int>((axes.high.x - axes.low.x) / (4.0f * em)));
   for (const pictures::RoundTick& tick : pictures::round_ticks(axes.x.low, axes.x.high, max_x)) {
@@ -66,13 +79,11 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
     const float width = ImGui::CalcTextSize(tick.label.c_str()).x;
     list.AddText({x - 0.5f * width, axes.high.y + 0.1f * em}, ink, tick.label.c_str());
   }
-  const int max_y = std::max(2, static_cast<int>((axes.high.y - axes.low.y) / (2.0f * em)));
-  for (const pictures::RoundTick& tick : pictures::round_ticks(axes.y.low, axes.y.high, max_y)) {
+  for (const pictures::RoundTick& tick : ticks_of_y(axes, em)) {
     const float share = static_cast<float>((tick.value - axes.y.low) / (axes.y.high - axes.y.low));
     const float y = axes.high.y - share * (axes.high.y - axes.low.y);
     list.AddLine({axes.low.x, y}, {axes.low.x + 0.3f * em, y}, ink);
-    if (axes.log_y && tick.value != std::round(tick.value)) continue;
-    const std::string label = axes.log_y ? fmt::format("1e{:.0f}", tick.value) : tick.label;
+    const std::string label = axes.log_y ? fmt::format("{:.2g}", std::pow(10.0, tick.value)) : tick.label;
     const float width = ImGui::CalcTextSize(label.c_str()).x;
     list.AddText({axes.low.x - width - 0.2f * em, y - 0.5f * ImGui::GetFontSize()}, ink, label.c_str());
   }
@@ -146,10 +157,12 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
                  const view::PlotOptions& options, const Axes& axes, float em) {
   float y = axes.low.y + 0.1f * em;
   const float left = axes.low.x + 0.4f * em;
-  if (!plot.note.empty()) {
-    add_rich_text(list, {left, y}, packed(colours.soft), plot.note);
+  const auto write = [&](const std::string& text, ImU32 colour) {
+    list.AddRectFilled({left, y}, {left + rich_width(text), y + 1.1f * em}, packed(colours.note));
+    add_rich_text(list, {left, y}, colour, text);
     y += 1.1f * em;
-  }
+  };
+  if (!plot.note.empty()) write(plot.note, packed(colours.soft));
   if (!options.chosen) return;
   const auto [low, high] = *options.chosen;
   const auto [left_end, right_end] = std::minmax({axes.px(low), axes.px(high)});
@@ -157,12 +170,9 @@ void draw_chosen(const Palette& colours, ImDrawList& list, const view::Plot& plo
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     if (plot.series[k].law) continue;
     const view::RangeStatistics statistics = view::statistics_of(plot.series[k], low, high);
-    const std::string text = fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", statistics.mean,
-                                         statistics.deviation, statistics.slope, statistics.count);
-    const float width = ImGui::CalcTextSize(text.c_str()).x;
-    list.AddRectFilled({left, y}, {left + width, y + 1.1f * em}, packed(colours.note));
-    list.AddText({left, y}, curve_colour(colours, k), text.c_str());
-    y += 1.1f * em;
+    write(fmt::format("{:.4g} ± {:.2g}, slope {:.3g}, {} values", statistics.mean, statistics.deviation,
+                      statistics.slope, statistics.count),
+          curve_colour(colours, k));
   }
 }
 
@@ -197,20 +207,17 @@ std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, c
 /// the names.
 void draw_names(const Palette& colours, ImDrawList& list, const view::Plot& plot, const ImVec2& place,
                 float right, float em) {
-  const auto width_of = [](const std::string& text) {
-    return rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text);
-  };
   float names = 0.0f;
-  for (const view::PlotSeries& series : plot.series) names += width_of(series.name) + 0.8f * em;
+  for (const view::PlotSeries& series : plot.series) names += rich_width(series.name) + 0.8f * em;
   const bool several = plot.series.size() > 1;
-  const float title = width_of(plot.title);
+  const float title = rich_width(plot.title);
   if (!several || title + names < right - place.x)
     add_rich_text(list, place, packed(colours.ink), plot.title);
   if (!several) return;
   float x = std::max(place.x, right - names + 0.8f * em);
   for (std::size_t k = 0; k < plot.series.size(); ++k) {
     add_rich_text(list, {x, place.y}, curve_colour(colours, k), plot.series[k].name);
-    x += width_of(plot.series[k].name) + 0.8f * em;
+    x += rich_width(plot.series[k].name) + 0.8f * em;
   }
 }
 
@@ -218,7 +225,7 @@ void draw_marks(const Palette& colours, ImDrawList& list, const Axes& axes, cons
                 float em) {
   if (marks.shown)
     list.AddLine({axes.px(*marks.shown), axes.low.y}, {axes.px(*marks.shown), axes.high.y},
-                 packed(colours.frame_shown));
+                 packed(colours.accent));
   for (const double tick : marks.ticks)
     list.AddLine({axes.px(tick), axes.high.y}, {axes.px(tick), axes.high.y - 0.7f * em},
                  packed(colours.rearrangement));
@@ -250,7 +257,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   note_place(gui, std::string("plot ").append(plot.name));
   if (!ImGui::IsItemVisible()) return std::nullopt;
   if (ImGui::IsItemHovered()) keep_wheel();  // prevents the plots from scrolling as well
-  const view::PlotOptions options = gui.model.state.plot_options[plot.name];
+  const view::PlotOptions options = gui.state.plot_options[plot.name];
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float em = gui.em;
   const Palette& colours = gui.colours;
@@ -263,7 +270,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   draw_names(colours, list, plot, {axes.low.x, corner.y + 0.2f * em}, axes.high.x, em);
   list.PopClipRect();
   list.AddRect(axes.low, axes.high, packed(colours.ink));
-  const float title = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), plot.x_title);
+  const float title = rich_width(plot.x_title);
   add_rich_text(list, {0.5f * (axes.low.x + axes.high.x - title), axes.high.y + 1.1f * em},
                 packed(colours.ink), plot.x_title);
   Axes all = axes;
@@ -290,7 +297,7 @@ std::optional<double> draw_plot(Gui& gui, const view::Plot& plot, const ImVec2& 
   draw_chosen(colours, list, plot, options, axes, em);
   list.PopClipRect();
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) show_values(plot, axes);
-  return use_plot(gui.model.state, plot, axes, all);
+  return use_plot(gui.state, plot, axes, all);
 }
 
 }  // namespace talus::gui

@@ -2,141 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <utility>
+
+#include "render/embedded.h"
 
 namespace talus::gui {
 namespace {
 
-constexpr Palette light_palette = {.ground = {255, 255, 255},
-                                   .panel = {246, 247, 249},
-                                   .raised = {233, 236, 240},
-                                   .hovered = {219, 225, 233},
-                                   .pressed = {190, 212, 240},
-                                   .field = {255, 255, 255},
-                                   .tint = {205, 224, 246},
-                                   .track = {231, 234, 238},
-                                   .range = {0, 95, 184, 38},
-                                   .note = {255, 255, 255, 215},
-                                   .line = {206, 211, 219},
-                                   .ink = {26, 29, 34},
-                                   .soft = {88, 94, 104},
-                                   .accent = {0, 95, 184},
-                                   .alarm = {168, 30, 14},
-                                   .alarm_text = {255, 255, 255},
-                                   .warning = {168, 30, 14},
-                                   .grid = {150, 155, 163},
-                                   .frame_shown = {0, 95, 184},
-                                   .transition = {26, 29, 34},
-                                   .failure = {168, 30, 14},
-                                   .command = {0, 106, 168},
-                                   .rearrangement = {160, 84, 0},
-                                   .curves = {{{26, 29, 34}, {190, 84, 0}, {0, 106, 168}, {112, 117, 125}}}};
-
-constexpr Palette dark_palette = {
-    .ground = {20, 23, 28},
-    .panel = {29, 33, 40},
-    .raised = {46, 52, 62},
-    .hovered = {58, 66, 79},
-    .pressed = {38, 82, 130},
-    .field = {20, 23, 28},
-    .tint = {38, 70, 108},
-    .track = {46, 52, 62},
-    .range = {96, 170, 255, 52},
-    .note = {20, 23, 28, 215},
-    .line = {62, 69, 81},
-    .ink = {228, 232, 238},
-    .soft = {166, 174, 186},
-    .accent = {96, 170, 255},
-    .alarm = {178, 44, 30},
-    .alarm_text = {255, 255, 255},
-    .warning = {255, 138, 118},
-    .grid = {112, 120, 132},
-    .frame_shown = {96, 170, 255},
-    .transition = {228, 232, 238},
-    .failure = {255, 118, 98},
-    .command = {96, 188, 245},
-    .rearrangement = {226, 150, 62},
-    .curves = {{{236, 239, 244}, {255, 152, 64}, {86, 180, 245}, {150, 157, 168}}}};
-
-/// White and black; the item under the mouse is light blue, which never appears in saved pictures.
-constexpr Palette print_palette = {.ground = {255, 255, 255},
-                                   .panel = {255, 255, 255},
-                                   .raised = {255, 255, 255},
-                                   .hovered = {225, 238, 252},
-                                   .pressed = {205, 226, 248},
-                                   .field = {255, 255, 255},
-                                   .tint = {205, 226, 248},
-                                   .track = {255, 255, 255},
-                                   .range = {0, 95, 184, 38},
-                                   .note = {255, 255, 255, 230},
-                                   .line = {0, 0, 0},
-                                   .ink = {0, 0, 0},
-                                   .soft = {0, 0, 0},
-                                   .accent = {0, 0, 0},
-                                   .alarm = {255, 255, 255},
-                                   .alarm_text = {150, 20, 0},
-                                   .warning = {150, 20, 0},
-                                   .grid = {0, 0, 0},
-                                   .frame_shown = {0, 0, 0},
-                                   .transition = {0, 0, 0},
-                                   .failure = {150, 20, 0},
-                                   .command = {0, 90, 150},
-                                   .rearrangement = {150, 75, 0},
-                                   .curves = {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}}};
-
-/// Colours of the palette for the parts of Dear ImGui.
-constexpr std::pair<ImGuiCol, render::Colour Palette::*> roles[] = {
-    {ImGuiCol_Text, &Palette::ink},
-    {ImGuiCol_TextDisabled, &Palette::soft},
-    {ImGuiCol_WindowBg, &Palette::ground},
-    {ImGuiCol_PopupBg, &Palette::ground},
-    {ImGuiCol_Border, &Palette::line},
-    {ImGuiCol_FrameBg, &Palette::field},
-    {ImGuiCol_FrameBgHovered, &Palette::hovered},
-    {ImGuiCol_FrameBgActive, &Palette::pressed},
-    {ImGuiCol_TitleBg, &Palette::raised},
-    {ImGuiCol_TitleBgActive, &Palette::raised},
-    {ImGuiCol_TitleBgCollapsed, &Palette::raised},
-    {ImGuiCol_ScrollbarGrab, &Palette::pressed},
-    {ImGuiCol_ScrollbarGrabHovered, &Palette::soft},
-    {ImGuiCol_ScrollbarGrabActive, &Palette::soft},
-    {ImGuiCol_CheckMark, &Palette::accent},
-    {ImGuiCol_SliderGrab, &Palette::pressed},  // the value is written over it
-    {ImGuiCol_SliderGrabActive, &Palette::pressed},
-    {ImGuiCol_Button, &Palette::raised},
-    {ImGuiCol_ButtonHovered, &Palette::hovered},
-    {ImGuiCol_ButtonActive, &Palette::pressed},
-    {ImGuiCol_Header, &Palette::tint},
-    {ImGuiCol_HeaderHovered, &Palette::hovered},
-    {ImGuiCol_HeaderActive, &Palette::pressed},
-    {ImGuiCol_Separator, &Palette::line},
-    {ImGuiCol_SeparatorHovered, &Palette::accent},
-    {ImGuiCol_SeparatorActive, &Palette::accent},
-    {ImGuiCol_Tab, &Palette::raised},
-    {ImGuiCol_TabHovered, &Palette::hovered},
-    {ImGuiCol_TabActive, &Palette::tint},
-    {ImGuiCol_TableHeaderBg, &Palette::raised},
-    {ImGuiCol_TableBorderStrong, &Palette::line},
-    {ImGuiCol_TableBorderLight, &Palette::line},
-    {ImGuiCol_TextSelectedBg, &Palette::tint},
-    {ImGuiCol_NavHighlight, &Palette::accent},
-    {ImGuiCol_DragDropTarget, &Palette::accent},
+/// Colours of the light theme, the dark one, and the one for print: white, black, and under the mouse a light
+/// blue, which never appears in saved pictures.
+constexpr std::pair<render::Colour Palette::*, std::array<render::Colour, 3>> colours_of_themes[] = {
+    {&Palette::ground, {{{255, 255, 255}, {20, 23, 28}, {255, 255, 255}}}},
+    {&Palette::panel, {{{246, 247, 249}, {29, 33, 40}, {255, 255, 255}}}},
+    {&Palette::raised, {{{233, 236, 240}, {46, 52, 62}, {255, 255, 255}}}},
+    {&Palette::hovered, {{{219, 225, 233}, {58, 66, 79}, {225, 238, 252}}}},
+    {&Palette::pressed, {{{190, 212, 240}, {38, 82, 130}, {205, 226, 248}}}},
+    {&Palette::tint, {{{205, 224, 246}, {38, 70, 108}, {205, 226, 248}}}},
+    {&Palette::track, {{{231, 234, 238}, {46, 52, 62}, {255, 255, 255}}}},
+    {&Palette::range, {{{0, 95, 184, 38}, {96, 170, 255, 52}, {0, 95, 184, 38}}}},
+    {&Palette::note, {{{255, 255, 255, 215}, {20, 23, 28, 215}, {255, 255, 255, 230}}}},
+    {&Palette::line, {{{206, 211, 219}, {62, 69, 81}, {0, 0, 0}}}},
+    {&Palette::ink, {{{26, 29, 34}, {228, 232, 238}, {0, 0, 0}}}},
+    {&Palette::soft, {{{88, 94, 104}, {166, 174, 186}, {0, 0, 0}}}},
+    {&Palette::accent, {{{0, 95, 184}, {96, 170, 255}, {0, 0, 0}}}},
+    {&Palette::alarm, {{{168, 30, 14}, {178, 44, 30}, {255, 255, 255}}}},
+    {&Palette::alarm_text, {{{255, 255, 255}, {255, 255, 255}, {150, 20, 0}}}},
+    {&Palette::warning, {{{168, 30, 14}, {255, 138, 118}, {150, 20, 0}}}},
+    {&Palette::grid, {{{150, 155, 163}, {112, 120, 132}, {0, 0, 0}}}},
+    {&Palette::failure, {{{168, 30, 14}, {255, 118, 98}, {150, 20, 0}}}},
+    {&Palette::command, {{{0, 106, 168}, {96, 188, 245}, {0, 90, 150}}}},
+    {&Palette::rearrangement, {{{160, 84, 0}, {226, 150, 62}, {150, 75, 0}}}},
 };
+constexpr std::array<std::array<render::Colour, 4>, 3> curves_of_themes = {{
+    {{{26, 29, 34}, {190, 84, 0}, {0, 106, 168}, {112, 117, 125}}},
+    {{{236, 239, 244}, {255, 152, 64}, {86, 180, 245}, {150, 157, 168}}},
+    {{{0, 0, 0}, {190, 84, 0}, {0, 106, 168}, {110, 110, 110}}},
+}};
 
-constexpr render::Colour nothing{0, 0, 0, 0};
+Palette make_palette(std::size_t theme) {
+  Palette palette;
+  for (const auto& [part, colours] : colours_of_themes) palette.*part = colours[theme];
+  palette.curves = curves_of_themes[theme];
+  return palette;
+}
+
+/// First and last code points of each block, terminated by 0: ASCII, Latin-1, Greek, dashes, super- and
+/// subscripts, script l, arrows, mathematical operators, eject, simple shapes, check marks, angle brackets.
+/// ImGui reads them as long as the atlas exists.
+constexpr ImWchar glyph_blocks[] = {0x0020, 0x007E, 0x00A0, 0x00FF, 0x0391, 0x03C9, 0x2010, 0x2027, 0x2070,
+                                    0x209C, 0x2113, 0x2113, 0x2190, 0x2199, 0x2200, 0x2265, 0x23CF, 0x23CF,
+                                    0x25A0, 0x25FF, 0x2713, 0x2717, 0x27E8, 0x27E9, 0};
 
 }  // namespace
 
 const Palette& palette_of(view::Theme theme) {
-  switch (theme) {
-    case view::Theme::dark:
-      return dark_palette;
-    case view::Theme::print:
-      return print_palette;
-    case view::Theme::light:
-      break;
-  }
-  return light_palette;
+  static const std::array palettes = {make_palette(0), make_palette(1), make_palette(2)};
+  return palettes.at(static_cast<std::size_t>(theme));
 }
 
 ImGuiStyle style_of(view::Theme theme, float scale) {
@@ -157,11 +80,38 @@ ImGuiStyle style_of(view::Theme theme, float scale) {
   style.WindowBorderSize = style.FrameBorderSize = style.PopupBorderSize = std::max(1.0f, std::round(scale));
   const Palette& colours = palette_of(theme);
   ImGui::StyleColorsLight(&style);
-  for (const auto& [part, colour] : roles) style.Colors[part] = mixed(colours.*colour);
-  for (const ImGuiCol part : {ImGuiCol_ScrollbarBg, ImGuiCol_BorderShadow, ImGuiCol_TableRowBg,
-                              ImGuiCol_TableRowBgAlt, ImGuiCol_ChildBg})
-    style.Colors[part] = mixed(nothing);
+  const auto paint = [&style](const render::Colour& colour, std::initializer_list<ImGuiCol> parts) {
+    for (const ImGuiCol part : parts) style.Colors[part] = ImGui::ColorConvertU32ToFloat4(packed(colour));
+  };
+  paint(colours.ink, {ImGuiCol_Text});
+  paint(colours.soft, {ImGuiCol_TextDisabled, ImGuiCol_ScrollbarGrabHovered, ImGuiCol_ScrollbarGrabActive});
+  paint(colours.ground, {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_FrameBg});
+  paint(colours.line,
+        {ImGuiCol_Border, ImGuiCol_Separator, ImGuiCol_TableBorderStrong, ImGuiCol_TableBorderLight});
+  paint(colours.hovered,
+        {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_HeaderHovered, ImGuiCol_TabHovered});
+  paint(colours.pressed, {ImGuiCol_FrameBgActive, ImGuiCol_ScrollbarGrab, ImGuiCol_SliderGrab,
+                          ImGuiCol_SliderGrabActive, ImGuiCol_ButtonActive, ImGuiCol_HeaderActive});
+  paint(colours.raised, {ImGuiCol_TitleBg, ImGuiCol_TitleBgActive, ImGuiCol_TitleBgCollapsed, ImGuiCol_Button,
+                         ImGuiCol_Tab, ImGuiCol_TableHeaderBg});
+  paint(colours.accent, {ImGuiCol_CheckMark, ImGuiCol_SeparatorHovered, ImGuiCol_SeparatorActive,
+                         ImGuiCol_NavHighlight, ImGuiCol_DragDropTarget});
+  paint(colours.tint, {ImGuiCol_Header, ImGuiCol_TabActive, ImGuiCol_TextSelectedBg});
+  paint({0, 0, 0, 0}, {ImGuiCol_ScrollbarBg, ImGuiCol_BorderShadow, ImGuiCol_TableRowBg,
+                       ImGuiCol_TableRowBgAlt, ImGuiCol_ChildBg});
   return style;
+}
+
+void add_embedded_font(ImFontAtlas& atlas, float scale) {
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  config.OversampleH = 2;
+  // The interface takes a non-const pointer, but only reads.
+  void* bytes = const_cast<unsigned char*>(embedded::font.data());
+  for (const float size : type_scale)
+    atlas.AddFontFromMemoryTTF(bytes, static_cast<int>(embedded::font.size()), std::round(size * scale),
+                               &config, glyph_blocks);
+  atlas.Build();
 }
 
 }  // namespace talus::gui

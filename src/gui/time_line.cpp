@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 #include <fmt/core.h>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -9,92 +10,101 @@
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "gui/panels.h"
-#include "pictures/texts.h"
+#include "pictures/scale.h"
 
 namespace talus::gui {
 namespace {
 
 ImU32 event_colour(const Palette& colours, view::TimelineEvent::Kind kind) {
-  switch (kind) {
-    case view::TimelineEvent::Kind::failure:
-      return packed(colours.failure);
-    case view::TimelineEvent::Kind::command:
-      return packed(colours.command);
-    case view::TimelineEvent::Kind::rearrangement:
-      return packed(colours.rearrangement);
-    case view::TimelineEvent::Kind::transition:
-      break;
-  }
-  return packed(colours.transition);
+  const std::array of_kinds = {&colours.ink, &colours.failure, &colours.command, &colours.rearrangement};
+  return packed(*of_kinds.at(static_cast<std::size_t>(kind)));
 }
 
 /// Transformation from frames to pixels.
 struct Track {
   ImVec2 low, high;   ///< corners
   double last = 1.0;  ///< place of the right end, in frames
-  double left = 0.0;  ///< number of frames of the parent run before the first frame of a branch
 
   float px(double place) const {
-    return low.x + static_cast<float>(std::clamp((place + left) / last, 0.0, 1.0)) * (high.x - low.x);
+    return low.x + static_cast<float>(std::clamp(place / last, 0.0, 1.0)) * (high.x - low.x);
   }
   double place(float x) const {
-    const double share = std::clamp(static_cast<double>((x - low.x) / (high.x - low.x)), 0.0, 1.0);
-    return std::max(0.0, share * last - left);
+    return last * std::clamp(static_cast<double>((x - low.x) / (high.x - low.x)), 0.0, 1.0);
   }
 };
 
-/// Draws angles below the track, for frames of the tilt with ascending angles.
-void draw_angles(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em,
-                 ImU32 ink) {
-  const auto end = std::ranges::is_sorted_until(tilts);
-  const std::span<const double> ascending(tilts.begin(), end);
-  if (ascending.size() < 2 || !(ascending.front() < ascending.back())) return;
-  const int most = std::max(2, static_cast<int>((track.high.x - track.low.x) / (5.0f * em)));
-  for (const pictures::RoundTick& tick :
-       pictures::round_ticks(degrees(ascending.front()), degrees(ascending.back()), most)) {
-    const float x = track.px(view::place_among(ascending, radians(tick.value)));
-    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, ink);
-    const std::string label = tick.label + "°";
-    list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, track.high.y + 0.25f * em}, ink,
-                 label.c_str());
+/// Room for labels in a row, from left to right in any order.
+class LabelRow {
+ public:
+  /// Reserves room for a label that begins at `low`, px; returns whether there is any.
+  bool take(float low, float width) {
+    const float high = low + width + 0.4f * ImGui::GetFontSize();
+    if (std::ranges::any_of(taken_,
+                            [=](const auto& other) { return low < other.second && other.first < high; }))
+      return false;
+    taken_.emplace_back(low, high);
+    return true;
   }
+
+ private:
+  std::vector<std::pair<float, float>> taken_;
+};
+
+/// Draws the angles below the track: those at which a programme turns or begins to be held, and round ones as
+/// far as there is room. Frames of the flow after a tilt that only grows have none.
+void draw_angles(Gui& gui, const Track& track, std::span<const double> tilts, bool turns) {
+  LabelRow row;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 ink = packed(gui.colours.ink);
+  const auto draw_tick = [&](double place, const std::string& label, bool always) {
+    const ImVec2 top{track.px(place), track.high.y};
+    const float width = ImGui::CalcTextSize(label.c_str()).x, low = top.x - 0.5f * width;
+    const bool room = row.take(low, width);
+    if (room) list.AddText({low, top.y + 0.25f * gui.em}, ink, label.c_str());
+    if (room) note_place(gui, "angle " + label, top, {top.x, top.y + 1.25f * gui.em});
+    if (room || always) list.AddLine(top, {top.x, top.y + 0.3f * gui.em}, ink);
+  };
+  if (!turns) tilts = {tilts.begin(), std::ranges::is_sorted_until(tilts)};
+  const auto way = [&](std::size_t from) { return tilts[from + 1] <=> tilts[from]; };
+  for (std::size_t k = 0; turns && k < tilts.size(); ++k)
+    if (k == 0 || k + 1 == tilts.size() || way(k - 1) != way(k))
+      draw_tick(static_cast<double>(k),
+                pictures::number_label(std::round(100.0 * degrees(tilts[k])) / 100.0) + "°", true);
+  const auto [lowest, highest] = std::ranges::minmax(tilts);
+  if (lowest == highest) return;
+  const int most = std::max(2, static_cast<int>((track.high.x - track.low.x) / (5.0f * gui.em)));
+  for (const pictures::RoundTick& tick : pictures::round_ticks(degrees(lowest), degrees(highest), most))
+    for (std::size_t k = 0; k + 1 < tilts.size(); ++k) {
+      const double share = (radians(tick.value) - tilts[k]) / (tilts[k + 1] - tilts[k]);
+      if (share >= 0.0 && share <= 1.0) draw_tick(static_cast<double>(k) + share, tick.label + "°", false);
+    }
 }
 
-/// Draws the angles at which a tilt programme turns or begins to be held.
-void draw_turns(ImDrawList& list, const Track& track, const std::vector<double>& tilts, float em, ImU32 ink) {
-  float first_free = 0.0f;
-  for (std::size_t k = 0; k < tilts.size(); ++k) {
-    const bool end = k == 0 || k + 1 == tilts.size();
-    const auto way = [&](std::size_t from) {
-      return tilts[from + 1] > tilts[from] ? 1 : tilts[from + 1] < tilts[from] ? -1 : 0;
-    };
-    if (!end && way(k - 1) == way(k)) continue;
-    const float x = track.px(static_cast<double>(k));
-    list.AddLine({x, track.high.y}, {x, track.high.y + 0.3f * em}, ink);
-    const std::string label = fmt::format("{:.3g}°", degrees(tilts[k]));
-    const float low = x - 0.5f * ImGui::CalcTextSize(label.c_str()).x;
-    if (low < first_free) continue;
-    first_free = low + ImGui::CalcTextSize(label.c_str()).x + 0.4f * em;
-    list.AddText({low, track.high.y + 0.25f * em}, ink, label.c_str());
-  }
-}
-
-/// Draws labels above the track, theta_c with priority, each only if it has room.
+/// Draws the labels above the track, theta_c with priority, each above its stroke or, if there is no room, to
+/// its left or right. A label whose name would hide other strokes ends before its comma.
 void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
                  std::span<const view::TimelineEvent> events, float em) {
-  std::vector<std::pair<float, float>> taken;
+  LabelRow row;
+  const auto draw_label = [&](const view::TimelineEvent& event) {
+    for (const bool named : {true, false})
+      for (const float before : {0.5f, -0.05f, 1.05f}) {  // share of the label to the left of the stroke
+        const std::string label = named ? event.label : event.label.substr(0, event.label.find(','));
+        const float width = rich_width(label);
+        const float low =
+            std::max(track.low.x, std::min(track.px(event.place) - before * width, track.high.x - width));
+        const auto is_hidden = [&](const view::TimelineEvent& other) {
+          const float x = track.px(other.place);
+          return &other != &event && !other.label.empty() && low < x && x < low + width;
+        };
+        if ((named && std::ranges::any_of(events, is_hidden)) || !row.take(low, width)) continue;
+        const ImU32 colour = event_colour(colours, event.kind);
+        return add_rich_text(list, {low, track.low.y - 1.25f * em}, colour, label);
+      }
+  };
   for (const bool failure : {true, false})
-    for (const view::TimelineEvent& event : events) {
-      if (event.label.empty() || (event.kind == view::TimelineEvent::Kind::failure) != failure) continue;
-      const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), event.label);
-      const float low = std::min(track.px(event.place) - 0.5f * width, track.high.x - width);
-      const float high = low + width + 0.4f * em;
-      if (std::ranges::any_of(
-              taken, [=](const auto& interval) { return low < interval.second && interval.first < high; }))
-        continue;
-      taken.emplace_back(low, high);
-      add_rich_text(list, {low, track.low.y - 1.25f * em}, event_colour(colours, event.kind), event.label);
-    }
+    for (const view::TimelineEvent& event : events)
+      if (!event.label.empty() && (event.kind == view::TimelineEvent::Kind::failure) == failure)
+        draw_label(event);
 }
 
 /// Draws a stroke for each event. A rearrangement has a stroke at the bottom whose height shows its size,
@@ -155,51 +165,6 @@ void use_line(Gui& gui, const Track& track, const std::vector<double>& tilts) {
   gui.model.go_to(event ? event->frame : static_cast<std::size_t>(std::lround(track.place(x))));
 }
 
-/// Draws the angles of a branch and, next to them, of its parent run, if they ascend together.
-void draw_angles_of_branch(ImDrawList& list, Track track, const view::BranchLine& run,
-                           const std::vector<double>& tilts, float em, ImU32 ink) {
-  std::vector<double> all(run.tilts.begin(), run.tilts.begin() + static_cast<std::ptrdiff_t>(run.frame));
-  all.insert(all.end(), tilts.begin(), tilts.end());
-  for (std::size_t k = all.size(); k < run.tilts.size() && run.tilts[k] > all.back(); ++k)
-    all.push_back(run.tilts[k]);
-  track.left = 0.0;
-  draw_angles(list, track, all, em, ink);
-}
-
-/// Draws the line of the parent run, which a branch leaves at its frame.
-void draw_left_run(ImDrawList& list, const Track& track, const view::BranchLine& run, const Gui& gui) {
-  const float em = gui.em;
-  const ImU32 colour = packed(gui.colours.curves[2]);
-  const auto frames = static_cast<double>(run.tilts.size()) - 1.0;
-  const float y = track.low.y - 0.35f * em, leaves = track.px(0.0);
-  list.AddLine({track.low.x, y}, {track.px(frames - track.left), y}, packed(gui.colours.track), 0.2f * em);
-  list.AddLine({std::max(track.low.x, leaves - 0.8f * em), y}, {leaves, track.high.y}, colour, 0.2f * em);
-  list.AddCircleFilled({std::max(track.low.x, leaves - 0.8f * em), y}, 0.25f * em, colour);
-}
-
-/// Returns the frame of the parent run under the mouse, if the mouse is on its line.
-std::optional<std::size_t> parent_frame_near(const Track& track, const view::BranchLine& run) {
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const double frame =
-      (static_cast<double>(mouse.x) - track.low.x) / (track.high.x - track.low.x) * track.last;
-  const bool on_line = mouse.y < track.low.y || mouse.x < track.px(0.0) - 0.5f * ImGui::GetFontSize();
-  if (!on_line || frame < -0.5 || frame > static_cast<double>(run.tilts.size()) - 0.5) return std::nullopt;
-  return static_cast<std::size_t>(std::lround(std::max(0.0, frame)));
-}
-
-/// Handles a click on that line, which returns to the parent run.
-bool use_left_run(Gui& gui, const Track& track, const view::BranchLine& run) {
-  const std::optional<std::size_t> frame = parent_frame_near(track, run);
-  if (!frame || !ImGui::IsItemHovered()) return false;
-  ImGui::SetTooltip("%s, %s°: a click returns to it", run.run.c_str(),
-                    degrees_text(run.tilts[*frame], 2).c_str());
-  if (ImGui::IsItemActivated()) {
-    gui.requests.open_path = run.run;
-    gui.requests.open_frame = frame;
-  }
-  return true;
-}
-
 /// Draws the button of a live run at the right end of the line; returns its width.
 float draw_follow_button(Gui& gui, const ImVec2& corner, float right) {
   if (!gui.model.is_live()) return 0.0f;
@@ -230,31 +195,17 @@ void draw_time_line(Gui& gui) {
                  "The time line begins with the tilt.");
     return;
   }
-  const std::optional<view::BranchLine> left = gui.model.branch_line();
-  Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
-              {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
-              std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
-  if (left) {
-    track.left = static_cast<double>(left->frame);
-    track.last = std::max({1.0, static_cast<double>(left->tilts.size()) - 1.0,
-                           track.left + static_cast<double>(tilts.size()) - 1.0});
-  }
-  const float begin = track.px(0.0), end = track.px(static_cast<double>(tilts.size()) - 1.0);
-  list.AddRectFilled({begin, track.low.y}, {end, track.high.y}, packed(gui.colours.track));
+  const Track track{{corner.x + 1.2f * em, corner.y + 1.2f * em},
+                    {corner.x + width - 1.2f * em, corner.y + 2.0f * em},
+                    std::max(1.0, static_cast<double>(tilts.size()) - 1.0)};
   const float now = track.px(static_cast<double>(gui.model.frame_index()));
-  list.AddRectFilled({begin, track.low.y}, {now, track.high.y}, packed(gui.colours.tint));
-  list.AddRect({begin, track.low.y}, {end, track.high.y}, packed(gui.colours.line));
-  if (left) draw_left_run(list, track, *left, gui);
-  if (gui.model.goes_by_time())
-    draw_turns(list, track, tilts, em, packed(gui.colours.ink));
-  else if (left)
-    draw_angles_of_branch(list, track, *left, tilts, em, packed(gui.colours.ink));
-  else
-    draw_angles(list, track, tilts, em, packed(gui.colours.ink));
+  list.AddRectFilled(track.low, track.high, packed(gui.colours.track));
+  list.AddRectFilled(track.low, {now, track.high.y}, packed(gui.colours.tint));
+  list.AddRect(track.low, track.high, packed(gui.colours.line));
+  draw_angles(gui, track, tilts, gui.model.goes_by_time());
   draw_events(gui, list, track);
   list.AddLine({now, track.low.y - 0.3f * em}, {now, track.high.y + 0.3f * em}, packed(gui.colours.accent),
                0.2f * em);
-  if (left && use_left_run(gui, track, *left)) return;
   use_line(gui, track, tilts);
 }
 

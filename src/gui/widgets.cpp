@@ -1,11 +1,12 @@
-#include "gui/widgets.h"
-
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <cfloat>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "gui/panels.h"
 #include "render/font.h"
 
 namespace talus::gui {
@@ -21,16 +22,22 @@ std::size_t character_size(char lead) {
   return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Calls piece(text, is_subscript) for each piece of a rich text, in order.
+/// Calls piece(text, is_subscript, size, width) for each piece of a rich text in the current font, in order;
+/// sizes in px.
 template <typename Piece>
 void for_pieces(std::string_view text, const Piece& piece) {
+  const auto pass = [&](std::string_view part, bool subscript) {
+    const float size = ImGui::GetFontSize() * (subscript ? static_cast<float>(render::subscript_size) : 1.0f);
+    const char* const end = part.data() + part.size();
+    piece(part, subscript, size, ImGui::GetFont()->CalcTextSizeA(size, 1e9f, 0.0f, part.data(), end).x);
+  };
   while (!text.empty()) {
     const std::size_t mark = text.find('_');
-    if (mark > 0) piece(text.substr(0, mark), false);
+    if (mark > 0) pass(text.substr(0, mark), false);
     if (mark == std::string_view::npos || mark + 1 >= text.size()) return;
-    const std::size_t size = character_size(text[mark + 1]);
-    piece(text.substr(mark + 1, size), true);
-    text.remove_prefix(std::min(text.size(), mark + 1 + size));
+    const std::size_t character = character_size(text[mark + 1]);
+    pass(text.substr(mark + 1, character), true);
+    text.remove_prefix(std::min(text.size(), mark + 1 + character));
   }
 }
 
@@ -48,19 +55,21 @@ void begin_row(const char* label, const char* tip) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   add_rich_text(*ImGui::GetWindowDrawList(), {corner.x, corner.y + ImGui::GetStyle().FramePadding.y},
                 ImGui::GetColorU32(ImGuiCol_Text), label);
-  ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label), ImGui::GetFrameHeight()});
+  ImGui::Dummy({rich_width(label), ImGui::GetFrameHeight()});
   show_tip(tip);
   move_to_value_column();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-/// Completes a widget: notes its place, and shows its tip under the mouse.
-void finish_widget(Gui& gui, const char* name, const char* tip) {
+/// Draws a row with its label and the widget of a hidden name; returns whether the user has used it.
+template <typename Widget>
+bool draw_row(Gui& gui, const char* name, const char* label, const char* tip, const Widget& widget) {
+  begin_row(label, tip);
+  const bool used = widget(std::string("##").append(name).c_str());
   note_place(gui, name);
   show_tip(tip);
+  return used;
 }
-
-std::string hidden(const char* name) { return std::string("##").append(name); }
 
 }  // namespace
 
@@ -74,7 +83,7 @@ void note_place(Gui& gui, std::string name) {
 
 bool named_button(Gui& gui, const char* name, const char* label, const char* tip) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float width = rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), label);
+  const float width = rich_width(label);
   const bool pressed =
       ImGui::Button(std::string("##").append(name).c_str(), {width + 2.0f * style.FramePadding.x, 0.0f});
   note_place(gui, name);
@@ -97,11 +106,9 @@ bool named_slider(Gui& gui, const char* name, const char* label, double& value, 
                   const char* format, const char* tip, bool logarithmic) {
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-  begin_row(label, tip);
-  const bool changed =
-      ImGui::SliderScalar(hidden(name).c_str(), ImGuiDataType_Double, &value, &low, &high, format, flags);
-  finish_widget(gui, name, tip);
-  return changed;
+  return draw_row(gui, name, label, tip, [&](const char* id) {
+    return ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &low, &high, format, flags);
+  });
 }
 
 std::optional<double> named_slider_when_done(Gui& gui, const char* name, const char* label, double current,
@@ -120,39 +127,26 @@ std::optional<double> named_slider_when_done(Gui& gui, const char* name, const c
 
 bool named_number(Gui& gui, const char* name, const char* label, double& value, const char* format,
                   const char* tip) {
-  begin_row(label, tip);
-  const bool changed = ImGui::InputDouble(hidden(name).c_str(), &value, 0.0, 0.0, format);
-  finish_widget(gui, name, tip);
-  return changed;
-}
-
-bool named_number(Gui& gui, const char* name, const char* label, int& value, const char* tip) {
-  begin_row(label, tip);
-  const bool changed = ImGui::InputInt(hidden(name).c_str(), &value, 0);
-  finish_widget(gui, name, tip);
-  return changed;
+  return draw_row(gui, name, label, tip,
+                  [&](const char* id) { return ImGui::InputDouble(id, &value, 0.0, 0.0, format); });
 }
 
 bool named_number(Gui& gui, const char* name, const char* label, std::int64_t& value, const char* tip) {
-  begin_row(label, tip);
-  const bool changed = ImGui::InputScalar(hidden(name).c_str(), ImGuiDataType_S64, &value);
-  finish_widget(gui, name, tip);
-  return changed;
+  return draw_row(gui, name, label, tip,
+                  [&](const char* id) { return ImGui::InputScalar(id, ImGuiDataType_S64, &value); });
 }
 
 bool named_text(Gui& gui, const char* name, const char* label, std::string& value, const char* tip) {
-  begin_row(label, tip);
-  const bool changed = ImGui::InputText(hidden(name).c_str(), &value);
-  finish_widget(gui, name, tip);
-  return changed;
+  return draw_row(gui, name, label, tip, [&](const char* id) { return ImGui::InputText(id, &value); });
 }
 
 bool named_choice(Gui& gui, const char* name, const char* label, const std::vector<std::string>& texts,
                   int& chosen) {
   bool changed = false;
   begin_row(label, nullptr);
-  const bool open = ImGui::BeginCombo(hidden(name).c_str(), texts[static_cast<std::size_t>(chosen)].c_str(),
-                                      ImGuiComboFlags_HeightLargest);
+  const bool open =
+      ImGui::BeginCombo(std::string("##").append(name).c_str(),
+                        texts[static_cast<std::size_t>(chosen)].c_str(), ImGuiComboFlags_HeightLargest);
   note_place(gui, name);
   if (!open) return false;
   for (int k = 0; k < static_cast<int>(texts.size()); ++k) {
@@ -167,40 +161,32 @@ bool named_choice(Gui& gui, const char* name, const char* label, const std::vect
   return changed;
 }
 
-float rich_width(ImFont& font, float size, std::string_view text) {
+float rich_width(std::string_view text) {
   float width = 0.0f;
-  for_pieces(text, [&](std::string_view piece, bool subscript) {
-    const float piece_size = subscript ? static_cast<float>(render::subscript_size) * size : size;
-    width += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
-  });
+  for_pieces(text, [&](std::string_view, bool, float, float piece_width) { width += piece_width; });
   return width;
 }
 
 std::vector<std::string> wrapped_text(std::string_view text, float width) {
-  ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize();
-  std::vector<std::string> lines = render::broken_lines(
-      text, [&](const std::string& line) { return rich_width(font, size, line) <= width; });
+  std::vector<std::string> lines =
+      render::broken_lines(text, [width](const std::string& line) { return rich_width(line) <= width; });
   if (lines.empty()) lines.emplace_back();
   return lines;
 }
 
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text) {
-  ImFont& font = *ImGui::GetFont();
-  const float size = ImGui::GetFontSize();
   ImVec2 pen = place;
-  for_pieces(text, [&](std::string_view piece, bool subscript) {
-    const float piece_size = subscript ? static_cast<float>(render::subscript_size) * size : size;
-    const ImVec2 at{pen.x, subscript ? pen.y + 0.42f * size : pen.y};
-    list.AddText(&font, piece_size, at, colour, piece.data(), piece.data() + piece.size());
-    pen.x += font.CalcTextSizeA(piece_size, 1e9f, 0.0f, piece.data(), piece.data() + piece.size()).x;
+  for_pieces(text, [&](std::string_view piece, bool subscript, float size, float width) {
+    const ImVec2 at{pen.x, subscript ? pen.y + 0.42f * ImGui::GetFontSize() : pen.y};
+    list.AddText(ImGui::GetFont(), size, at, colour, piece.data(), piece.data() + piece.size());
+    pen.x += width;
   });
 }
 
 void rich_text(std::string_view text) {
   const ImVec2 place = ImGui::GetCursorScreenPos();
   add_rich_text(*ImGui::GetWindowDrawList(), place, ImGui::GetColorU32(ImGuiCol_Text), text);
-  ImGui::Dummy({rich_width(*ImGui::GetFont(), ImGui::GetFontSize(), text), ImGui::GetTextLineHeight()});
+  ImGui::Dummy({rich_width(text), ImGui::GetTextLineHeight()});
 }
 
 void same_line_if_fits(float width) {
@@ -212,6 +198,14 @@ void fact(std::string_view label, const std::string& value) {
   rich_text(label);
   move_to_value_column();
   rich_text(value);
+}
+
+bool icon_button(Gui& gui, const char* name, const char* icon, const char* tip) {
+  const bool pressed =
+      ImGui::Button(std::string(icon).append("###").append(name).c_str(), {2.4f * gui.em, 0.0f});
+  note_place(gui, name);
+  show_tip(tip);
+  return pressed;
 }
 
 }  // namespace talus::gui

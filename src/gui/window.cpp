@@ -1,4 +1,4 @@
-#include "gui/window.h"
+/// Window of `talus view`.
 
 // The renderer has its own OpenGL header.
 #define GLFW_INCLUDE_NONE
@@ -14,8 +14,6 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "base/visible_text.h"
-#include "core/trigonometry.h"
 #include "gui/screen.h"
 
 namespace talus::gui {
@@ -52,7 +50,7 @@ class Glfw {
     const char* reason = nullptr;
     glfwGetError(&reason);
     throw Error(ExitCode::unavailable,
-                fmt::format("no window: {}; talus view needs a display (is DISPLAY set?); {}",
+                fmt::format("no window: {}; talus view needs a display; {}",
                             reason ? reason : "GLFW cannot be initialised", without_display));
   }
   ~Glfw() { glfwTerminate(); }
@@ -60,10 +58,7 @@ class Glfw {
   Glfw& operator=(const Glfw&) = delete;
 };
 
-struct WindowDeleter {
-  void operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-};
-using WindowHandle = std::unique_ptr<GLFWwindow, WindowDeleter>;
+using WindowHandle = std::unique_ptr<GLFWwindow, void (*)(GLFWwindow*)>;
 
 /// Returns what to do if no window has OpenGL, for the reason that GLFW gives.
 std::string opengl_advice(std::string_view reason) {
@@ -91,7 +86,7 @@ WindowHandle make_window(int width, int height) {
   glfwWindowHint(GLFW_DEPTH_BITS, 0);
   glfwWindowHint(GLFW_STENCIL_BITS, 0);
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-  WindowHandle window(glfwCreateWindow(width, height, "Talus", nullptr, nullptr));
+  WindowHandle window(glfwCreateWindow(width, height, "Talus", nullptr, nullptr), glfwDestroyWindow);
   if (!window) {
     const char* reason = nullptr;
     glfwGetError(&reason);
@@ -147,18 +142,16 @@ struct WindowState {
 
 namespace {
 
-/// Returns the state that GLFW's callbacks change.
 WindowState& state_of(GLFWwindow* window) {
   return *static_cast<WindowState*>(glfwGetWindowUserPointer(window));
 }
 
 void add(GLFWwindow* window, const InputEvent& event) {
-  WindowState& state = state_of(window);
-  state.screen.input().add(event);
-  state.pictures_due = settling_pictures;
+  state_of(window).screen.input().add(event);
+  state_of(window).pictures_due = settling_pictures;
 }
 
-void catch_mouse(GLFWwindow* window) {
+void catch_input(GLFWwindow* window) {
   using Kind = InputEvent::Kind;
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     add(w, {Kind::position, static_cast<float>(x), static_cast<float>(y), 0, false});
@@ -172,10 +165,6 @@ void catch_mouse(GLFWwindow* window) {
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     add(w, {Kind::wheel, static_cast<float>(x), static_cast<float>(y), 0, false});
   });
-}
-
-void catch_keys(GLFWwindow* window) {
-  using Kind = InputEvent::Kind;
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
     if (action != GLFW_REPEAT)
       add(w, {Kind::key, 0.0f, 0.0f, key, action == GLFW_PRESS});  // ImGui generates its own key repeats
@@ -192,11 +181,10 @@ void catch_window_events(GLFWwindow* window) {
   });
   glfwSetFramebufferSizeCallback(
       window, [](GLFWwindow* w, int, int) { state_of(w).pictures_due = settling_pictures; });
-  glfwSetWindowContentScaleCallback(window,
-                                    [](GLFWwindow* w, float, float) {  // the window is on another display
-                                      state_of(w).screen.set_display_scale(display_scale(w));
-                                      state_of(w).pictures_due = settling_pictures;
-                                    });
+  glfwSetWindowContentScaleCallback(window, [](GLFWwindow* w, float, float) {
+    state_of(w).screen.set_display_scale(display_scale(w));  // the window is on another display
+    state_of(w).pictures_due = settling_pictures;
+  });
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { state_of(w).pictures_due = settling_pictures; });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     if (count > 0) state_of(w).dropped = paths[0];
@@ -217,7 +205,8 @@ void lend_clipboard(WindowState& state) {
 /// Waits for events, for possible news from the model, or for the next picture.
 void wait(WindowState& state, const view::ViewModel& model) {
   const double now = glfwGetTime();
-  const bool busy = state.pictures_due > 0 || state.screen.input().waiting() || model.playing() ||
+  const bool busy = state.pictures_due > 0 || state.screen.input().waiting() ||
+                    (model.replay() && model.replay()->playing()) ||
                     now - state.last_change < fast_after_change;
   const double until_picture = state.last_picture + picture_time - now;
   const double at_least = state.pictures_due > 0 || state.screen.input().waiting() ? 0.0 : shortest_wait;
@@ -251,16 +240,15 @@ void set_title(WindowState& state, const view::ViewModel& model) {
   glfwSetWindowTitle(state.window.get(), title.c_str());
 }
 
-GuiRequests draw(WindowState& state, view::ViewModel& model, int width, int height) {
+void draw(WindowState& state, view::ViewModel& model, int width, int height, GuiRequests& requests) {
   const double now = glfwGetTime();
   Surface surface;
   glfwGetFramebufferSize(state.window.get(), &surface.width, &surface.height);
   const double seconds = state.last_picture < 0.0 ? picture_time : now - state.last_picture;
   state.last_picture = now;
   --state.pictures_due;
-  GuiRequests requests = state.screen.draw(model, surface, width, height, seconds);
+  state.screen.draw(model, surface, width, height, seconds, requests);
   glfwSwapBuffers(state.window.get());
-  return requests;
 }
 
 }  // namespace
@@ -270,8 +258,7 @@ GuiWindow::GuiWindow(int width, int height) : state_(std::make_unique<WindowStat
   glfwSetWindowUserPointer(window, state_.get());
   fit_display(window);
   glfwSetWindowSizeLimits(window, smallest_side, smallest_side, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  catch_mouse(window);
-  catch_keys(window);
+  catch_input(window);
   catch_window_events(window);
   lend_clipboard(*state_);
 }
@@ -280,30 +267,27 @@ GuiWindow::~GuiWindow() = default;
 
 GuiRequests GuiWindow::next_picture(view::ViewModel& model) {
   WindowState& state = *state_;
+  GuiRequests requests;
+  if (glfwWindowShouldClose(state.window.get())) {
+    glfwSetWindowShouldClose(state.window.get(), GLFW_FALSE);
+    requests.quit = model.may_discard();
+    if (requests.quit) return requests;
+  }
   if (state.last_picture < 0.0) glfwShowWindow(state.window.get());
   wait(state, model);
   update(state, model);
-  GuiRequests requests;
   int width = 0, height = 0;
   glfwGetWindowSize(state.window.get(), &width, &height);
   const bool visible = width > 0 && height > 0 && !glfwGetWindowAttrib(state.window.get(), GLFW_ICONIFIED);
   const bool due = state.pictures_due > 0 && glfwGetTime() - state.last_picture >= 0.9 * picture_time;
   if (visible && due) {
-    requests = draw(state, model, width, height);
+    draw(state, model, width, height, requests);
     set_title(state, model);
   }
   if (!state.dropped.empty()) requests.open_path = std::exchange(state.dropped, {});
   return requests;
 }
 
-bool GuiWindow::closed() const { return glfwWindowShouldClose(state_->window.get()); }
-
-void GuiWindow::stay_open() { glfwSetWindowShouldClose(state_->window.get(), GLFW_FALSE); }
-
-const std::vector<WidgetPlace>& GuiWindow::places() const { return state_->screen.places(); }
-
-render::Image GuiWindow::draw_image(const render::FrameView& view, int width) {
-  return state_->screen.draw_image(view, width);
-}
+GuiScreen& GuiWindow::screen() { return state_->screen; }
 
 }  // namespace talus::gui

@@ -6,21 +6,28 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fmt/core.h>
 #include <fstream>
+#include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <thread>
 
-#include "base/descriptor.h"
+#include "base/child_program.h"
 #include "base/errors.h"
-#include "base/sanitizers.h"
-#include "io/hdf5_handle.h"
+#include "base/output_file.h"
+#include "base/version.h"
+#include "io/hdf5_file.h"
+#include "io/run_file.h"
+#include "io/run_folder.h"
 
 namespace talus::io {
+
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -31,8 +38,6 @@ void limit(__rlimit_resource resource, rlim_t most) {
   const rlimit both = {most, most};
   setrlimit(resource, &both);
 }
-
-rlim_t memory_limit(std::size_t input) { return 2048 * mebibyte + 64 * static_cast<rlim_t>(input); }
 
 /// Returns the memory that this process has mapped and its child inherits, in bytes; 0 if the system does not
 /// report it.
@@ -64,7 +69,7 @@ void restrict_child(pid_t parent, std::size_t input) {
   limit(RLIMIT_CPU, seconds);
   ::alarm(static_cast<unsigned>(6 * seconds));  // ends a child that blocks
   // The shadow memory of AddressSanitizer exceeds any limit.
-  if (!sanitizes_addresses) limit(RLIMIT_AS, address_space() + memory_limit(input));
+  if (!sanitizes_addresses) limit(RLIMIT_AS, address_space() + 2048 * mebibyte + 64 * input);
 }
 
 /// Returns the message of the child: the result or an error message, with the exit code as the last byte.
@@ -124,8 +129,8 @@ pid_t fork_for_hdf5() {
 
 constexpr int another_thread_uses_hdf5 = 75;  ///< exit code of a child that was forked at a wrong moment
 
-/// Starts a restricted child that calls `speak` with its pipe, and ends.
-Child start(const std::string& path, std::size_t input, const std::function<void(int)>& speak) {
+/// Starts a restricted child that sends the outcome of its work, and ends.
+Child start(const std::string& path, std::size_t input, const std::function<Parcels()>& work) {
   int ends[2] = {-1, -1};
   if (::pipe2(ends, O_CLOEXEC) != 0) throw system_error(ExitCode::io_error, "make a pipe for", path, errno);
   Child child{-1, Descriptor(ends[0])};
@@ -138,7 +143,7 @@ Child start(const std::string& path, std::size_t input, const std::function<void
     if (!may_use_hdf5()) _exit(another_thread_uses_hdf5);
     const int pipe = close_all_but(to.get());
     restrict_child(parent, input);
-    speak(pipe);
+    send(pipe, outcome_of(path, work));
     _exit(0);
   }
   return child;
@@ -154,19 +159,12 @@ Bytes read_all(const Descriptor& pipe, const std::string& path) {
   }
 }
 
-int wait_for(pid_t child) {
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return status;
-}
-
 [[noreturn]] void refuse(const std::string& path, int status) {
   const bool too_long = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM ||
                                                 WTERMSIG(status) == SIGKILL);
-  throw Error(ExitCode::bad_data,
-              fmt::format("{}: cannot be read: {}; the file is malformed, write it again", path,
-                          too_long ? "HDF5 takes longer to read it than its size can justify"
-                                   : "HDF5 fails on it (in a separate process)"));
+  throw Error(ExitCode::bad_data, "{}: cannot be read: {}; the file is malformed, write it again", path,
+              too_long ? "HDF5 takes longer to read it than its size can justify"
+                       : "HDF5 fails on it (in a separate process)");
 }
 
 /// Appends the size as 64 bits, followed by the bytes.
@@ -177,16 +175,16 @@ void append(Bytes& to, std::span<const std::byte> bytes) {
   to.insert(to.end(), bytes.begin(), bytes.end());
 }
 
-/// Removes one appended item from the front and returns it; nothing if it is incomplete.
-std::optional<Bytes> take(std::span<const std::byte>& from) {
+/// Removes one appended item from the front and returns it. Throws if it is incomplete.
+Bytes take(std::span<const std::byte>& from, const std::string& path) {
   std::uint64_t count = 0;
-  if (from.size() < sizeof count) return std::nullopt;
-  std::memcpy(&count, from.data(), sizeof count);
-  from = from.subspan(sizeof count);
-  if (count > from.size()) return std::nullopt;
-  const auto bytes = from.first(count);
-  from = from.subspan(count);
-  return Bytes(bytes.begin(), bytes.end());
+  const bool has_count = from.size() >= sizeof count;
+  if (has_count) std::memcpy(&count, from.data(), sizeof count);
+  if (!has_count || count > from.size() - sizeof count)
+    throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 returns invalid data");
+  const auto bytes = from.subspan(sizeof count, count);
+  from = from.subspan(sizeof count + count);
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -213,10 +211,8 @@ Bytes encode(const Parcels& parcels) {
 Parcels decode(std::span<const std::byte> bytes, const std::string& path) {
   Parcels parcels;
   while (!bytes.empty()) {
-    const std::optional<Bytes> name = take(bytes);
-    std::optional<Bytes> content = name ? take(bytes) : std::nullopt;
-    if (!content) throw Error(ExitCode::bad_data, path + ": cannot be read: HDF5 returns invalid data");
-    parcels.insert_or_assign(values_of<std::string>(*name), std::move(*content));
+    const auto name = values_of<std::string>(take(bytes, path));
+    parcels.insert_or_assign(name, take(bytes, path));
   }
   return parcels;
 }
@@ -225,9 +221,9 @@ Parcels in_child_process(const std::string& path, std::size_t input, const std::
   Bytes message;
   int status = 0;
   while (true) {
-    const Child child = start(path, input, [&](int pipe) { send(pipe, outcome_of(path, work)); });
+    const Child child = start(path, input, work);
     message = read_all(child.pipe, path);
-    status = wait_for(child.process);
+    status = wait_for_program(child.process, {});
     if (!WIFEXITED(status) || WEXITSTATUS(status) != another_thread_uses_hdf5) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -236,6 +232,57 @@ Parcels in_child_process(const std::string& path, std::size_t input, const std::
   message.pop_back();
   if (code == ExitCode::done) return decode(message, path);
   throw Error(code, values_of<std::string>(message));
+}
+
+static std::atomic<bool> walks_first = false;
+
+static std::mutex tried_mutex;
+static std::set<FileMark> tried;  // guarded by tried_mutex
+
+/// Returns the files of a run; none if the manifest of its folder cannot be read.
+static std::vector<std::string> files_of_run(const std::string& run) try {
+  if (!is_folder(run)) return {run};
+  std::vector<std::string> paths;
+  for (const StoredFile& file : files_of(read_manifest(run))) paths.push_back(path_in(run, file.name));
+  return paths;
+} catch (const Error&) {
+  return {};
+}
+
+bool walk_before_opening() { return walks_first = true; }
+
+void try_run(const std::string& run) {
+  if (!walks_first) return;
+  std::size_t bytes = 0;
+  const std::vector<std::string> files = files_of_run(run);
+  std::set<FileMark> marks;
+  for (const std::string& file : files)
+    if (const std::optional<FileMark> mark = mark_of_file(file)) {
+      marks.insert(*mark);
+      bytes += mark->size;
+    }
+  if (const std::scoped_lock lock(tried_mutex);
+      std::includes(tried.begin(), tried.end(), marks.begin(), marks.end()))
+    return;
+  const auto walk = [&] {
+    walks_first = false;  // in the child
+    try {
+      for (const std::string& file : files) hdf5::Reader::from_file(file).walk();
+      RunFile::open(run);
+    } catch (const Error&) {  // this process reports it
+    }
+    return Parcels();
+  };
+  try {
+    in_child_process(run, bytes, walk);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::bad_data) return;  // there is no child process
+    throw Error(ExitCode::bad_data, run +
+                                        ": HDF5 crashes or hangs on this run: it is malformed, although its "
+                                        "hash is right; restore it from a copy");
+  }
+  const std::scoped_lock lock(tried_mutex);
+  tried.insert(marks.begin(), marks.end());
 }
 
 }  // namespace talus::io

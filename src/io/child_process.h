@@ -1,5 +1,6 @@
 #pragma once
-/// Runs a parser of untrusted bytes in a child process, so that a crash in its library cannot end this one.
+/// Protection from crashes of HDF5. A parser of untrusted bytes runs in a child process, so that a crash in
+/// its library cannot end this one.
 
 #include <cstddef>
 #include <cstring>
@@ -46,5 +47,19 @@ Values values_of(const std::vector<std::byte>& bytes) {
   if (size > 0) std::memcpy(values.data(), bytes.data(), size);
   return values;
 }
+
+// Trial of a run in a child process, for programs that a crash of HDF5 must not end. Private to src/io,
+// except for walk_before_opening.
+
+/// Lets RunFile::open try each run in a child process before it opens it: some malformed files whose hash is
+/// right make HDF5 crash. The library calls this; the program does not, and such a crash ends it. Returns
+/// true.
+bool walk_before_opening();
+
+/// Walks through the files of a run, and opens it, in a child process, if walk_before_opening was called and
+/// the files have not been tried before. `run`: its packed file or its folder. Throws Error(bad_data) if HDF5
+/// crashes or hangs; errors in the run are left to the code that opens it, and without a child process there
+/// is no trial.
+void try_run(const std::string& run);
 
 }  // namespace talus::io

@@ -1,79 +1,195 @@
-#include "io/hdf5_reader.h"
-
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <atomic>
+#include <cstdlib>
 #include <fmt/core.h>
-#include <optional>
-#include <span>
+#include <iterator>
+#include <new>
 
 #include "base/errors.h"
+#include "base/hash.h"
 #include "base/text.h"
+#include "io/hdf5_file.h"
 
 namespace talus::io::hdf5 {
-namespace {
 
-hsize_t size_of(const Handle& file) {
-  hsize_t size = 0;
-  return H5Fget_filesize(file.get(), &size) < 0 ? 0 : size;
+void set_library_policy() {
+  static const int without_locks = ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
+  if (without_locks != 0) throw std::bad_alloc();
+  errno = 0;
+  H5dont_atexit();
+  if (H5open() < 0 || errno == ENOMEM) throw std::bad_alloc();  // it can start incompletely
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  H5PLset_loading_state(0);
 }
 
-std::string shape_text(const std::vector<hsize_t>& dims) { return fmt::format("[{}]", joined(dims, " ")); }
+MemoryFile in_memory(const std::string& name) {
+  static std::atomic<std::uint64_t> count = 0;
+  constexpr std::size_t growth = std::size_t{1} << 20;  // bytes by which the image grows
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  if (H5Pset_fapl_core(access.get(), growth, false) < 0 ||
+      H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST) < 0)
+    throw std::bad_alloc();
+  return {fmt::format("/dev/null/{} {}", name, ++count), std::move(access)};
+}
+
+hid_t file_type(ElementType type) {
+  const hid_t types[] = {
+      H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I8LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U64LE, -1};
+  return types[static_cast<std::size_t>(type)];
+}
+
+PathTarget find(hid_t file, const std::string& path) {
+  for (std::size_t slash = path.find('/', 1);; slash = path.find('/', slash + 1)) {
+    const std::string part = path.substr(0, slash);
+    H5L_info_t link{};
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return PathTarget::nothing;
+    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+      return PathTarget::a_link_elsewhere;
+    if (slash == std::string::npos) return PathTarget::an_object;
+  }
+}
+
+std::uint64_t piece_hash(const std::string& path, std::span<const std::byte> values) {
+  Hasher hasher;
+  hasher.add_array(path);
+  hasher.add_array(values);
+  return hasher.value();
+}
+
+hid_t create_space(const Shape& dims) {
+  return dims.empty() ? H5Screate(H5S_SCALAR)
+                      : H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr);
+}
+
+bool select(hid_t space, const Shape& start, const Shape& block) {
+  return block.empty() ||
+         H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) >= 0;
+}
+
+namespace {
+
+/// Throws Error(out_of_memory) or Error(io_error) if the system caused a failed HDF5 call on `name`, a file
+/// or one of its data sets. HDF5 does not report the cause reliably, least of all without memory; errno does,
+/// after set_library_policy. A malformed file can request more memory than exists.
+void throw_cause(const std::string& name) {
+  constexpr int of_the_system[] = {EIO, ENOSPC, EDQUOT, EMFILE, ENFILE, ESTALE};
+  const int cause = errno;
+  if (cause == ENOMEM)
+    throw Error(
+        ExitCode::out_of_memory,
+        name + ": out of memory while it was read; if enough memory is available, the file is malformed");
+  if (std::ranges::find(of_the_system, cause) != std::end(of_the_system))
+    throw system_error(ExitCode::io_error, "read", name, cause);
+}
+
+/// Returns an open file. Throws Error(bad_data) if HDF5 could not open it, and the errors of throw_cause.
+Handle require_open(Handle file, const std::string& name) {
+  if (file.get() < 0) throw_cause(name);
+  if (file.get() < 0)
+    throw Error(ExitCode::bad_data, name + ": HDF5 cannot open it: it is malformed, or of another format");
+  return file;
+}
+
+std::string shape_text(const Shape& dims) { return fmt::format("[{}]", joined(dims, " ")); }
 
 bool is_fixed_text(hid_t type) { return H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0; }
 
+/// Returns the bytes before the first zero.
+std::string trimmed(const std::string& text) { return text.substr(0, text.find('\0')); }
+
+/// Whether the values of a data set are in its own file and not a view of other data sets.
+bool is_stored_within(hid_t set) {
+  const Handle creation(H5Dget_create_plist(set), H5Pclose);
+  const H5D_layout_t layout = H5Pget_layout(creation.get());
+  return layout >= 0 && layout != H5D_VIRTUAL && H5Pget_external_count(creation.get()) == 0;
+}
+
+/// Whether a file of `file_size` bytes can hold `count` values: deflate shrinks data at most by a factor of
+/// 1032, and nothing that is read at once exceeds 4 GiB of doubles.
+bool can_hold(hsize_t file_size, hsize_t count) {
+  constexpr hsize_t most = hsize_t{1} << 29;
+  return count <= most && count / 1032 <= file_size;
+}
+
+std::optional<std::uint64_t> stored_hash(hid_t set) {
+  if (H5Aexists(set, hash_attribute) <= 0) return std::nullopt;
+  const Handle attribute(H5Aopen(set, hash_attribute, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  std::uint64_t hash = 0;
+  if (H5Tequal(type.get(), H5T_STD_U64LE) <= 0 || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      H5Aread(attribute.get(), H5T_NATIVE_UINT64, &hash) < 0)
+    return std::nullopt;
+  return hash;
+}
+
+/// Opens an object of a file, and what belongs to it; a failure of HDF5 is reported when the object is read.
+/// Links to other files or places are not followed.
+herr_t look_at(hid_t file, const char* name, const H5L_info_t* link, void*) {
+  if (link != nullptr && link->type != H5L_TYPE_HARD) return 0;
+  const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
+  const int attributes = object.get() < 0 ? 0 : H5Aget_num_attrs(object.get());
+  for (int k = 0; k < attributes; ++k) {
+    const Handle attribute(H5Aopen_by_idx(object.get(), ".", H5_INDEX_NAME, H5_ITER_NATIVE,
+                                          static_cast<hsize_t>(k), H5P_DEFAULT, H5P_DEFAULT),
+                           H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+  }
+  if (H5Iget_type(object.get()) != H5I_DATASET) return 0;
+  const Handle type(H5Dget_type(object.get()), H5Tclose), space(H5Dget_space(object.get()), H5Sclose),
+      creation(H5Dget_create_plist(object.get()), H5Pclose);
+  hsize_t chunks = 0;
+  if (H5Pget_layout(creation.get()) == H5D_CHUNKED) H5Dget_num_chunks(object.get(), H5S_ALL, &chunks);
+  return 0;
+}
+
 }  // namespace
 
-Reader::Reader(Handle file, std::string name, Sizes sizes)
-    : file_(std::move(file)), file_size_(size_of(file_)), name_(std::move(name)), sizes_(std::move(sizes)) {}
-
-Reader& Reader::operator=(Reader&& other) noexcept {
-  std::swap(file_, other.file_);
-  std::swap(file_size_, other.file_size_);
-  std::swap(name_, other.name_);
-  std::swap(sizes_, other.sizes_);
-  return *this;
+Handle open_image(std::vector<std::byte>& image, const std::string& name, unsigned access_flags) {
+  set_library_policy();
+  const MemoryFile file = in_memory(name);
+  if (H5Pset_file_image(file.access.get(), image.data(), image.size()) < 0)
+    throw Error(ExitCode::out_of_memory, name + ": no memory to open it");
+  return require_open({H5Fopen(file.path.c_str(), access_flags, file.access.get()), H5Fclose}, name);
 }
 
-Reader::~Reader() {
-  const FileInUse in_use(name_);
-  file_ = Handle();
+std::string problem_of(double value, std::size_t index, Range range) {
+  return fmt::format("holds {:.6g} at index {}, expected {}", value, index,
+                     std::isinf(range.high) && std::isinf(range.low) ? "a finite number"
+                     : std::isinf(range.high) ? fmt::format("a finite number >= {:.6g}", range.low)
+                                              : fmt::format("{:.6g} to {:.6g}", range.low, range.high));
 }
 
-Reader Reader::again() const {
-  const FileInUse in_use(name_);
-  return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}};
+Reader::Reader(Handle file, const std::string& name, Sizes sizes)
+    : file_(std::move(file)), name_(name), sizes_(std::move(sizes)) {
+  if (H5Fget_filesize(file_.get(), &file_size_) < 0) file_size_ = 0;
 }
+
+Reader Reader::again() const { return {Handle(H5Freopen(file_.get()), H5Fclose), name_, {}}; }
 
 Reader Reader::from_memory(std::vector<std::byte> image, const std::string& name, const Sizes& known) {
-  const FileInUse in_use(name);
   return {open_image(image, name, H5F_ACC_RDONLY), name, known};
 }
 
 Reader Reader::from_file(const std::string& path) {
-  const FileInUse in_use(path);
   set_library_policy();
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  return {require_open(std::move(file), path), path, {}};
+  return {require_open({H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose}, path), path, {}};
 }
 
 void Reader::refuse(const std::string& path, const std::string& problem) const {
   const std::string data_set = fmt::format("{}: data set {}", name_, path);
   throw_cause(data_set);
-  throw Error(ExitCode::bad_data, fmt::format("{} {}", data_set, problem));
+  throw Error(ExitCode::bad_data, "{} {}", data_set, problem);
 }
 
-void Reader::check_shape(const DataSetField& field, const std::vector<hsize_t>& dims) {
+void Reader::check_shape(const DataSetField& field, const Shape& dims) {
   const std::vector<Extent> shape = extents(field);
   bool fits = dims.size() == shape.size();
   for (std::size_t d = 0; fits && d < dims.size(); ++d) {
-    fits = dims[d] >= shape[d].plus;
-    if (!fits || shape[d].symbol == '\0') {
-      fits = fits && dims[d] == shape[d].plus;
-      continue;
-    }
-    const std::uint64_t size = dims[d] - shape[d].plus;
-    fits = sizes_.emplace(shape[d].symbol, size).first->second == size;
+    const auto [symbol, plus] = shape[d];
+    fits = symbol == '\0'
+               ? dims[d] == plus
+               : dims[d] >= plus && sizes_.emplace(symbol, dims[d] - plus).first->second == dims[d] - plus;
   }
   if (fits) return;
   std::string expected;
@@ -92,7 +208,6 @@ void Reader::require(const std::string& path) const {
 }
 
 DataSet Reader::open(const std::string& path) const {
-  const FileInUse in_use(name_);
   require(path);
   DataSet set{Handle(H5Dopen2(file_.get(), path.c_str(), H5P_DEFAULT), H5Dclose), {}, {}, path};
   if (set.id.get() < 0) refuse(path, "cannot be opened: it is not a data set");
@@ -100,14 +215,13 @@ DataSet Reader::open(const std::string& path) const {
   if (!is_stored_within(set.id.get())) refuse(path, "has its values in another file");
   const Handle space(H5Dget_space(set.id.get()), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space.get());
-  if (rank < 0) refuse(path, "has no shape");
-  set.dims.resize(static_cast<std::size_t>(rank));
-  if (H5Sget_simple_extent_dims(space.get(), set.dims.data(), nullptr) != rank) refuse(path, "has no shape");
+  set.dims.resize(std::max(rank, 0));
+  if (rank < 0 || H5Sget_simple_extent_dims(space.get(), set.dims.data(), nullptr) != rank)
+    refuse(path, "has no shape");
   return set;
 }
 
 DataSet Reader::open(const DataSetField& field) {
-  const FileInUse in_use(name_);
   DataSet set = open(field.path);
   const bool is_text = field.type == ElementType::text;
   const bool same =
@@ -120,7 +234,6 @@ DataSet Reader::open(const DataSetField& field) {
 }
 
 DataSet Reader::open_numbers(const std::string& path, bool of_reals) const {
-  const FileInUse in_use(name_);
   DataSet set = open(path);
   const H5T_class_t kind = H5Tget_class(set.type.get());
   if (kind != H5T_INTEGER && !(of_reals && kind == H5T_FLOAT))
@@ -144,122 +257,49 @@ std::size_t Reader::block_size(const DataSet& set, std::optional<Rows> rows) con
 }
 
 void Reader::read_block(const DataSet& set, std::optional<Rows> rows, hid_t type, void* values) const {
-  const FileInUse in_use(name_);
-  std::vector<hsize_t> start(set.dims.size(), 0), block = set.dims;
+  Shape start(set.dims.size(), 0), block = set.dims;
   if (rows && !block.empty()) {
     start[0] = rows->first;
     block[0] = rows->count;
   }
   if (std::ranges::count(block, 0u) > 0) return;
-  const Handle space(H5Dget_space(set.id.get()), H5Sclose);
-  const Handle memory(block.empty() ? H5Screate(H5S_SCALAR)
-                                    : H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr),
-                      H5Sclose);
-  if (!block.empty() &&
-      H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr) < 0)
-    refuse(set.path, "cannot be selected");
+  const Handle space(H5Dget_space(set.id.get()), H5Sclose), memory(create_space(block), H5Sclose);
+  if (!select(space.get(), start, block)) refuse(set.path, "cannot be selected");
   if (H5Dread(set.id.get(), type, memory.get(), space.get(), H5P_DEFAULT, values) < 0)
     refuse(set.path, "cannot be read");
 }
 
-std::string problem_of(double value, std::size_t index, Range range) {
-  return fmt::format("holds {:.6g} at index {}, expected {}", value, index,
-                     std::isinf(range.high) && std::isinf(range.low) ? "a finite number"
-                     : std::isinf(range.high) ? fmt::format("a finite number >= {:.6g}", range.low)
-                                              : fmt::format("{:.6g} to {:.6g}", range.low, range.high));
-}
-
-void Reader::refuse_value(const std::string& path, double value, std::size_t index, Range range) const {
-  refuse(path, problem_of(value, index, range));
-}
-
 std::string Reader::read_text(const std::string& path) {
-  const FileInUse in_use(name_);
   const DataSet set = open(field_of(path));
   std::string text(H5Tget_size(set.type.get()), '\0');
   read_block(set, {}, set.type.get(), text.data());
-  return text.substr(0, text.find('\0'));
+  return trimmed(text);
 }
-
-namespace {
-
-std::optional<std::uint64_t> stored_hash(hid_t set) {
-  if (H5Aexists(set, hash_attribute) <= 0) return std::nullopt;
-  const Handle attribute(H5Aopen(set, hash_attribute, H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
-  std::uint64_t hash = 0;
-  if (H5Tequal(type.get(), H5T_STD_U64LE) <= 0 || H5Sget_simple_extent_npoints(space.get()) != 1 ||
-      H5Aread(attribute.get(), H5T_NATIVE_UINT64, &hash) < 0)
-    return std::nullopt;
-  return hash;
-}
-
-}  // namespace
 
 bool Reader::is_as_written(const std::string& path) {
-  const FileInUse in_use(name_);
   const DataSetField field = field_of(path);
   const DataSet set = open(field);
   const std::optional<std::uint64_t> hash = stored_hash(set.id.get());
   if (!hash) return false;
-  if (field.type == ElementType::text) {
-    const std::string text = read_text(path);
-    return *hash == piece_hash(path, std::as_bytes(std::span(text)));
-  }
-  const hid_t type = file_type(field.type);
-  std::vector<std::byte> values(block_size(set, {}) * H5Tget_size(type));
-  read_block(set, {}, type, values.data());
-  return *hash == piece_hash(path, values);
+  std::string values(block_size(set, {}) * H5Tget_size(set.type.get()), '\0');
+  read_block(set, {}, set.type.get(), values.data());
+  if (field.type == ElementType::text) values = trimmed(values);
+  return *hash == piece_hash(path, std::as_bytes(std::span(values)));
 }
 
-bool Reader::has(const std::string& path) const {
-  const FileInUse in_use(name_);
-  return find(file_.get(), path) != PathTarget::nothing;
-}
+bool Reader::has(const std::string& path) const { return find(file_.get(), path) != PathTarget::nothing; }
 
 std::uint64_t Reader::row_count(const std::string& path) {
-  const FileInUse in_use(name_);
   const DataSet set = open(field_of(path));
   return set.dims.empty() ? 1 : set.dims[0];
 }
 
-std::vector<std::string> Reader::data_sets(const std::string& group) const {
-  std::vector<std::string> paths;
-  for (const std::string& name : names(group)) paths.push_back(fmt::format("{}/{}", group, name));
-  for (const std::string& name : names(group, H5O_TYPE_GROUP))
-    for (std::string& path : data_sets(fmt::format("{}/{}", group, name))) paths.push_back(std::move(path));
-  return paths;
-}
-
-namespace {
-
-/// Opens an object of a file, and what belongs to it; a failure of HDF5 is reported when the object is read.
-herr_t look_at(hid_t file, const char* name, const ObjectInfo*, void*) {
-  const Handle object(H5Oopen(file, name, H5P_DEFAULT), H5Oclose);
-  const int attributes = object.get() < 0 ? 0 : H5Aget_num_attrs(object.get());
-  for (int k = 0; k < attributes; ++k) {
-    const Handle attribute(H5Aopen_by_idx(object.get(), ".", H5_INDEX_NAME, H5_ITER_NATIVE,
-                                          static_cast<hsize_t>(k), H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
-    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
-  }
-  if (H5Iget_type(object.get()) != H5I_DATASET) return 0;
-  const Handle type(H5Dget_type(object.get()), H5Tclose), space(H5Dget_space(object.get()), H5Sclose),
-      creation(H5Dget_create_plist(object.get()), H5Pclose);
-  hsize_t chunks = 0;
-  if (H5Pget_layout(creation.get()) == H5D_CHUNKED) H5Dget_num_chunks(object.get(), H5S_ALL, &chunks);
-  return 0;
-}
-
-}  // namespace
-
 void Reader::walk() const {
-  const FileInUse in_use(name_);
-  visit_objects(file_.get(), H5_ITER_NATIVE, look_at, nullptr);
+  look_at(file_.get(), "/", nullptr, nullptr);
+  H5Lvisit(file_.get(), H5_INDEX_NAME, H5_ITER_NATIVE, look_at, nullptr);
 }
 
 std::string Reader::attribute(const std::string& path, const char* name) const {
-  const FileInUse in_use(name_);
   require(path);
   const Handle object(H5Oopen(file_.get(), path.c_str(), H5P_DEFAULT), H5Oclose);
   const Handle attribute(H5Aopen(object.get(), name, H5P_DEFAULT), H5Aclose);
@@ -270,11 +310,10 @@ std::string Reader::attribute(const std::string& path, const char* name) const {
   std::string text(H5Tget_size(type.get()), '\0');
   if (H5Aread(attribute.get(), type.get(), text.data()) < 0)
     refuse(path, fmt::format("has an attribute {} that cannot be read", name));
-  return text.substr(0, text.find('\0'));
+  return trimmed(text);
 }
 
-std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind) const {
-  const FileInUse in_use(name_);
+std::vector<std::string> Reader::names(const std::string& group) const {
   if (find(file_.get(), group) != PathTarget::an_object) refuse(group, "(a group) is missing");
   const Handle id(H5Gopen2(file_.get(), group.c_str(), H5P_DEFAULT), H5Gclose);
   H5G_info_t info{};
@@ -283,13 +322,13 @@ std::vector<std::string> Reader::names(const std::string& group, H5O_type_t kind
   for (hsize_t k = 0; k < info.nlinks; ++k) {
     std::array<char, 256> name{};
     H5L_info_t link{};
-    ObjectInfo object{};
     if (H5Lget_name_by_idx(id.get(), ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, k, name.data(), name.size(),
                            H5P_DEFAULT) < 0 ||
-        H5Lget_info(id.get(), name.data(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
-        object_info(id.get(), name.data(), object) < 0)
+        H5Lget_info(id.get(), name.data(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
       refuse(group, "(a group) cannot be listed");
-    if (object.type == kind) names.emplace_back(name.data());
+    // Reading a damaged object reports it, and leaves the others readable.
+    const Handle object(H5Oopen(id.get(), name.data(), H5P_DEFAULT), H5Oclose);
+    if (object.get() < 0 || H5Iget_type(object.get()) == H5I_DATASET) names.emplace_back(name.data());
   }
   return names;
 }

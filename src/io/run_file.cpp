@@ -1,29 +1,22 @@
 #include "io/run_file.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <fmt/core.h>
 #include <functional>
 #include <limits>
-#include <optional>
 
 #include "base/errors.h"
-#include "io/bounds.h"
+#include "io/child_process.h"
 #include "io/durable_file.h"
-#include "io/manifest.h"
-#include "io/mistaken_path.h"
+#include "io/run_folder.h"
 #include "io/run_records.h"
-#include "io/seal.h"
-#include "io/trial_walk.h"
 
 namespace talus::io {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Checks that the state contains the grains of the run, except those that have not arrived yet during
 /// pouring.
-void check_grains(const hdf5::Reader& reader, const RunStatics& statics, const Grains& grains) {
+void check_grains(const Reader& reader, const RunStatics& statics, const Grains& grains) {
   const Index all = static_cast<Index>(statics.radius.size());
   if (grains.free_count <= statics.free_count &&
       grains.count() - grains.free_count == all - statics.free_count)
@@ -42,48 +35,26 @@ Sizes sizes_of(const StoredSegment& segment, std::size_t grains) {
           {'N', grains}};
 }
 
-hdf5::Reader open_file_of(const std::string& folder, const StoredFile& file, const Sizes& known) {
-  return hdf5::Reader::from_memory(read_stored(folder, file), (fs::path(folder) / file.name).string(), known);
-}
-
-template <typename Row>
-void append(std::vector<Row>& rows, const std::vector<Row>& more) {
-  rows.insert(rows.end(), more.begin(), more.end());
+Reader open_file_of(const std::string& folder, const StoredFile& file, const Sizes& known) {
+  return Reader::from_memory(read_stored(folder, file), path_in(folder, file.name), known);
 }
 
 /// Describes a packed file as one segment of a manifest.
-StoredSegment whole_file(hdf5::Reader& reader) {
+StoredSegment whole_file(Reader& reader) {
   StoredSegment segment;
   segment.frames = reader.row_count("/frames/tilt");
   if (reader.has("/contacts")) segment.contacts = reader.row_count("/contacts/pair");
   return segment;
 }
 
-/// Returns the packed file of a run folder: RUN.h5 for RUN.h5.run.
-std::string packed_name(std::string folder) {
-  while (folder.ends_with('/')) folder.pop_back();
-  const std::string ending = run_folder("");
-  if (folder.ends_with(ending)) folder.resize(folder.size() - ending.size());
-  return folder;
-}
-
-bool is_known_step(const StepRow& row, std::int64_t last) {
-  return at(row, StepField::step) <= static_cast<double>(last);
-}
-
-bool is_known_row(const ObservableRow& row, std::int64_t last) {
-  return at(row, Observable::step) <= static_cast<double>(last);
-}
-
-bool is_known_trial(const TrialRow& row, std::int64_t last) {
-  return at(row, TrialField::step) <= static_cast<double>(last);
-}
-
-/// Returns the friction in the last step before a state; empty if an earlier version has not stored it.
-std::optional<Friction> friction_of_last_step(const Checkpoint& state) {
-  const auto grains = find_value(state.reals, "last_friction");
-  const auto walls = find_value(state.reals, "last_wall_friction");
-  return grains && walls ? std::optional(Friction{*grains, *walls}) : std::nullopt;
+/// Whether a row of a series, which begins with its step, belongs to the first `last` steps; names are of no
+/// step.
+template <typename Row>
+bool is_known(const Row& row, std::int64_t last) {
+  if constexpr (std::is_same_v<Row, std::string>)
+    return true;
+  else
+    return row.front() <= static_cast<double>(last);
 }
 
 /// Last step before the flow of a run that has none.
@@ -105,11 +76,11 @@ struct RunFile::State {
   std::vector<double> tilts;        ///< tilts of the frames that belong to the tilt
   std::int64_t last_tilt_step = 0;  ///< frames and rows of later steps belong to the flow
   std::size_t open_segment = 0;
-  std::optional<hdf5::Reader> reader;
+  std::optional<Reader> reader;
   bool packed_since =
       false;  ///< the folder was packed after it was opened, and `reader` reads the packed file
 
-  hdf5::Reader& segment(std::size_t s) {
+  Reader& segment(std::size_t s) {
     if (packed_since || (reader && open_segment == s)) return *reader;
     try {
       const Sizes sizes = sizes_of(segments[s], header.statics.radius.size());
@@ -124,12 +95,11 @@ struct RunFile::State {
   /// Switches to the file into which the writer of this folder has packed the run since it was opened;
   /// returns false if there is none. Known data remain valid, because the file begins with them.
   bool follow_packing() {
-    std::error_code unknown;
-    if (folder.empty() || fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return false;
-    const std::string path = packed_name(folder);
-    if (!fs::is_regular_file(path, unknown)) return false;
+    if (folder.empty() || is_there(path_in(folder, Manifest::file_name))) return false;
+    const std::string path = run_of_folder(folder);
+    if (!is_file(path)) return false;
     verify_seal(path);
-    reader = hdf5::Reader::from_file(path);
+    reader = Reader::from_file(path);
     const RunHeader now = read_header(*reader);
     if (now.scenario_resolved != header.scenario_resolved || now.seed != header.seed)
       throw Error(ExitCode::missing_input,
@@ -141,26 +111,24 @@ struct RunFile::State {
 
   /// The location of frame k.
   struct FramePlace {
-    hdf5::Reader& reader;
+    Reader& reader;
     std::size_t row;
   };
   FramePlace place_of(const std::size_t k) {
     std::size_t s = 0, in_segment = k;
     for (; s < segments.size() && in_segment >= segments[s].frames; ++s) in_segment -= segments[s].frames;
-    if (s == segments.size())
-      throw Error(ExitCode::internal, fmt::format("the run has only {} frames", all_tilts.size()));
-    hdf5::Reader& from = segment(s);
+    if (s == segments.size()) throw Error(ExitCode::internal, "the run has only {} frames", all_tilts.size());
+    Reader& from = segment(s);
     return {from, packed_since ? k : in_segment};
   }
 
   /// Returns what `record` reads of frame k from its segment.
-  Frame read(Frame (*record)(hdf5::Reader&, std::size_t), std::size_t k) {
+  Frame read(Frame (*record)(Reader&, std::size_t), std::size_t k) {
     if (!has_frames)
-      throw Error(
-          ExitCode::missing_input,
-          fmt::format("{} has no frames: it was kept for its analysis alone (--keep analysis); compute "
-                      "it again with talus run for pictures",
-                      name));
+      throw Error(ExitCode::missing_input,
+                  "{} has no frames: it was kept for its analysis alone (--keep analysis); compute "
+                  "it again with talus run for pictures",
+                  name);
     const FramePlace place = place_of(k);
     Frame frame = record(place.reader, place.row);
     check_frame(place.reader, frame, farthest_place(header.statics), plane_count());
@@ -169,13 +137,12 @@ struct RunFile::State {
   }
 
   /// Returns the rows that `record` reads from all segments; if the run was packed since it was opened, only
-  /// rows that `is_known` accepts.
+  /// rows up to the last step that was known then.
   template <typename Row>
-  std::vector<Row> rows(std::vector<Row> (*record)(hdf5::Reader&),
-                        bool (*is_known)(const Row&, std::int64_t)) {
+  std::vector<Row> rows(std::vector<Row> (*record)(Reader&)) {
     std::vector<Row> all;
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      hdf5::Reader& from = segment(s);
+      Reader& from = segment(s);
       if (packed_since) {
         all = record(from);
         std::erase_if(all, [&](const Row& row) { return !is_known(row, checkpoint.world.step); });
@@ -200,10 +167,13 @@ struct RunFile::State {
   }
 
   Friction friction_of_frame(std::size_t k) const {
-    const bool is_branch = header.branch.has_value();
-    // A branch begins with the forces of the last step of its parent run.
-    if (is_branch && all_steps[k] == header.branch->start.world.step)
-      if (const auto before = friction_of_last_step(header.branch->start)) return *before;
+    // A branch begins with the forces of the last step of its parent run; earlier versions have not stored
+    // the friction of that step.
+    if (header.branch && all_steps[k] == header.branch->start.world.step) {
+      const Figures& reals = header.branch->start.reals;
+      const auto grains = find_value(reals, "last_friction"), walls = find_value(reals, "last_wall_friction");
+      if (grains && walls) return {*grains, *walls};
+    }
     const bool follows_deposition = k == 0 && all_tilts[k] == 0.0;
     Friction friction = follows_deposition ? header.deposition_friction : header.friction;
     friction.grains = commanded_friction(all_steps[k]).value_or(friction.grains);
@@ -212,7 +182,7 @@ struct RunFile::State {
 
   void read_tilts() {
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      hdf5::Reader& from = segment(s);
+      Reader& from = segment(s);
       if (packed_since)
         throw Error(ExitCode::missing_input, folder + ": was packed while it was being read; open it again");
       append(all_tilts, from.read<double>("/frames/tilt"));
@@ -237,8 +207,7 @@ struct RunFile::State {
   /// Returns the same for a repaired run that has lost its last state, from the phases of its steps.
   std::int64_t step_before_recorded_flow() {
     constexpr double flow = 3.0;
-    const std::vector<StepRow> steps =
-        rows<StepRow>(read_steps, [](const StepRow&, std::int64_t) { return true; });
+    const std::vector<StepRow> steps = rows(read_steps);
     const auto first =
         std::ranges::find(steps, flow, [](const StepRow& row) { return at(row, StepField::phase); });
     if (first == steps.end()) return no_flow;
@@ -246,47 +215,36 @@ struct RunFile::State {
   }
 };
 
-namespace {
-
 /// Reads the manifest of a folder; empty if it no longer exists.
-std::string find_manifest(const std::string& folder) {
-  const fs::path manifest = fs::path(folder) / Manifest::file_name;
+static std::string find_manifest(const std::string& folder) {
+  const std::string manifest = path_in(folder, Manifest::file_name);
   try {
-    return read_text(manifest.string());
+    return read_text(manifest);
   } catch (const Error&) {
-    std::error_code unknown;
-    if (fs::exists(manifest, unknown)) throw;
+    if (is_there(manifest)) throw;
     return {};
   }
 }
 
 /// Returns the folder of a run, or nothing if `path` is a packed file.
-std::optional<std::string> folder_to_read(const std::string& path) {
-  std::error_code unknown;
+static std::optional<std::string> folder_to_read(const std::string& path) {
   if (run_presence(path) == RunPresence::packed) return std::nullopt;
   for (const std::string& folder : {path, run_folder(path)})
-    if (fs::exists(fs::path(folder) / Manifest::file_name, unknown)) return folder;
-  if (fs::is_regular_file(path, unknown)) return std::nullopt;  // packed at this moment
+    if (is_there(path_in(folder, Manifest::file_name))) return folder;
+  if (is_file(path)) return std::nullopt;  // packed at this moment
   refuse_no_run(path);
 }
-
-}  // namespace
 
 RunFile::RunFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
 RunFile::RunFile(RunFile&&) noexcept = default;
 RunFile& RunFile::operator=(RunFile&&) noexcept = default;
 RunFile::~RunFile() = default;
 
-RunFile RunFile::open_packed(const std::string& path) {
-  verify_seal(path);
-  return read_packed(hdf5::Reader::from_file(path), path);
-}
-
 RunFile RunFile::from_bytes(std::vector<std::byte> bytes, const std::string& name) {
-  return read_packed(hdf5::Reader::from_memory(std::move(bytes), name, {}), name);
+  return read_packed(Reader::from_memory(std::move(bytes), name, {}), name);
 }
 
-RunFile RunFile::read_packed(hdf5::Reader&& reader, const std::string& name) {
+RunFile RunFile::read_packed(Reader&& reader, const std::string& name) {
   auto state = std::make_unique<State>();
   state->name = name;
   state->has_frames = reader.has("/contacts") || reader.has("/frames/hash");
@@ -309,8 +267,8 @@ RunFile RunFile::open_folder(const std::string& folder) {
   auto state = std::make_unique<State>();
   state->folder = folder;
   // Read first, because the next commit replaces it.
-  hdf5::Reader checkpoint = open_file_of(folder, manifest.checkpoint, {});
-  hdf5::Reader header = open_file_of(folder, manifest.header, {});
+  Reader checkpoint = open_file_of(folder, manifest.checkpoint, {});
+  Reader header = open_file_of(folder, manifest.header, {});
   state->header = read_header(header);
   state->checkpoint = read_checkpoint(checkpoint);
   check_grains(checkpoint, state->header.statics, state->checkpoint.world.grains);
@@ -323,7 +281,10 @@ RunFile RunFile::open(const std::string& path) {
   for (int attempts_left = 20;; --attempts_left) {
     const std::optional<std::string> folder = folder_to_read(path);
     try_run(folder.value_or(path));
-    if (!folder) return open_packed(path);
+    if (!folder) {
+      verify_seal(path);
+      return read_packed(Reader::from_file(path), path);
+    }
     const std::string before = find_manifest(*folder);
     try {
       return open_folder(*folder);
@@ -375,7 +336,7 @@ Frame RunFile::instant(std::size_t k) const {
   return frame;
 }
 
-hdf5::Reader RunFile::packed_reader() const { return state_->reader->again(); }
+Reader RunFile::packed_reader() const { return state_->reader->again(); }
 
 bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
   const State::FramePlace place = state_->place_of(k);
@@ -384,25 +345,22 @@ bool RunFile::is_as_written(const Frame& frame, std::size_t k) const {
 }
 
 std::vector<std::string> RunFile::changed_data_sets() const {
-  return state_->rows<std::string>(talus::io::changed_data_sets,
-                                   [](const std::string&, std::int64_t) { return true; });
+  return state_->rows<std::string>(talus::io::changed_data_sets);
 }
 
 Frame RunFile::positions(std::size_t k) const { return state_->read(read_positions, k); }
 
 std::vector<ObservableRow> RunFile::observables() const {
   std::vector<ObservableRow> rows = all_observables();
-  std::erase_if(rows, [&](const ObservableRow& row) { return !is_known_row(row, state_->last_tilt_step); });
+  std::erase_if(rows, [&](const ObservableRow& row) { return !is_known(row, state_->last_tilt_step); });
   return rows;
 }
 
-std::vector<ObservableRow> RunFile::all_observables() const {
-  return state_->rows(read_observables, is_known_row);
-}
+std::vector<ObservableRow> RunFile::all_observables() const { return state_->rows(read_observables); }
 
-std::vector<StepRow> RunFile::steps() const { return state_->rows(read_steps, is_known_step); }
+std::vector<StepRow> RunFile::steps() const { return state_->rows(read_steps); }
 
-std::vector<TrialRow> RunFile::trials() const { return state_->rows(read_trials, is_known_trial); }
+std::vector<TrialRow> RunFile::trials() const { return state_->rows(read_trials); }
 
 const std::vector<Command>& RunFile::commands() const { return state_->commands; }
 

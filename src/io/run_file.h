@@ -1,4 +1,8 @@
 #pragma once
+/// Io stores runs and reads them again, whatever happens in between. A RunStore (run_store.h) writes a
+/// folder, commit by commit, and packs it when the run is done; a RunFile reads either; run_schema.h lists
+/// every data set. Below them are the files themselves: hdf5_file.h, durable_file.h, child_process.h.
+///
 /// Reads a run, packed or in its folder, frame by frame in bounded memory. Every byte is compared with its
 /// hash before it is interpreted.
 
@@ -20,7 +24,7 @@ class RunFile {
  public:
   /// Opens `path`: a packed file, a folder `path.run/`, or such a folder by its own name; its writer may be
   /// at work. Throws Error(missing_input) if the run does not exist, and Error(bad_data) with the name of the
-  /// damaged file or data set. The library tries each run in a child process first (trial_walk.h).
+  /// damaged file or data set. The library tries each run in a child process first (child_process.h).
   static RunFile open(const std::string& path);
 
   /// Opens a packed file in memory that this process has made. Throws Error(bad_data), naming `name`.
@@ -90,7 +94,6 @@ class RunFile {
  private:
   struct State;
   explicit RunFile(std::unique_ptr<State> state);
-  static RunFile open_packed(const std::string& path);
   static RunFile read_packed(hdf5::Reader&& reader, const std::string& name);
   static RunFile open_folder(const std::string& folder);
   std::unique_ptr<State> state_;
@@ -101,5 +104,27 @@ bool is_run(const std::string& path);
 
 /// Returns a frame as it will be read back, in single precision if the file stores floats.
 Frame as_stored(Frame frame);
+
+// Repairs a run that was damaged at rest: copies every frame whose hash matches, and every other undamaged
+// part, into a new run.
+
+struct RepairRequest {
+  std::string run;     ///< a packed file, or the folder of a run, by its own name or that of its file
+  std::string output;  ///< path of the new run, a packed file
+  bool overwrite = false;
+};
+
+struct RepairReport {
+  bool was_whole = false;               ///< whether the run was undamaged; nothing was written then
+  bool of_folder = false;               ///< whether the run was a folder, that is, incomplete
+  std::vector<std::string> kept, lost;  ///< one line each
+};
+
+/// Repairs a run. Throws Error(missing_input) if the run does not exist, Error(bad_data) if nothing can be
+/// kept of it, and Error(cannot_create) if the output already exists or a process is writing the run.
+RepairReport repair_run(const RepairRequest& request);
+
+/// Returns the damaged pieces of a run, one line each. Throws Error(missing_input).
+std::vector<std::string> damaged_pieces(const std::string& run);
 
 }  // namespace talus::io

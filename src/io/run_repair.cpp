@@ -1,32 +1,23 @@
-#include "io/run_repair.h"
-
 #include <algorithm>
-#include <cstdio>
 #include <deque>
-#include <filesystem>
 #include <fmt/core.h>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "base/errors.h"
-#include "base/paths.h"
+#include "base/output_file.h"
 #include "base/text.h"
-#include "base/text_stream.h"
-#include "core/trigonometry.h"
 #include "io/child_process.h"
 #include "io/durable_file.h"
-#include "io/manifest.h"
-#include "io/mistaken_path.h"
 #include "io/packed_file.h"
+#include "io/run_file.h"
+#include "io/run_folder.h"
 #include "io/run_records.h"
-#include "io/seal.h"
-#include "io/writer_lock.h"
 
 namespace talus::io {
 namespace {
 
-namespace fs = std::filesystem;
 using Bytes = std::vector<std::byte>;
 using Lines = std::vector<std::string>;
 
@@ -54,10 +45,9 @@ bool has_header(const std::string& folder) {
 }
 
 std::optional<std::string> folder_of(const std::string& run) {
-  std::error_code unknown;
-  if (fs::is_regular_file(run, unknown) && !run.ends_with(".toml")) return std::nullopt;
+  if (is_file(run) && !run.ends_with(".toml")) return std::nullopt;
   for (const std::string& folder : {run, run_folder(run)})
-    if (fs::exists(fs::path(folder) / Manifest::file_name, unknown) || has_header(folder)) return folder;
+    if (is_there(path_in(folder, Manifest::file_name)) || has_header(folder)) return folder;
   refuse_no_run(run);
 }
 
@@ -90,8 +80,8 @@ std::vector<Part> parts_of(const std::string& run, Lines& lost) {
   if (!folder) return {{"", padded(read_file(run))}};
   std::vector<Part> parts;
   for (const std::string& name : files_in(*folder, lost))
-    if (const fs::path path = fs::path(*folder) / name; is_there(path))
-      parts.push_back({name, read_file(path.string())});
+    if (const std::string path = path_in(*folder, name); is_there(path))
+      parts.push_back({name, read_file(path)});
     else
       lost.push_back(name + ": is missing");
   return parts;
@@ -107,13 +97,13 @@ class Salvager {
     for (Part& part : parts) try {
         prefix_ = part.name.empty() ? "" : part.name + ": ";
         const std::string name = part.name.empty() ? "the file" : part.name;
-        readers_.push_back(hdf5::Reader::from_memory(std::move(part.bytes), name, {}));
+        readers_.push_back(Reader::from_memory(std::move(part.bytes), name, {}));
         add_part(readers_.back());
       } catch (const Error& error) {
         salvage_.lost.emplace_back(error.what());
       }
     const std::size_t state = run_.checkpoint.world.grains.x.size();
-    if (places_.size() + run_.observables.size() + run_.steps.size() + state == 0)
+    if (places_.size() + run_.series.observables.size() + run_.series.steps.size() + state == 0)
       salvage_.lost.emplace_back("no frame, series or state is undamaged");
     else if (has_header_)
       pack();
@@ -130,7 +120,7 @@ class Salvager {
   }
 
   /// Returns the data sets that a part should have; if its list is lost, those that every run has.
-  Lines contents_of(hdf5::Reader& reader) {
+  Lines contents_of(Reader& reader) {
     if (is_as_written(reader, "/contents")) return listed_data_sets(reader);
     report_loss("/contents", ", so the last state, results and commands are left out");
     Lines paths;
@@ -148,7 +138,7 @@ class Salvager {
   }
 
   /// Returns the undamaged groups of a part.
-  std::set<std::string> whole_groups(hdf5::Reader& reader) {
+  std::set<std::string> whole_groups(Reader& reader) {
     std::set<std::string> whole, broken;
     for (const std::string& path : contents_of(reader)) {
       const std::string group = group_of(path);
@@ -166,7 +156,7 @@ class Salvager {
     return whole;
   }
 
-  void add_part(hdf5::Reader& reader) {
+  void add_part(Reader& reader) {
     if (reader.has("/parameters")) check_version(reader);
     has_analysis_ = has_analysis_ || reader.has("/analysis");
     const std::set<std::string> whole = whole_groups(reader);
@@ -177,21 +167,16 @@ class Salvager {
       has_header_ = true;
     }
     if (whole.contains("/frames") && reader.has("/frames/hash")) add_frames(reader);
-    if (whole.contains("/observables")) append(run_.observables, read_observables(reader));
-    if (whole.contains("/steps")) append(run_.steps, read_steps(reader));
-    if (whole.contains("/commands")) append(run_.commands, read_commands(reader));
-    if (whole.contains("/trials")) append(run_.trials, read_trials(reader));
+    if (whole.contains("/observables")) append(run_.series.observables, read_observables(reader));
+    if (whole.contains("/steps")) append(run_.series.steps, read_steps(reader));
+    if (whole.contains("/commands")) append(run_.series.commands, read_commands(reader));
+    if (whole.contains("/trials")) append(run_.series.trials, read_trials(reader));
     if (!whole.contains("/results")) return;
     run_.checkpoint = whole.contains("/checkpoint") ? read_checkpoint(reader) : read_results(reader);
   }
 
-  template <typename Row>
-  static void append(std::vector<Row>& rows, const std::vector<Row>& more) {
-    rows.insert(rows.end(), more.begin(), more.end());
-  }
-
   /// Adds the frames that match their hashes, whatever else is damaged.
-  void add_frames(hdf5::Reader& reader) {
+  void add_frames(Reader& reader) {
     const auto hashes = reader.read<std::uint64_t>("/frames/hash");
     frames_before_ += hashes.size();
     std::size_t lost = 0;  // length of the current sequence of lost frames
@@ -203,7 +188,7 @@ class Salvager {
     report_lost_frames(reader, hashes.size() - lost, lost);
   }
 
-  void report_lost_frames(hdf5::Reader& reader, std::size_t first, std::size_t count) {
+  void report_lost_frames(Reader& reader, std::size_t first, std::size_t count) {
     if (count == 0) return;
     std::string line = count == 1 ? fmt::format("{}frame {}", prefix_, first)
                                   : fmt::format("{}frames {} to {}", prefix_, first, first + count - 1);
@@ -215,7 +200,7 @@ class Salvager {
     salvage_.lost.push_back(line);
   }
 
-  bool add_frame(hdf5::Reader& reader, std::size_t row, std::uint64_t hash) try {
+  bool add_frame(Reader& reader, std::size_t row, std::uint64_t hash) try {
     const Frame frame = read_frame(reader, row);
     if (frame_hash(frame) != hash) return false;
     run_.contacts += frame.contacts.a.size();
@@ -244,33 +229,21 @@ class Salvager {
     };
     salvage_.file = packed_bytes(run_);
     salvage_.kept = {fmt::format("{} of {}", run_.frames, counted(frames_before_, "frame")),
-                     counted(run_.observables.size(), "row") + " of observables",
-                     counted(run_.steps.size(), "step"), counted(run_.commands.size(), "command")};
+                     counted(run_.series.observables.size(), "row") + " of observables",
+                     counted(run_.series.steps.size(), "step"),
+                     counted(run_.series.commands.size(), "command")};
     if (!lacks_state(run_.header, run_.checkpoint)) salvage_.kept.emplace_back("the last state");
   }
 
   std::string name_;
   Salvage salvage_;
   std::string prefix_;  ///< prefix of the lines about the current part
-  std::deque<hdf5::Reader> readers_;
+  std::deque<Reader> readers_;
   RunContent run_;
   bool has_header_ = false, has_analysis_ = false;
   std::size_t frames_before_ = 0;
   std::vector<std::pair<std::size_t, std::size_t>> places_;  ///< part and row of each kept frame
 };
-
-std::string text_of(const Lines& lines) {
-  std::string text;
-  for (const std::string& line : lines) text.append(line).append("\n");
-  return text;
-}
-
-Lines lines_of(const Bytes& bytes) {
-  Lines lines;
-  std::istringstream text = text_stream(values_of<std::string>(bytes));
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
-}
 
 Salvage salvage_run(const std::string& run) {
   Lines lost;
@@ -280,10 +253,11 @@ Salvage salvage_run(const std::string& run) {
   Parcels found = in_child_process(run, size, [&] {
     Salvage made = Salvager(run, std::move(lost)).salvage(std::move(parts));
     return Parcels{{"file", std::move(made.file)},
-                   {"kept", bytes_of(text_of(made.kept))},
-                   {"lost", bytes_of(text_of(made.lost))}};
+                   {"kept", bytes_of(joined(made.kept, "\n"))},
+                   {"lost", bytes_of(joined(made.lost, "\n"))}};
   });
-  return {std::move(found["file"]), lines_of(found["kept"]), lines_of(found["lost"])};
+  const auto lines = [&](const char* name) { return lines_of(values_of<std::string>(found[name])); };
+  return {std::move(found["file"]), lines("kept"), lines("lost")};
 }
 
 /// Whether a run opens, so that its bytes match the hash of the file, and its contents match their own
@@ -299,6 +273,7 @@ bool is_whole(const std::string& run) try {
 }
 
 void refuse_output(const RepairRequest& request) {
+  require_run_name(request.output);
   output_target(request.output, {true, {request.run, run_folder(request.run)}});
   for (const std::string& path : {request.output, run_folder(request.output)}) {
     if (resolved_path(path) == resolved_path(request.run))
@@ -320,8 +295,8 @@ RepairReport repair_run(const RepairRequest& request) {
   Salvage salvage = salvage_run(request.run);
   if (salvage.file.empty())
     throw Error(ExitCode::bad_data,
-                fmt::format("{}: nothing can be saved: {}; restore the run from a copy, or compute it again",
-                            request.run, salvage.lost.at(0)));
+                "{}: nothing can be saved: {}; restore the run from a copy, or compute it again", request.run,
+                salvage.lost.at(0));
   RunFile::from_bytes(salvage.file,
                       request.output);  // checks that the output can be read before it is written
   prepare_folder_of(request.output);

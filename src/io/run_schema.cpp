@@ -1,22 +1,14 @@
 #include "io/run_schema.h"
 
 #include "base/errors.h"
-#include "base/text_stream.h"
+#include "base/text.h"
 #include "core/observables.h"
-#include "core/trial_row.h"
-#include "io/analysis_schema.h"
 
 namespace talus::io {
+
 namespace {
 
 using enum ElementType;
-
-/// Names and sizes, in the order of the types.
-constexpr struct {
-  std::string_view name;
-  std::size_t size;  ///< bytes
-} types[] = {{"float32", 4}, {"float64", 8}, {"int8", 1}, {"int32", 4},
-             {"int64", 8},   {"uint64", 8},  {"text", 1}};
 
 std::vector<DataSetField> header_fields() {
   return {
@@ -53,8 +45,7 @@ std::vector<DataSetField> frame_fields() {
        "simulated time; also linked as `time` next to each `value` of /particles/grains"},
       {"/frames/tilt", float64, "T", "rad",
        "angle of the bed to the horizontal, theta; the last checkpoint/integers/flow_steps steps, if any, "
-       "are the "
-       "flow that follows failure"},
+       "are the flow that follows failure"},
       {"/particles/grains/position/value", float32, "T N 2", "m",
        "centre (x, y) in the frame of the bed: x along it, downslope when the tilt is positive, in [0, L) of "
        "a periodic bed; y away from the floor"},
@@ -105,15 +96,14 @@ std::vector<DataSetField> command_fields() {
   };
 }
 
-std::vector<DataSetField> checkpoint_fields() {
+/// The results, the last state, and what is stored after them.
+std::vector<DataSetField> last_fields() {
   return {
       {"/results/theta_c", float64, "", "rad",
        "angle of repose: the magnitude of the tilt at which the slope failed; NaN if it has not"},
       {"/results/theta_r", float64, "", "rad",
        "angle at rest: slope of the free surface against the horizontal after the flow that follows failure "
-       "has "
-       "come to "
-       "rest; NaN if it has not; absent with tilt.after_failure = \"stop\""},
+       "has come to rest; NaN if it has not; absent with tilt.after_failure = \"stop\""},
       {"/results/*", float64, "", "SI", "a figure of the run, in the SI unit of its kind"},
       {"/provenance/timing/*", float64, "", "s", "wall time spent in a stage"},
       {"/checkpoint/state_hash", text, "", "1",
@@ -158,18 +148,12 @@ std::vector<DataSetField> checkpoint_fields() {
       {"/checkpoint/integers/*", int64, "", "1", "a value of the schedule of the run"},
       {"/checkpoint/reals/*", float64, "", "SI",
        "a value of the schedule of the run, in the SI unit of its kind"},
-  };
-}
-
-/// Values of further analyses, in addition to the one in /analysis.
-std::vector<DataSetField> reading_fields() {
-  return {
+      // Values of further analyses, in addition to the one in /analysis.
       {"/readings/key/*", text, "", "1",
        "key of an analysis with the parameters of the name, of which only these values are kept"},
       {"/readings/value/*", float64, "F W", "by quantity",
        "what it gives at each threshold for the values of the paper's chain, in the order of "
-       "docs/reproduce.md "
-       "and in deg and D; NaN if there is none"},
+       "docs/reproduce.md and in deg and D; NaN if there is none"},
       {"/readings/at_most/*", int8, "F W", "1", "1 if the value is only an upper bound"},
   };
 }
@@ -183,7 +167,7 @@ std::vector<DataSetField> branch_fields() {
       {"/branch/frame", int64, "", "1", "frame of that run with which this one begins, from 0"},
   };
   const std::string group = "/checkpoint/";
-  for (DataSetField field : checkpoint_fields()) {
+  for (DataSetField field : last_fields()) {
     if (!field.path.starts_with(group)) continue;
     field.path.replace(0, group.size(), "/branch/");
     if (field.shape.starts_with('C')) field.shape[0] = 'B';
@@ -208,16 +192,16 @@ std::vector<DataSetField> make_schema() {
   for (const DataSetField& field : command_fields()) schema.push_back(field);
   append_series(schema, "/trials/", "Q", trial_fields);
   for (const DataSetField& field : branch_fields()) schema.push_back(field);
-  for (const DataSetField& field : checkpoint_fields()) schema.push_back(field);
-  for (const DataSetField& field : reading_fields()) schema.push_back(field);
+  for (const DataSetField& field : last_fields()) schema.push_back(field);
   return schema;
 }
 
 }  // namespace
 
-std::string_view type_name(ElementType type) { return types[static_cast<std::size_t>(type)].name; }
-
-std::size_t size_of(ElementType type) { return types[static_cast<std::size_t>(type)].size; }
+std::string_view type_name(ElementType type) {
+  constexpr std::string_view names[] = {"float32", "float64", "int8", "int32", "int64", "uint64", "text"};
+  return names[static_cast<std::size_t>(type)];
+}
 
 const std::vector<DataSetField>& run_schema() {
   static const std::vector<DataSetField> schema = make_schema();
@@ -264,6 +248,39 @@ std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& si
   for (const Extent& extent : extents(field))
     dims.push_back((extent.symbol != '\0' ? sizes.at(extent.symbol) : 0) + extent.plus);
   return dims;
+}
+
+DataSetField data_set_of(const analysis::Quantity& quantity) {
+  const ElementType type = std::visit([]<typename T>(const std::vector<T>&) { return element_type<T>(); },
+                                      analysis::values_of(quantity, analysis::Analysis()));
+  return {"/analysis/" + quantity.name, type, quantity.shape, quantity.unit, quantity.definition};
+}
+
+std::vector<DataSetField> analysis_schema(std::span<const analysis::Quantity> table) {
+  std::vector<DataSetField> schema = {
+      {"/analysis/version", int32, "", "1", "version of this table and of what it means"},
+      {"/analysis/key", text, "", "1",
+       "XXH3 of the state hash of the run, of all parameters and of the version, 16 hexadecimal digits: an "
+       "analysis with another key is computed again"},
+      {"/analysis/parameters/*", text, "", "1", "a parameter as it was given, or its default"}};
+  for (const analysis::Quantity& quantity : table) schema.push_back(data_set_of(quantity));
+  return schema;
+}
+
+Sizes sizes_of(const analysis::Analysis& analysis) {
+  Sizes sizes = {{'T', analysis.frames.size()},
+                 {'F', analysis.thresholds.size()},
+                 {'X', analysis.section_edge.size() - 1},
+                 {'Y', analysis.layer_edge.size() - 1},
+                 {'B', analysis.gamma_edge.size() - 1}};
+  if (!analysis.events.empty()) sizes['E'] = analysis.events.size();
+  if (!analysis.thresholds.empty()) sizes['N'] = analysis.frames.front().thresholds.front().lc.size();
+  return sizes;
+}
+
+bool is_present(const analysis::Quantity& quantity, const analysis::Analysis& analysis) {
+  if (analysis::needs_threshold(quantity)) return !analysis.thresholds.empty();
+  return !analysis::is_of_events(quantity) || !analysis.events.empty();
 }
 
 }  // namespace talus::io

@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "analysis/quantities.h"
 
 namespace talus::io {
 
@@ -16,8 +19,17 @@ inline constexpr std::int32_t run_schema_version = 4;
 
 enum class ElementType { float32, float64, int8, int32, int64, uint64, text };
 std::string_view type_name(ElementType type);
-/// Returns the bytes per value; 1 for text.
-std::size_t size_of(ElementType type);
+
+/// Returns the type of an element in memory.
+template <typename T>
+constexpr ElementType element_type() {
+  if constexpr (std::is_same_v<T, double>) return ElementType::float64;
+  if constexpr (std::is_same_v<T, float>) return ElementType::float32;
+  if constexpr (std::is_same_v<T, std::int8_t>) return ElementType::int8;
+  if constexpr (std::is_same_v<T, std::int32_t>) return ElementType::int32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return ElementType::int64;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return ElementType::uint64;
+}
 
 struct DataSetField {
   std::string path;  ///< `.../*` represents data sets whose names the run chooses
@@ -49,5 +61,24 @@ using Sizes = std::map<char, std::uint64_t>;
 
 /// Returns the shape of a data set in numbers; empty for a scalar.
 std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& sizes);
+
+// The data sets of the analysis of a run, /analysis in its file: a version, a key, parameters as texts, and
+// the table of quantities.
+
+/// Increases with each change of the table or of the computation; stored analyses of other versions are
+/// recomputed.
+inline constexpr std::int32_t analysis_version = 8;
+
+/// Returns the data set of a quantity.
+DataSetField data_set_of(const analysis::Quantity& quantity);
+
+/// Returns all data sets, in the order in which they are written.
+std::vector<DataSetField> analysis_schema(std::span<const analysis::Quantity> table = analysis::quantities());
+
+/// Returns the letters of the shapes for an analysis of at least one frame.
+Sizes sizes_of(const analysis::Analysis& analysis);
+
+/// Whether an analysis contains the quantity; some need a threshold or events.
+bool is_present(const analysis::Quantity& quantity, const analysis::Analysis& analysis);
 
 }  // namespace talus::io

@@ -12,30 +12,21 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/core.h>
+#include <regex>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "base/errors.h"
 #include "base/locked_file.h"
-#include "base/paths.h"
-#include "io/analysis_file.h"
-#include "io/bounds.h"
+#include "base/output_file.h"
 #include "io/durable_file.h"
-#include "io/manifest.h"
 #include "io/packed_file.h"
+#include "io/run_folder.h"
 #include "io/run_records.h"
-#include "io/seal.h"
-#include "io/writer_lock.h"
 
 namespace talus::io {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string in(const std::string& folder, const std::string& name) {
-  return (fs::path(folder) / name).string();
-}
 
 /// Returns the suffix of a writer's file names: eight letters that no other writer has. Two writers that both
 /// consider themselves the only one therefore never write to the same file.
@@ -48,11 +39,6 @@ std::string mark_of_writer() {
   return mark;
 }
 
-bool is_mark(std::string_view text) {
-  return text.size() == 9 && text[0] == '-' &&
-         std::ranges::all_of(text.substr(1), [](char c) { return c >= 'a' && c <= 'z'; });
-}
-
 std::uint64_t serial_of(const StoredFile& checkpoint) {
   const auto digit = checkpoint.name.find_first_of("0123456789");
   return digit == std::string::npos ? 0 : std::stoull(checkpoint.name.substr(digit));
@@ -60,36 +46,23 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
 
 /// Whether a name is that of a numbered file, such as "segment_000001-abcdefgh.h5"; folders of earlier
 /// versions have no suffix.
-bool is_serial_name(std::string_view name) {
-  constexpr std::string_view ending = ".h5";
-  if (!name.ends_with(ending)) return false;
-  name.remove_suffix(ending.size());
-  for (const std::string_view kind : {"header_", "segment_", "checkpoint_"}) {
-    if (!name.starts_with(kind)) continue;
-    std::string_view digits = name.substr(kind.size());
-    if (const std::size_t end = digits.find('-'); end != std::string_view::npos) {
-      if (!is_mark(digits.substr(end))) return false;
-      digits = digits.substr(0, end);
-    }
-    return digits.size() >= 6 && digits.size() <= 16 &&
-           std::ranges::all_of(digits, [](char c) { return c >= '0' && c <= '9'; });
-  }
-  return false;
+bool is_serial_name(const std::string& name) {
+  static const std::regex form(R"((header|segment|checkpoint)_[0-9]{6,16}(-[a-z]{8})?\.h5)");
+  return std::regex_match(name, form);
 }
 
 /// Temporary names of a manifest and of a packed file before they are renamed.
 constexpr std::string_view made_manifest = "manifest", made_packed = "packed";
 
-bool is_temporary(std::string_view name) { return name.ends_with(temporary_ending); }
+bool is_temporary(const std::string& name) { return name.ends_with(temporary_ending); }
 
 /// Whether a file of this name belongs to the store; no other file is ever removed.
-bool is_own(std::string_view name) {
-  if (is_temporary(name)) {
-    name.remove_suffix(std::string_view(temporary_ending).size());
-    for (const std::string_view made : {made_manifest, made_packed})
-      if (name.starts_with(made) && is_mark(name.substr(made.size()))) return true;
-  }
-  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name);
+bool is_own(std::string name) {
+  static const std::regex made(fmt::format("({}|{})-[a-z]{{8}}", made_manifest, made_packed));
+  const bool temporary = is_temporary(name);
+  if (temporary) name.resize(name.size() - std::string_view(temporary_ending).size());
+  return name == Manifest::header_name || name == Manifest::file_name || is_serial_name(name) ||
+         (temporary && std::regex_match(name, made));
 }
 
 bool is_named(const Manifest& manifest, const std::string& name) {
@@ -112,7 +85,7 @@ void remove_own(const std::string& folder, const WriterLock& lock,
                 const std::function<bool(const std::string&)>& is_wanted) {
   const std::vector<std::string> names = own_files(folder, is_wanted);
   lock.require();
-  for (const std::string& name : names) remove_file(in(folder, name));
+  for (const std::string& name : names) remove_file(path_in(folder, name));
 }
 
 /// Takes over the run from a writer that has lost its lock without knowing it: its temporary file is removed,
@@ -140,8 +113,8 @@ bool is_kept_until_closed(const std::string& folder) {
 void remove_folder(const std::string& folder, WriterLock& lock) {
   const std::vector<std::string> names = own_files(folder, [](const std::string&) { return true; });
   if (!lock.is_held()) return;
-  ::unlink(in(folder, Manifest::file_name).c_str());
-  for (const std::string& name : names) ::unlink(in(folder, name).c_str());
+  ::unlink(path_in(folder, Manifest::file_name).c_str());
+  for (const std::string& name : names) ::unlink(path_in(folder, name).c_str());
   lock.remove();
   for (int attempt = 0; attempt < 100 && ::rmdir(folder.c_str()) != 0; ++attempt) {
     if (!is_kept_until_closed(folder)) return;
@@ -150,12 +123,12 @@ void remove_folder(const std::string& folder, WriterLock& lock) {
 }
 
 StoredFile store(const std::string& folder, const std::string& name, std::span<const std::byte> bytes) {
-  write_durably(in(folder, name), bytes);
+  write_durably(path_in(folder, name), bytes);
   return describe(name, bytes);
 }
 
 std::vector<std::byte> header_bytes(const RunHeader& header) {
-  hdf5::Writer writer(with_branch({{'N', header.statics.radius.size()}}, header));
+  Writer writer(with_branch({{'N', header.statics.radius.size()}}, header));
   write_header(writer, header);
   writer.write_contents();
   return writer.image();
@@ -163,29 +136,21 @@ std::vector<std::byte> header_bytes(const RunHeader& header) {
 
 std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint) {
   const World& world = checkpoint.world;
-  hdf5::Writer writer({{'G', world.grains.radius.size()},
-                       {'C', world.contacts.a.size()},
-                       {'P', world.boundary.planes.size()}});
+  Writer writer({{'G', world.grains.radius.size()},
+                 {'C', world.contacts.a.size()},
+                 {'P', world.boundary.planes.size()}});
   write_checkpoint(writer, checkpoint);
   writer.write_contents();
   return writer.image();
 }
 
 std::vector<std::byte> segment_bytes(const Segment& segment, const StoredSegment& sizes, std::size_t grains) {
+  Sizes letters = {{'T', sizes.frames}, {'N', grains}, {'M', sizes.contacts}};
+  letters.merge(sizes_of(segment));
   // Compression would take half of the time of a commit, for a file that the packed one soon replaces.
-  hdf5::Writer writer({{'T', sizes.frames},
-                       {'N', grains},
-                       {'M', sizes.contacts},
-                       {'R', sizes.observables},
-                       {'S', sizes.steps},
-                       {'K', segment.commands.size()},
-                       {'Q', segment.trials.size()}},
-                      0, hdf5::Storage::as_it_is);
+  Writer writer(std::move(letters));
   write_frames(writer, [&segment](std::size_t k) { return segment.frames[k]; });
-  write_observables(writer, segment.observables);
-  write_steps(writer, segment.steps);
-  write_commands(writer, segment.commands);
-  write_trials(writer, segment.trials);
+  write_series(writer, segment);
   writer.write_contents();
   return writer.image();
 }
@@ -238,7 +203,8 @@ struct RunStore::State {
   /// Removes the folder of a run that has not begun.
   ~State() {
     const bool has_begun = !manifest.checkpoint.name.empty() ||
-                           ::access(in(folder, Manifest::file_name).c_str(), F_OK) == 0 || errno != ENOENT;
+                           ::access(path_in(folder, Manifest::file_name).c_str(), F_OK) == 0 ||
+                           errno != ENOENT;
     if (!has_begun) remove_folder(folder, lock);
   }
   State(const State&) = delete;
@@ -270,7 +236,7 @@ struct RunStore::State {
 void RunStore::State::publish(std::string_view made, std::span<const std::byte> bytes,
                               const std::string& target,
                               const std::function<void(const std::string& written)>& check) const {
-  OutputFile file(in(folder, fmt::format("{}{}", made, mark)));
+  OutputFile file(path_in(folder, fmt::format("{}{}", made, mark)));
   file.write(bytes);
   file.flush();
   if (check) check(file.temporary_path());
@@ -281,7 +247,7 @@ void RunStore::State::publish(std::string_view made, std::span<const std::byte> 
 
 void RunStore::State::publish(const Manifest& next) const {
   const std::string text = manifest_text(next);
-  publish(made_manifest, std::as_bytes(std::span(text)), in(folder, Manifest::file_name));
+  publish(made_manifest, std::as_bytes(std::span(text)), path_in(folder, Manifest::file_name));
 }
 
 RunStore::RunStore(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -290,7 +256,9 @@ RunStore& RunStore::operator=(RunStore&&) noexcept = default;
 RunStore::~RunStore() = default;
 
 RunStore RunStore::create(const std::string& path, const RunHeader& header, bool overwrite) {
+  require_run_name(path);
   refuse_existing(path, overwrite);
+  prepare_folder_of(path);
   const std::string folder = run_folder(path);
   make_folder(folder);
   std::unique_ptr<State> state;
@@ -301,13 +269,11 @@ RunStore RunStore::create(const std::string& path, const RunHeader& header, bool
     throw;
   }
   refuse_existing(path, overwrite);  // checked again while other writers are excluded
-  std::error_code unknown;
   exclude_other_writers(folder, state->lock);
-  if (!fs::exists(in(folder, Manifest::file_name), unknown)) remove_leftovers(folder, state->lock, {});
+  if (!is_there(path_in(folder, Manifest::file_name))) remove_leftovers(folder, state->lock, {});
   state->replaced = own_files(folder, is_serial_name);
-  if (fs::exists(in(folder, Manifest::header_name), unknown))
-    state->replaced.emplace_back(Manifest::header_name);
-  state->manifest.replaces = fs::is_regular_file(path, unknown);
+  if (is_there(path_in(folder, Manifest::header_name))) state->replaced.emplace_back(Manifest::header_name);
+  state->manifest.replaces = is_file(path);
   state->header = header_bytes(header);
   state->grains = header.statics.radius.size();
   state->farthest = farthest_place(header.statics);
@@ -366,8 +332,8 @@ void RunStore::commit(const Segment& segment, const Checkpoint& checkpoint) try 
   state.header = {};
   std::swap(state.manifest, next);
   if (!next.checkpoint.name.empty())
-    ::unlink(in(folder, next.checkpoint.name).c_str());  // a leftover is harmless
-  for (const std::string& name : std::exchange(state.replaced, {})) ::unlink(in(folder, name).c_str());
+    ::unlink(path_in(folder, next.checkpoint.name).c_str());  // a leftover is harmless
+  for (const std::string& name : std::exchange(state.replaced, {})) ::unlink(path_in(folder, name).c_str());
   state.seconds_writing += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 } catch (const Error&) {
   state_->lock.require();  // if another writer has taken over the run, this explains a missing file
@@ -404,7 +370,7 @@ double RunStore::seconds_writing() const { return state_->seconds_writing; }
 
 /// Whether the folder was left behind when it was packed into the file, or holds no run.
 static bool is_left_behind(const std::string& folder, const std::string& packed) try {
-  return !is_there(in(folder, Manifest::file_name)) ||
+  return !is_there(path_in(folder, Manifest::file_name)) ||
          read_manifest(folder).packed_seal == seal_hash_of(packed);
 } catch (const Error& error) {
   if (error.code() != ExitCode::bad_data) throw;
@@ -412,9 +378,8 @@ static bool is_left_behind(const std::string& folder, const std::string& packed)
 }
 
 void discard_folder(const std::string& path, bool of_any_run) {
-  std::error_code unknown;
   const std::string folder = run_folder(path);
-  if (!fs::is_regular_file(path, unknown) || !fs::is_directory(folder, unknown)) return;
+  if (!is_file(path) || !is_folder(folder)) return;
   if (!of_any_run && !is_left_behind(folder, path)) return;
   WriterLock lock(folder);
   remove_folder(folder, lock);
@@ -440,8 +405,7 @@ static std::string move_aside(const std::string& what, const std::string& path, 
   if (std::rename(what.c_str(), aside.c_str()) == 0) return aside;
   const int error = errno;
   if (error == ENOENT && !is_there(what)) return "";
-  throw Error(ExitCode::cannot_create,
-              fmt::format("{} cannot be renamed to {}: {}", what, aside, std::strerror(error)));
+  throw Error(ExitCode::cannot_create, "{} cannot be renamed to {}: {}", what, aside, std::strerror(error));
 }
 
 /// Describes the damage and its new location. Advice after a semicolon, which concerns runs that cannot be
@@ -484,12 +448,53 @@ void set_withdrawn_aside(const std::string& path) {
 
 std::string run_folder(const std::string& path) { return path + ".run"; }
 
+std::string run_of_folder(std::string folder) {
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  const std::string ending = run_folder("");
+  if (folder.ends_with(ending)) folder.resize(folder.size() - ending.size());
+  return folder;
+}
+
 RunPresence run_presence(const std::string& path) {
-  std::error_code unknown;
-  const bool has_folder = fs::exists(in(run_folder(path), Manifest::file_name), unknown);
-  if (fs::is_regular_file(path, unknown) && !(has_folder && hides_packed(run_folder(path), path)))
-    return RunPresence::packed;
+  const bool has_folder = is_there(path_in(run_folder(path), Manifest::file_name));
+  if (is_file(path) && !(has_folder && hides_packed(run_folder(path), path))) return RunPresence::packed;
   return has_folder ? RunPresence::folder : RunPresence::none;
+}
+
+void refuse_no_run(const std::string& path) {
+  const std::string folder = run_folder(run_of_folder(path));
+  if (is_file(path))
+    throw Error(ExitCode::bad_data,
+                "{}: is not a Talus run file (it does not begin with 'talus run file 1'); expected one that "
+                "talus run, view or replay has written",
+                path);
+  if (is_folder(folder))
+    throw Error(ExitCode::missing_input,
+                "{}: nothing is committed there yet; wait for the first checkpoint, or start its command "
+                "again; if it was damaged, save what is undamaged with: talus repair",
+                folder);
+  if (is_folder(path))
+    throw Error(ExitCode::missing_input,
+                path + " is a folder, but not a run; expected a run file, or a folder RUN.h5.run");
+  throw Error(ExitCode::missing_input, "{}: no such run; expected a run file, or a folder {}", path, folder);
+}
+
+void require_run_name(const std::string& path) {
+  const std::string name = run_of_folder(path), ending = std::filesystem::path(name).extension();
+  const bool is_numbered = ending.find_first_of("0123456789") != std::string::npos;
+  if (name == path && (ending.empty() || is_numbered)) return;
+  std::string meant = is_numbered ? name : name.substr(0, name.size() - ending.size());
+  if (!meant.ends_with(".h5")) meant += ".h5";
+  throw Error(ExitCode::usage, "{}: expected the name of a run, which ends in .h5, such as {}", path, meant);
+}
+
+void refuse_no_scenario(const std::string& path) {
+  const std::string run = run_of_folder(path);
+  if (is_file(path) ? begins_as_run(path) : run_presence(run) != RunPresence::none)
+    throw Error(ExitCode::bad_data,
+                "{} is not a scenario but a run; talus info {} shows how far it is, and talus run --resume "
+                "{} continues it if it is incomplete",
+                path, run, run);
 }
 
 }  // namespace talus::io

@@ -2,6 +2,7 @@
 /// Writes a run. While it is computed, a run is a folder `PATH.run/`; at the end it is packed into one
 /// self-contained HDF5 file `PATH` (docs/file_format.md).
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,8 +12,8 @@
 #include <vector>
 
 #include "core/command.h"
+#include "core/observables.h"
 #include "core/snapshot.h"
-#include "core/trial_row.h"
 
 namespace talus::analysis {
 struct Analysis;
@@ -89,7 +90,8 @@ struct PackedParts {
 /// The open folder of a run being computed, locked against other writers.
 class RunStore {
  public:
-  /// Begins a new run. Throws Error(cannot_create) if `path` or its folder exists, unless `overwrite`; if
+  /// Begins a new run, in a folder that is created if missing. Throws Error(usage) if `path` is not the name
+  /// of a run (require_run_name); Error(cannot_create) if `path` or its folder exists, unless `overwrite`; if
   /// another process holds the lock; or if `path` cannot be replaced (output_target). The run exists from its
   /// first commit on, and leftovers of a kill before that are removed here. A packed file that is overwritten
   /// is kept until pack has completed the new one, a folder until the first commit.
@@ -146,7 +148,40 @@ std::string set_damaged_aside(const std::string& path);
 /// number from the second one on. Throws the errors of set_damaged_aside.
 void set_withdrawn_aside(const std::string& path);
 
-/// Returns the folder in which the run `path` is computed.
+/// Returns the folder in which the run `path` is computed, and the run of such a folder (RUN.h5 for
+/// RUN.h5.run/) or of its own name.
 std::string run_folder(const std::string& path);
+std::string run_of_folder(std::string folder);
+
+/// Throws because a run was expected at `path`: Error(missing_input) if nothing is there, or a folder that is
+/// not a run; Error(bad_data) if it is a file of another kind.
+[[noreturn]] void refuse_no_run(const std::string& path);
+
+/// Throws Error(usage) if a run that is to be written would have the name of another kind of file, such as
+/// run.txt. Names that end in .h5, with a number such as mu-0.3 or run.v2, or without an ending are those of
+/// runs.
+void require_run_name(const std::string& path);
+
+/// Throws Error(bad_data) if `path`, where a scenario is expected, is a run, complete or not.
+/// Returns for everything else, which the parser of scenarios reports.
+void refuse_no_scenario(const std::string& path);
+
+// Bounds of a bed that can be stored: code that reads a run uses its values as sizes of grids and indices.
+// Reader and writer of runs apply the same.
+
+/// Whether what is written is checked; only tests that make invalid runs clear it.
+inline bool checks_what_is_written = true;
+
+/// Radii of grains, mean diameters.
+inline constexpr double smallest_radius = 1e-3, largest_radius = 1e3;
+
+/// Returns the largest valid distance of a grain or contact from the origin along either axis, m. Divided
+/// into cells of the size of a grain, it must still be a valid number of cells.
+inline double farthest_place(double length, double depth, double mean_diameter) {
+  return std::min(1e4 * (length + depth), 1e8 * mean_diameter);
+}
+inline double farthest_place(const RunStatics& statics) {
+  return farthest_place(statics.length, statics.depth, statics.mean_diameter);
+}
 
 }  // namespace talus::io

@@ -10,16 +10,16 @@
 #include "analysis/quantities.h"
 #include "analysis/topology/topology.h"
 #include "base/errors.h"
-#include "base/nearest_word.h"
-#include "base/visible_text.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "io/run_file.h"
 #include "pictures/map_plan.h"
 #include "pictures/maps.h"
+#include "pictures/picture_files.h"
 #include "render/renderer.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
-#include "session/run_identity.h"
+#include "session/run_header.h"
 
 namespace talus {
 namespace {
@@ -28,8 +28,7 @@ namespace {
 constexpr double default_length = 10.0;
 
 [[noreturn]] void refuse(std::string_view name, const char* what, const std::vector<std::string>& known) {
-  throw Error(ExitCode::usage,
-              fmt::format("no {} is called '{}'{}", what, visible_word(name), did_you_mean(name, known)));
+  throw Error(ExitCode::usage, "no {} is called '{}'{}", what, visible_word(name), did_you_mean(name, known));
 }
 
 /// Splits "lc/mean[1]" into its name and 1; the number is 0 if none is given.
@@ -81,29 +80,36 @@ constexpr const char* of_contacts = "quantity of contacts";
 
 }  // namespace
 
-MeasuredFrame::MeasuredFrame(FrameInput input) : input_(std::move(input)) {
-  if (input_.parameters != analysis::AnalysisParameters())
-    runs::from_facts(runs::as_facts(input_.parameters));  // checks them
+MeasuredFrame::MeasuredFrame(Frame frame, RunStatics statics, analysis::AnalysisParameters parameters,
+                             std::optional<double> theta_c, std::optional<Frame> begin,
+                             std::optional<ObservableRow> row)
+    : frame_(std::move(frame)),
+      statics_(std::move(statics)),
+      parameters_(std::move(parameters)),
+      theta_c_(theta_c),
+      begin_(std::move(begin)),
+      row_(row) {
+  if (parameters_ != analysis::AnalysisParameters())
+    runs::from_facts(runs::as_facts(parameters_));  // checks them
 }
 
-double MeasuredFrame::theta_c() const { return input_.theta_c.value_or(radians(pictures::assumed_theta_c)); }
+double MeasuredFrame::theta_c() const { return theta_c_.value_or(radians(pictures::assumed_theta_c)); }
 
 const Frame& MeasuredFrame::judged() {
-  if (!judged_) judged_ = analysis::with_analysed_gamma(input_.frame, input_.statics, input_.parameters);
+  if (!judged_) judged_ = analysis::with_analysed_gamma(frame_, statics_, parameters_);
   return *judged_;
 }
 
 const analysis::FrameRecord& MeasuredFrame::record() {
   if (record_) return *record_;
-  const analysis::Analysis analysis = analysis::begin_analysis(input_.statics, input_.parameters, theta_c());
-  analysis::FrameRecord found =
-      analysis::analyse_frame({judged(), input_.statics}, input_.parameters, analysis);
-  analysis::measure_topology(analysis::force_persistence({judged(), input_.statics}, found.mean_normal_force),
-                             input_.statics.free_count, analysis.network_threshold, found);
-  if (input_.row) {
-    found.volume_strain = at(*input_.row, Observable::volume_strain);
-    found.centre_of_mass_strain = at(*input_.row, Observable::centre_of_mass_strain);
-    found.solid_fraction = at(*input_.row, Observable::solid_fraction);
+  const analysis::Analysis analysis = analysis::begin_analysis(statics_, parameters_, theta_c());
+  analysis::FrameRecord found = analysis::analyse_frame({judged(), statics_}, parameters_, analysis);
+  analysis::measure_topology(analysis::force_persistence({judged(), statics_}, found.mean_normal_force),
+                             statics_.free_count, analysis.network_threshold, found);
+  if (row_) {
+    found.volume_strain = at(*row_, Observable::volume_strain);
+    found.centre_of_mass_strain = at(*row_, Observable::centre_of_mass_strain);
+    found.solid_fraction = at(*row_, Observable::solid_fraction);
   }
   record_ = std::move(found);
   return *record_;
@@ -115,30 +121,30 @@ double MeasuredFrame::quantity(std::string_view name) {
     if (quantity.name == plain && analysis::is_number_of_frame(quantity)) {
       const std::size_t count = analysis::needs_threshold(quantity) ? record().thresholds.size() : 1;
       if (threshold < count) return analysis::number_of(quantity, record(), threshold);
-      throw Error(ExitCode::usage,
-                  fmt::format("'{}': the frame has {} of it, counted from 0", visible_word(name), count));
+      throw Error(ExitCode::usage, "'{}': the frame has {} of it, counted from 0", visible_word(name), count);
     }
   const auto* const field = std::ranges::find(observable_fields, name, &SeriesField::name);
   if (field == observable_fields.end()) refuse(name, "number of a frame", quantities());
   switch (const auto number = static_cast<Observable>(field - observable_fields.begin()); number) {
     case Observable::step:
-      return static_cast<double>(input_.frame.step);
+      return static_cast<double>(frame_.step);
     case Observable::time:
-      return input_.frame.time;
+      return frame_.time;
     case Observable::tilt:
-      return rounded_degrees(input_.frame.tilt);
+      return rounded_degrees(frame_.tilt);
     default:
-      return input_.row ? at(*input_.row, number) : not_known;
+      return row_ ? at(*row_, number) : not_known;
   }
 }
 
 std::vector<double> MeasuredFrame::grain_values(std::string_view name) {
-  const std::vector<double>& factors = input_.parameters.threshold_factors;
+  const std::vector<double>& factors = parameters_.threshold_factors;
   const auto [quantity, threshold] = find_entry(analysis::grain_quantities(), name, of_grains, factors);
-  analysis::GrainSource source = {bed(), 0, judged().gamma, input_.begin ? &*input_.begin : nullptr, factors};
+  analysis::GrainSource source = {bed(),  nullptr, true, 0, judged().gamma, begin_ ? &*begin_ : nullptr,
+                                  factors};
   if (quantity.need == analysis::FrameNeed::threshold) source.thresholds = record().thresholds;
   source.earlier = source.first;
-  source.length = std::min(default_length * input_.statics.mean_diameter, input_.statics.length);
+  source.length = std::min(default_length * statics_.mean_diameter, statics_.length);
   std::vector<double> values = quantity.values(source, threshold);
   const bool is_known = quantity.need != analysis::FrameNeed::earlier_frame ||
                         (source.earlier && source.earlier->grain_count() == source.frame.grain_count());
@@ -155,8 +161,8 @@ std::vector<std::string> MeasuredFrame::quantities() const {
   for (const analysis::Quantity& quantity : analysis::quantities()) {
     if (!analysis::is_number_of_frame(quantity)) continue;
     names.push_back(quantity.name);
-    for (std::size_t k = 1;
-         analysis::needs_threshold(quantity) && k < input_.parameters.threshold_factors.size(); ++k)
+    for (std::size_t k = 1; analysis::needs_threshold(quantity) && k < parameters_.threshold_factors.size();
+         ++k)
       names.push_back(fmt::format("{}[{}]", quantity.name, k));
   }
   for (const SeriesField& field : observable_fields) names.emplace_back(field.name);
@@ -164,7 +170,7 @@ std::vector<std::string> MeasuredFrame::quantities() const {
 }
 
 std::vector<std::string> MeasuredFrame::grain_quantities() const {
-  return names_of(analysis::grain_quantities(), input_.parameters.threshold_factors);
+  return names_of(analysis::grain_quantities(), parameters_.threshold_factors);
 }
 
 std::vector<std::string> MeasuredFrame::contact_quantities() const {
@@ -172,33 +178,57 @@ std::vector<std::string> MeasuredFrame::contact_quantities() const {
 }
 
 const analysis::FrameQuantity& MeasuredFrame::grain_quantity(std::string_view name) const {
-  return find_entry(analysis::grain_quantities(), name, of_grains, input_.parameters.threshold_factors)
-      .quantity;
+  return find_entry(analysis::grain_quantities(), name, of_grains, parameters_.threshold_factors).quantity;
 }
 
 const analysis::FrameQuantity& MeasuredFrame::contact_quantity(std::string_view name) const {
   return find_entry(analysis::contact_quantities(), name, of_contacts, {}).quantity;
 }
 
-render::Image MeasuredFrame::draw(const std::string& map, pictures::MapOptions options) const {
+namespace {
+
+/// Returns the plan of one map.
+pictures::MapPlan plan_of(const pictures::MapChoice& what, pictures::MapOptions options) {
   if (!options.crop.empty() || !options.traces.empty() || options.since)
     throw Error(ExitCode::usage,
                 "draw: crop, traces and since apply only to talus render, panel and animate");
-  options.maps = {map};
-  const pictures::MapPlan plan = pictures::plan_maps(options);
-  pictures::MapSettings settings = plan.maps.at(0);
+  if (const auto* own = std::get_if<pictures::OwnQuantity>(&what)) {
+    using Kind = pictures::OwnQuantity::Kind;
+    if (options.l_min || options.threshold || options.length)
+      throw Error(ExitCode::usage, "draw: l_min, threshold and length do not apply to values of your own");
+    // Maps that take the same options.
+    options.maps = {own->kind == Kind::number ? "pressure" : own->kind == Kind::flag ? "rigid" : "clusters"};
+  } else {
+    options.maps = {std::get<std::string>(what)};
+  }
+  return pictures::plan_maps(options);
+}
+
+}  // namespace
+
+render::FrameView MeasuredFrame::map(const pictures::MapChoice& what,
+                                     const pictures::MapOptions& options) const {
+  pictures::MapSettings settings = plan_of(what, options).maps.at(0);
   if (std::isnan(settings.theta_c)) {
     settings.theta_c = theta_c();
-    settings.theta_c_assumed = !input_.theta_c;
+    settings.theta_c_assumed = !theta_c_;
   }
-  const Frame mapped = pictures::mapped_frame(input_.frame, input_.statics, settings.l_min);
-  pictures::MapFrame frame = {{mapped, input_.statics}};
-  if (input_.begin && input_.begin->grain_count() == mapped.grain_count()) frame.reference = &*input_.begin;
+  const Frame mapped = pictures::mapped_frame(frame_, statics_, settings.l_min);
+  analysis::GrainSource frame = {{mapped, statics_}};
+  if (begin_ && begin_->grain_count() == mapped.grain_count()) frame.earlier = &*begin_;
   frame.per_degree = false;
-  pictures::MapExtent extent = pictures::bed_extent(input_.statics);
+  pictures::MapExtent extent = pictures::bed_extent(statics_);
   pictures::extend(extent, frame);
-  render::Renderer renderer(render::make_context(plan.context));
-  return renderer.draw(pictures::make_map(frame, settings, extent), plan.width);
+  const auto* own = std::get_if<pictures::OwnQuantity>(&what);
+  return own != nullptr ? pictures::own_map(frame, *own, settings, extent)
+                        : pictures::make_map(frame, settings, extent);
+}
+
+render::Image MeasuredFrame::draw(const pictures::MapChoice& what,
+                                  const pictures::MapOptions& options) const {
+  render::FrameView view = map(what, options);
+  render::Renderer renderer(render::make_context());
+  return renderer.draw(pictures::sheet_of_plan(std::move(view), plan_of(what, options), renderer.font()));
 }
 
 MeasuredFrame measured_frame(const std::string& path, std::size_t k,
@@ -206,18 +236,14 @@ MeasuredFrame measured_frame(const std::string& path, std::size_t k,
   const io::RunFile run = io::RunFile::open(path);
   const std::size_t count = run.all_frame_tilts().size();
   if (k >= count)
-    throw Error(ExitCode::usage,
-                fmt::format("{}: frame {} does not exist; the run has {} frames", path, k, count));
-  FrameInput input;
-  input.frame = run.frame(k);
-  input.statics = run.header().statics;
-  input.parameters = runs::parse_analysis_settings(settings);
-  const double theta_c = find_value(run.checkpoint().results, "theta_c").value_or(not_known);
-  if (std::isfinite(theta_c)) input.theta_c = theta_c;
-  input.begin = run.frame(0);
+    throw Error(ExitCode::usage, "{}: frame {} does not exist; the run has {} frames", path, k, count);
+  std::optional<double> theta_c = find_value(run.checkpoint().results, "theta_c");
+  if (theta_c && !std::isfinite(*theta_c)) theta_c.reset();
+  std::optional<ObservableRow> last;
   for (const ObservableRow& row : run.all_observables())
-    if (at(row, Observable::time) <= run.all_frame_times()[k]) input.row = row;
-  return MeasuredFrame(std::move(input));
+    if (at(row, Observable::time) <= run.all_frame_times()[k]) last = row;
+  return {run.frame(k), run.header().statics, runs::parse_analysis_settings(settings),
+          theta_c,      run.frame(0),         last};
 }
 
 std::vector<std::string> departures(const std::string& path) {

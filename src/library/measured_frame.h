@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/parameters.h"
 #include "analysis/record.h"
-#include "core/bed_frame.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
 #include "pictures/map_options.h"
@@ -18,18 +16,11 @@
 namespace talus::analysis {
 struct FrameQuantity;
 }
+namespace talus::render {
+struct FrameView;
+}
 
 namespace talus {
-
-/// Input of the measurements.
-struct FrameInput {
-  Frame frame;
-  RunStatics statics;  ///< data of the grains of the frame
-  analysis::AnalysisParameters parameters{};
-  std::optional<double> theta_c{};     ///< rad; empty if the slope has not failed
-  std::optional<Frame> begin{};        ///< frame at the start of the tilt, the reference of displacements
-  std::optional<ObservableRow> row{};  ///< observables at the same time, or the last ones before it
-};
 
 /// Measures a frame on demand. `Error(bad_data)` is thrown at once if a parameter of the analysis is
 /// impossible. A name of a quantity may end with its threshold: "cluster[1]" and "cluster_2" are at the
@@ -37,10 +28,14 @@ struct FrameInput {
 /// any other name throws Error(usage) with a suggestion.
 class MeasuredFrame {
  public:
-  explicit MeasuredFrame(FrameInput input);
+  /// `statics` has the data of the grains of the frame; `theta_c` is empty if the slope has not failed;
+  /// `begin` is the frame at the start of the tilt, the reference of displacements; `row` has the observables
+  /// at the same time, or the last ones before it.
+  MeasuredFrame(Frame frame, RunStatics statics, analysis::AnalysisParameters parameters = {},
+                std::optional<double> theta_c = {}, std::optional<Frame> begin = {},
+                std::optional<ObservableRow> row = {});
 
-  const FrameInput& input() const { return input_; }
-  BedFrame bed() const { return {input_.frame, input_.statics}; }
+  BedFrame bed() const { return {frame_, statics_}; }
 
   /// Returns a quantity of the frame or an observable, in SI units: "overloaded/fraction", "lc/mean[1]" at
   /// the second threshold, "kinetic_energy"; "tilt" in deg. If the slope has not failed and no gamma_c is
@@ -59,17 +54,24 @@ class MeasuredFrame {
   const analysis::FrameQuantity& grain_quantity(std::string_view name) const;
   const analysis::FrameQuantity& contact_quantity(std::string_view name) const;
 
-  /// Draws a map by name as `talus render --map` does. Unless it is given, theta_c is that of the run or the
-  /// assumed one. Throws Error(usage) if an option is out of the range that it has on the command line, or
-  /// has no effect here, and Error(unavailable).
-  render::Image draw(const std::string& map, pictures::MapOptions options) const;
+  /// Draws a map as `talus render --map` does, or one of own values (pictures::own_map). Unless it is given,
+  /// theta_c is that of the run or the assumed one. Throws Error(usage) if an option is out of the range that
+  /// it has on the command line, or has no effect here, and Error(unavailable).
+  render::Image draw(const pictures::MapChoice& what, const pictures::MapOptions& options) const;
+  /// Returns that map before it is drawn, for panels and movies.
+  render::FrameView map(const pictures::MapChoice& what, const pictures::MapOptions& options) const;
 
  private:
   const Frame& judged();  ///< the frame with the gamma of neighbourhoods
   const analysis::FrameRecord& record();
   double theta_c() const;
 
-  FrameInput input_;
+  Frame frame_;
+  RunStatics statics_;
+  analysis::AnalysisParameters parameters_;
+  std::optional<double> theta_c_;  ///< rad
+  std::optional<Frame> begin_;
+  std::optional<ObservableRow> row_;
   std::optional<Frame> judged_{};
   std::optional<analysis::FrameRecord> record_{};
 };

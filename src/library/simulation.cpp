@@ -1,5 +1,6 @@
 #include "library/simulation.h"
 
+#include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,18 +14,18 @@
 #include "base/errors.h"
 #include "base/hash.h"
 #include "base/output_file.h"
-#include "base/paths.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
+#include "io/child_process.h"
 #include "io/run_file.h"
-#include "io/trial_walk.h"
-#include "library/simulation_state.h"
+#include "library/measured_frame.h"
 #include "runs/analysis_parameters.h"
 #include "runs/run_view.h"
 #include "session/estimate.h"
 #include "session/measure.h"
-#include "session/run_identity.h"
-#include "session/tilt_goal.h"
+#include "session/run.h"
+#include "session/run_header.h"
+#include "session/session.h"
 
 namespace talus {
 namespace {
@@ -35,11 +36,40 @@ constexpr std::chrono::milliseconds interrupt_interval(50);
 [[maybe_unused]] const bool walks_first = io::walk_before_opening();
 
 void require_finite(double value, const char* what) {
-  if (!std::isfinite(value))
-    throw Error(ExitCode::usage, fmt::format("{} {}: expected a finite number", what, value));
+  if (!std::isfinite(value)) throw Error(ExitCode::usage, "{} {}: expected a finite number", what, value);
 }
 
 }  // namespace
+
+struct Simulation::State {
+  session::Session session;
+  RunStatics statics;
+  session::RunOrigin origin;
+  std::optional<io::RunStore> store;
+  std::optional<session::Recorder> recorder;
+  std::function<bool()> interrupts;
+  analysis::AnalysisParameters parameters;
+  std::vector<std::string> departures{};  ///< commands given so far, for the history of a branch
+  bool is_new = true;                     ///< neither stepped nor changed
+  double owed_steps = 0.0;                ///< fraction of a step that Simulation::steps_in carries over
+  std::optional<double> aimed{};  ///< tilt (deg) that the last step has reached for Simulation::tilt_to
+  std::optional<Frame> begin{};   ///< frame at the start of the tilt, if the simulation reached it
+
+  std::optional<MeasuredFrame> measured{};  ///< measurements of the state after the last step, if requested
+
+  pid_t process;  ///< the creating process; a forked child may only inspect and copy the state
+
+  explicit State(session::Session from);
+  bool is_own() const;
+  /// Throws Error(usage) in a forked child.
+  void require_own() const;
+
+  /// Takes one step and records it.
+  void advance();
+  /// Makes recorded data durable, and packs the run when it is over.
+  void commit();
+  MeasuredFrame& measure();
+};
 
 Simulation::State::State(session::Session from)
     : session(std::move(from)),
@@ -86,8 +116,8 @@ MeasuredFrame& Simulation::State::measure() {
   if (!measured) {
     Frame frame = session.frame();
     RunStatics arrived = arrived_statics(statics, frame.grain_count());
-    measured.emplace(FrameInput{std::move(frame), std::move(arrived), parameters, session.angle_of_repose(),
-                                begin, session.row()});
+    measured.emplace(std::move(frame), std::move(arrived), parameters, session.angle_of_repose(), begin,
+                     session.row());
   }
   return *measured;
 }
@@ -150,8 +180,8 @@ bool Simulation::advance_until(const std::function<bool(const session::Session&)
   State& state = *state_;
   state.require_own();
   if (done())
-    throw Error(ExitCode::usage, fmt::format("the run is over, at a tilt of {} deg: it has no further step",
-                                             fixed_text(tilt(), 3)));
+    throw Error(ExitCode::usage, "the run is over, at a tilt of {} deg: it has no further step",
+                fixed_text(tilt(), 3));
   auto asked = std::chrono::steady_clock::now();
   while (!done() && !reached(state.session)) {
     state.advance();
@@ -165,8 +195,7 @@ bool Simulation::advance_until(const std::function<bool(const session::Session&)
 }
 
 bool Simulation::step(std::int64_t count) {
-  if (count < 0)
-    throw Error(ExitCode::usage, fmt::format("step({}): expected a count of steps, 0 or more", count));
+  if (count < 0) throw Error(ExitCode::usage, "step({}): expected a count of steps, 0 or more", count);
   const std::int64_t last = world().step + std::min(count, std::numeric_limits<std::int64_t>::max() / 2);
   return advance_until([last](const session::Session& session) { return session.world().step >= last; });
 }
@@ -202,12 +231,11 @@ std::int64_t Simulation::steps_in(double seconds) {
   constexpr double most = 1e15;
   const double h = scenario::time_step(scenario()), owed = state_->owed_steps + seconds / h;
   if (!(seconds >= 0.0 && std::isfinite(seconds)))
-    throw Error(ExitCode::usage, fmt::format("a time of {} s: expected 0 s or more", seconds));
+    throw Error(ExitCode::usage, "a time of {} s: expected 0 s or more", seconds);
   const double steps = std::round(std::min(owed, most));
   if (steps < 1.0 && seconds < 0.5 * h)
-    throw Error(ExitCode::usage,
-                fmt::format("a time of {:g} s takes no step: expected at least half a step, {:g} s", seconds,
-                            0.5 * h));
+    throw Error(ExitCode::usage, "a time of {:g} s takes no step: expected at least half a step, {:g} s",
+                seconds, 0.5 * h);
   state_->owed_steps = owed < most ? owed - steps : 0.0;
   return static_cast<std::int64_t>(steps);
 }
@@ -232,8 +260,7 @@ void Simulation::interrupt_if(std::function<bool()> interrupts) {
 
 void Simulation::use_threads(int threads) {
   state_->require_own();
-  if (threads < 1 || threads > 256)
-    throw Error(ExitCode::usage, fmt::format("{} threads: expected 1 to 256", threads));
+  if (threads < 1 || threads > 256) throw Error(ExitCode::usage, "{} threads: expected 1 to 256", threads);
   state_->session.use_threads(threads);
 }
 
@@ -257,8 +284,8 @@ void Simulation::push(const std::vector<Index>& grains, const std::vector<Vec2>&
     return Command{0, CommandKind::push, grains[k], velocities[k].x, velocities[k].y};
   };
   if (grains.size() != velocities.size())
-    throw Error(ExitCode::usage, fmt::format("{} velocities for {} grains: expected one for each",
-                                             velocities.size(), grains.size()));
+    throw Error(ExitCode::usage, "{} velocities for {} grains: expected one for each", velocities.size(),
+                grains.size());
   for (std::size_t k = 0; k < grains.size(); ++k) session::check_command(command(k), scenario(), world());
   for (std::size_t k = 0; k < grains.size(); ++k) apply(command(k));
 }
@@ -301,15 +328,15 @@ void Simulation::set_analysis(const std::vector<std::string>& settings) {
 
 MeasuredFrame& Simulation::measured() { return state_->measure(); }
 double Simulation::quantity(std::string_view name) { return state_->measure().quantity(name); }
-const Frame& Simulation::frame() { return state_->measure().input().frame; }
+const Frame& Simulation::frame() { return state_->measure().bed().frame; }
 std::vector<double> Simulation::grain_values(std::string_view name) {
   return state_->measure().grain_values(name);
 }
 std::vector<double> Simulation::contact_values(std::string_view name) {
   return state_->measure().contact_values(name);
 }
-render::Image Simulation::draw(const std::string& map, pictures::MapOptions options) {
-  return state_->measure().draw(map, std::move(options));
+render::Image Simulation::draw(const pictures::MapChoice& what, const pictures::MapOptions& options) {
+  return state_->measure().draw(what, options);
 }
 
 void Simulation::record(const std::string& name, bool overwrite) {
@@ -329,7 +356,6 @@ void Simulation::record(const std::string& name, bool overwrite) {
     origin.branch = io::BranchOrigin{"a program", 0, hash_text(talus::state_hash(now)),
                                      state.session.checkpoint(0.0), session::history_text(state.departures)};
   const std::string path = absolute_path(name);  // remains valid if the process changes its folder
-  prepare_folder_of(path);
   state.session.clear_segment();
   state.store.emplace(io::RunStore::create(
       path, session::run_header(state.session, session::with_bed(origin, state.session)), overwrite));

@@ -118,7 +118,7 @@ class Simulation {
   double quantity(std::string_view name);
   std::vector<double> grain_values(std::string_view name);
   std::vector<double> contact_values(std::string_view name);
-  render::Image draw(const std::string& map, pictures::MapOptions options = {});
+  render::Image draw(const pictures::MapChoice& what, const pictures::MapOptions& options = {});
   /// Returns the state in the form in which a run stores it.
   const Frame& frame();
   const RunStatics& statics() const;

@@ -1,5 +1,7 @@
 #pragma once
-/// Includes all of Talus as a library. docs/library.md shows how to use it.
+/// Library is Talus for other programs, in C++ and Python. A Simulation is a run that the program steps and
+/// steers; a MeasuredFrame measures and draws one of its states, or a frame of a file. This header includes
+/// all of it; docs/library.md shows how to use it.
 
 #include "base/errors.h"
 #include "base/version.h"

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 #include <string>
 
-#include "pictures/texts.h"
+#include "pictures/scale.h"
 
 namespace talus::pictures {
 namespace {

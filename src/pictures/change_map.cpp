@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 #include <utility>
 
-#include "analysis/contacts/contact_changes.h"
+#include "analysis/contacts/contact_network.h"
 #include "base/text.h"
 #include "core/trigonometry.h"
-#include "pictures/motion.h"
+#include "pictures/layers.h"
 
 namespace talus::pictures {
 namespace {
@@ -19,13 +19,8 @@ namespace {
 constexpr render::Colour gained_colour{0, 105, 60}, lost_colour{215, 30, 150};
 constexpr double gained_half_width = 0.10, lost_half_width = 0.10;  // D
 
-bool has_numeric_change(MapKind kind) {
-  const bool changes = kind != MapKind::size && kind != MapKind::dyed;
-  return changes && is_scaled(kind);
-}
-
 /// Returns the part of a title that names both tilts, "12.00° minus 5.00°".
-std::string between(const MapFrame& bed, const Frame& before) {
+std::string between(const analysis::GrainSource& bed, const Frame& before) {
   return fmt::format("{}° minus {}°", degrees_text(bed.frame.tilt, 2), degrees_text(before.tilt, 2));
 }
 
@@ -34,13 +29,13 @@ std::string lowercase_first(std::string text) {
   return text;
 }
 
-MapLayer difference_layer(const MapFrame& bed, const Frame& before, MapSettings settings,
+MapLayer difference_layer(const analysis::GrainSource& bed, const Frame& before, MapSettings settings,
                           const MapExtent& extent) {
   settings.range_low.reset();
   settings.range_high.reset();
   settings.colours.reset();
   const MapLayer after = make_layer(bed, settings, extent, 0);
-  const MapFrame reference{{before, bed.statics}};
+  const analysis::GrainSource reference{{before, bed.statics}};
   const MapLayer earlier = make_layer(reference, settings, extent, 0);
   const Scale& scale = after.scale.value();
   std::vector<double> changes(after.values.size());
@@ -52,20 +47,14 @@ MapLayer difference_layer(const MapFrame& bed, const Frame& before, MapSettings 
   const double half = 0.5 * (scale.logarithmic ? std::log10(scale.high / scale.low) : scale.high - scale.low);
   const Scale about_zero{render::ColourMap::diverging, -half, half};
   const std::string& unit = after.legend.bars.at(0).title;
-  return scaled_layer_with_outlines(
-      fmt::format("Change of {}, {}", lowercase_first(after.title), between(bed, before)), about_zero,
-      std::move(changes), bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit));
-}
-
-render::Line line_between(double x0, double y0, double x1, double y1, double half_width,
-                          const render::Colour& colour) {
-  return {static_cast<float>(x0), static_cast<float>(y0),         static_cast<float>(x1),
-          static_cast<float>(y1), static_cast<float>(half_width), colour};
+  return scaled_layer(fmt::format("Change of {}, {}", lowercase_first(after.title), between(bed, before)),
+                      about_zero, std::move(changes),
+                      bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit), true);
 }
 
 /// Returns the vector, m, from grain a to body b of contact c of `at`, with their current positions; for a
 /// plane, the vector along the normal.
-Vec2 towards(const MapFrame& bed, const Frame& at, Index c) {
+Vec2 towards(const analysis::GrainSource& bed, const Frame& at, Index c) {
   const FrameContacts& contacts = at.contacts;
   const Index a = contacts.a[c], b = contacts.b[c];
   if (b >= at.grain_count())
@@ -77,7 +66,7 @@ Vec2 towards(const MapFrame& bed, const Frame& at, Index c) {
   return {bed.frame.x[b] + period - bed.frame.x[a], bed.frame.y[b] - bed.frame.y[a]};
 }
 
-void add_gained(std::vector<render::Line>& lines, const MapFrame& bed, Index c) {
+void add_gained(std::vector<render::Line>& lines, const analysis::GrainSource& bed, Index c) {
   const Index a = bed.frame.contacts.a[c];
   const double x = bed.frame.x[a], y = bed.frame.y[a];
   const Vec2 way = towards(bed, bed.frame, c);
@@ -87,7 +76,8 @@ void add_gained(std::vector<render::Line>& lines, const MapFrame& bed, Index c) 
 
 /// Adds lines from the centre of each grain to its edge, so that the space between them stays empty, however
 /// far apart they are.
-void add_lost(std::vector<render::Line>& lines, const MapFrame& bed, const Frame& before, Index c) {
+void add_lost(std::vector<render::Line>& lines, const analysis::GrainSource& bed, const Frame& before,
+              Index c) {
   const Index a = before.contacts.a[c], b = before.contacts.b[c];
   const Vec2 way = towards(bed, before, c);
   const double distance = std::hypot(way.x, way.y);
@@ -101,17 +91,15 @@ void add_lost(std::vector<render::Line>& lines, const MapFrame& bed, const Frame
   if (b < before.grain_count()) stub(bed.frame.x[b], bed.frame.y[b], -bed.statics.radius[b]);
 }
 
-MapLayer contacts_layer(const MapFrame& bed, const Frame& before) {
+MapLayer contacts_layer(const analysis::GrainSource& bed, const Frame& before) {
   const analysis::ContactChanges changes = analysis::contact_changes(before, bed.frame);
   MapLayer layer;
   layer.title = "Contacts gained and lost";
   for (const Index c : changes.lost) add_lost(layer.lines, bed, before, c);
   for (const Index c : changes.gained) add_gained(layer.lines, bed, c);
-  const auto swatch = [](const render::Colour& colour, const std::string& label) {
-    return render::Swatch{render::Swatch::Kind::line, colour, colour, 0.25, label};
-  };
-  layer.legend.swatches = {swatch(gained_colour, fmt::format("contacts gained: {}", changes.gained.size())),
-                           swatch(lost_colour, fmt::format("lost: {}", changes.lost.size()))};
+  layer.legend.swatches = {
+      line_swatch(gained_colour, 0.25, fmt::format("contacts gained: {}", changes.gained.size())),
+      line_swatch(lost_colour, 0.25, fmt::format("lost: {}", changes.lost.size()))};
   return layer;
 }
 
@@ -119,20 +107,20 @@ MapLayer contacts_layer(const MapFrame& bed, const Frame& before) {
 
 MapKind changing_kind(const MapLayers& layers) {
   for (const MapKind kind : layers)
-    if (has_numeric_change(kind)) return kind;
+    if (is_scaled(kind) && kind != MapKind::size && kind != MapKind::dyed) return kind;
   return any_layer(layers, shows_gamma) ? MapKind::gamma : MapKind::displacement;
 }
 
-std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& settings,
+std::vector<MapLayer> change_layers(const analysis::GrainSource& frame, const MapSettings& settings,
                                     const MapExtent& extent) {
-  const Frame& before = frame.reference != nullptr ? *frame.reference : frame.frame;
+  const Frame& before = frame.earlier != nullptr ? *frame.earlier : frame.frame;
   const MapKind kind = changing_kind(settings.layers);
   MapSettings of_kind = settings;
   of_kind.layers = {kind};
   std::vector<MapLayer> layers;
   if (needs_reference(kind)) {
-    MapFrame moved = frame;
-    moved.reference = &before;
+    analysis::GrainSource moved = frame;
+    moved.earlier = &before;
     moved.per_degree = false;
     layers.push_back(value_layer(kind, moved, settings, {}));
   } else {
@@ -142,7 +130,7 @@ std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& se
   return layers;
 }
 
-render::FrameView make_change_map(const MapFrame& frame, const MapSettings& settings,
+render::FrameView make_change_map(const analysis::GrainSource& frame, const MapSettings& settings,
                                   const MapExtent& extent) {
   render::FrameView view = compose_map(frame, settings, extent, change_layers(frame, settings, extent));
   view.coloured = true;

@@ -18,12 +18,12 @@ MapKind changing_kind(const MapLayers& layers);
 /// centres: gained ones as complete lines, lost ones as two stubs towards each other at the current positions
 /// of the two grains. Without a reference, nothing has changed. `frame` and its reference are as the maps see
 /// them. Throws the errors of make_layer.
-std::vector<MapLayer> change_layers(const MapFrame& frame, const MapSettings& settings,
+std::vector<MapLayer> change_layers(const analysis::GrainSource& frame, const MapSettings& settings,
                                     const MapExtent& extent);
 
 /// Returns the map of these layers. Throws the errors of make_map, and Error(internal) if the frames have
 /// different numbers of grains.
-render::FrameView make_change_map(const MapFrame& frame, const MapSettings& settings,
+render::FrameView make_change_map(const analysis::GrainSource& frame, const MapSettings& settings,
                                   const MapExtent& extent);
 
 }  // namespace talus::pictures

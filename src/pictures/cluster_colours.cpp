@@ -2,6 +2,12 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
+
+#include "analysis/free_grains.h"
+#include "analysis/overload/clusters.h"
+#include "core/trigonometry.h"
+#include "stress/stress.h"
 
 namespace talus::pictures {
 namespace {
@@ -30,10 +36,6 @@ std::vector<SharedGrains> shared_grains(const analysis::Clusters& clusters,
   return shared;
 }
 
-std::size_t min_worn(const std::vector<Index>& worn) {
-  return static_cast<std::size_t>(std::ranges::min_element(worn) - worn.begin());
-}
-
 }  // namespace
 
 std::string_view palette_name(ClusterPalette palette) {
@@ -46,16 +48,9 @@ std::vector<render::Colour> cluster_palette(ClusterPalette palette) {
   if (palette == ClusterPalette::contrast)
     return {{196, 82, 0}, {51, 34, 136}, {136, 204, 238}, {140, 36, 104}, {240, 228, 66}};
   // Colours from Okabe and Ito (2008) and from Tol's "muted" scheme; successive ones differ strongly. Yellow
-  // is left out because it is too light. A violet and a brown replace indigo and wine, on which the black rim
-  // of a spanning cluster would be invisible.
+  // is left out because it is too light.
   return {{213, 94, 0},   {0, 114, 178},   {68, 170, 153}, {170, 68, 153}, {230, 159, 0},   {115, 100, 215},
           {153, 153, 51}, {136, 204, 238}, {150, 85, 70},  {17, 119, 51},  {204, 102, 119}, {221, 204, 119}};
-}
-
-render::Colour spanning_rim(const render::Colour& fill) {
-  constexpr double dark_luma = 78.0;
-  return render::luma(fill) < dark_luma ? render::gray(0.25)
-                                        : render::black;  // white would vanish against the background
 }
 
 std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& clusters) {
@@ -78,7 +73,7 @@ std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& cluste
     colour = {pair.track, tracks_[track].palette_index};
   }
 
-  std::vector<Index> worn(cluster_palette().size(), 0);
+  std::vector<Index> worn(cluster_palette().size() - 1, 0);
   for (std::size_t k = 0; k < colours.size(); ++k)
     if (colours[k].palette_index >= 0)
       worn[static_cast<std::size_t>(colours[k].palette_index)] += clusters.size[k];
@@ -89,7 +84,7 @@ std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& cluste
       tracks_.emplace_back();
     }
     if (colour.palette_index < 0 && clusters.size[k] >= smallest_coloured_cluster) {
-      const std::size_t least = min_worn(worn);
+      const auto least = static_cast<std::size_t>(std::ranges::min_element(worn) - worn.begin());
       worn[least] += clusters.size[k];
       colour.palette_index = static_cast<int>(least);
     }
@@ -103,6 +98,21 @@ std::vector<ClusterColour> ClusterColours::next(const analysis::Clusters& cluste
     if (clusters.label[i] >= 0)
       track_of_grain_[i] = colours[static_cast<std::size_t>(clusters.label[i])].track;
   return colours;
+}
+
+double threshold_of(const OverloadRule& rule) { return rule.threshold_factor * sine(rule.theta_c); }
+
+Frame mapped_frame(Frame frame, const RunStatics& statics, double l_min) {
+  return analysis::with_gamma_of_neighbourhoods(std::move(frame), statics, l_min * statics.mean_diameter);
+}
+
+analysis::Clusters overloaded_clusters(const BedFrame& bed, const OverloadRule& rule) {
+  const double threshold = threshold_of(rule);
+  std::vector<bool> overloaded(static_cast<std::size_t>(bed.statics.free_count));
+  for (std::size_t i = 0; i < overloaded.size(); ++i)
+    overloaded[i] = stress::is_overloaded(bed.frame.gamma[i], threshold);
+  const auto links = rule.joined_by_neighbours ? analysis::neighbour_links(bed) : analysis::force_links(bed);
+  return analysis::find_clusters(overloaded, links, bed.frame.x, analysis::period_of(bed.statics));
 }
 
 }  // namespace talus::pictures

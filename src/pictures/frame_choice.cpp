@@ -5,13 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fmt/core.h>
-#include <utility>
 
-#include "analysis/failure/last_rise.h"
+#include "analysis/failure/transition.h"
 #include "base/errors.h"
-#include "base/nearest_word.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "core/trigonometry.h"
 
 namespace talus::pictures {
@@ -40,52 +37,43 @@ void add_every(const std::vector<double>& way, std::size_t first, double every, 
       choice.push_back(first + *frame);
 }
 
-/// Returns the frame of an entry "frame42"; nothing for another entry.
-std::optional<std::size_t> frame_numbered(const std::vector<double>& tilts, const std::string& entry) {
+/// Returns the number of an entry "frame42"; nothing for another entry.
+std::optional<std::size_t> frame_number(std::string_view entry) {
   constexpr std::string_view word = "frame";
   if (!entry.starts_with(word)) return std::nullopt;
   std::size_t frame = 0;
   const char* const last = entry.data() + entry.size();
   const auto [end, error] = std::from_chars(entry.data() + word.size(), last, frame);
-  if (error != std::errc() || end != last) return std::nullopt;
-  if (frame >= tilts.size())
-    throw Error(ExitCode::bad_data, fmt::format("--at {}: the tilt of the run has {} frames, frame0 to "
-                                                "frame{}",
-                                                entry, tilts.size(), tilts.size() - 1));
-  return frame;
+  return error == std::errc() && end == last ? std::optional(frame) : std::nullopt;
+}
+
+/// Adds the frames of an entry "frame42" or "frame0-frame10". Returns false for another entry.
+bool add_numbered(const std::string& entry, std::size_t count, const char* whose, FrameChoice& choice) {
+  const std::size_t dash = std::min(entry.find('-'), entry.size());
+  const auto first = frame_number(std::string_view(entry).substr(0, dash));
+  const auto last = dash == entry.size() ? first : frame_number(std::string_view(entry).substr(dash + 1));
+  if (!first || !last || *last < *first) return false;
+  if (*last >= count)
+    throw Error(ExitCode::bad_data, "--at {}: {} has {} frames, frame0 to frame{}", entry, whose, count,
+                count - 1);
+  for (std::size_t k = *first; k <= *last; ++k) choice.push_back(k);
+  return true;
 }
 
 std::size_t frame_at_angle(const std::vector<double>& tilts, const std::string& entry) {
-  if (const auto numbered = frame_numbered(tilts, entry)) return *numbered;
   double angle = 0.0;
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), angle);
   if (error != std::errc() || end != entry.data() + entry.size() || !std::isfinite(angle))
     throw Error(ExitCode::usage,
-                fmt::format("--at {}: expected an angle in degrees, repose, or a frame such as "
-                            "frame7{}",
-                            visible_word(entry), did_you_mean(entry, {"repose"})));
+                "--at {}: expected an angle in degrees, repose, or frames such as frame7 or frame0-frame10{}",
+                visible_word(entry), did_you_mean(entry, {"repose"}));
   const auto frame = frame_near(tilts, radians(angle));
   if (!frame)
     throw Error(ExitCode::bad_data,
-                fmt::format("--at {}: the run has no frame there; its {} frames run "
-                            "from {} to {} deg, every {:.3g} deg",
-                            entry, tilts.size(), degrees_text(std::ranges::min(tilts), 2),
-                            degrees_text(std::ranges::max(tilts), 2), degrees(frame_spacing(tilts))));
+                "--at {}: the run has no frame there; its {} frames run from {} to {} deg, every {:.3g} deg",
+                entry, tilts.size(), degrees_text(std::ranges::min(tilts), 2),
+                degrees_text(std::ranges::max(tilts), 2), degrees(frame_spacing(tilts)));
   return *frame;
-}
-
-/// Returns the first and last frame of "0-10", or of "7".
-std::pair<std::size_t, std::size_t> range_of(const std::string& entry) {
-  std::size_t first = 0, last = 0;
-  const char* const end = entry.data() + entry.size();
-  auto parsed = std::from_chars(entry.data(), end, first);
-  last = first;
-  if (parsed.ec == std::errc() && parsed.ptr != end && *parsed.ptr == '-')
-    parsed = std::from_chars(parsed.ptr + 1, end, last);
-  if (parsed.ec != std::errc() || parsed.ptr != end || last < first)
-    throw Error(ExitCode::usage,
-                fmt::format("--frames {}: expected frame numbers such as --frames 0-10,20", entry));
-  return {first, last};
 }
 
 FrameChoice sorted(FrameChoice choice) {
@@ -123,29 +111,26 @@ std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double t
 }
 
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
-                      double theta_c) {
+                      double theta_c, std::optional<std::size_t> count) {
   FrameChoice choice;
   for (const std::string& entry : entries) {
     if (entry == "repose" && !std::isfinite(theta_c))
       throw Error(ExitCode::bad_data,
-                  "--at repose: the angle of repose is unknown because the slope has not failed in "
-                  "this run; give it with --theta-c DEG");
-    choice.push_back(entry == "repose" ? frame_at_repose(tilts, theta_c) : frame_at_angle(tilts, entry));
+                  "--at repose: the slope has not failed in this run, so its angle of repose is unknown; "
+                  "give an angle, or a frame such as frame42");
+    if (entry == "repose")
+      choice.push_back(frame_at_repose(tilts, theta_c));
+    else if (!add_numbered(entry, count.value_or(tilts.size()), count ? "the run" : "the tilt of the run",
+                           choice))
+      choice.push_back(frame_at_angle(tilts, entry));
   }
   return sorted(choice);
 }
 
-FrameChoice frames_listed(const std::vector<std::string>& entries, std::size_t count) {
-  FrameChoice choice;
-  for (const std::string& entry : entries) {
-    const auto [first, last] = range_of(entry);
-    if (last >= count)
-      throw Error(ExitCode::bad_data,
-                  fmt::format("--frames {}: the run has {} frames, 0 to {}; there is no frame {}", entry,
-                              count, count - 1, last));
-    for (std::size_t k = first; k <= last; ++k) choice.push_back(k);
-  }
-  return sorted(choice);
+std::size_t single_frame(const FrameChoice& choice, const std::string& entry) {
+  if (choice.size() != 1)
+    throw Error(ExitCode::usage, "--at {}: expected one frame, found {}", entry, choice.size());
+  return choice.front();
 }
 
 FrameChoice frames_every(const std::vector<double>& tilts, double every) {
@@ -194,8 +179,7 @@ int angle_decimals(const std::vector<double>& tilts, const FrameChoice& choice) 
       if (k < tilts.size()) names.push_back(angle_name(tilts[k], decimals));
     if (std::ranges::adjacent_find(names) == names.end()) return decimals;
   }
-  throw Error(ExitCode::bad_data,
-              fmt::format("two frames of the run have the same angle, {} deg", names.front()));
+  throw Error(ExitCode::bad_data, "two frames of the run have the same angle, {} deg", names.front());
 }
 
 }  // namespace talus::pictures

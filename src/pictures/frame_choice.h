@@ -8,21 +8,22 @@
 
 namespace talus::pictures {
 
-/// Indices into `tilts` (rad, in the order of time, not empty), ascending and unique. Tilts ascend unless the
-/// run has a programme.
+/// Indices of frames, ascending and unique: into `tilts` (rad, in the order of time, not empty), with the
+/// frames of the flow after failure behind them. Tilts ascend unless the run has a programme.
 using FrameChoice = std::vector<std::size_t>;
 
 /// Returns the frames nearest to the listed angles: degrees, or "repose" for the last frame with tilt <=
 /// theta_c (rad, NaN while the slope has not failed). If the tilt goes up and down, an angle refers to the
-/// first frame that reaches it, and "repose" to the last rise. "frame42" is the frame of that number. Throws
-/// Error(usage) for any other entry, and Error(bad_data) if no frame lies within half the frame spacing, or
-/// the angle of repose is unknown.
+/// first frame that reaches it, and "repose" to the last rise. "frame42" is the frame of that number, and
+/// "frame0-frame10" a range of frames; `count` includes the frames of the flow after failure, which have no
+/// angle here (without it, there are those of the tilt). Throws Error(usage) for any other entry, and
+/// Error(bad_data) if no frame lies within half the frame spacing, a number is too large, or the angle of
+/// repose is unknown.
 FrameChoice frames_at(const std::vector<double>& tilts, const std::vector<std::string>& entries,
-                      double theta_c);
+                      double theta_c, std::optional<std::size_t> count = std::nullopt);
 
-/// Returns the frames with the listed numbers, out of `count`: "7", or "0-10" for a range. Throws
-/// Error(usage) for any other entry, and Error(bad_data) if a frame does not exist.
-FrameChoice frames_listed(const std::vector<std::string>& entries, std::size_t count);
+/// Returns the frame of a choice that has one. Throws Error(usage) if `entry`, a range, names several.
+std::size_t single_frame(const FrameChoice& choice, const std::string& entry);
 
 /// Returns the frame nearest to a tilt (rad; NaN: none), however far away.
 std::optional<std::size_t> nearest_frame(const std::vector<double>& tilts, double tilt);

@@ -1,6 +1,9 @@
 #pragma once
 /// The layer that each kind of map makes of a frame; make_map composes one or two of them.
 
+#include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,49 +23,62 @@ struct MapLayer {
   std::optional<Scale> scale{};
 };
 
+// Parts of layers and of their legends.
+
+inline render::Line line_between(double x0, double y0, double x1, double y1, double half_width,
+                                 const render::Colour& colour) {
+  return {static_cast<float>(x0), static_cast<float>(y0),         static_cast<float>(x1),
+          static_cast<float>(y1), static_cast<float>(half_width), colour};
+}
+
+inline render::Swatch disc_swatch(const GrainStyle& style, const std::string& label) {
+  return {render::Swatch::Kind::disc, style.fill, style.rim, 0.0, label};
+}
+
+inline render::Swatch line_swatch(const render::Colour& colour, double width, const std::string& label) {
+  return {render::Swatch::Kind::line, colour, colour, width, label};
+}
+
 // maps.cpp
-/// Returns layer k of the settings.
-MapLayer make_layer(const MapFrame& bed, const MapSettings& settings, const MapExtent& extent, std::size_t k);
+/// Returns layer k of the settings; `seen` as for make_map.
+MapLayer make_layer(const analysis::GrainSource& bed, const MapSettings& settings, const MapExtent& extent,
+                    std::size_t k, const SeenFrames* seen = nullptr);
 /// Returns the colour of lines over layer k: black, or, if its grains can be dark, a colour that differs from
 /// theirs and, also in gray, from black and white.
 render::Colour colour_over(const MapSettings& settings, std::size_t k);
 /// Returns "θ = 12.25°, θ_c = 19.52°", with "(assumed)" if it is.
 std::string caption_of(const Frame& frame, const MapSettings& settings);
 
-/// Returns the bar with the measured value of each free grain.
-render::Bar measuring(render::Bar bar, std::vector<double> values);
-
-/// Returns a layer of grains in the colours of their values.
+/// Returns a layer of grains in the colours of their values, which the bar receives; with `outlines`, grains
+/// without a value (NaN) are outlines.
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
-                      const render::Bar& bar);
-/// Returns a layer in which grains without a value (NaN) are outlines.
-MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
-                                    const render::Bar& bar);
+                      render::Bar bar, bool outlines = false);
 
 /// Returns the map of these layers of a frame, with its furniture, as make_map does for the layers of its
 /// settings.
-render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
-                              std::vector<MapLayer> layers);
+render::FrameView compose_map(const analysis::GrainSource& frame, const MapSettings& settings,
+                              const MapExtent& extent, std::vector<MapLayer> layers);
 
-// stress_layers.cpp
-MapLayer gamma_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice);
-MapLayer coarse_layer(const MapFrame& bed, const MapSettings& settings, const ScaleChoice& choice);
+// grain_layers.cpp
+MapLayer gamma_layer(const analysis::GrainSource& bed, const MapSettings& settings,
+                     const ScaleChoice& choice);
+MapLayer coarse_layer(const analysis::GrainSource& bed, const MapSettings& settings,
+                      const ScaleChoice& choice);
 
-// overload_layers.cpp; `over_grains`: as marks in grains that another layer fills
-MapLayer overloaded_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains);
-MapLayer clusters_layer(const MapFrame& bed, const MapSettings& settings, bool over_grains);
+// `over_grains`: as marks in grains that another layer fills
+MapLayer overloaded_layer(const analysis::GrainSource& bed, const MapSettings& settings, bool over_grains);
+MapLayer clusters_layer(const analysis::GrainSource& bed, const MapSettings& settings, bool over_grains,
+                        const SeenFrames* seen);
 
-// value_layers.cpp
 /// Returns a map of shown_quantity. Throws Error(internal) for other kinds.
-MapLayer value_layer(MapKind kind, const MapFrame& bed, const MapSettings& settings,
+MapLayer value_layer(MapKind kind, const analysis::GrainSource& bed, const MapSettings& settings,
                      const ScaleChoice& choice);
 /// Returns the value of each free grain, in the unit of map_reading, per degree if motion_span is; NaN if
 /// there is no value, and 0 or NaN without a required reference.
-std::vector<double> map_values(MapKind kind, const MapFrame& bed, const MapSettings& settings);
+std::vector<double> map_values(MapKind kind, const analysis::GrainSource& bed, const MapSettings& settings);
 
-// grain_layers.cpp
-MapLayer size_layer(const MapFrame& bed, const ScaleChoice& choice);
-MapLayer dyed_layer(const MapFrame& bed, const ScaleChoice& choice);
+MapLayer size_layer(const analysis::GrainSource& bed, const ScaleChoice& choice);
+MapLayer dyed_layer(const analysis::GrainSource& bed, const ScaleChoice& choice, const SeenFrames* seen);
 
 /// The colour of lines over grains that another layer fills; none if they are outlines.
 using OverColour = std::optional<render::Colour>;
@@ -73,12 +89,12 @@ inline constexpr double line_border = 0.06;
 /// Adds a white border of that width, m, to opaque lines, below all of them.
 void add_borders(std::vector<render::Line>& lines, double border);
 
-// motion_layers.cpp
+// motion.cpp
 /// Returns an arrow for each free grain, or for one in each square of side `spacing` (m) if that exceeds D;
 /// arrows are then longer in proportion. Lengths are the displacements times a round factor, which the legend
 /// states; the longest are cut.
-MapLayer displacement_arrows(const MapFrame& bed, const MotionRanges& motion, const OverColour& over,
-                             double spacing);
+MapLayer displacement_arrows(const analysis::GrainSource& bed, const MotionRanges& motion,
+                             const OverColour& over, double spacing);
 
 // contact_layers.cpp
 /// D: half the width of the line of a contact with the mean force, and the largest distinguishable force over
@@ -86,17 +102,63 @@ MapLayer displacement_arrows(const MapFrame& bed, const MotionRanges& motion, co
 inline constexpr struct { double half_width, widest; } force_lines = {0.05, 6.0};
 /// D: the line of a contact with fully mobilised friction.
 inline constexpr struct { double length, half_width; } critical_lines = {0.7, 0.11};
-MapLayer forces_layer(const MapFrame& bed, const OverColour& over);
-MapLayer critical_layer(const MapFrame& bed, const OverColour& over);
+/// Returns a line from centre to centre of the bodies in contact, or to the contact point at a wall; half its
+/// width in m.
+render::Line centre_line(const BedFrame& bed, Index contact, double half_width, const render::Colour& colour);
+MapLayer forces_layer(const analysis::GrainSource& bed, const OverColour& over);
+MapLayer critical_layer(const analysis::GrainSource& bed, const OverColour& over);
 
-// support_layers.cpp: how contacts support each grain; `over_grains` as above
-MapLayer coordination_layer(const MapFrame& bed, const ScaleChoice& choice);
-MapLayer rigid_layer(const MapFrame& bed, bool over_grains);
+// How contacts support each grain; `over_grains` as above.
+MapLayer coordination_layer(const analysis::GrainSource& bed, const ScaleChoice& choice);
+MapLayer rigid_layer(const analysis::GrainSource& bed, bool over_grains);
 
 /// Returns the diameter over which coarse maps average, m. Throws Error(usage) if it exceeds the bed.
-double coarse_length(const MapFrame& bed, const MapSettings& settings);
+double coarse_length(const analysis::GrainSource& bed, const MapSettings& settings);
 
 /// Returns Gamma_c = sin(theta_c).
 double gamma_c_of(const MapSettings& settings);
+
+// motion.cpp
+// Motion of each grain between two frames, and the ranges of scales that fit it.
+
+/// The interval over which motion is measured.
+struct MotionSpan {
+  bool per_degree = false;
+  double degrees = 1.0;  ///< divisor
+  std::string title;     ///< for example " since 5.00°"
+  std::string unit;      ///< for example " per degree"
+};
+MotionSpan motion_span(const analysis::GrainSource& bed);
+
+/// Counts of non-negative values in narrow classes, which give quantiles of any number of values in little
+/// memory.
+class LogHistogram {
+ public:
+  /// Makes an empty histogram; values below `smallest` count as 0.
+  explicit LogHistogram(double smallest = 1e-9) : smallest_(smallest) {}
+  void add(double value);
+  /// Returns the value below which a fraction `share` of the values lies, at most 2.4 % too large.
+  double quantile(double share) const;
+
+ private:
+  static constexpr int decades = 18, classes_per_decade = 100;
+  double smallest_;
+  std::array<std::int64_t, decades * classes_per_decade + 1> counts_{};
+  std::int64_t total_ = 0;
+};
+
+/// Collects the frames that are drawn, and finds the ranges that fit them.
+class MotionSample {
+ public:
+  /// Makes an empty sample for these maps of motion (fits_frames), drawn with these settings.
+  explicit MotionSample(const MapLayers& maps, const MapSettings& settings = {});
+  /// Adds a frame with its reference; one without a reference adds only velocities.
+  void add(const analysis::GrainSource& bed);
+  MotionRanges ranges() const;
+
+ private:
+  MapSettings settings_;
+  std::map<MapKind, std::array<LogHistogram, 2>> sizes_;  ///< total, and per degree
+};
 
 }  // namespace talus::pictures

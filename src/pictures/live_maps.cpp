@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/output_file.h"
-#include "base/paths.h"
 #include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 
@@ -25,9 +24,9 @@ void refuse_pictures(const std::string& folder, const MapPlan& plan) {
     for (const MapSettings& map : plan.maps) {
       if (name.starts_with(layers_name(map.layers) + "_") && name.ends_with(".png"))
         throw Error(ExitCode::cannot_create,
-                    fmt::format("{} already contains pictures of the map {}; choose another folder, or give "
-                                "--overwrite to replace them and the run",
-                                folder, layers_name(map.layers)));
+                    "{} already contains pictures of the map {}; choose another folder, or give --overwrite "
+                    "to replace them and the run",
+                    folder, layers_name(map.layers));
     }
 }
 
@@ -53,7 +52,7 @@ MapPlan plan_live_maps(const MapOptions& options) {
 
 LiveMaps::LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn)
     : folder_(std::move(folder)), resumed_(resumed), warn_(std::move(warn)), tasks_(frames_waiting) {
-  series_.asked = series_.plan = plan;
+  series_.plan = plan;
   // A context belongs to the thread that makes it.
   tasks_.post(
       [this] { renderer_ = std::make_unique<render::Renderer>(render::make_context(series_.plan.context)); });
@@ -118,8 +117,9 @@ void LiveMaps::draw(Frame frame) {
     const PictureFile file = picture_file(series_, folder_, k, map, decimals_);
     std::error_code none;
     if (resumed_ && std::filesystem::is_regular_file(file.path, none)) continue;
-    const render::FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
-    render::write_png(file.path, renderer_->draw(view, plan.width), picture_texts(file.source));
+    render::FrameView view = picture(series_, k, frame, before_ ? &*before_ : nullptr, map);
+    render::write_png(file.path, renderer_->draw(sheet_of_plan(std::move(view), plan, renderer_->font())),
+                      picture_texts(file.source), plan.page_width());
   }
   before_ = std::move(frame);
 }

@@ -6,9 +6,7 @@
 
 #include "analysis/frame_quantities.h"
 #include "base/errors.h"
-#include "base/nearest_word.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 
 namespace talus::pictures {
 namespace {
@@ -95,10 +93,9 @@ bool has(MapKind kind, Trait trait) { return (entry_of(kind).traits & trait) != 
 MapKind layer_of(std::string_view name, std::string_view whole) {
   const auto found = std::ranges::find(entries(), name, &MapEntry::name);
   if (found != entries().end()) return found->kind;
-  throw Error(ExitCode::usage,
-              fmt::format("map '{}': expected one of {}, or two of them joined by +, such as gamma+forces{}",
-                          visible_word(whole), joined(entries(), ", ", &MapEntry::name),
-                          did_you_mean(name, names_of(entries()))));
+  throw Error(
+      ExitCode::usage, "map '{}': expected one of {}, or two of them joined by +, such as gamma+forces{}",
+      visible_word(whole), joined(entries(), ", ", &MapEntry::name), did_you_mean(name, names_of(entries())));
 }
 
 }  // namespace
@@ -116,7 +113,7 @@ std::string_view map_name(MapKind kind) { return entry_of(kind).name; }
 
 std::string_view map_help(MapKind kind) { return entry_of(kind).help; }
 
-MapReading map_reading(MapKind kind, const RunStatics& statics) {
+std::pair<std::string, std::string> map_reading(MapKind kind, const RunStatics& statics) {
   const MapEntry& entry = entry_of(kind);
   if (entry.quantity == nullptr) return {std::string(entry.symbol), std::string(entry.unit)};
   return {std::string(entry.symbol), analysis::bed_unit(entry.quantity->unit, statics).text};
@@ -150,10 +147,9 @@ MapLayers map_layers(std::string_view name) {
     if (plus == std::string_view::npos) break;
     rest.remove_prefix(plus + 1);
   }
-  if (layers.size() > 2)
-    throw Error(ExitCode::usage, fmt::format("map '{}': at most two can be overlaid", name));
+  if (layers.size() > 2) throw Error(ExitCode::usage, "map '{}': at most two can be overlaid", name);
   if (layers.size() == 2 && layers[0] == layers[1])
-    throw Error(ExitCode::usage, fmt::format("map '{}': the same map twice", name));
+    throw Error(ExitCode::usage, "map '{}': the same map twice", name);
   return layers;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "analysis/frame_quantities.h"
@@ -23,7 +24,8 @@ enum class MapKind {
   forces,     ///< force chains: lines between centres, width by normal force, strong and weak distinguished
   critical,   ///< contacts with fully mobilised friction
   speed,      ///< speed of each grain, over sqrt(g D)
-  nonaffine,  ///< motion of a grain's neighbours in addition to any uniform deformation (local_deformation.h)
+  nonaffine,  ///< motion of a grain's neighbours in addition to any uniform deformation
+              ///< (analysis/deformation/deformation.h)
   shear,      ///< shear strain of its neighbourhood
   dilation,   ///< area strain of its neighbourhood
   vorticity,  ///< rotation of its neighbourhood
@@ -45,12 +47,9 @@ std::span<const MapKind> map_kinds();
 std::string_view map_name(MapKind kind);
 /// Returns one line of help: what the map shows.
 std::string_view map_help(MapKind kind);
-/// Symbol and unit of a map's bar as rich texts: "v" and "√(gD)". Both are empty if the map has no bar, and
-/// the unit is empty for a ratio.
-struct MapReading {
-  std::string symbol, unit;
-};
-MapReading map_reading(MapKind kind, const RunStatics& statics);
+/// Returns symbol and unit of a map's bar as rich texts: "v" and "√(gD)". Both are empty if the map has no
+/// bar, and the unit is empty for a ratio.
+std::pair<std::string, std::string> map_reading(MapKind kind, const RunStatics& statics);
 /// Whether it has a bar, and whether its scale extends to both sides of 0.
 bool is_scaled(MapKind kind);
 bool is_signed(MapKind kind);

@@ -3,25 +3,43 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace talus::pictures {
 
+/// Values that a program has computed for the free grains, for all grains, or for the contacts of a frame
+/// that carry force.
+struct OwnQuantity {
+  enum class Kind {
+    number,   ///< drawn on a scale; NaN: no value
+    flag,     ///< 0 or 1, drawn in two tones
+    cluster,  ///< label, which has the same colour in all pictures; below 0: in no cluster
+  };
+  std::vector<double> values;
+  Kind kind = Kind::number;
+  std::string label = "values", unit{};  ///< rich texts, such as "v_y" and "m/s"
+};
+
+/// Content of a map: a name of `talus render --map`, or values of one's own.
+using MapChoice = std::variant<std::string, OwnQuantity>;
+
 /// The values of the options shared by `talus render`, `animate`, `panel` and `run --pictures`.
 struct MapOptions {
-  std::vector<std::string> maps;
-  int width = 1600;                   ///< px
-  std::optional<double> theta_c;      ///< deg
-  std::string colours;                ///< empty: the default of each map
-  std::string context = "auto";       ///< or osmesa, egl
-  std::optional<double> l_min;        ///< D
-  std::optional<double> threshold;    ///< multiple of Gamma_c
-  std::optional<double> length;       ///< D
-  std::optional<double> since;        ///< deg
-  std::optional<std::string> joined;  ///< contacts or neighbours
-  std::vector<double> range;          ///< low, high
-  std::vector<double> crop;           ///< x0, y0, x1, y1 in D
-  std::string traces;                 ///< separated by commas
+  std::vector<std::string> maps = {"gamma", "overloaded"};  ///< default: the two of the paper
+  int width = 1600;                                         ///< px
+  int height = 0;                                           ///< px; 0: follows from the bed
+  std::optional<double> theta_c;                            ///< deg
+  std::string colours;                                      ///< empty: the default of each map
+  std::string context = "auto";                             ///< or osmesa, egl
+  std::optional<double> l_min;                              ///< D
+  std::optional<double> threshold;                          ///< multiple of Gamma_c
+  std::optional<double> length;                             ///< D
+  std::optional<double> since;                              ///< deg
+  std::optional<std::string> joined;                        ///< contacts or neighbours
+  std::vector<double> range;                                ///< low, high
+  std::vector<double> crop;                                 ///< x0, y0, x1, y1 in D
+  std::string traces;                                       ///< separated by commas
   bool turned = false;
   bool transparent = false;
   bool bare = false;

@@ -8,9 +8,7 @@
 #include <set>
 
 #include "base/errors.h"
-#include "base/nearest_word.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "core/trigonometry.h"
 #include "render/layout.h"
 
@@ -19,29 +17,31 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ExitCode::usage, message); }
 
-void check_range(const char* option, std::optional<double> value, OptionRange range) {
+void check_range(const char* option, std::optional<double> value, ScaleRange range) {
   if (value && !(*value >= range.low && *value <= range.high))
     refuse(
         fmt::format("{}: expected a number from {} to {}, found {}", option, range.low, range.high, *value));
 }
 
 void check_numbers(const MapOptions& options) {
-  check_range("--width", options.width, {render::smallest_width, render::largest_side});
-  check_range("--theta-c", options.theta_c, theta_c_range);
-  check_range("--l-min", options.l_min, l_min_range);
-  check_range("--threshold", options.threshold, threshold_range);
-  check_range("--length", options.length, length_range);
+  constexpr ScaleRange sides = {render::smallest_width, render::largest_side};
+  check_range("width", options.width, sides);
+  if (options.height != 0) check_range("height", options.height, sides);
+  check_range("theta_c", options.theta_c, theta_c_range);
+  check_range("l_min", options.l_min, l_min_range);
+  check_range("threshold", options.threshold, threshold_range);
+  check_range("length", options.length, length_range);
   check_range("--since", options.since, since_range);
-  check_range("--printed", options.printed, printed_range);
+  check_range("printed", options.printed, printed_range);
 }
 
-std::optional<Crop> parse_crop(const std::vector<double>& values) {
+std::optional<MapExtent> parse_crop(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
   if (values.size() != 4) refuse("--crop: expected four numbers X0,Y0,X1,Y1");
-  const Crop crop{values[0], values[1], values[2], values[3]};
+  const MapExtent crop{values[0], values[2], values[1], values[3]};
   for (double value : values)
     if (!std::isfinite(value)) refuse("--crop: expected four finite numbers X0,Y0,X1,Y1");
-  if (crop.x1 <= crop.x0 || crop.y1 <= crop.y0)
+  if (crop.x_max <= crop.x_min || crop.y_max <= crop.y_min)
     refuse("--crop: the region is empty; expected X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
   return crop;
 }
@@ -76,7 +76,7 @@ MapSettings common_settings(const MapOptions& options) {
   settings.furniture = !options.bare;
   print(settings, options);
   if (options.joined && *options.joined != "contacts" && *options.joined != "neighbours")
-    refuse(fmt::format("--joined {}: expected contacts or neighbours{}", visible_word(*options.joined),
+    refuse(fmt::format("joined = {}: expected contacts or neighbours{}", visible_word(*options.joined),
                        did_you_mean(*options.joined, {"contacts", "neighbours"})));
   settings.joined_by_neighbours = options.joined == "neighbours";
   if (!options.range.empty()) {
@@ -106,16 +106,16 @@ void refuse_idle_options(const MapOptions& options, const MapPlan& plan) {
   if (!options.range.empty() && !has_bar(plan.maps[0].layers))
     refuse(fmt::format("--range: the map {} has no bar", layers_name(plan.maps[0].layers)));
   if (options.length && !any_layer(plan, is_coarse))
-    refuse("--length applies only to the maps " + maps_with(is_coarse));
+    refuse("length applies only to the maps " + maps_with(is_coarse));
   if (options.since && !any_layer(plan, needs_reference))
     refuse("--since applies only to the maps " + maps_with(needs_reference));
   if (options.l_min && !shows_gamma(plan))
-    refuse("--l-min: no requested map or trace depends on the gamma of grains");
+    refuse("l_min has no effect: no requested map or trace depends on the gamma of grains");
   if (options.threshold && !needs_theta_c(plan))
-    refuse("--threshold: no requested map or trace depends on Gamma_c");
+    refuse("the threshold has no effect: no requested map or trace depends on Gamma_c");
   if (options.joined && !shows(plan, MapKind::clusters) &&
       std::ranges::count(plan.traces, TraceKind::largest_cluster) == 0)
-    refuse("--joined applies only to the map clusters and the trace largest_cluster");
+    refuse("joining applies only to the map clusters and the trace largest_cluster");
   if (options.bare && !options.traces.empty())
     refuse("--trace and --bare cannot be combined: a bare bed has no traces");
   if (options.bare && !options.purpose.empty())
@@ -178,12 +178,12 @@ MapPlan plan_maps(const MapOptions& options) {
     plan.maps.emplace_back(common).layers = map_layers(name);
     if (!names.insert(name).second) refuse(fmt::format("--map: {} is given twice", name));
   }
-  if (plan.maps.empty())
-    refuse("--map is missing; expected one of " + list_of_maps() + "; talus maps describes them");
+  if (plan.maps.empty()) refuse("no map is requested; expected one of " + list_of_maps());
   if (!options.traces.empty()) plan.traces = trace_kinds(options.traces);
   plan.crop = parse_crop(options.crop);
   if (options.since) plan.since = radians(*options.since);
   plan.width = options.width;
+  plan.height = options.height;
   refuse_idle_options(options, plan);
   choose_colours(options.colours, plan);
   plan.context = render::context_kind(options.context);

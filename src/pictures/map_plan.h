@@ -12,30 +12,22 @@
 
 namespace talus::pictures {
 
-/// Ranges of the numbers of MapOptions, ends included.
-struct OptionRange {
-  double low, high;
-};
-inline constexpr OptionRange theta_c_range = {2.0, 89.0};      // deg
-inline constexpr OptionRange l_min_range = {0.0, 100.0};       // D
-inline constexpr OptionRange threshold_range = {0.01, 100.0};  // multiples of Gamma_c
-inline constexpr OptionRange length_range = {1.0, 1000.0};     // D
-inline constexpr OptionRange since_range = {0.0, 90.0};        // deg
-inline constexpr OptionRange printed_range = {4.0, 200.0};     // cm
-
-/// A region of the bed in D; the origin is the left end of the bed on the floor.
-struct Crop {
-  double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
-};
+// Ranges of the numbers of MapOptions, ends included.
+inline constexpr ScaleRange theta_c_range = {2.0, 89.0};     // deg
+inline constexpr ScaleRange l_min_range = {0.0, 100.0};      // D
+inline constexpr ScaleRange threshold_range = {0.01, 10.0};  // multiples of Gamma_c
+inline constexpr ScaleRange length_range = {1.0, 1000.0};    // D
+inline constexpr ScaleRange since_range = {0.0, 90.0};       // deg
+inline constexpr ScaleRange printed_range = {4.0, 200.0};    // cm
 
 /// The request, as far as it is independent of the run: theta_c is NaN if that of the run is to be used.
 struct MapPlan {
   std::vector<MapSettings> maps;
   std::vector<TraceKind> traces;
-  std::optional<Crop> crop;
-  std::optional<double> since;  ///< rad
+  std::optional<MapExtent> crop;  ///< D, from the left end of the bed on the floor
+  std::optional<double> since;    ///< rad
   std::optional<render::ContextKind> context;
-  int width = 0;  ///< px
+  int width = 0, height = 0;  ///< px; height 0: follows from the bed
   /// Returns the width of the picture in print, m; 0 for a screen.
   double page_width() const { return maps.empty() ? 0.0 : maps[0].printed / 100.0; }
 };

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <fmt/core.h>
+#include <tuple>
 #include <utility>
 
 #include "base/errors.h"
@@ -11,8 +12,7 @@
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
 #include "pictures/layers.h"
-#include "pictures/motion.h"
-#include "pictures/texts.h"
+#include "pictures/scale.h"
 
 namespace talus::pictures {
 namespace {
@@ -36,9 +36,8 @@ ScaleChoice choice_of(const MapSettings& settings, std::size_t k) {
 void check_theta_c(const MapSettings& settings) {
   const bool needed = any_layer(settings.layers, needs_theta_c);
   if (needed && !(settings.theta_c > radians(2.0) && settings.theta_c < radians(89.0)))
-    throw Error(ExitCode::bad_data,
-                fmt::format("theta_c = {:.3f} deg: expected an angle of repose between 2 and 89 deg",
-                            degrees(settings.theta_c)));
+    throw Error(ExitCode::bad_data, "theta_c = {:.3f} deg: expected an angle of repose between 2 and 89 deg",
+                degrees(settings.theta_c));
 }
 
 /// Adds grains with the looks of the lower layer that has any, otherwise as outlines; the looks of a second
@@ -65,10 +64,8 @@ void add_grains(render::FrameView& view, const BedFrame& bed,
 }
 
 /// Sets the symbol and unit of a bar, which are shown with the value of a grain.
-void name_reading(MapKind kind, const MapFrame& bed, render::Bar& bar) {
-  const MapReading reading = map_reading(kind, bed.statics);
-  bar.symbol = reading.symbol;
-  bar.unit = reading.unit;
+void name_reading(MapKind kind, const analysis::GrainSource& bed, render::Bar& bar) {
+  std::tie(bar.symbol, bar.unit) = map_reading(kind, bed.statics);
   if (!needs_reference(kind)) return;
   bar.unit += motion_span(bed).unit;
   if (bar.unit.starts_with(' ')) bar.unit.erase(0, 1);
@@ -96,15 +93,11 @@ render::Colour colour_over(const MapSettings& settings, std::size_t k) {
   return light ? render::black : render::Colour{255, 60, 130};
 }
 
-render::Bar measuring(render::Bar bar, std::vector<double> values) {
-  bar.values = std::move(values);
-  return bar;
-}
-
 namespace {
 
 /// Returns the layer without borders of its lines; `spacing` of arrows, m.
-MapLayer bare_layer(const MapFrame& bed, const MapSettings& settings, double spacing, std::size_t k) {
+MapLayer bare_layer(const analysis::GrainSource& bed, const MapSettings& settings, double spacing,
+                    std::size_t k, const SeenFrames* seen) {
   const ScaleChoice choice = choice_of(settings, k);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
   const OverColour over = over_grains ? OverColour(colour_over(settings, 1 - k)) : OverColour();
@@ -114,7 +107,7 @@ MapLayer bare_layer(const MapFrame& bed, const MapSettings& settings, double spa
     case MapKind::overloaded:
       return overloaded_layer(bed, settings, over_grains && k == 1);
     case MapKind::clusters:
-      return clusters_layer(bed, settings, over_grains && k == 1);
+      return clusters_layer(bed, settings, over_grains && k == 1, seen);
     case MapKind::coarse:
       return coarse_layer(bed, settings, choice);
     case MapKind::forces:
@@ -128,7 +121,7 @@ MapLayer bare_layer(const MapFrame& bed, const MapSettings& settings, double spa
     case MapKind::size:
       return size_layer(bed, choice);
     case MapKind::dyed:
-      return dyed_layer(bed, choice);
+      return dyed_layer(bed, choice, seen);
     case MapKind::displacement:
       if (k > 0) return displacement_arrows(bed, settings.motion, over, spacing);
       [[fallthrough]];
@@ -153,11 +146,11 @@ void add_borders(std::vector<render::Line>& lines, double border) {
   lines.insert(lines.end(), above.begin(), above.end());
 }
 
-MapLayer make_layer(const MapFrame& bed, const MapSettings& settings, const MapExtent& extent,
-                    std::size_t k) {
+MapLayer make_layer(const analysis::GrainSource& bed, const MapSettings& settings, const MapExtent& extent,
+                    std::size_t k, const SeenFrames* seen) {
   constexpr double arrows_across = 60.0;  // upper limit that keeps arrows distinguishable
   const double spacing = (extent.x_max - extent.x_min) / arrows_across, diameter = bed.statics.mean_diameter;
-  MapLayer layer = bare_layer(bed, settings, spacing, k);
+  MapLayer layer = bare_layer(bed, settings, spacing, k, seen);
   const bool over_grains = settings.layers.size() > 1 && fills_grains(settings.layers, 1 - k);
   const bool has_arrows = settings.layers[k] == MapKind::displacement;
   if (over_grains)
@@ -175,15 +168,9 @@ std::string caption_of(const Frame& frame, const MapSettings& settings) {
 }
 
 MapLayer scaled_layer(const std::string& title, const Scale& scale, std::vector<double> values,
-                      const render::Bar& bar) {
-  return {title, grain_styles(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values), scale};
-}
-
-MapLayer scaled_layer_with_outlines(const std::string& title, const Scale& scale, std::vector<double> values,
-                                    const render::Bar& bar) {
-  return {
-      title, grain_styles_or_outlines(scale, values), {}, {{measuring(bar, values)}, {}}, std::move(values),
-      scale};
+                      render::Bar bar, bool outlines) {
+  bar.values = values;
+  return {title, grain_styles(scale, values, outlines), {}, {{std::move(bar)}, {}}, std::move(values), scale};
 }
 
 MapExtent bed_extent(const RunStatics& statics) { return {0.0, statics.length, 0.0, 0.0}; }
@@ -216,18 +203,19 @@ bool has_bar(const MapLayers& layers) {
   return has_bar(layers, 0) || (layers.size() > 1 && has_bar(layers, 1));
 }
 
-render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent) {
+render::FrameView make_map(const analysis::GrainSource& frame, const MapSettings& settings,
+                           const MapExtent& extent, const SeenFrames* seen) {
   check_theta_c(settings);
   std::vector<MapLayer> layers;
   for (std::size_t k = 0; k < settings.layers.size(); ++k) {
-    layers.push_back(make_layer(frame, settings, extent, k));
+    layers.push_back(make_layer(frame, settings, extent, k, seen));
     for (render::Bar& bar : layers.back().legend.bars) name_reading(settings.layers[k], frame, bar);
   }
   return compose_map(frame, settings, extent, std::move(layers));
 }
 
-render::FrameView compose_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent,
-                              std::vector<MapLayer> layers) {
+render::FrameView compose_map(const analysis::GrainSource& frame, const MapSettings& settings,
+                              const MapExtent& extent, std::vector<MapLayer> layers) {
   std::vector<std::vector<GrainStyle>> styles;
   for (MapLayer& layer : layers)
     if (!layer.styles.empty()) styles.push_back(std::move(layer.styles));

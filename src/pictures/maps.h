@@ -2,30 +2,32 @@
 /// Maps of the bed: they convert a frame of a run to the input of the renderer.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/bed_frame.h"
+#include "analysis/frame_quantities.h"
+#include "core/snapshot.h"
 #include "pictures/cluster_colours.h"
 #include "pictures/map_kind.h"
-#include "pictures/overload_rule.h"
+#include "pictures/map_options.h"
 #include "pictures/scale.h"
-#include "render/colour_map.h"
+#include "render/colour.h"
 #include "render/frame_view.h"
 
 namespace talus::pictures {
 
-/// The ends of a scale.
+/// The ends of a scale, or of the range of an option.
 struct ScaleRange {
   double low = 0.0, high = 1.0;
   bool operator==(const ScaleRange&) const = default;
 };
 
 /// Ranges that fit the values of maps of motion (fits_frames) in the frames that are drawn (see MotionSample
-/// in motion.h). There are two for each map: of the total motion, and of the motion per degree of tilt;
+/// in layers.h). There are two for each map: of the total motion, and of the motion per degree of tilt;
 /// velocities have only the first. Empty if nothing moved.
 struct MotionRanges {
   std::map<MapKind, std::array<std::optional<ScaleRange>, 2>> fitting;
@@ -85,28 +87,43 @@ void extend(MapExtent& extent, const MapExtent& other);
 /// Returns the neighbourhood of gamma for the title of a map: "l = 3 D", or "single grains" if l_min is 0.
 std::string reading_text(const OverloadRule& rule);
 
-/// A frame of mapped_frame, with the l_min of the map, and additional input of maps.
-struct MapFrame : BedFrame {
-  /// For maps of motion: the frame from which they are measured, null if there is none yet (nothing has
-  /// moved); and whether they show motion per degree of tilt or total motion. The latter is always shown if
-  /// the tilt did not change between the frames, as in a flow.
-  const Frame* reference = nullptr;
-  bool per_degree = true;
-  /// For `clusters`: from a ClusterColours (cluster_colours.h) that has seen all earlier frames. If empty,
-  /// colours follow those of the last frame that `tracker` has seen; null: it has seen none.
-  std::span<const ClusterColour> cluster_colours = {};
-  const ClusterColours* tracker = nullptr;
-  /// For `dyed`: positions of grains when the tilt began, m; grains without one are at their current
-  /// position.
-  std::span<const Vec2> dyed_at = {};
+/// Step, time and tilt of a frame.
+struct FrameInstant {
+  std::int64_t step = 0;
+  double time = 0.0;  ///< s
+  double tilt = 0.0;  ///< rad
+};
+
+/// Data on the frames of a run added so far, in their order.
+struct SeenFrames {
+  std::vector<FrameInstant> instants;
+  std::size_t highest = 0;  ///< last frame of the tilt; later ones belong to the flow
+  OverloadRule rule;        ///< rule that defines their clusters
+  std::vector<std::vector<ClusterColour>> cluster_colours;  ///< empty if no map shows them
+  ClusterColours tracker;
+  std::vector<Vec2> begin;  ///< positions of the grains in the first frame, m
 };
 
 /// Returns the outlines of the grains of a frame, without furniture.
 render::FrameView outlined_bed(const BedFrame& bed, const MapExtent& extent);
 
-/// Returns a map of a frame, with its furniture but without traces. Throws Error(bad_data) if a layer is
-/// scaled by theta_c and theta_c is not between 2 and 89 deg; Error(usage) if a range or `length` is invalid.
-render::FrameView make_map(const MapFrame& frame, const MapSettings& settings, const MapExtent& extent);
+/// Returns a map of a frame of mapped_frame, with its furniture but without traces. Clusters have the colours
+/// of `seen` or, if the frame is not among these, the colours that follow them. Grains of the map `dyed` have
+/// the colours of their first positions, or of the current ones if these are unknown. Maps of motion show
+/// total motion if the tilt did not change since the earlier frame, as in a flow. Throws Error(bad_data) if a
+/// layer is scaled by theta_c and theta_c is not between 2 and 89 deg; Error(usage) if a range or `length` is
+/// invalid.
+render::FrameView make_map(const analysis::GrainSource& frame, const MapSettings& settings,
+                           const MapExtent& extent, const SeenFrames* seen = nullptr);
+
+/// Throws Error(usage), which names `what` it is, if a text has letters that pictures lack.
+void check_text(const std::string& what, const std::string& text);
+
+/// Returns a map of one's own values, of which settings.layers has no part. The scale fits the values unless
+/// a range is chosen; it has 0 in its middle if they have both signs. Throws Error(usage) if the number of
+/// values is none of those of OwnQuantity, a text cannot be set, or a range is invalid.
+render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity& own,
+                          const MapSettings& settings, const MapExtent& extent);
 
 /// Sets the letters of a view that is printed at this width (cm) to this size in points, and to at least 7/8
 /// of it.

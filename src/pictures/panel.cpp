@@ -1,10 +1,14 @@
 #include "pictures/panel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
+#include <optional>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/text.h"
+#include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "pictures/picture_files.h"
 
@@ -13,34 +17,17 @@ namespace {
 
 using Rows = std::vector<std::vector<render::FrameView>>;
 
-/// Splits a text at commas, and joins parts again.
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find(", ", start), text.size());
-    parts.push_back(text.substr(start, end - start));
-    start = end + 2;
+/// Removes and returns the beginning, up to a comma, that all titles share.
+std::string extract_common_beginning(const std::vector<std::string*>& titles) {
+  const auto without_comma = [](const std::string& text) { return text.substr(0, text.rfind(", ")); };
+  std::string common = *titles.front() + ", ";
+  for (const std::string* title : titles) {
+    common.erase(std::ranges::mismatch(common, *title + ", ").in1, common.end());
+    const std::size_t comma = common.rfind(", ");
+    common.erase(comma == std::string::npos ? 0 : comma + 2);
   }
-  return parts;
-}
-
-std::string text_of(const std::vector<std::string>& parts) {
-  return joined(parts, ", ", [](const std::string& part) { return part; });
-}
-
-/// Removes and returns the parts with which all texts begin.
-std::string extract_common_beginning(const std::vector<std::string*>& texts) {
-  std::vector<std::string> common = parts_of(*texts.front());
-  for (const std::string* text : texts) {
-    const std::vector<std::string> parts = parts_of(*text);
-    common.erase(std::ranges::mismatch(common, parts).in1, common.end());
-  }
-  for (std::string* text : texts) {
-    std::vector<std::string> parts = parts_of(*text);
-    parts.erase(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(common.size()));
-    *text = text_of(parts);
-  }
-  return text_of(common);
+  for (std::string* title : titles) *title = without_comma((*title + ", ").substr(common.size()));
+  return without_comma(common);
 }
 
 /// Removes from the captions, and returns, everything after the first part: the angle of repose, which is the
@@ -77,44 +64,33 @@ std::string letter(std::size_t k) {
   return "(" + text + ")";
 }
 
-/// Whether every entry of these legends also appears in the others.
-bool are_in(const std::vector<render::Legend>& these, const std::vector<render::Legend>& others) {
-  const auto is_in = [&others](const auto& one, auto render::Legend::*parts, const auto& same) {
-    return std::ranges::any_of(others, [&](const render::Legend& legend) {
-      return std::ranges::any_of(legend.*parts, [&](const auto& other) { return same(one, other); });
-    });
-  };
+bool have_same_legends(const render::FrameView& one, const render::FrameView& other) {
   const auto same_bar = [](const render::Bar& x, const render::Bar& y) {
     return x.title == y.title && x.low == y.low && x.high == y.high && x.colours == y.colours;
   };
-  const auto same_swatch = [](const render::Swatch& x, const render::Swatch& y) {
-    return x.label == y.label;  // a spanning cluster has the colour of one of them
-  };
-  return std::ranges::all_of(these, [&](const render::Legend& legend) {
-    return std::ranges::all_of(
-               legend.bars, [&](const auto& bar) { return is_in(bar, &render::Legend::bars, same_bar); }) &&
-           std::ranges::all_of(legend.swatches, [&](const auto& swatch) {
-             return is_in(swatch, &render::Legend::swatches, same_swatch);
-           });
-  });
+  return std::ranges::equal(one.legends, other.legends,
+                            [&](const render::Legend& x, const render::Legend& y) {
+                              return x.swatches == y.swatches && std::ranges::equal(x.bars, y.bars, same_bar);
+                            });
 }
 
 /// Reduces repeated furniture. A legend appears only below the last angle, unless that of another angle
-/// differs, and once for maps with equal legends; the scale bar appears below the last map; the angle appears
-/// at the first map of each row.
+/// differs, and once for maps with equal legends; the scale bar appears below the last map; the angle and the
+/// arrow of gravity appear at the first map of each row.
 void share_furniture(Rows& maps) {
   for (std::vector<render::FrameView>& row : maps) {
     const bool last = &row == &maps.back();
     for (std::size_t map = 0; map < row.size(); ++map) {
+      row[map].arrow_in_caption = maps.size() * row.size() > 1;
       if (!last || map + 1 < row.size()) row[map].scale_label.clear();
       if (map > 0 && row[map].caption == row[0].caption) row[map].caption.clear();
-      if (!last && are_in(row[map].legends, maps.back()[map].legends)) row[map].legends.clear();
+      if (!last && have_same_legends(row[map], maps.back()[map])) row[map].legends.clear();
     }
   }
   std::vector<render::FrameView>& last = maps.back();
   for (std::size_t map = last.size(); map-- > 1;)
     for (std::size_t before = 0; before < map; ++before)
-      if (are_in(last[map].legends, last[before].legends)) last[map].legends.clear();
+      if (have_same_legends(last[map], last[before])) last[map].legends.clear();
 }
 
 Rows panel_maps(DrawnRun& run, const FrameChoice& choice) {
@@ -136,6 +112,18 @@ Rows grouped(const Rows& maps, std::size_t side_by_side) {
   }
   while (rows.back().size() < rows.front().size()) rows.back().push_back(heading(maps[0][0], "", ""));
   return rows;
+}
+
+/// Returns the first frame, the last before failure or, if the slope has not failed, of the run, and that
+/// halfway between them.
+FrameChoice usual_frames(const DrawnRun& run) {
+  const std::vector<double>& tilts = run.file.frame_tilts();
+  const double theta_c = run.theta_c();
+  const std::size_t last = std::isfinite(theta_c) ? frame_at_repose(tilts, theta_c) : tilts.size() - 1;
+  FrameChoice choice = {0, *nearest_frame(tilts, 0.5 * (tilts.front() + tilts[last])), last};
+  std::ranges::sort(choice);
+  choice.erase(std::unique(choice.begin(), choice.end()), choice.end());
+  return choice;
 }
 
 std::string panel_source(const PictureSeries& series, const FrameChoice& choice) {
@@ -192,18 +180,118 @@ render::Sheet panel_sheet(const Rows& maps, const std::string& title, int width,
     }
   if (best.height > render::largest_side)
     throw Error(ExitCode::usage,
-                fmt::format("the picture would be {} px high; at most {} px are possible: ask for a "
-                            "smaller width, or for fewer angles",
-                            best.height, render::largest_side));
+                "the picture would be {} px high; at most {} px are possible: ask for a smaller width, or "
+                "for fewer angles",
+                best.height, render::largest_side);
   return best;
 }
 
+render::Sheet panel_sheet_of_size(const Rows& maps, const std::string& title, int width, int height,
+                                  const render::Font& font) {
+  std::optional<render::Sheet> best;
+  int largest = 0;  // share of an angle in the width of the best sheet
+  for (int side_by_side = 1; side_by_side <= static_cast<int>(maps.size()); ++side_by_side)
+    for (int narrower = width; narrower >= render::smallest_width && narrower / side_by_side > largest;) {
+      Rows smaller = maps;
+      for (std::vector<render::FrameView>& row : smaller)
+        for (render::FrameView& view : row) {  // letters keep their size
+          view.letters *= static_cast<double>(narrower) / width;
+          view.max_letters *= static_cast<double>(narrower) / width;
+        }
+      try {
+        render::Sheet sheet = render::sheet_of_rows(
+            panel_rows(std::move(smaller), title, static_cast<std::size_t>(side_by_side)), narrower, font);
+        if (sheet.height > height) {
+          narrower = std::min(narrower - std::max(1, width / 100),
+                              static_cast<int>(static_cast<double>(narrower) * height / sheet.height));
+          continue;
+        }
+        const int right = (width - narrower) / 2, down = (height - sheet.height) / 2;
+        for (render::PlacedView& view : sheet.views) render::move_by(view.layout, right, down);
+        sheet.width = width;
+        sheet.height = height;
+        largest = narrower / side_by_side;
+        best = std::move(sheet);
+      } catch (const Error&) {  // the texts do not fit
+      }
+      break;
+    }
+  if (best) return *best;
+  throw Error(ExitCode::usage,
+              "the maps do not fit into {} x {} px: ask for a larger size, or for fewer maps or angles",
+              width, height);
+}
+
+namespace {
+
+/// Returns the size of a panel that is `larger` times as large as the plan has it: "--size 8.6cm".
+std::string size_text(const MapPlan& plan, double larger) {
+  const double printed = plan.maps.front().printed, step = printed > 0.0 ? 0.1 : 1.0;
+  const auto side = [&](double length) { return step * std::ceil(larger * length / step - 1e-6); };
+  const double width = printed > 0.0 ? printed : plan.width;
+  const std::string height =
+      plan.height > 0 ? fmt::format("x{:.6g}", side(width * plan.height / plan.width)) : std::string();
+  return fmt::format("--size {:.6g}{}{}", side(width), height, printed > 0.0 ? "cm" : "");
+}
+
+/// Returns a panel that is `larger` times as large as the plan has it.
+render::Sheet sheet_of_plan(Rows maps, const std::string& title, const MapPlan& plan, double larger) {
+  const MapSettings& settings = plan.maps.front();
+  for (std::vector<render::FrameView>& row : maps)
+    for (render::FrameView& view : row)
+      if (settings.printed > 0.0) print_letters(view, larger * settings.printed, settings.points);
+  const double pixels = settings.printed > 0.0 ? 1.0 : larger;  // in print their number is fixed
+  const int width = static_cast<int>(pixels * plan.width), height = static_cast<int>(pixels * plan.height);
+  const render::Font font = render::embedded_font();
+  return height == 0 ? panel_sheet(maps, title, width, render::largest_side, font)
+                     : panel_sheet_of_size(maps, title, width, height, font);
+}
+
+/// Returns the panel of a plan. If it does not fit, the error names a size that is large enough.
+render::Sheet fitting_sheet(const Rows& maps, const std::string& title, const MapPlan& plan) {
+  const auto sheet_at = [&](double larger) -> std::optional<render::Sheet> {
+    try {
+      return sheet_of_plan(maps, title, plan, larger);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  };
+  if (std::optional<render::Sheet> sheet = sheet_at(1.0)) return *sheet;
+  for (double larger = 1.05; larger < 8.0; larger *= 1.05)
+    if (sheet_at(larger))
+      throw Error(ExitCode::usage, "{}: {} and their texts do not fit next to each other; use {}",
+                  size_text(plan, 1.0), counted(plan.maps.size(), "map"), size_text(plan, larger));
+  return sheet_of_plan(maps, title, plan, 1.0);  // throws
+}
+
+}  // namespace
+
+void check_panel(const std::string& path, const MapPlan& plan, const PanelRequest& asked) {
+  const io::RunFile file = io::RunFile::open(path);
+  if (file.frame_count() == 0 || plan.crop) return;  // what is seen is known when all frames are read
+  PictureSeries series;
+  series.plan = plan;
+  series.run = file.header();
+  series.extent = bed_extent(series.run.statics);
+  for (MapSettings& map : series.plan.maps)
+    if (!std::isfinite(map.theta_c)) map.theta_c = radians(assumed_theta_c);  // texts are as long
+  const Frame first = as_mapped(series, file.frame(0));
+  extend(series.extent, {first, series.run.statics});
+  std::vector<render::FrameView> row;
+  for (std::size_t map = 0; map < plan.maps.size(); ++map)
+    row.push_back(picture(series, 0, first, nullptr, map));
+  fitting_sheet(Rows(asked.at.size() == 1 ? 1 : 2, row), asked.title, plan);
+}
+
 std::size_t draw_panel(DrawnRun& run, const PanelRequest& asked) {
-  const FrameChoice choice = frames_at(run.file.frame_tilts(), asked.at, run.theta_c());
+  const MapPlan& plan = run.series.plan;
+  const FrameChoice choice = asked.at.empty() ? usual_frames(run)
+                                              : frames_at(run.file.frame_tilts(), asked.at, run.theta_c(),
+                                                          run.file.all_frame_tilts().size());
   fit_to_frames(run, choice);
-  const render::Sheet sheet = panel_sheet(panel_maps(run, choice), asked.title, run.series.plan.width,
-                                          render::largest_side, render::embedded_font());
-  write_sheet(asked.output, sheet, run.series.plan, picture_texts(panel_source(run.series, choice)));
+  const Rows maps = panel_maps(run, choice);
+  write_sheet(asked.output, fitting_sheet(maps, asked.title, plan), plan,
+              picture_texts(panel_source(run.series, choice)));
   return choice.size();
 }
 

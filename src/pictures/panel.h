@@ -10,13 +10,16 @@
 namespace talus::pictures {
 
 struct PanelRequest {
-  std::vector<std::string> at;  ///< angles for frames_at
+  std::vector<std::string> at;  ///< entries of frames_at; empty: begin, halfway, and end of the tilt
   std::string title;            ///< title above everything; empty: none
   std::string output;           ///< FILE.png, FILE.pdf or FILE.svg
 };
 
-/// Draws the frames nearest to the angles, one row each, on a sheet of the width in the plan. Returns the
-/// number of angles. Throws the errors of frames_at and panel_sheet.
+/// Throws Error(usage), which names a size that is large enough, if the maps of the plan do not fit next to
+/// each other with the texts of the first frame, the only one that is read. Passes if --crop is given.
+void check_panel(const std::string& path, const MapPlan& plan, const PanelRequest& asked);
+
+/// Draws a row for each frame, and returns their number. Throws the errors of frames_at and check_panel.
 std::size_t draw_panel(DrawnRun& run, const PanelRequest& asked);
 
 /// Returns the rows of a panel from its maps (at least one row, one for each angle, all of the same length).
@@ -32,5 +35,10 @@ std::vector<std::vector<render::FrameView>> panel_rows(std::vector<std::vector<r
 /// errors of lay_out, and Error(usage) if the sheet is higher than largest_side.
 render::Sheet panel_sheet(const std::vector<std::vector<render::FrameView>>& maps, const std::string& title,
                           int width, int highest, const render::Font& font);
+
+/// Returns a panel on a sheet of this height (px) as well, in its middle, with as many angles next to each
+/// other as make the beds largest. Throws Error(usage) if it does not fit.
+render::Sheet panel_sheet_of_size(const std::vector<std::vector<render::FrameView>>& maps,
+                                  const std::string& title, int width, int height, const render::Font& font);
 
 }  // namespace talus::pictures

@@ -9,8 +9,10 @@
 
 #include "base/errors.h"
 #include "base/output_file.h"
+#include "base/version.h"
 #include "core/trigonometry.h"
 #include "pictures/background_tasks.h"
+#include "pictures/scale.h"
 #include "render/document.h"
 #include "render/png.h"
 #include "render/renderer.h"
@@ -55,6 +57,13 @@ std::vector<PictureFile> picture_files(DrawnRun& run, const FrameChoice& choice,
   return files;
 }
 
+render::Sheet sheet_of_plan(render::FrameView view, const MapPlan& plan, const render::Font& font) {
+  if (plan.height == 0) return render::sheet_of(std::move(view), plan.width, font);
+  const render::Arrangement arrangement =
+      render::arrange({std::vector<render::FrameView>{view}}, plan.width, plan.height, font);
+  return render::arranged({std::move(view)}, arrangement, font);
+}
+
 void write_sheet(const std::string& path, const render::Sheet& sheet, const MapPlan& plan,
                  const render::PictureTexts& texts) {
   if (render::is_document(path)) return render::write_document(path, sheet, plan.page_width(), texts);
@@ -73,11 +82,11 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
     if (watch.stopped()) {
       writer.finish();
       throw Error(ExitCode::stopped,
-                  fmt::format("stopped after {} of {} pictures, which are complete; to draw "
-                              "all, repeat the command with --overwrite",
-                              done, files.size()));
+                  "stopped after {} of {} pictures, which are complete; to draw all, repeat the command with "
+                  "--overwrite",
+                  done, files.size());
     }
-    render::Sheet sheet = render::sheet_of(picture(run, file.frame, file.map), plan.width, font);
+    render::Sheet sheet = sheet_of_plan(picture(run, file.frame, file.map), plan, font);
     if (!renderer && !render::is_document(file.path)) renderer.emplace(render::make_context(plan.context));
     if (done == 0) prepare_folder(folder);
     if (render::is_document(file.path)) {
@@ -92,6 +101,25 @@ void draw_files(DrawnRun& run, const std::vector<PictureFile>& files, const std:
     if (watch.progress) watch.progress(done + 1, files.size());
   }
   writer.finish();
+}
+
+std::string picture_source(const PictureSeries& series, std::size_t k, std::size_t map) {
+  return picture_source(series.path,
+                        fmt::format("frame at {} deg, {}", tilt_text(series.seen_frames.instants[k].tilt),
+                                    layers_name(series.plan.maps[map].layers)));
+}
+
+std::string picture_source(const std::string& run, const std::string& shown) {
+  std::string source = fmt::format("{}, {}", std::filesystem::path(run).filename().string(), shown);
+  for (char& c : source)  // texts of pictures are ASCII, and those of documents end at these characters
+    if (c < ' ' || c > '~' || c == ';' || c == '<' || c == '(' || c == ')' || c == '\\') c = '?';
+  return source;
+}
+
+std::string tilt_text(double tilt) { return fmt::format("{:.3f}", degrees(tilt)); }
+
+render::PictureTexts picture_texts(const std::string& source) {
+  return {{"Software", version_text()}, {"Source", source}};
 }
 
 }  // namespace talus::pictures

@@ -10,8 +10,8 @@
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
-#include "pictures/motion.h"
-#include "pictures/texts.h"
+#include "pictures/layers.h"
+#include "pictures/scale.h"
 
 namespace talus::pictures {
 namespace {
@@ -22,12 +22,15 @@ std::string place_text(double x, double y, double diameter) {
 }
 
 void measure_theta_c(PictureSeries& series, const std::optional<double>& measured) {
-  for (MapSettings& map : series.plan.maps)
+  for (MapSettings& map : series.plan.maps) {
+    map.theta_c_assumed = std::isfinite(map.theta_c) && map.theta_c != measured;
     if (!std::isfinite(map.theta_c) && measured) map.theta_c = *measured;
+  }
   if (std::isfinite(series.plan.maps[0].theta_c) || !needs_theta_c(series.plan)) return;
-  throw Error(ExitCode::bad_data, series.path +
-                                      ": the slope has not failed in this run, but the requested picture is "
-                                      "scaled by the angle of repose; give it with --theta-c DEG");
+  throw Error(ExitCode::bad_data,
+              series.path +
+                  ": the slope has not failed in this run, so Gamma_c, which scales the requested picture, "
+                  "is unknown; give it with --set gamma_c=0.34, or choose another map, such as pressure");
 }
 
 /// Returns the frame of --since; none if motion is measured from the preceding frame.
@@ -37,8 +40,8 @@ std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std
   const double spacing =
       tilts.size() > 1 ? (highest - lowest) / static_cast<double>(tilts.size() - 1) : radians(1.0);
   if (*since > highest + 0.5 * spacing)
-    throw Error(ExitCode::bad_data, fmt::format("--since {:.6g}: the frames of the run end at {} deg",
-                                                degrees(*since), degrees_text(highest, 2)));
+    throw Error(ExitCode::bad_data, "--since {:.6g}: the frames of the run end at {} deg", degrees(*since),
+                degrees_text(highest, 2));
   const std::optional<std::size_t> first = frame_near(tilts, *since);  // the first time at that tilt
   return first ? first : nearest_frame(tilts, *since);
 }
@@ -80,16 +83,16 @@ void take_observables(PictureSeries& series, const io::RunFile& file) {
   }
 }
 
-MapExtent cropped(const MapExtent& bed, const Crop& crop, double diameter) {
-  const MapExtent asked{crop.x0 * diameter, crop.x1 * diameter, crop.y0 * diameter, crop.y1 * diameter};
+MapExtent cropped(const MapExtent& bed, const MapExtent& crop, double diameter) {
+  const MapExtent asked{crop.x_min * diameter, crop.x_max * diameter, crop.y_min * diameter,
+                        crop.y_max * diameter};
   if (asked.x_min < bed.x_min || asked.x_max > bed.x_max || asked.y_min < bed.y_min ||
       asked.y_max > bed.y_max)
     throw Error(
         ExitCode::usage,
-        fmt::format(
-            "--crop {:.6g},{:.6g},{:.6g},{:.6g} leaves the bed, which extends from {} to {} mean diameters",
-            crop.x0, crop.y0, crop.x1, crop.y1, place_text(bed.x_min, bed.y_min, diameter),
-            place_text(bed.x_max, bed.y_max, diameter)));
+        "--crop {:.6g},{:.6g},{:.6g},{:.6g} leaves the bed, which extends from {} to {} mean diameters",
+        crop.x_min, crop.y_min, crop.x_max, crop.y_max, place_text(bed.x_min, bed.y_min, diameter),
+        place_text(bed.x_max, bed.y_max, diameter));
   return asked;
 }
 
@@ -144,16 +147,8 @@ std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t
 render::FrameView picture(const PictureSeries& series, std::size_t k, const Frame& frame,
                           const Frame* reference, std::size_t map) {
   const MapSettings& settings = series.plan.maps[map];
-  const SeenFrames& seen_frames = series.seen_frames;
-  MapFrame bed{{frame, series.run.statics}, reference, !series.since};
-  const OverloadRule& rule = settings;
-  if (seen_frames.rule == rule) {  // colours by another rule belong to other clusters
-    bed.tracker = &seen_frames.tracker;
-    if (k < seen_frames.cluster_colours.size() && seen_frames.instants[k].step == frame.step)
-      bed.cluster_colours = seen_frames.cluster_colours[k];
-  }
-  bed.dyed_at = seen_frames.begin;
-  render::FrameView view = make_map(bed, settings, series.extent);
+  const analysis::GrainSource source{{frame, series.run.statics}, reference, !series.since, k};
+  render::FrameView view = make_map(source, settings, series.extent, &series.seen_frames);
   for (std::size_t t = 0; t < series.curves.size(); ++t)
     view.traces.push_back(make_trace(series.plan.traces[t], series.curves[t].places, series.curves[t].values,
                                      settings, place_of(series, frame.tilt, frame.time),
@@ -165,7 +160,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   DrawnRun run{io::RunFile::open(path), {}, {}, {}, {}, {}};
   PictureSeries& series = run.series;
   series.path = path;
-  series.asked = series.plan = plan;
+  series.plan = plan;
   series.run = run.file.header();
   series.goes_by_time = run.file.goes_by_time();
   if (run.file.frame_count() == 0)

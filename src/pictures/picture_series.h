@@ -7,19 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "core/watch.h"
+#include "core/types.h"
 #include "io/run_file.h"
 #include "pictures/cluster_colours.h"
 #include "pictures/map_plan.h"
 
 namespace talus::pictures {
-
-/// Step, time and tilt of a frame.
-struct FrameInstant {
-  std::int64_t step = 0;
-  double time = 0.0;  ///< s
-  double tilt = 0.0;  ///< rad
-};
 
 /// The data of a trace.
 struct TraceCurve {
@@ -27,22 +20,11 @@ struct TraceCurve {
   std::vector<double> places, values;
 };
 
-/// Data on the frames of a run added so far, in their order.
-struct SeenFrames {
-  std::vector<FrameInstant> instants;
-  std::size_t highest = 0;  ///< last frame of the tilt; later ones belong to the flow
-  OverloadRule rule;        ///< rule that defines their clusters
-  std::vector<std::vector<ClusterColour>> cluster_colours;  ///< empty if no map shows them
-  ClusterColours tracker;
-  std::vector<Vec2> begin;  ///< positions of the grains in the first frame, m
-};
-
 /// The value that, together with the frames, determines all pictures of a run.
 struct PictureSeries {
   std::string path;  ///< path of the run
   io::RunHeader run;
   bool goes_by_time = false;  ///< frames are identified by number and time (RunFile::goes_by_time)
-  MapPlan asked;              ///< plan before theta_c of the run was known
   MapPlan plan;      ///< plan with theta_c set: NaN only if neither the run nor the user has given one
   MapExtent extent;  ///< part of the bed shown, the same in all pictures
   std::optional<std::size_t> since;  ///< frame from which displacements are measured; none: the preceding one
@@ -75,8 +57,9 @@ struct DrawnRun {
   std::optional<std::size_t> current, before;  ///< indices of the frames in memory
   Frame frame, reference;
 
-  /// Returns the angle of repose, rad; NaN if it is unknown.
-  double theta_c() const { return series.plan.maps[0].theta_c; }
+  /// Returns the angle of repose of the run, rad, whatever Gamma_c its maps have; NaN if the slope has not
+  /// failed.
+  double theta_c() const { return find_value(file.checkpoint().results, "theta_c").value_or(not_known); }
 };
 
 /// Opens a run and passes once through all of its frames, including those of the flow after failure, so that
@@ -86,7 +69,7 @@ struct DrawnRun {
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress);
 
 /// Fits pictures to these frames: the ranges of maps of motion (fits_frames), and the room for the turn of a
-/// bed. Call it before the first picture or key; otherwise the ranges are fixed, and there is room for the
+/// bed. Call it before the first picture; otherwise the ranges are fixed, and there is room for the
 /// turns of all frames.
 void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames);
 

@@ -7,7 +7,6 @@
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "render/movie.h"
-#include "render/renderer.h"
 #include "render/sheet.h"
 
 namespace talus::pictures {
@@ -27,90 +26,71 @@ double fastest_rate(const std::vector<FrameInstant>& instants) {
 /// reached had it continued to rise. If the run goes by time, it is the tilt that would have been reached had
 /// it always risen at its fastest.
 std::vector<double> clock_tilts(const PictureSeries& series) {
+  const std::vector<FrameInstant>& instants = series.seen_frames.instants;
+  const std::size_t highest = series.seen_frames.highest;
+  std::vector<double> clock;
   if (series.goes_by_time) {
-    std::vector<double> clock;
-    const double rate = fastest_rate(series.seen_frames.instants);
-    for (const FrameInstant& instant : series.seen_frames.instants)
-      clock.push_back(rate * (instant.time - series.seen_frames.instants.front().time));
+    const double rate = fastest_rate(instants);
+    for (const FrameInstant& instant : instants)
+      clock.push_back(rate * (instant.time - instants.front().time));
     return clock;
   }
-  const FrameInstant &first = series.seen_frames.instants.front(),
-                     &last = series.seen_frames.instants[series.seen_frames.highest];
+  const FrameInstant &first = instants.front(), &last = instants[highest];
   const double rate = last.time > first.time ? (last.tilt - first.tilt) / (last.time - first.time) : 0.0;
-  std::vector<double> clock;
-  for (std::size_t k = 0; k < series.seen_frames.instants.size(); ++k)
-    clock.push_back(k <= series.seen_frames.highest
-                        ? series.seen_frames.instants[k].tilt
-                        : last.tilt + rate * (series.seen_frames.instants[k].time - last.time));
+  for (std::size_t k = 0; k < instants.size(); ++k)
+    clock.push_back(k <= highest ? instants[k].tilt : last.tilt + rate * (instants[k].time - last.time));
   return clock;
 }
 
-/// Returns the maps of a frame next to each other. With several maps, the first has the angle and the last
-/// the scale bar; the curves appear once, in a separate view.
+/// Returns the maps of a frame next to each other. The first has the angle with the arrow of gravity, and the
+/// last the scale bar; the curves appear once, in a separate view.
 std::vector<render::FrameView> movie_views(DrawnRun& run, std::size_t frame, bool curves_apart) {
   std::vector<render::FrameView> views;
   for (std::size_t map = 0; map < run.series.plan.maps.size(); ++map)
     views.push_back(picture(run, frame, map));
-  for (std::size_t map = 1; map < views.size(); ++map) {
-    views[map].caption.clear();
-    views[map - 1].scale_label.clear();
+  for (render::FrameView& view : views) {
+    view.arrow_in_caption = true;
+    if (&view != &views.front()) view.caption.clear();
+    if (&view != &views.back()) view.scale_label.clear();
   }
   if (!curves_apart || views.front().traces.empty()) return views;
   render::FrameView curves;
   curves.letters = views.front().letters;
   curves.max_letters = views.front().max_letters;
   curves.traces = views.front().traces;
+  curves.trace_height = curves.traces.size() > 1 ? 3.0 : 4.0;  // more if there is room
   for (render::FrameView& view : views) view.traces.clear();
   views.push_back(std::move(curves));
   return views;
 }
 
-/// The format shared by all frames of a movie.
-struct MovieFormat {
-  render::Arrangement arrangement;
-  bool curves_apart = false;
-  bool coloured = false;
-};
+}  // namespace
 
-/// Computed from all frames, because captions and legends differ in length, and some frames may have colour.
-MovieFormat common_format(DrawnRun& run, const std::vector<MovieFrame>& frames, int height,
-                          const render::Font& font) {
-  MovieFormat format;
-  format.curves_apart = height > 0 || run.series.plan.maps.size() > 1;
+void write_movie(render::Renderer& renderer, const std::string& path, std::span<const MovieFrame> frames,
+                 const ViewsOf& views_of, int width, int height, double fps, const Watch& watch) {
+  bool coloured = false;
   std::vector<std::vector<render::FrameView>> pictures;
-  for (const MovieFrame& frame : frames) {
-    std::vector<render::FrameView>& views =
-        pictures.emplace_back(movie_views(run, frame.frame, format.curves_apart));
-    for (render::FrameView& view : views) {
-      format.coloured = format.coloured || render::pixel_format(view) == render::PixelFormat::colour;
+  for (const MovieFrame& frame : frames)
+    for (render::FrameView& view : pictures.emplace_back(views_of(frame.frame))) {
+      coloured = coloured || render::pixel_format(view) == render::PixelFormat::colour;
       // The layout needs only the furniture.
       view.discs = {};
       view.lines = {};
       for (render::Trace& trace : view.traces) trace.x = trace.y = {};
     }
-  }
-  format.arrangement = render::arrange(std::move(pictures), run.series.plan.width, height, font);
-  return format;
-}
-
-void make_movie(DrawnRun& run, const std::vector<MovieFrame>& frames, const MovieRequest& asked,
-                const Watch& watch) {
-  render::Renderer renderer(render::make_context(run.series.plan.context));
-  const MovieFormat format = common_format(run, frames, asked.height, renderer.font());
-  render::Movie movie(asked.output, format.arrangement.width, format.arrangement.height,
-                      format.coloured ? 3 : 1, asked.timing.fps);
+  const render::Arrangement arrangement =
+      render::arrange(std::move(pictures), width, height, renderer.font());
+  render::Movie movie(path, arrangement.width, arrangement.height, coloured ? 3 : 1, fps);
   for (std::size_t k = 0; k < frames.size() && !watch.stopped(); ++k) {
-    std::vector<render::FrameView> views = movie_views(run, frames[k].frame, format.curves_apart);
-    for (render::FrameView& view : views) view.coloured = format.coloured;
+    std::vector<render::FrameView> views = views_of(frames[k].frame);
+    for (render::FrameView& view : views) view.coloured = coloured;
     const render::Image image =
-        renderer.draw(render::arranged(std::move(views), format.arrangement, renderer.font()));
+        renderer.draw(render::arranged(std::move(views), arrangement, renderer.font()));
     for (int shown = 0; shown < frames[k].times && !watch.stopped(); ++shown) movie.add(image);
     if (watch.progress) watch.progress(k + 1, frames.size());
   }
   if (!watch.stopped()) movie.finish();
 }
-
-}  // namespace
 
 std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const MovieTiming& timing) {
   std::vector<MovieFrame> frames;
@@ -149,7 +129,12 @@ MovieResult draw_movie(DrawnRun& run, const MovieRequest& asked, const Watch& wa
     drawn.max_times = std::max(drawn.max_times, frames[k].times);
   fit_to_frames(run, shown);
   try {
-    make_movie(run, frames, asked, watch);
+    const MapPlan& plan = run.series.plan;
+    const bool curves_apart = plan.height > 0 || plan.maps.size() > 1;
+    render::Renderer renderer(render::make_context(plan.context));
+    write_movie(
+        renderer, asked.output, frames, [&](std::size_t k) { return movie_views(run, k, curves_apart); },
+        plan.width, plan.height, asked.timing.fps, watch);
   } catch (const Error&) {
     if (!watch.stopped()) throw;  // Ctrl-C also ends ffmpeg, which is not an error of the movie
   }

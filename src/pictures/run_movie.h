@@ -2,11 +2,14 @@
 /// A movie of maps of a run: the frames that it shows, and for how long.
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "pictures/picture_files.h"
+#include "render/renderer.h"
 
 namespace talus::pictures {
 
@@ -31,7 +34,6 @@ std::vector<MovieFrame> movie_frames(const std::vector<double>& clock, const Mov
 
 struct MovieRequest {
   MovieTiming timing;
-  int height = 0;      ///< px; 0: height of the maps next to each other
   std::string output;  ///< FILE.mp4, FILE.webm or FILE.gif
 };
 
@@ -39,6 +41,16 @@ struct MovieResult {
   std::size_t frames = 0;
   int max_times = 1;  ///< maximum for frames of the run between the first and the last
 };
+
+/// Returns the views of a frame; the same number of each.
+using ViewsOf = std::function<std::vector<render::FrameView>(std::size_t frame)>;
+
+/// Writes a movie of these frames, all in one layout. `views_of` is called twice for each, because captions
+/// and legends differ in length, and some frames may have colour. With height 0 (px) it follows from the
+/// views. Nothing is left behind if `watch` stops it, or one of its functions throws. Throws the errors of
+/// Movie and arrange.
+void write_movie(render::Renderer& renderer, const std::string& path, std::span<const MovieFrame> frames,
+                 const ViewsOf& views_of, int width, int height, double fps, const Watch& watch);
 
 /// Draws the maps of the plan into a movie (render/movie.h). Throws the errors of Movie and arrange, and
 /// Error(stopped) if it was stopped, without leaving files behind.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/colour_map.h"
+#include "render/colour.h"
 #include "render/frame_view.h"
 
 namespace talus::pictures {
@@ -49,12 +49,31 @@ double share_of(const Scale& scale, double value);
 /// Returns the look of a value, clamped to the ends of its scale. NaN, for a grain without a value, looks
 /// like the lower end and is not marked.
 GrainStyle grain_style(const Scale& scale, double value);
-std::vector<GrainStyle> grain_styles(const Scale& scale, std::span<const double> values);
-
-/// Returns looks on a scale that does not contain white; grains without a value are white.
-std::vector<GrainStyle> grain_styles_or_outlines(const Scale& scale, std::span<const double> values);
+/// Returns the looks of values; with `outlines`, for a scale that does not contain white, grains without a
+/// value are white.
+std::vector<GrainStyle> grain_styles(const Scale& scale, std::span<const double> values, bool outlines);
 
 /// Returns the bar, with round numbers or decades as ticks.
 render::Bar bar_of(const Scale& scale, const std::string& title);
+
+/// A round number on a scale.
+struct RoundTick {
+  double value = 0.0;
+  std::string label;  ///< all labels of a scale have the same number of decimals and the same power of ten
+};
+
+/// Whether a number is easier to read as a power of ten: below 0.001, and from 100 000 on.
+bool needs_power(double value);
+/// Returns a number > 0 with up to six digits, "2·10⁻⁵".
+std::string power_label(double value);
+/// Returns "0.05", or a power of ten if that is easier to read.
+std::string number_label(double value);
+
+/// Returns 1, 2 or 5 times a power of ten: the smallest such step of which at most `most` fit into `width` >
+/// 0.
+double round_step(double width, int most);
+
+/// Returns the multiples of round_step between low and high (low < high), both included.
+std::vector<RoundTick> round_ticks(double low, double high, int most);
 
 }  // namespace talus::pictures

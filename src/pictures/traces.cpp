@@ -7,12 +7,10 @@
 #include <limits>
 
 #include "base/errors.h"
-#include "base/nearest_word.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "core/trigonometry.h"
-#include "pictures/texts.h"
-#include "stress/overload.h"
+#include "pictures/scale.h"
+#include "stress/stress.h"
 
 namespace talus::pictures {
 namespace {
@@ -23,7 +21,7 @@ struct TraceEntry {
   analysis::QuantityMember member;
 };
 
-constexpr auto entries = std::to_array<TraceEntry>({
+constexpr auto trace_entries = std::to_array<TraceEntry>({
     {TraceKind::overloaded, "overloaded", &analysis::FrameThreshold::overloaded_fraction},
     {TraceKind::largest_cluster, "largest_cluster", &analysis::FrameThreshold::largest_share},
     {TraceKind::stress_ratio, "stress_ratio", &analysis::FrameRecord::stress_ratio},
@@ -31,20 +29,19 @@ constexpr auto entries = std::to_array<TraceEntry>({
 });
 
 constexpr auto kinds = [] {
-  std::array<TraceKind, entries.size()> all{};
-  for (std::size_t k = 0; k < entries.size(); ++k) all[k] = entries[k].kind;
+  std::array<TraceKind, trace_entries.size()> all{};
+  for (std::size_t k = 0; k < trace_entries.size(); ++k) all[k] = trace_entries[k].kind;
   return all;
 }();
 
-const TraceEntry& entry_of(TraceKind kind) { return entries[static_cast<std::size_t>(kind)]; }
+const TraceEntry& trace_entry(TraceKind kind) { return trace_entries[static_cast<std::size_t>(kind)]; }
 
 TraceKind kind_of(std::string_view name) {
-  const auto found = std::ranges::find(entries, name, &TraceEntry::name);
-  if (found != entries.end()) return found->kind;
-  throw Error(ExitCode::usage,
-              fmt::format("trace '{}': expected {} or {}{}", visible_word(name),
-                          joined(std::span(entries).first(entries.size() - 1), ", ", &TraceEntry::name),
-                          entries.back().name, did_you_mean(name, names_of(entries))));
+  const auto found = std::ranges::find(trace_entries, name, &TraceEntry::name);
+  if (found != trace_entries.end()) return found->kind;
+  throw Error(ExitCode::usage, "trace '{}': expected {} or {}{}", visible_word(name),
+              joined(std::span(trace_entries).first(trace_entries.size() - 1), ", ", &TraceEntry::name),
+              trace_entries.back().name, did_you_mean(name, names_of(trace_entries)));
 }
 
 std::vector<render::AxisTick> axis_ticks(double low, double high, int most) {
@@ -74,10 +71,10 @@ ScaleRange rounded(const ScaleRange& range, int most) {
 
 std::span<const TraceKind> trace_kinds() { return kinds; }
 
-std::string_view trace_name(TraceKind kind) { return entry_of(kind).name; }
+std::string_view trace_name(TraceKind kind) { return trace_entry(kind).name; }
 
 const analysis::Quantity& trace_quantity(TraceKind kind) {
-  return analysis::quantity_of(entry_of(kind).member);
+  return analysis::quantity_of(trace_entry(kind).member);
 }
 
 std::vector<TraceKind> trace_kinds(std::string_view name) {
@@ -86,7 +83,7 @@ std::vector<TraceKind> trace_kinds(std::string_view name) {
     const auto end = rest.find_first_of(",+");
     const TraceKind kind = kind_of(rest.substr(0, end));
     if (std::ranges::find(chosen, kind) != chosen.end())
-      throw Error(ExitCode::usage, fmt::format("trace '{}': the same trace twice", name));
+      throw Error(ExitCode::usage, "trace '{}': the same trace twice", name);
     chosen.push_back(kind);
     if (end == std::string_view::npos) return chosen;
     rest.remove_prefix(end + 1);
@@ -100,12 +97,12 @@ bool needs_theta_c(TraceKind kind) { return analysis::needs_threshold(trace_quan
 double frame_value(TraceKind kind, const BedFrame& bed, const OverloadRule& rule) {
   if (kind == TraceKind::overloaded) return stress::count_overloaded(bed, threshold_of(rule)).fraction();
   if (kind == TraceKind::largest_cluster) return analysis::largest_share(overloaded_clusters(bed, rule));
-  throw Error(ExitCode::internal, fmt::format("trace '{}' of a frame", trace_name(kind)));
+  throw Error(ExitCode::internal, "trace '{}' of a frame", trace_name(kind));
 }
 
 Observable trace_column(TraceKind kind) {
   if (const auto& column = trace_quantity(kind).display.observable) return *column;
-  throw Error(ExitCode::internal, fmt::format("trace '{}' has no column", trace_name(kind)));
+  throw Error(ExitCode::internal, "trace '{}' has no column", trace_name(kind));
 }
 
 render::Trace make_trace(TraceKind kind, std::span<const double> places, std::span<const double> values,

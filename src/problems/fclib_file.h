@@ -8,6 +8,7 @@
 
 #include "core/types.h"
 #include "io/child_process.h"
+#include "io/run_schema.h"
 
 namespace talus::problems {
 
@@ -42,5 +43,11 @@ FclibProblem checked_problem(const std::string& path, const io::Parcels& found);
 /// one. `to` appears complete or not at all, and may be `from`.
 void write_fclib_solution(const std::string& from, const std::string& to, const std::vector<double>& r,
                           const std::vector<double>& u);
+
+/// Returns the table. The letters of the shapes are B bodies, C contacts, U = 2 C unknowns, E entries of W.
+const std::vector<io::DataSetField>& fclib_schema();
+
+/// Returns the row of a data set. Throws Error(internal) if the table does not contain it.
+const io::DataSetField& fclib_field(const std::string& path);
 
 }  // namespace talus::problems

@@ -10,11 +10,14 @@
 namespace talus::problems {
 namespace {
 
-struct RealField {
+/// A data set and the member that it holds.
+template <typename Record, typename Value>
+struct Field {
   const char* path;
-  std::vector<double> solver::ContactProblem::*values;
+  Value Record::*value;
 };
-constexpr std::array<RealField, 10> real_fields = {{
+
+constexpr std::array<Field<solver::ContactProblem, std::vector<double>>, 10> real_fields = {{
     {"/talus/bodies/vx", &solver::ContactProblem::vx},
     {"/talus/bodies/vy", &solver::ContactProblem::vy},
     {"/talus/bodies/omega", &solver::ContactProblem::omega},
@@ -27,11 +30,7 @@ constexpr std::array<RealField, 10> real_fields = {{
     {"/talus/contacts/ct", &solver::ContactProblem::ct},
 }};
 
-struct ScaleField {
-  const char* path;
-  double StepScales::*value;
-};
-constexpr std::array<ScaleField, 5> scale_fields = {{
+constexpr std::array<Field<StepScales, double>, 5> scale_fields = {{
     {"/talus/scales/time_step", &StepScales::h},
     {"/talus/scales/gravity", &StepScales::gravity},
     {"/talus/scales/tilt", &StepScales::tilt},
@@ -39,11 +38,7 @@ constexpr std::array<ScaleField, 5> scale_fields = {{
     {"/talus/scales/weight", &StepScales::weight},
 }};
 
-struct ToleranceField {
-  const char* path;
-  double StepTolerance::*value;
-};
-constexpr std::array<ToleranceField, 3> tolerance_fields = {{
+constexpr std::array<Field<StepTolerance, double>, 3> tolerance_fields = {{
     {"/talus/run/velocity", &StepTolerance::velocity},
     {"/talus/run/tolerance", &StepTolerance::asked},
     {"/talus/run/tolerance_at_rest", &StepTolerance::at_rest},
@@ -94,7 +89,7 @@ solver::LocalProblem local_problem_of(const FclibProblem& file) {
 /// Checks conditions on which solvers rely, beyond sizes and ranges.
 void check_bodies(const std::string& path, const solver::ContactProblem& problem) {
   const auto refuse = [&path](const char* set, Index k, const char* what) {
-    throw Error(ExitCode::bad_data, fmt::format("{}: data set {} {}, at index {}", path, set, what, k));
+    throw Error(ExitCode::bad_data, "{}: data set {} {}, at index {}", path, set, what, k);
   };
   for (Index c = 0; c < problem.contact_count(); ++c) {
     if (problem.a[c] == problem.b[c]) refuse(second_body, c, "names the same body as /talus/contacts/a");
@@ -110,23 +105,22 @@ void check_bodies(const std::string& path, const solver::ContactProblem& problem
 std::optional<StepTolerance> tolerance_of(const std::string& path, const FclibProblem& file) {
   if (!file.reals.contains(tolerance_fields[0].path)) return std::nullopt;
   StepTolerance tolerance;
-  for (const ToleranceField& field : tolerance_fields) {
+  for (const auto& field : tolerance_fields) {
     tolerance.*field.value = file.reals.at(field.path)[0];
     if (tolerance.*field.value < 0.0)
-      throw Error(ExitCode::bad_data, fmt::format("{}: data set {} is negative", path, field.path));
+      throw Error(ExitCode::bad_data, "{}: data set {} is negative", path, field.path);
   }
   for (const double asked : {tolerance.asked, tolerance.at_rest})
     if (!(asked > 0.0))
-      throw Error(ExitCode::bad_data,
-                  fmt::format("{}: a tolerance in /talus/run is 0, but must be positive", path));
+      throw Error(ExitCode::bad_data, "{}: a tolerance in /talus/run is 0, but must be positive", path);
   return tolerance;
 }
 
 StepProblem step_problem_of(const std::string& path, const FclibProblem& file,
                             const std::vector<solver::Impulse>& guess) {
   StepProblem step;
-  for (const RealField& field : real_fields) step.problem.*field.values = file.reals.at(field.path);
-  for (const ScaleField& field : scale_fields) step.scales.*field.value = file.reals.at(field.path)[0];
+  for (const auto& field : real_fields) step.problem.*field.value = file.reals.at(field.path);
+  for (const auto& field : scale_fields) step.scales.*field.value = file.reals.at(field.path)[0];
   step.tolerance = tolerance_of(path, file);
   step.problem.a = file.integers.at(first_body);
   step.problem.b = file.integers.at(second_body);
@@ -153,11 +147,10 @@ void write_problem(const std::string& path, const StepProblem& step, const std::
   file.q = flat(local.q);
   file.mu = local.mu;
   file.guess_r = flat(guess.p);
-  for (const RealField& field : real_fields) file.reals[field.path] = step.problem.*field.values;
-  for (const ScaleField& field : scale_fields) file.reals[field.path] = {step.scales.*field.value};
+  for (const auto& field : real_fields) file.reals[field.path] = step.problem.*field.value;
+  for (const auto& field : scale_fields) file.reals[field.path] = {step.scales.*field.value};
   if (step.tolerance)
-    for (const ToleranceField& field : tolerance_fields)
-      file.reals[field.path] = {(*step.tolerance).*field.value};
+    for (const auto& field : tolerance_fields) file.reals[field.path] = {(*step.tolerance).*field.value};
   file.integers[first_body] = step.problem.a;
   file.integers[second_body] = step.problem.b;
   if (!step.problem.column.empty()) file.integers[column] = step.problem.column;

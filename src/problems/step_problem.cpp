@@ -8,8 +8,8 @@
 
 #include "base/errors.h"
 #include "core/trigonometry.h"
-#include "dynamics/form_problem.h"
-#include "session/drag.h"
+#include "dynamics/step.h"
+#include "session/command.h"
 #include "session/frame_state.h"
 #include "session/run_header.h"
 #include "session/session.h"
@@ -56,11 +56,9 @@ StepProblem form_step(World& world, const dynamics::StepSettings& settings, doub
   if (settings.law.rolling_friction > 0.0)
     throw Error(
         ExitCode::bad_data,
-        fmt::format(
-            "the contacts of the run resist rolling (contact.rolling_friction = {:g}), but "
-            "contact problems in files and admissible forces do not include moments; choose a run with "
-            "contact.rolling_friction = 0",
-            settings.law.rolling_friction));
+        "the contacts of the run resist rolling (contact.rolling_friction = {:g}), but contact problems in "
+        "files and admissible forces do not include moments; choose a run with contact.rolling_friction = 0",
+        settings.law.rolling_friction);
   dynamics::StepWorkspace workspace;
   dynamics::begin_step(world, settings, workspace);
   if (closed_below > 0.0) {

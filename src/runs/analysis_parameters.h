@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/parameters.h"
+#include "analysis/record.h"
 #include "core/snapshot.h"
 #include "scenario/key.h"
 

@@ -1,24 +1,26 @@
 #include "runs/analysis_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/core.h>
 #include <future>
 #include <mutex>
 #include <utility>
 
-#include "analysis/deformation/local_deformation.h"
-#include "analysis/failure/failure_ratio.h"
-#include "analysis/failure/last_rise.h"
+#include "analysis/deformation/deformation.h"
+#include "analysis/failure/failure_distance.h"
 #include "analysis/failure/transition.h"
 #include "analysis/frame_analysis.h"
+#include "analysis/free_grains.h"
 #include "analysis/topology/topology.h"
 #include "base/errors.h"
 #include "base/hash.h"
+#include "core/tensor.h"
 #include "core/trigonometry.h"
-#include "io/analysis_schema.h"
-#include "runs/analysis_input.h"
+#include "io/run_schema.h"
 #include "runs/analysis_parameters.h"
 #include "runs/event_catalogue.h"
+#include "stress/stress.h"
 
 namespace talus::runs {
 namespace {
@@ -102,11 +104,11 @@ void find_dilation(const std::vector<ObservableRow>& rows, analysis::Analysis& a
 }
 
 void find_failure_ratio(const std::vector<ObservableRow>& rows, analysis::Analysis& analysis) {
-  const analysis::FailureRatio ratio =
+  const Statistics ratio =
       analysis::failure_ratio(column(rows, Observable::tilt), column(rows, Observable::sigma_t_over_n),
                               analysis.theta_c, radians(analysis::failure_window));
   analysis.failure_ratio = ratio.mean;
-  analysis.failure_ratio_spread = ratio.spread;
+  analysis.failure_ratio_spread = ratio.deviation;
 }
 
 void find_transitions(analysis::Analysis& analysis) {
@@ -152,7 +154,7 @@ std::string analysis_key(const io::RunFile& run, const analysis::AnalysisParamet
   std::string text =
       fmt::format("{}\n{}\n", hash_text(state_hash(run.checkpoint().world)), io::analysis_version);
   for (const auto& [name, value] : as_facts(parameters)) text += fmt::format("{}={}\n", name, value);
-  return hash_text(hash_bytes(std::as_bytes(std::span(text))));
+  return text_hash(text);
 }
 
 analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisParameters& parameters,
@@ -178,6 +180,46 @@ analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisP
       column(rows, Observable::tilt), column(rows, Observable::surface_displacement),
       analysis::slide_distance * statics.mean_diameter, radians(analysis::slide_window));
   return analysis;
+}
+
+namespace {
+
+/// Tolerance for the tilts of frames in a window; a tilt is a multiple of a step up to rounding.
+constexpr double rounding = 1e-9;  // rad
+
+void average_moments(const io::RunFile& run, double half_window, std::size_t k, Frame& frame) {
+  const std::vector<double>& tilts = run.frame_tilts();
+  const auto is_near = [&](std::size_t other) {
+    return std::fabs(tilts[other] - tilts[k]) <= half_window + rounding;
+  };
+  std::size_t first = k, last = k;
+  while (first > 0 && is_near(first - 1)) --first;
+  while (last + 1 < tilts.size() && is_near(last + 1)) ++last;
+  if (first == last) return;
+  std::vector<Tensor2> sums(frame.internal_moment.size());
+  for (std::size_t other = first; other <= last; ++other) {
+    const std::vector<Tensor2> moments =
+        other == k ? frame.internal_moment : run.frame(other).internal_moment;
+    for (std::size_t i = 0; i < sums.size(); ++i) analysis::add_to(sums[i], moments[i]);
+  }
+  const double share = 1.0 / static_cast<double>(last - first + 1);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    frame.internal_moment[i] = tensor(share * matrix(sums[i]));
+    frame.gamma[i] = stress::stress_state(frame.internal_moment[i]).ratio;
+  }
+}
+
+}  // namespace
+
+Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k,
+                     Frame frame) {
+  if (parameters.averaging > 0.0 && k < run.frame_count())
+    average_moments(run, 0.5 * radians(parameters.averaging), k, frame);
+  return analysis::with_analysed_gamma(std::move(frame), run.header().statics, parameters);
+}
+
+Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k) {
+  return analysed_frame(run, parameters, k, run.frame(k));
 }
 
 }  // namespace talus::runs

@@ -1,10 +1,11 @@
 #pragma once
-/// Analysis of an entire run: all frames, and quantities that follow from their series.
+/// Analysis of an entire run: the input from each of its frames, and quantities that follow from their
+/// series.
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
-#include "analysis/parameters.h"
 #include "analysis/record.h"
 #include "io/run_file.h"
 
@@ -22,5 +23,14 @@ using AnalysisProgress = std::function<void(std::size_t done)>;
 /// run has no frames, and as RunFile::frame does.
 analysis::Analysis analyse_run(const io::RunFile& run, const analysis::AnalysisParameters& parameters,
                                int threads, const AnalysisProgress& progress);
+
+/// Returns frame k of a run with the gamma of with_analysed_gamma. With `averaging`, internal moments are
+/// means over the consecutive frames around k whose tilts differ by at most half of it, and gamma is that of
+/// the means; contacts and positions remain those of frame k. A frame of the flow after failure is not
+/// averaged. Not thread-safe. Throws as RunFile::frame does.
+Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k);
+/// Does the same with frame k already read.
+Frame analysed_frame(const io::RunFile& run, const analysis::AnalysisParameters& parameters, std::size_t k,
+                     Frame frame);
 
 }  // namespace talus::runs

@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "analysis/events/events.h"
-#include "analysis/events/power_law.h"
-#include "analysis/failure/last_rise.h"
-#include "core/trigonometry.h"
+#include "analysis/failure/transition.h"
+#include "analysis/packing/packing.h"
+#include "core/snapshot.h"
 #include "runs/run_view.h"
 
 namespace talus::runs {
@@ -278,6 +278,30 @@ void find_events(const io::RunFile& run, const std::vector<ObservableRow>& rows,
   EventFrames(run, *steps, parameters, spans, analysis);
   const double unit = mean_grain_mass(statics) * statics.gravity * statics.mean_diameter;
   find_event_laws(parameters.event_size_min ? *parameters.event_size_min * unit : not_known, analysis);
+}
+
+std::vector<FirstMove> first_moves(const io::RunFile& run, double distance) {
+  const RunStatics& statics = run.header().statics;
+  std::vector<bool> has_moved(static_cast<std::size_t>(statics.free_count), false);
+  std::vector<FirstMove> moves;
+  if (run.all_frame_tilts().empty()) return moves;
+  const Frame begin = run.positions(0);
+  for (std::size_t k = 1; k < run.all_frame_tilts().size(); ++k) {
+    const Frame now = run.positions(k);
+    const BedFrame bed{now, statics};
+    const std::size_t first = moves.size();
+    const double surface = analysis::frame_volume(bed) / statics.length;
+    for (Index i = 0; i < statics.free_count; ++i) {
+      const Vec2 moved = displacement(bed, begin, i);
+      const double size = std::hypot(moved.x, moved.y);
+      if (has_moved[i] || size < distance) continue;
+      has_moved[i] = true;
+      moves.push_back({i, k, now.time, now.tilt, now.x[i], now.y[i], surface - now.y[i], size});
+    }
+    std::stable_sort(moves.begin() + static_cast<std::ptrdiff_t>(first), moves.end(),
+                     [](const FirstMove& a, const FirstMove& b) { return a.displacement > b.displacement; });
+  }
+  return moves;
 }
 
 }  // namespace talus::runs

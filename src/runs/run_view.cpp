@@ -4,7 +4,7 @@
 
 #include "base/hash.h"
 #include "base/output_file.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "runs/analysis_run.h"
 
 namespace talus::runs {

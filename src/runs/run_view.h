@@ -1,16 +1,15 @@
 #pragma once
-/// A run for inspection: an opened file with its scenario and its analysis, or the values that an ensemble
-/// has stored of it.
+/// Runs looks at runs that exist. A RunView is an opened file with its scenario and its analysis, which is
+/// computed (analysis_run.h) if it is not stored; or the values that an ensemble has stored of it. Read next:
+/// analysis_parameters.h, event_catalogue.h.
 
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <thread>
 
-#include "analysis/failure/last_rise.h"
-#include "analysis/parameters.h"
 #include "analysis/record.h"
-#include "core/watch.h"
+#include "core/types.h"
 #include "io/run_file.h"
 #include "scenario/scenario.h"
 
@@ -52,10 +51,5 @@ struct AnalysisOptions {
 /// folder is. Throws as RunFile::open, view_of_run, analyse_run and store_analysis do.
 RunView analysed_run(const std::string& path, const analysis::AnalysisParameters& parameters,
                      const AnalysisOptions& options);
-
-/// Returns the last rise of a run, which is the entire run if its tilt does not fall.
-inline analysis::FramesOfRise last_rise_of(const RunView& run) {
-  return analysis::last_rise(run.analysis.frames);
-}
 
 }  // namespace talus::runs

@@ -4,8 +4,6 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "base/visible_text.h"
-#include "scenario/text.h"
 
 namespace talus::scenario {
 namespace {
@@ -116,6 +114,33 @@ std::vector<std::string> sections_of(const KeyHeads& keys) {
     if (!key->section.empty() && (names.empty() || names.back() != key->section))
       names.push_back(key->section);
   return names;
+}
+
+std::string unknown_key(const KeyHeads& keys, const std::string& section, const std::string& name) {
+  const std::vector<std::string> sections = sections_of(keys);
+  if (!section.empty() && std::ranges::find(sections, section) == sections.end()) {
+    const std::string meant = did_you_mean(section, sections);
+    return fmt::format(
+        "unknown section [{}]{}", visible_word(section),
+        meant.empty() ? fmt::format("; expected one of [{}]", joined(sections, "], [")) : meant);
+  }
+  std::vector<std::string> siblings, elsewhere;
+  for (const KeyHead* key : keys) {
+    if (key->section == section) siblings.push_back(key->name);
+    if (key->name == name) elsewhere.push_back(full_name(*key));
+  }
+  const auto full = [&section](const std::string& key) {
+    return section.empty() ? key : section + "." + key;
+  };
+  if (const std::string nearest = nearest_word(name, siblings); elsewhere.empty() && !nearest.empty())
+    elsewhere = {full(nearest)};
+  return fmt::format(
+      "unknown key '{}'; {}", visible_word(full(name)),
+      !elsewhere.empty() ? fmt::format("did you mean '{}'?", joined(elsewhere, "' or '"))
+      : section.empty()
+          ? fmt::format("expected {}{}", joined(siblings, ", "),
+                        sections.empty() ? "" : fmt::format(", or a section: [{}]", joined(sections, "], [")))
+          : fmt::format("[{}] has {}", section, joined(siblings, ", ")));
 }
 
 std::string range_text(const KeyHead& key) {

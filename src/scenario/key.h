@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,14 @@ struct NumberRange {
   bool low_included = true;
   std::string word;
 };
+
+/// Return the range from `low` (included, excluded) to `high`, or the word.
+inline NumberRange from_to(double low, double high, std::string word = {}) {
+  return {low, high, true, std::move(word)};
+}
+inline NumberRange above_to(double low, double high, std::string word = {}) {
+  return {low, high, false, std::move(word)};
+}
 
 /// An integer from `low` to `high`, both included.
 struct IntegerRange {
@@ -57,8 +66,6 @@ struct PhraseList {
   std::string word;
   std::string forms;  ///< description of the accepted phrases
   bool (*good)(const std::string& phrase) = nullptr;
-  /// Returns the end of a message about a phrase that is not accepted: "; did you mean 'to 12'?", or nothing.
-  std::string (*meant)(const std::string& phrase) = nullptr;
 };
 
 /// The accepted values of a key.
@@ -153,6 +160,11 @@ const KeyHead* find_key(const KeyHeads& keys, std::string_view full_name);
 /// Returns the sections of a table, in its order; empty if its keys have none.
 std::vector<std::string> sections_of(const KeyHeads& keys);
 
+/// Returns a message about an unknown key `name` of `section` (empty above the first one): with the keys of
+/// that name in other sections, otherwise with the nearest key of the section or with all of them. If there
+/// is no such section, the message is about the section.
+std::string unknown_key(const KeyHeads& keys, const std::string& section, const std::string& name);
+
 /// Describes the range of a key: "a number in [0, 1]", "an integer in 1 ... 100", "\"periodic\" or
 /// \"walls\"".
 std::string range_text(const KeyHead& key);
@@ -163,5 +175,23 @@ std::string expectation(const KeyHead& key);
 /// Returns the value as stored in the key (an integer becomes a number if a number is expected); empty if the
 /// value has another type or is out of range.
 std::optional<KeyValue> admitted(const KeyHead& key, const KeyValue& value);
+
+/// Returns the values of `--set key=value` settings. `example` is a setting for messages: "lc_cut=30". Throws
+/// LocatedError(bad_data) with a line for each setting that is not accepted: `--set lc_cut=-3: error: key
+/// 'lc_cut' = -3: expected a number in (0, 10000] or "depth", in D`.
+std::map<const KeyHead*, KeyValue> read_settings(const KeyHeads& keys,
+                                                 const std::vector<std::string>& settings,
+                                                 const std::string& example);
+
+/// Returns a struct with these values and its defaults for the other keys. Throws as read_settings does.
+template <typename Struct>
+Struct parse_settings(const std::vector<Key<Struct>>& keys, const std::vector<std::string>& settings,
+                      const std::string& example) {
+  const auto values = read_settings(heads(keys), settings, example);
+  Struct result;
+  for (const Key<Struct>& key : keys)
+    if (const auto value = values.find(&key); value != values.end()) key.set(result, value->second);
+  return result;
+}
 
 }  // namespace talus::scenario

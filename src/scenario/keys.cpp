@@ -1,8 +1,11 @@
 #include "scenario/keys.h"
 
+#include <cmath>
+#include <fmt/core.h>
 #include <limits>
 
 #include "scenario/scripted_command.h"
+#include "scenario/text.h"
 #include "scenario/tilt_program.h"
 
 namespace talus::scenario {
@@ -10,14 +13,6 @@ namespace {
 
 using Keys = std::vector<ScenarioKey>;
 
-NumberRange from_to(double low, double high) { return {low, high, true, {}}; }
-NumberRange from_to_or(double low, double high, std::string word) {
-  return {low, high, true, std::move(word)};
-}
-NumberRange above_to(double low, double high) { return {low, high, false, {}}; }
-NumberRange above_to_or(double low, double high, std::string word) {
-  return {low, high, false, std::move(word)};
-}
 NumberRange positive() { return above_to(0.0, std::numeric_limits<double>::infinity()); }
 
 /// Returns the keys of a section, which is a part of the scenario.
@@ -121,11 +116,11 @@ Keys deposition_keys() {
           {{"initial_solid_fraction", "", from_to(0.1, 0.7),
             "collapse: solid fraction of the loose arrangement; lower if the size ratio needs more room"},
            &P::initial_solid_fraction},
-          {{"friction", "", from_to_or(0.0, 10.0, "contact"),
+          {{"friction", "", from_to(0.0, 10.0, "contact"),
             "coefficient of friction between grains until the bed is at rest; \"contact\": that of "
             "contact.friction"},
            &P::friction},
-          {{"wall_friction", "", from_to_or(0.0, 10.0, "contact"),
+          {{"wall_friction", "", from_to(0.0, 10.0, "contact"),
             "the same on the side walls; \"contact\": that of contact.wall_friction"},
            &P::wall_friction},
           {{"rest_velocity", "g h", above_to(0.0, 0.1),
@@ -144,13 +139,12 @@ Keys tilt_keys() {
       {
           {{"rate", "deg/s", from_to(1e-4, 100.0), "how fast the bed is tilted"}, &P::rate},
           {{"step", "deg", from_to(1e-8, 1.0), "tilt in one time step h = step / rate"}, &P::step},
-          {{"end_angle", "deg", above_to_or(0.0, 60.0, "repose"),
+          {{"end_angle", "deg", above_to(0.0, 60.0, "repose"),
             "tilt, on either side, at which the run ends; \"repose\": when the slope has failed"},
            &P::end_angle},
           {{"program", "",
             PhraseList{"phrases", 1000, "none", program_phrase_forms(),
-                       [](const std::string& phrase) { return program_phrase(phrase).has_value(); },
-                       meant_program_phrase},
+                       [](const std::string& phrase) { return program_phrase(phrase).has_value(); }},
             "course of the tilt, phrase by phrase; \"none\": it grows at tilt.rate to tilt.end_angle"},
            &P::program},
           {{"after_failure", "", Choices{{"stop", "lower", "hold"}},
@@ -219,6 +213,10 @@ Keys guards_keys() {
       });
 }
 
+constexpr double shortest_time_step = 1e-5;  // s
+constexpr double longest_time_step = 1e-2;   // s
+constexpr double longest_over_fall = 0.4;    // sqrt(D / g)
+
 }  // namespace
 
 const std::vector<ScenarioKey>& scenario_keys() {
@@ -254,6 +252,58 @@ std::string value_text(const Scenario& scenario, std::string_view name) {
       for (const CommandKey& key : command_keys(command_section(k)))
         if (full_name(key) == name) return plain_text(key.get(scenario.commands[k]));
   return "none";
+}
+
+std::vector<BrokenRule> broken_rules(const Scenario& scenario) {
+  std::vector<BrokenRule> broken;
+  const double h = time_step(scenario);
+  const double fall = std::sqrt(scenario.grains.mean_diameter / gravity);
+  // A product such as 0.001 / 100 may differ from 1e-5 by rounding, and the ends of the range are included.
+  constexpr double round_off = 1e-12;
+  if (h < shortest_time_step * (1.0 - round_off) || h > longest_time_step * (1.0 + round_off))
+    broken.push_back(
+        {{"tilt.step", "tilt.rate"},
+         fmt::format("a time step h = tilt.step / tilt.rate in [{}, {}] s; it is {} s",
+                     short_text(shortest_time_step), short_text(longest_time_step), short_text(h))});
+  else if (h > longest_over_fall * fall * (1.0 + round_off))
+    broken.push_back({{"grains.mean_diameter", "tilt.step", "tilt.rate"},
+                      fmt::format("a time step h = tilt.step / tilt.rate of at most {} sqrt(D / g), or "
+                                  "grains would fall past each other; it is {} sqrt(D / g)",
+                                  short_text(longest_over_fall), short_text(h / fall))});
+  const double grains = scenario.bed.length * scenario.bed.depth;
+  const bool from_file = scenario.deposition.method == DepositionMethod::file;
+  if (grains > max_grains && !from_file)
+    broken.push_back({{"bed.length", "bed.depth"},
+                      fmt::format("at most {} grains, bed.length * bed.depth; they are {}",
+                                  short_text(max_grains), short_text(grains))});
+  if (from_file && scenario.deposition.file.empty())
+    broken.push_back({{"deposition.method", "deposition.file"},
+                      "deposition.file, the path of a run or of a table, with it; it is not given"});
+  if (!from_file && !scenario.deposition.file.empty())
+    broken.push_back(
+        {{"deposition.file", "deposition.method"}, "deposition.method = \"file\" with it, or no file"});
+  if (scenario.tilt.end_angle && *scenario.tilt.end_angle < scenario.tilt.step)
+    broken.push_back({{"tilt.end_angle", "tilt.step"},
+                      fmt::format("tilt.end_angle >= tilt.step; they are {} and {} deg",
+                                  short_text(*scenario.tilt.end_angle), short_text(scenario.tilt.step))});
+  // Steps can only be counted with a valid time step.
+  if (broken.empty())
+    if (std::string fault = program_fault(scenario); !fault.empty())
+      broken.push_back({{"tilt.program", "tilt.end_angle"}, std::move(fault)});
+  if (scenario.solver.moving_tolerance < scenario.solver.tolerance)
+    broken.push_back(
+        {{"solver.moving_tolerance", "solver.tolerance"},
+         fmt::format("solver.moving_tolerance >= solver.tolerance; they are {} and {}",
+                     short_text(scenario.solver.moving_tolerance), short_text(scenario.solver.tolerance))});
+  const auto at_least_a_step = [&](const std::string& key, double every) {
+    if (every < scenario.tilt.step)
+      broken.push_back({{key, "tilt.step"},
+                        fmt::format("{} >= tilt.step; they are {} and {} deg", key, short_text(every),
+                                    short_text(scenario.tilt.step))});
+  };
+  at_least_a_step("output.frame_every", scenario.output.frame_every);
+  at_least_a_step("output.observable_every", scenario.output.observable_every);
+  return broken;
 }
 
 }  // namespace talus::scenario

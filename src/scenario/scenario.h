@@ -1,6 +1,8 @@
 #pragma once
-/// The scenario: all parameters of a run, checked. docs/scenario.md documents all keys; scenario/keys.cpp
-/// contains the table of keys, units and ranges, and this struct the defaults. A test compares them.
+/// Scenario turns text into what a run needs, and says what is wrong with it. A Scenario has all parameters
+/// of a run, and the defaults; a Key (key.h) is one of them with its unit, range and meaning. toml.cpp reads
+/// text by the tables of keys.cpp, which docs/scenario.md repeats (a test compares them). Read next: key.h,
+/// scripted_command.h, tilt_program.h.
 
 #include <cstdint>
 #include <optional>
@@ -154,6 +156,11 @@ inline void keep_deposition_friction(const Scenario& was, Scenario& scenario) {
     scenario.deposition.friction = used.grains;
   if (!scenario.deposition.wall_friction && implied.walls != used.walls)
     scenario.deposition.wall_friction = used.walls;
+}
+
+/// Whether the run follows the flow after failure.
+inline bool follows_failure(const Scenario& scenario) {
+  return scenario.tilt.after_failure != AfterFailure::stop;
 }
 
 /// Returns the time step h, s.

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "scenario/rules.h"
+#include "scenario/keys.h"
 #include "scenario/text.h"
 
 namespace talus::scenario {
@@ -57,12 +57,12 @@ std::string drop_fault(const Command& command, const Scenario& scenario) {
 std::vector<CommandKey> command_keys(const std::string& section) {
   using C = ScriptedCommand;
   const std::vector<std::string> kinds(command_kind_names.begin(), command_kind_names.end());
-  const NumberRange any = {-1e9, 1e9, true, {}};
+  const NumberRange any = from_to(-1e9, 1e9);
   std::vector<CommandKey> keys = {
-      {{"at", "deg", NumberRange{-60.0, 60.0, true, "none"},
+      {{"at", "deg", from_to(-60.0, 60.0, "none"),
         "the command is carried out when the tilt first reaches this angle; below 0: on the opposite side"},
        &C::at},
-      {{"time", "s", NumberRange{0.0, 1e6, true, "none"},
+      {{"time", "s", from_to(0.0, 1e6, "none"),
         "the same for the time since the tilt began; a command has an angle or a time"},
        &C::time},
       {{"kind", "", Choices{kinds}, "action of the command"}, &C::kind},

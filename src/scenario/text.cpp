@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "scenario/keys.h"
 #include "scenario/scripted_command.h"
 
@@ -36,6 +35,12 @@ std::string aligned(const std::vector<SettingLine>& lines) {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
 
 std::string short_text(double value) {
   // 100000 is easier to read than 1e+05, although it is longer.

@@ -13,6 +13,9 @@ namespace talus::scenario {
 using KeyValue =
     std::variant<std::int64_t, double, std::string, std::vector<double>, std::vector<std::string>, bool>;
 
+/// Removes blanks at both ends.
+std::string_view trimmed(std::string_view text);
+
 /// Returns the shortest decimal that reads back as the same double: "200", "1e-06".
 std::string short_text(double value);
 

@@ -1,11 +1,10 @@
 #include "scenario/tilt_program.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/core.h>
 
-#include "base/nearest_word.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "scenario/text.h"
 
@@ -47,14 +46,11 @@ struct Words {
   /// Reads the next word as a number in [low, high].
   std::optional<double> number(double low, double high) {
     if (at_end()) return std::nullopt;
-    std::string_view word = words[next];
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !(value >= low && value <= high))
-      return std::nullopt;
+    const std::string_view word = words[next];
+    const auto value = parse_number<double>(word.substr(word.starts_with('+') ? 1 : 0));
+    if (!value || !(*value >= low && *value <= high)) return std::nullopt;
     ++next;
-    return value + 0.0;  // avoids -0
+    return *value + 0.0;  // avoids -0
   }
 
   /// Reads a number, optionally followed by its unit.
@@ -94,7 +90,6 @@ std::optional<ProgramPhrase> verb_of(Words& words) {
 struct Course {
   const Scenario& scenario;
   std::vector<TiltSegment> segments;
-  std::size_t block = 0;  ///< first phrase of the present block
   bool to_repose = false;
   std::string fault;
 
@@ -147,7 +142,7 @@ void repeat(Course& course, const std::vector<ProgramPhrase>& phrases, std::size
 }
 
 Course course_of(const Scenario& scenario) {
-  Course course{scenario, {}, 0, false, {}};
+  Course course{scenario, {}, false, {}};
   std::vector<ProgramPhrase> phrases;
   for (const std::string& text : scenario.tilt.program)
     if (const std::optional<ProgramPhrase> phrase = program_phrase(text)) phrases.push_back(*phrase);
@@ -187,26 +182,6 @@ std::string program_phrase_forms() {
       "in [{1}, {2}] deg/s), \"hold T\" (a time in (0, {3}] s), \"N times\" (1 ... {4}), or \"once\"",
       short_text(steepest), short_text(slowest), short_text(fastest), short_text(longest_hold),
       short_text(max_times));
-}
-
-std::string meant_program_phrase(const std::string& text) {
-  static const std::vector<std::string> verbs = {"to", "by", "hold", "once", "repose", "repeat"};
-  Words words(text);
-  if (words.words.empty()) return {};
-  std::string rest;
-  for (std::size_t k = 1; k < words.words.size(); ++k) rest.append(" ").append(words.words[k]);
-  const std::string first(words.words.front());
-  const std::string meant = nearest_word(first, verbs);
-  std::string phrase;
-  if (meant == "repeat" && words.words.size() > 1)
-    phrase = fmt::format("{} times", words.words[1]);
-  else if (meant == "repose")
-    phrase = "to repose";
-  else if (!meant.empty())
-    phrase = meant + rest;
-  else if (words.words.size() == 1)
-    phrase = "to " + first;  // an angle without a verb
-  return program_phrase(phrase) ? fmt::format("; did you mean '{}'?", phrase) : "";
 }
 
 TiltProgram::TiltProgram(const Scenario& scenario) {

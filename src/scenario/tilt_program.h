@@ -33,9 +33,6 @@ std::optional<ProgramPhrase> program_phrase(std::string_view text);
 /// Describes the accepted phrases, for messages and documentation.
 std::string program_phrase_forms();
 
-/// Returns the end of a message about a text that is not a phrase: "; did you mean 'to 12'?", or nothing.
-std::string meant_program_phrase(const std::string& text);
-
 /// A part of the programme in which the tilt changes by the same angle in each step, or is held.
 struct TiltSegment {
   double from = 0.0, to = 0.0;  ///< deg

@@ -6,23 +6,20 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <fmt/core.h>
 #include <map>
 #include <new>
 #include <span>
 
-#include "base/descriptor.h"
 #include "base/errors.h"
-#include "base/nearest_word.h"
+#include "base/output_file.h"
 #include "base/text.h"
-#include "base/visible_text.h"
+#include "scenario/key.h"
 #include "scenario/keys.h"
-#include "scenario/rules.h"
 #include "scenario/scripted_command.h"
-#include "scenario/setting_forms.h"
-#include "scenario/settings.h"
-#include "scenario/suggestion.h"
 #include "scenario/text.h"
 
 namespace talus::scenario {
@@ -61,8 +58,9 @@ struct ParsedKeys {
   /// Keys of each [[command]]; `keys` contains them as well.
   std::vector<std::vector<CommandKey>> commands{};
 
-  void complain(const SourcePlace& place, const std::string& message) {
-    complaints.push_back({place, message});
+  template <typename... Args>
+  void complain(const SourcePlace& place, fmt::format_string<Args...> message, Args&&... args) {
+    complaints.push_back({place, fmt::format(message, std::forward<Args>(args)...)});
   }
 };
 
@@ -84,33 +82,21 @@ std::string line_of(const SourcePlace& place, const std::string& message) {
     const auto order = [](const SourcePlace& p) { return std::tuple(!p.in_file, p.line, p.column); };
     return order(first.place) < order(second.place);
   });
-  std::string text;
-  for (std::size_t i = 0; i < std::min(complaints.size(), max_complaints); ++i) {
-    if (i > 0) text += '\n';
-    text += line_of(complaints[i].place, complaints[i].message);
-  }
+  std::string text =
+      joined(std::span(complaints).first(std::min(complaints.size(), max_complaints)), "\n",
+             [](const Complaint& complaint) { return line_of(complaint.place, complaint.message); });
   if (complaints.size() > max_complaints)
     text += fmt::format("\n{}: error: and {} more", name, complaints.size() - max_complaints);
   throw LocatedError(ExitCode::bad_data, text);
 }
 
 std::string kind_of(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    case toml::node_type::string:
-      return "a string";
-    case toml::node_type::integer:
-      return "an integer";
-    case toml::node_type::floating_point:
-      return "a float";
-    case toml::node_type::boolean:
-      return "a boolean";
-    default:
-      return "a date or time";
-  }
+  using enum toml::node_type;
+  static const std::map<toml::node_type, std::string> kinds = {
+      {table, "a table"},      {array, "an array"},         {string, "a string"},
+      {integer, "an integer"}, {floating_point, "a float"}, {boolean, "a boolean"}};
+  const auto kind = kinds.find(node.type());
+  return kind == kinds.end() ? "a date or time" : kind->second;
 }
 
 std::optional<KeyValue> value_of(const toml::node& node) {
@@ -171,9 +157,8 @@ bool complain_of_phrases(ParsedKeys& reading, const KeyHead& key, const toml::no
     if (text != nullptr && list->good(text->get())) continue;
     any = true;
     const SourcePlace at = place.in_file ? place_in_file(reading.name, element.source().begin) : place;
-    reading.complain(at,
-                     fmt::format("key '{}'{}: expected {}{}", full_name(key), shown(element), list->forms,
-                                 text != nullptr ? list->meant(text->get()) : ", found " + kind_of(element)));
+    reading.complain(at, "key '{}'{}: expected {}{}", full_name(key), shown(element), list->forms,
+                     text != nullptr ? "" : ", found " + kind_of(element));
   }
   return any;
 }
@@ -183,34 +168,35 @@ void take_value(ParsedKeys& reading, const KeyHead& key, const toml::node& node,
   const auto good = found ? admitted(key, *found) : std::nullopt;
   reading.given[&key] = {place, good};
   if (!good && !complain_of_phrases(reading, key, node, place))
-    reading.complain(
-        place, fmt::format("key '{}'{}: expected {}{}{}", full_name(key), shown(node), expectation(key),
-                           is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node),
-                           node.is_string() ? did_you_mean(node.as_string()->get(), words_of(key)) : ""));
+    reading.complain(place, "key '{}'{}: expected {}{}{}", full_name(key), shown(node), expectation(key),
+                     is_of_expected_kind(key, node) ? "" : ", found " + kind_of(node),
+                     node.is_string() ? did_you_mean(node.as_string()->get(), words_of(key)) : "");
 }
 
 /// Reads a table. Sections are tables at the top level (`section` empty); all other entries are keys. `keys`
 /// are those allowed in the table.
 void take_table(ParsedKeys& reading, const KeyHeads& keys, const toml::table& table,
                 const std::string& section) {
+  const std::vector<std::string> sections = sections_of(keys);
   for (const auto& [name, node] : table) {
     const SourcePlace at_name = place_in_file(reading.name, name.source().begin);
     const SourcePlace at_value = place_in_file(reading.name, node.source().begin);
-    const KeyHead* key = find_key(keys, joined_name(section, name.str()));
+    const std::string word(name.str());
+    const KeyHead* key = find_key(keys, section.empty() ? word : section + "." + word);
     if (key != nullptr) {
       if (!reading.given.contains(key)) take_value(reading, *key, node, at_value);
-    } else if (section.empty() && !reading.commands.empty() && name.str() == "command") {
+    } else if (section.empty() && !reading.commands.empty() && word == "command") {
       // read by take_commands
-    } else if (section.empty() && is_section(keys, name.str())) {
+    } else if (section.empty() && std::ranges::find(sections, word) != sections.end()) {
       if (node.is_table())
-        take_table(reading, keys, *node.as_table(), std::string(name.str()));
+        take_table(reading, keys, *node.as_table(), word);
       else
-        reading.complain(at_value, fmt::format("key '{}'{}: expected a section [{}], found {}", name.str(),
-                                               shown(node), name.str(), kind_of(node)));
+        reading.complain(at_value, "key '{}'{}: expected a section [{}], found {}", word, shown(node), word,
+                         kind_of(node));
     } else {
       const bool new_section = section.empty() && (node.is_table() || node.is_array_of_tables());
-      reading.complain(
-          at_name, new_section ? unknown_section(keys, name.str()) : unknown_key(keys, section, name.str()));
+      reading.complain(at_name, "{}",
+                       new_section ? unknown_key(keys, word, "") : unknown_key(keys, section, word));
     }
   }
 }
@@ -274,6 +260,30 @@ toml::table table_of_phrases(std::string_view text) {
   }
 }
 
+/// Whether a word may be used as a string without quotes.
+bool is_bare_word(std::string_view text) {
+  return !text.empty() &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; }) &&
+         std::isalpha(static_cast<unsigned char>(text.front()));
+}
+
+/// Returns the number that a value means for this key if TOML does not read it: ".3", "1.", "007", the unit
+/// of the key after the number ("20 D"), and for an integer also "1e5". Empty for other text and other keys.
+std::optional<KeyValue> typed_number(const KeyHead& key, std::string_view value) {
+  const bool is_whole = std::holds_alternative<IntegerRange>(key.range);
+  if (!is_whole && !std::holds_alternative<NumberRange>(key.range)) return std::nullopt;
+  if (!key.unit.empty() && value.ends_with(key.unit))
+    value = trimmed(value.substr(0, value.size() - key.unit.size()));
+  if (value.starts_with('+')) value.remove_prefix(1);
+  const auto number = parse_number<double>(value);
+  if (!number || !std::isfinite(*number)) return std::nullopt;
+  if (!is_whole) return *number;
+  // Smallest double beyond which not every integer is representable.
+  constexpr double largest = 9007199254740992.0;
+  if (*number != std::floor(*number) || std::abs(*number) >= largest) return std::nullopt;
+  return static_cast<std::int64_t>(*number);
+}
+
 /// Parses the value of a setting: TOML, a number as people type it, a list without brackets, or a bare word
 /// as a string; for a key that takes any text, also text that is not TOML (`--set
 /// deposition.file=beds/dense.csv`). Returns a table with one entry, "value"; empty if the value has none of
@@ -297,6 +307,18 @@ std::optional<toml::table> parse_setting(const KeyHead& key, const std::string& 
   return std::nullopt;
 }
 
+/// Returns a message about an unknown key of a setting.
+std::string unknown_setting(const KeyHeads& keys, const std::string& name) {
+  if (name.starts_with("command."))
+    return fmt::format(
+        "unknown key '{}': expected command.N.KEY with N from 1 to the number of [[command]] tables of the "
+        "scenario, and KEY one of at, time, kind, grain, x and y",
+        visible_word(name));
+  const auto dot = sections_of(keys).empty() ? std::string::npos : name.find('.');
+  return dot == std::string::npos ? unknown_key(keys, "", name)
+                                  : unknown_key(keys, name.substr(0, dot), name.substr(dot + 1));
+}
+
 /// Reads a setting of `option`, such as "--set".
 void take_setting(ParsedKeys& reading, const std::string& option, const std::string& setting) {
   SourcePlace place;
@@ -306,25 +328,17 @@ void take_setting(ParsedKeys& reading, const std::string& option, const std::str
   const std::string value(
       equals == std::string::npos ? "" : trimmed(std::string_view(setting).substr(equals + 1)));
   const KeyHead* key = find_key(reading.keys, name);
-  const std::string meant = meant_setting(reading.keys, option, setting);
   if (name.empty() || value.empty())
-    return reading.complain(
-        place, fmt::format("{}expected {}key=value{}",
-                           key != nullptr ? fmt::format("key '{}' has no value: ", name) : "",
-                           sections_of(reading.keys).empty() ? "" : "section.",
-                           meant.empty() ? fmt::format(", such as --set {}", reading.example) : meant));
-  if (key == nullptr) return reading.complain(place, unknown_key_of_setting(reading.keys, name));
+    return reading.complain(place, "{}expected {}key=value, such as --set {}",
+                            key != nullptr ? fmt::format("key '{}' has no value: ", name) : "",
+                            sections_of(reading.keys).empty() ? "" : "section.", reading.example);
+  if (key == nullptr) return reading.complain(place, "{}", unknown_setting(reading.keys, name));
   if (reading.given.contains(key))
-    return reading.complain(place,
-                            fmt::format("key '{}' is set twice on the command line; expected it once", name));
+    return reading.complain(place, "key '{}' is set twice on the command line; expected it once", name);
   if (const auto table = parse_setting(*key, value))
     return take_value(reading, *key, *table->get("value"), place);
   reading.given[key] = {place, std::nullopt};
-  reading.complain(
-      place, is_whole_number(value)
-                 ? fmt::format("key '{}' = {}: expected {}", name, visible_word(value), expectation(*key))
-                 : fmt::format("key '{}': expected {}, found text that is not valid TOML{}", name,
-                               expectation(*key), meant));
+  reading.complain(place, "key '{}' = {}: expected {}", name, visible_word(value), expectation(*key));
 }
 
 /// Registers the keys of the commands of a file, so that settings can name them.
@@ -363,8 +377,7 @@ void take_commands(ParsedKeys& reading, const toml::table& table, Scenario& scen
     }
     if (refused) continue;
     if (const std::string fault = table_fault(command, given, scenario); !fault.empty())
-      reading.complain(place_in_file(reading.name, node.source().begin),
-                       fmt::format("{} {}", command_section(k), fault));
+      reading.complain(place_in_file(reading.name, node.source().begin), "{} {}", command_section(k), fault);
   }
 }
 
@@ -394,8 +407,8 @@ void check_rules(ParsedKeys& reading, const Scenario& scenario) {
     }
     if (all_good)
       reading.complain(at != nullptr ? at->place : place_in_file(reading.name, {1, 1}),
-                       fmt::format("key '{}' = {}: expected {}", full_name(*blamed),
-                                   toml_text(blamed->get(scenario)), rule.expected));
+                       "key '{}' = {}: expected {}", full_name(*blamed), toml_text(blamed->get(scenario)),
+                       rule.expected);
   }
 }
 
@@ -450,15 +463,13 @@ Scenario read_scenario(const std::string& path, const std::vector<std::string>& 
   struct stat status {};
   const bool known = ::fstat(file.get(), &status) == 0;
   if (known && S_ISDIR(status.st_mode))
-    throw Error(ExitCode::missing_input,
-                fmt::format("{} is a folder; expected a scenario file (TOML)", path));
+    throw Error(ExitCode::missing_input, "{} is a folder; expected a scenario file (TOML)", path);
   std::string content(largest_file + 1, '\0');
   content.resize(read_at_most(file, std::as_writable_bytes(std::span(content)), path));
   // A pipe that has been read is empty, and must not count as a scenario with all defaults.
   if (known && !S_ISREG(status.st_mode) && content.empty())
-    throw Error(
-        ExitCode::missing_input,
-        fmt::format("{} is an empty pipe or device; save the scenario to a file and give its path", path));
+    throw Error(ExitCode::missing_input,
+                "{} is an empty pipe or device; save the scenario to a file and give its path", path);
   if (text != nullptr) *text = content;
   return parse_scenario(content, path, overrides, varied);
 }

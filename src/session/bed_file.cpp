@@ -1,21 +1,18 @@
-#include "session/bed_file.h"
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fmt/core.h>
 #include <numeric>
 
 #include "base/errors.h"
-#include "base/paths.h"
+#include "base/output_file.h"
 #include "contact/detection.h"
-#include "dynamics/push_apart.h"
-#include "io/bounds.h"
+#include "dynamics/bed.h"
 #include "io/durable_file.h"
 #include "io/run_file.h"
+#include "io/run_store.h"
 #include "session/bed_table.h"
+#include "session/deposition.h"
 
 namespace talus::session {
 namespace {
@@ -39,21 +36,19 @@ struct FileGrains {
   bool is_table() const { return !lines.empty(); }
 
   std::string name_of(Index grain) const {
-    return is_table() ? fmt::format("the grain in line {}", lines[static_cast<std::size_t>(grain)])
-                      : fmt::format("grain {}", grain);
+    return is_table() ? fmt::format("the grain in line {}", lines[grain]) : fmt::format("grain {}", grain);
   }
 
   /// Throws; `message` continues after "the grain": "overlaps ...".
   [[noreturn]] void refuse(Index grain, const std::string& message) const {
     if (is_table())
-      throw LocatedError(ExitCode::bad_data, fmt::format("{}:{}:1: error: the grain {}", path,
-                                                         lines[static_cast<std::size_t>(grain)], message));
-    throw Error(ExitCode::bad_data, fmt::format("{}: frame {}: {} {}", path, frame, name_of(grain), message));
+      throw LocatedError(ExitCode::bad_data, "{}:{}:1: error: the grain {}", path, lines[grain], message);
+    throw Error(ExitCode::bad_data, "{}: frame {}: {} {}", path, frame, name_of(grain), message);
   }
 };
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
-  throw Error(ExitCode::bad_data, fmt::format("{}: {}", path, message));
+  throw Error(ExitCode::bad_data, "{}: {}", path, message);
 }
 
 /// Throws for a missing file. A run is also replayed from its scenario, so the message states what the file
@@ -85,7 +80,7 @@ io::RunFile open_run(const std::string& path) {
 
 FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
   const std::string& path = file.path;
-  if (file.unit != scenario::LengthUnit::mean_diameter)
+  if (file.unit != LengthUnit::mean_diameter)
     refuse(path, "a run states its own units: expected no deposition.file_unit, or \"D\"");
   if (file.scale != 1.0) refuse(path, "a run states its own units: expected no deposition.file_scale, or 1");
   const io::RunFile run = open_run(path);
@@ -118,14 +113,13 @@ FileGrains read_run(const BedFile& file, const dynamics::BedPlan& plan) {
 }
 
 std::string table_text(const std::string& path) {
-  std::error_code error;
   if (!is_there(path)) refuse_missing(path + ": there is no such file");
-  if (!std::filesystem::is_regular_file(path, error)) refuse_missing(path + ": this is not a file");
+  if (!is_file(path)) refuse_missing(path + ": this is not a file");
+  std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > largest_table)
     refuse(path, fmt::format("the table is too large: expected at most {} bytes", largest_table));
-  const std::vector<std::byte> bytes = io::read_file(path);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+  return io::read_text(path);
 }
 
 constexpr double same_box = 1e-4;  // relative tolerance for the length of a box
@@ -136,7 +130,7 @@ bool has_length(const TableBox& box, double length) {
 
 /// Throws if the box of a dump contradicts the boundary of the plan.
 void check_box(const BedFile& file, const TableBox& box, const dynamics::BedPlan& plan) {
-  if (box.ends != BoxEnds::unknown && plan.periodic != (box.ends == BoxEnds::periodic))
+  if (box.is_periodic && plan.periodic != *box.is_periodic)
     refuse(file.path,
            fmt::format("its box is {} along x: expected bed.boundary = {}",
                        plan.periodic ? "not periodic" : "periodic",
@@ -152,8 +146,8 @@ void check_box(const BedFile& file, const TableBox& box, const dynamics::BedPlan
 /// Describes the box of a dump that is not the room between the walls, for a message about a grain.
 std::string box_text(const TableBox& box, const dynamics::BedPlan& plan) {
   return fmt::format(
-      "; the box of the file is from {:.6g} to {:.6g} D along x: one of bed.length = {:.6g} D "
-      "would be shifted to begin at 0",
+      "; the box of the file is from {:.6g} to {:.6g} D along x: one of bed.length = {:.6g} D would be "
+      "shifted to begin at 0",
       box.low / plan.mean_diameter, box.high / plan.mean_diameter, plan.length / plan.mean_diameter);
 }
 
@@ -185,7 +179,6 @@ FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
 /// Returns the unit for which the mean diameter would be right, as the end of a message; otherwise general
 /// advice.
 std::string meant_unit(double mean, const dynamics::BedPlan& plan) {
-  using scenario::LengthUnit;
   for (const auto& [unit, name] :
        {std::pair{LengthUnit::metre, "m"}, std::pair{LengthUnit::centimetre, "cm"},
         std::pair{LengthUnit::millimetre, "mm"}, std::pair{LengthUnit::micrometre, "um"}})
@@ -202,19 +195,17 @@ void check_sizes(const FileGrains& grains, const dynamics::BedPlan& plan) {
   const double mean = 2.0 * std::accumulate(grains.radii.begin(), grains.radii.end(), 0.0) /
                       (static_cast<double>(count) * plan.mean_diameter);
   if (!(std::fabs(mean - 1.0) <= mean_diameter_tolerance))
-    refuse(grains.path,
-           fmt::format(
-               "the mean diameter of its grains is {:.6g} D: expected 1 D within {:.6g} %, with D = {:.6g} m "
-               "(grains.mean_diameter){}",
-               mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
-               grains.is_table() ? meant_unit(mean, plan) : ""));
+    refuse(grains.path, fmt::format("the mean diameter of its grains is {:.6g} D: expected 1 D within {:.6g} "
+                                    "%, with D = {:.6g} m (grains.mean_diameter){}",
+                                    mean, 100.0 * mean_diameter_tolerance, plan.mean_diameter,
+                                    grains.is_table() ? meant_unit(mean, plan) : ""));
 }
 
 /// Throws for the first grain that no run can store.
 void check_bounds(const FileGrains& grains, double depth, const dynamics::BedPlan& plan) {
   const double d = plan.mean_diameter, farthest = io::farthest_place(plan.length, depth, d);
   for (std::size_t i = 0; i < grains.centres.size(); ++i) {
-    const auto grain = static_cast<Index>(i);
+    const Index grain = i;
     if (const double radius = grains.radii[i];
         !(radius >= io::smallest_radius * d && radius <= io::largest_radius * d))
       grains.refuse(grain, fmt::format("has a radius of {:.6g} D: expected {:.6g} to {:.6g} D", radius / d,
@@ -231,7 +222,7 @@ void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
   for (std::size_t i = 0; i < grains.centres.size(); ++i) {
     const double x = grains.centres[i].x / plan.mean_diameter, y = grains.centres[i].y / plan.mean_diameter;
     const double length = plan.length / plan.mean_diameter;
-    const auto grain = static_cast<Index>(i);
+    const Index grain = i;
     if (plan.periodic && !(grains.centres[i].x >= 0.0 && grains.centres[i].x < plan.length))
       grains.refuse(
           grain,
@@ -247,7 +238,7 @@ void check_places(const FileGrains& grains, const dynamics::BedPlan& plan) {
 std::string body_name(const FileGrains& grains, const World& world, Index body) {
   if (body < world.grains.free_count) return grains.name_of(body);
   if (body < world.grains.count()) return "a grain of the floor";
-  const Plane& plane = world.boundary.planes[static_cast<std::size_t>(body - world.grains.count())];
+  const Plane& plane = world.boundary.planes[body - world.grains.count()];
   if (!plane.wall) return "the floor";
   return plane.normal.x > 0.0 ? "the wall at x = 0" : "the wall at x = bed.length";
 }
@@ -259,7 +250,7 @@ void check_overlaps(const FileGrains& grains, bool relax, const dynamics::BedPla
   contact::detect_contacts(list, world.grains, world.boundary, 0.0, contacts);
   const auto deepest = std::ranges::min_element(contacts.gap);
   if (deepest == contacts.gap.end() || *deepest >= -most * plan.mean_diameter) return;
-  const auto c = static_cast<std::size_t>(deepest - contacts.gap.begin());
+  const std::size_t c = deepest - contacts.gap.begin();
   const bool is_soft = !relax && *deepest >= -largest_soft_overlap * plan.mean_diameter;
   const bool of_two = contacts.b[c] < world.grains.free_count;
   grains.refuse(

@@ -1,19 +1,13 @@
 #include "session/bed_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/core.h>
-#include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "base/visible_text.h"
 #include "scenario/text.h"
-#include "session/dump_frames.h"
-#include "session/table_columns.h"
 
 namespace talus::session {
 namespace {
@@ -65,7 +59,7 @@ double length_in(const TablePlace& place, const TableRows& rows, const TableColu
                  const std::vector<TableCell>& cells) {
   double value = value_in(place, column, cells[column.at]);
   if (column.scaled) {
-    const auto axis = static_cast<std::size_t>(column.name.front() - 'x');
+    const std::size_t axis = column.name.front() - 'x';
     if (rows.box == nullptr || !rows.box->has_box)
       place.refuse(cells[column.at].column, fmt::format("{} needs the box (ITEM: BOX BOUNDS)", column.name));
     value = rows.box->low.at(axis) + value * (rows.box->high.at(axis) - rows.box->low.at(axis));
@@ -95,7 +89,7 @@ TableGrain grain_of(const TablePlace& place, const TableRows& rows, const std::v
 
 /// Returns the columns named by the last comment that names them; x, y and radius if none does.
 TableColumns columns_of_comments(const std::vector<std::pair<TablePlace, std::string>>& comments,
-                                 scenario::LengthUnit unit, std::size_t count) {
+                                 LengthUnit unit, std::size_t count) {
   for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment)
     if (auto columns = columns_of_comment(comment->first, comment->second, unit, count)) return *columns;
   return {{0, "x", unit}, {1, "y", unit}, {2, "radius", unit}};
@@ -117,10 +111,11 @@ std::string frame_text(int frame, std::size_t count, const std::string& label) {
 /// Returns the index of a frame among `count`.
 std::size_t chosen_frame(const std::string& name, int frame, std::size_t count) {
   if (frame < 0 && count > 0) return count - 1;
-  if (static_cast<std::size_t>(frame) < count) return static_cast<std::size_t>(frame);
-  throw Error(ExitCode::bad_data, fmt::format("{}: there is no frame {}: expected deposition.frame below {}, "
-                                              "the number of its frames, or -1 for the last",
-                                              name, frame, count));
+  if (static_cast<std::size_t>(frame) < count) return frame;
+  throw Error(ExitCode::bad_data,
+              "{}: there is no frame {}: expected deposition.frame below {}, "
+              "the number of its frames, or -1 for the last",
+              name, frame, count);
 }
 
 void add_remark(BedTable& table, const std::string& more) {
@@ -196,44 +191,32 @@ TableGrain grain_of_frame(const TablePlace& place, const TableRows& rows, const 
   }
 }
 
-[[noreturn]] void refuse_cut_off(const std::string& name, int frame, std::size_t count,
-                                 const DumpFrame& taken) {
-  throw Error(
-      ExitCode::bad_data,
-      fmt::format("{}: {} is cut off: expected a line such as ITEM: ATOMS id x y radius, or the second "
-                  "line of extended XYZ; an earlier deposition.frame may be whole",
-                  name, frame_text(frame, count, taken.label)));
-}
-
 struct UnitStyle {
   std::string_view name;
-  scenario::LengthUnit unit;
-  std::string_view length;  ///< its unit of length
-  bool is_known = true;     ///< whether `unit` is that
+  std::optional<LengthUnit> unit;  ///< its unit of length, if it is one of these
+  std::string_view length;
 };
 constexpr std::array unit_styles = {
-    UnitStyle{"si", scenario::LengthUnit::metre, "m"},
-    UnitStyle{"cgs", scenario::LengthUnit::centimetre, "cm"},
-    UnitStyle{"micro", scenario::LengthUnit::micrometre, "um"},
-    UnitStyle{"lj", scenario::LengthUnit::mean_diameter, "sigma, taken as D"},
-    UnitStyle{"real", {}, "angstrom, file_scale = 1e-4 in um", false},
-    UnitStyle{"metal", {}, "angstrom, file_scale = 1e-4 in um", false},
-    UnitStyle{"electron", {}, "bohr, file_scale = 5.29177e-5 in um", false},
-    UnitStyle{"nano", {}, "nm, file_scale = 1e-3 in um", false},
+    UnitStyle{"si", LengthUnit::metre, "m"},
+    UnitStyle{"cgs", LengthUnit::centimetre, "cm"},
+    UnitStyle{"micro", LengthUnit::micrometre, "um"},
+    UnitStyle{"lj", LengthUnit::mean_diameter, "sigma, taken as D"},
+    UnitStyle{"real", {}, "angstrom, file_scale = 1e-4 in um"},
+    UnitStyle{"metal", {}, "angstrom, file_scale = 1e-4 in um"},
+    UnitStyle{"electron", {}, "bohr, file_scale = 5.29177e-5 in um"},
+    UnitStyle{"nano", {}, "nm, file_scale = 1e-3 in um"},
 };
 
 /// Returns the unit of lengths of a dump: that of the scenario, or of ITEM: UNITS if the scenario has the
 /// default. Throws if the dump names units that have no equivalent here.
-scenario::LengthUnit unit_of_dump(const std::string& name, const std::string& units,
-                                  scenario::LengthUnit of_scenario) {
-  if (of_scenario != scenario::LengthUnit::mean_diameter || units.empty()) return of_scenario;
+LengthUnit unit_of_dump(const std::string& name, const std::string& units, LengthUnit of_scenario) {
+  if (of_scenario != LengthUnit::mean_diameter || units.empty()) return of_scenario;
   const auto style = std::ranges::find(unit_styles, units, &UnitStyle::name);
-  if (style != unit_styles.end() && style->is_known) return style->unit;
+  if (style != unit_styles.end() && style->unit) return *style->unit;
   throw Error(ExitCode::bad_data,
-              fmt::format("{}: ITEM: UNITS names {}{}: expected si, cgs, micro or lj (D); set "
-                          "deposition.file_unit and deposition.file_scale for others",
-                          name, units,
-                          style != unit_styles.end() ? fmt::format(" (lengths in {})", style->length) : ""));
+              "{}: ITEM: UNITS names {}{}: expected si, cgs, micro or lj (D); set "
+              "deposition.file_unit and deposition.file_scale for others",
+              name, units, style != unit_styles.end() ? fmt::format(" (lengths in {})", style->length) : "");
 }
 
 /// Adds the grains in the rows of a frame.
@@ -271,7 +254,10 @@ BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& 
   const auto throw_fault = [&] { throw LocatedError(ExitCode::bad_data, taken.fault); };
   if (!taken.fault.empty() && (taken.names_line == 0 || taken.fault_line <= taken.names_line)) throw_fault();
   if (taken.names_line == 0 || (taken.found < taken.count && taken.rows.empty()))
-    refuse_cut_off(name, frame, frames.size(), taken);
+    throw Error(ExitCode::bad_data,
+                "{}: {} is cut off: expected a line such as ITEM: ATOMS id x y radius, or the second "
+                "line of extended XYZ; an earlier deposition.frame may be whole",
+                name, frame_text(frame, frames.size(), taken.label));
   lengths.unit = unit_of_dump(name, taken.units, lengths.unit);
   TablePlace place{name, taken.names_line};
   TableRows rows{lengths, named_columns(place, taken.names, lengths.unit), &taken};
@@ -287,26 +273,16 @@ BedTable table_of_dump(const std::vector<DumpFrame>& frames, const std::string& 
   const auto metres = [&](double length) {
     return lengths.scale * in_metres(length, lengths.unit, lengths.mean_diameter);
   };
-  table.box = {metres(taken.low[0]), metres(taken.high[0]), taken.ends};
+  table.box = {metres(taken.low[0]), metres(taken.high[0]), taken.is_periodic};
   return table;
 }
 
 }  // namespace
 
-double in_metres(double length, scenario::LengthUnit unit, double mean_diameter) {
-  switch (unit) {
-    case scenario::LengthUnit::mean_diameter:
-      return length * mean_diameter;
-    case scenario::LengthUnit::metre:
-      return length;
-    case scenario::LengthUnit::centimetre:
-      return length / 1e2;
-    case scenario::LengthUnit::millimetre:
-      return length / 1e3;
-    case scenario::LengthUnit::micrometre:
-      break;
-  }
-  return length / 1e6;
+double in_metres(double length, LengthUnit unit, double mean_diameter) {
+  constexpr double per_metre[] = {0.0, 1.0, 1e2, 1e3, 1e6};  // in the order of the units; D has none
+  return unit == LengthUnit::mean_diameter ? length * mean_diameter
+                                           : length / per_metre[static_cast<std::size_t>(unit)];
 }
 
 BedTable parse_bed_table(const std::string& text, const std::string& name, const LengthRule& lengths,

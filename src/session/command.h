@@ -10,8 +10,11 @@
 #include "core/observables.h"
 #include "core/world.h"
 #include "scenario/scenario.h"
+#include "session/schedule.h"
 
 namespace talus::session {
+
+using scenario::Scenario;
 
 /// Returns "push", "drop", "friction", "tilt_rate", "drag" or "release".
 std::string_view name_of(CommandKind kind);
@@ -21,7 +24,7 @@ std::string command_text(const Command& command);
 
 /// Throws Error(usage) if a command cannot be applied to this bed (scenario::command_fault); a drag must be
 /// held within 50 D of its grain.
-void check_command(const Command& command, const scenario::Scenario& scenario, const World& world);
+void check_command(const Command& command, const Scenario& scenario, const World& world);
 
 /// Returns the commands as given: only the start of each drag, without its moves and its end.
 std::vector<Command> given_commands(std::span<const Command> commands);
@@ -46,5 +49,16 @@ std::vector<Index> surface_grains(const World& world);
 /// bed), and places them in a square lattice about x, at rest, `height` (m) above the highest grain below it.
 /// They touch nothing, and their contacts are removed. Throws Error(usage) if the surface has fewer grains.
 void drop_grains(World& world, Index count, double x, double height);
+
+// Drag of a grain by a user with a damped spring.
+
+/// Returns the acceleration (m/s^2) that the spring adds to gravity at the centre of its grain, w^2 d - 2 w
+/// v, with the vector d and the velocity v of the grain, which is critical damping. w^2 = 10 g / D, but w h
+/// is limited to a quarter, because the force is constant within a step (T4), which is unstable or weakly
+/// damped for larger w h.
+Vec2 drag_acceleration(const Drag& drag, double mean_diameter, double h, const World& world);
+
+/// Adds the velocity that the spring gives the grain in a step of length h, before the step is taken.
+void pull(const Drag& drag, double mean_diameter, double h, World& world);
 
 }  // namespace talus::session

@@ -1,13 +1,11 @@
-#include "session/dump_frames.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
 
 #include "base/errors.h"
-#include "base/visible_text.h"
-#include "session/table_columns.h"
+#include "base/text.h"
+#include "session/bed_table.h"
 
 namespace talus::session {
 namespace {
@@ -82,7 +80,7 @@ std::string_view flag_along_x(std::string_view head) {
 
 void read_box(DumpText& text, std::string_view head, DumpFrame& frame) {
   if (const std::string_view flag = flag_along_x(head); !flag.empty())
-    frame.ends = flag.starts_with('p') ? BoxEnds::periodic : BoxEnds::fixed;
+    frame.is_periodic = flag.starts_with('p');
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string_view line = text.next_row();
     const std::vector<double> bounds = numbers_in(line);
@@ -221,7 +219,7 @@ std::string read_xyz_box(std::string_view line, DumpFrame& frame) {
   if (std::string expected = read_entry(line, "Origin", 3, origin); !expected.empty()) return expected;
   if (const std::string_view pbc = value_of_entry(line, "pbc"); pbc.data() != nullptr) {
     if (pbc.find_first_of("TtFf10") != 0) return "pbc=\"T F F\" or the like";
-    frame.ends = pbc.find_first_of("Tt1") == 0 ? BoxEnds::periodic : BoxEnds::fixed;
+    frame.is_periodic = pbc.find_first_of("Tt1") == 0;
   }
   if (box.empty()) return "";
   if (box[1] != 0.0 || box[2] != 0.0 || box[3] != 0.0 || box[6] != 0.0 || box[0] <= 0.0)

@@ -1,11 +1,16 @@
 #include "session/estimate.h"
 
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/core.h>
+#include <fstream>
+#include <limits>
 
 #include "base/errors.h"
-#include "base/machine_memory.h"
 #include "scenario/tilt_program.h"
 #include "session/deposition.h"
 
@@ -39,16 +44,15 @@ constexpr double bytes_per_step = 12.0;
 constexpr double gravity = 9.81;  // m/s^2
 
 /// Returns the factor on the number of iterations due to a smaller tolerance or the slower solver.
-double difficulty(const scenario::Scenario& scenario) {
-  const double digits =
-      std::log10(scenario.solver.tolerance) / std::log10(scenario::Scenario{}.solver.tolerance);
+double difficulty(const Scenario& scenario) {
+  const double digits = std::log10(scenario.solver.tolerance) / std::log10(Scenario{}.solver.tolerance);
   return digits *
          (scenario.solver.method == scenario::SolverMethod::accelerated ? 1.0 : gauss_seidel_iterations);
 }
 
 /// Returns the seconds spent on commits: at each frame, and every output.checkpoint_every, but at most once
 /// per step.
-double seconds_of_commits(const scenario::Scenario& scenario, const Estimate& sizes, double computing) {
+double seconds_of_commits(const Scenario& scenario, const Estimate& sizes, double computing) {
   const auto steps = static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
   const double commits = std::min(steps, computing / std::max(scenario.output.checkpoint_every, 1e-6)) +
                          static_cast<double>(sizes.frames);
@@ -56,7 +60,7 @@ double seconds_of_commits(const scenario::Scenario& scenario, const Estimate& si
 }
 
 /// Returns the largest expected tilt, deg.
-double steepest_expected(const scenario::Scenario& scenario, const scenario::TiltProgram& program) {
+double steepest_expected(const Scenario& scenario, const scenario::TiltProgram& program) {
   if (program.empty()) return scenario.tilt.end_angle.value_or(assumed_repose);
   double steepest = program.ends_at_repose() ? assumed_repose : 0.0;
   for (const scenario::TiltSegment& segment : program.segments())
@@ -66,7 +70,7 @@ double steepest_expected(const scenario::Scenario& scenario, const scenario::Til
 }
 
 /// Returns the steps that may follow failure; a slope that is stable up to tilt.end_angle takes none of them.
-double steps_of_flow(const scenario::Scenario& scenario, double end) {
+double steps_of_flow(const Scenario& scenario, double end) {
   switch (scenario.tilt.after_failure) {
     case scenario::AfterFailure::lower:
       return end / scenario.tilt.lowering_rate / scenario::time_step(scenario);
@@ -78,7 +82,7 @@ double steps_of_flow(const scenario::Scenario& scenario, double end) {
   return 0.0;
 }
 
-double estimated_seconds(const scenario::Scenario& scenario, const Estimate& sizes) {
+double estimated_seconds(const Scenario& scenario, const Estimate& sizes) {
   const double factor = difficulty(scenario);
   const double most = scenario.solver.max_iterations;
   const double tilt = scenario.deposition.method == scenario::DepositionMethod::collapse
@@ -101,9 +105,51 @@ double estimated_file(const Estimate& sizes) {
          bytes_per_step * static_cast<double>(sizes.deposition_steps + sizes.tilt_steps + sizes.flow_steps);
 }
 
+namespace fs = std::filesystem;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+double physical_memory() {
+  struct sysinfo info = {};
+  if (sysinfo(&info) != 0) return unlimited;
+  return (static_cast<double>(info.totalram) + static_cast<double>(info.totalswap)) * info.mem_unit;
+}
+
+double shell_limit() {
+  rlimit limit = {};
+  const bool limited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return limited ? static_cast<double>(limit.rlim_cur) : unlimited;
+}
+
+/// Returns the smallest limit of a group and its parents. A file without a number ("max") is no limit.
+double min_limit(const fs::path& root, fs::path group, const char* file) {
+  double least = unlimited;
+  for (;; group = group.parent_path()) {
+    double limit = 0.0;
+    if (std::ifstream(root / group.relative_path() / file) >> limit) least = std::min(least, limit);
+    if (!group.has_relative_path()) return least;
+  }
+}
+
+/// Returns the limit of the control groups, from lines "0::/group" (version 2) and "5:memory:/group"
+/// (version 1).
+double cgroup_memory() {
+  double least = unlimited;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const auto first = line.find(':'), second = line.find(':', first + 1);
+    if (second == std::string::npos) continue;
+    const std::string kinds = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
+    if (kinds.empty()) least = std::min(least, min_limit("/sys/fs/cgroup", group, "memory.max"));
+    if (kinds == "memory")
+      least = std::min(least, min_limit("/sys/fs/cgroup/memory", group, "memory.limit_in_bytes"));
+  }
+  return least;
+}
+
 }  // namespace
 
-std::int64_t expected_tilt_steps(const scenario::Scenario& scenario) {
+std::int64_t expected_tilt_steps(const Scenario& scenario) {
   const scenario::TiltProgram program(scenario);
   if (program.empty())
     return std::llround(scenario.tilt.end_angle.value_or(assumed_repose) / scenario.tilt.step);
@@ -113,7 +159,7 @@ std::int64_t expected_tilt_steps(const scenario::Scenario& scenario) {
   return last.begin + std::min(last.steps, static_cast<std::int64_t>(std::llround(rise)));
 }
 
-Estimate estimate(const scenario::Scenario& scenario) {
+Estimate estimate(const Scenario& scenario) {
   Estimate result;
   result.grains = grain_count(scenario);
   if (scenario.bed.floor == scenario::BedFloor::rough)
@@ -145,18 +191,17 @@ Estimate estimate(const scenario::Scenario& scenario) {
   return result;
 }
 
-void require_memory(const scenario::Scenario& scenario) {
-  scenario::Scenario without_flow = scenario;
+void require_memory(const Scenario& scenario) {
+  Scenario without_flow = scenario;
   without_flow.tilt.after_failure = scenario::AfterFailure::stop;
   const Estimate expected = estimate(without_flow);
-  const double most = machine_memory();
+  // Memory and swap of the machine, or the smaller limit of the shell (ulimit -v) or of a control group.
+  const double most = std::min({physical_memory(), shell_limit(), cgroup_memory()});
   if (expected.memory > most)
-    throw Error(
-        ExitCode::out_of_memory,
-        fmt::format(
-            "this run needs up to about {} of memory, but only {} are available: use a smaller bed "
-            "(bed.length, bed.depth), fewer frames (output.frame_every), or a machine with more memory",
-            size_text(expected.memory), size_text(most)));
+    throw Error(ExitCode::out_of_memory,
+                "this run needs up to about {} of memory, but only {} are available: use a smaller bed "
+                "(bed.length, bed.depth), fewer frames (output.frame_every), or a machine with more memory",
+                size_text(expected.memory), size_text(most));
 }
 
 std::string size_text(double bytes) {

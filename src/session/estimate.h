@@ -9,12 +9,14 @@
 
 namespace talus::session {
 
+using scenario::Scenario;
+
 /// Assumed angle of failure for runs that end at repose, deg.
 inline constexpr double assumed_repose = 20.0;
 
 /// Returns the expected steps of the tilt: up to assumed_repose if it continues until the slope fails; with a
 /// programme all steps, except those of its last part beyond that angle.
-std::int64_t expected_tilt_steps(const scenario::Scenario& scenario);
+std::int64_t expected_tilt_steps(const Scenario& scenario);
 
 /// Estimate of a run. Sizes and steps follow from the scenario, except for the length of the deposition and
 /// the angle of repose; time, memory and disk space are within a factor of about two for beds like the
@@ -36,11 +38,11 @@ struct Estimate {
 };
 
 /// Returns the estimate of a run. Throws as grain_count does.
-Estimate estimate(const scenario::Scenario& scenario);
+Estimate estimate(const Scenario& scenario);
 
 /// Throws Error(out_of_memory) if a run needs more memory than this process can have, not counting the flow
 /// after failure, which may be short.
-void require_memory(const scenario::Scenario& scenario);
+void require_memory(const Scenario& scenario);
 
 /// Returns "12 MB", "13.8 GB".
 std::string size_text(double bytes);

@@ -9,25 +9,144 @@
 #include "base/text.h"
 #include "core/trigonometry.h"
 #include "dynamics/failure.h"
+#include "scenario/text.h"
 #include "scenario/tilt_program.h"
+#include "session/command.h"
+#include "session/deposition.h"
 #include "session/run_header.h"
 #include "session/session.h"
 
 namespace talus::session {
+
+namespace {
+
+constexpr double same_tilt = 1e-9;     // rad
+constexpr double fastest_grain = 1e6;  // sqrt(g D)
+constexpr double farthest_held = 1e6;  // D
+
+/// A start and the means to reject it.
+struct CheckedStart {
+  const io::BranchOrigin& branch;
+  const Scenario& scenario;
+  const std::string& file;
+
+  const World& world() const { return branch.start.world; }
+  template <typename... Args>
+  void require(bool holds, const char* data_set, fmt::format_string<Args...> fault, Args&&... args) const {
+    if (!holds)
+      throw Error(ExitCode::bad_data, "{}: data set /branch/{} {}", file, data_set,
+                  fmt::format(fault, std::forward<Args>(args)...));
+  }
+};
+
+void check_boundary(const CheckedStart& start) {
+  const Boundary expected = boundary_of(start.scenario), &found = start.world().boundary;
+  const auto same = [](const Plane& one, const Plane& other) {
+    return one.normal.x == other.normal.x && one.normal.y == other.normal.y && one.offset == other.offset &&
+           one.wall == other.wall;
+  };
+  start.require(found.periodic == expected.periodic, "periodic",
+                "is not that of the scenario (bed.boundary)");
+  start.require(found.length == expected.length, "length", "is not that of the scenario (bed.length)");
+  start.require(std::ranges::equal(found.planes, expected.planes, same), "plane_normal",
+                "and related data are not the walls and the floor of the scenario (bed.boundary, bed.floor)");
+}
+
+void check_velocities(const CheckedStart& start) {
+  const Grains& grains = start.world().grains;
+  const double limit = fastest_grain * std::sqrt(start.world().gravity * start.scenario.grains.mean_diameter);
+  const auto check = [&](const char* name, const std::vector<double>& values, bool of_rim) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double velocity = of_rim ? grains.radius[i] * values[i] : values[i];
+      start.require(std::abs(velocity) <= limit, name, "moves grain {} at {} m/s, expected at most {} m/s", i,
+                    scenario::short_text(velocity), scenario::short_text(limit));
+    }
+  };
+  check("vx", grains.vx, false);
+  check("vy", grains.vy, false);
+  check("omega", grains.omega, true);
+}
+
+void check_phase(const CheckedStart& start, const Schedule& schedule) {
+  const std::int64_t steps = start.world().step;
+  start.require(schedule.phase == Phase::tilt || schedule.phase == Phase::flow, "integers/phase",
+                "is {}, but a branch starts in the tilt (1) or in the flow after failure (3)",
+                static_cast<int>(schedule.phase));
+  start.require(schedule.phase == Phase::tilt || (follows_failure(start.scenario) && schedule.flow.failed),
+                "integers/phase", "is that of a flow after failure, which this run does not have");
+  start.require(schedule.tilt_steps <= steps && schedule.flow_steps <= steps - schedule.tilt_steps,
+                "integers/tilt_steps", "is {}, of {} steps in total", schedule.tilt_steps, steps);
+  start.require(schedule.quiet_steps <= steps, "integers/quiet_steps", "is {}, of {} steps in total",
+                schedule.quiet_steps, steps);
+  start.require(schedule.baseline.volume > 0.0, "reals/baseline_volume", "is {}, expected a volume above 0",
+                scenario::short_text(schedule.baseline.volume));
+}
+
+/// Checks the tilt, which follows from the scenario, the number of steps, and the commands.
+void check_tilt(const CheckedStart& start, const Schedule& schedule) {
+  const scenario::TiltProgram program(start.scenario);
+  const std::int64_t last = schedule.last_tilt_step.value_or(0);
+  start.require(schedule.last_tilt_step.has_value() != program.empty(), "integers/last_tilt_step",
+                "is {} programme of the tilt",
+                program.empty() ? "present, but the scenario has no" : "missing, but the scenario has a");
+  start.require(last <= start.world().step, "integers/last_tilt_step", "is {}, after {} steps", last,
+                start.world().step);
+  if (schedule.course)
+    start.require(schedule.course->since <= schedule.tilt_steps, "integers/tilt_since",
+                  "is {}, after {} steps of the tilt", schedule.course->since, schedule.tilt_steps);
+  if (schedule.phase != Phase::tilt) return;
+  const double expected = scheduled_tilt(start.scenario, program, schedule);
+  start.require(std::abs(start.world().tilt - expected) <= same_tilt, "tilt",
+                "is {} deg, but the scenario has {} deg after its {} steps of the tilt",
+                scenario::short_text(degrees(start.world().tilt)), scenario::short_text(degrees(expected)),
+                schedule.tilt_steps);
+}
+
+/// Checks that settings of commands are values that a command can set.
+void check_commanded(const CheckedStart& start, const Schedule& schedule) {
+  const auto check = [&](const Command& command, const char* data_set) {
+    try {
+      check_command(command, start.scenario, start.world());
+    } catch (const Error& error) {
+      start.require(false, data_set, "cannot be set by a command: {}", error.what());
+    }
+  };
+  if (schedule.friction) check({0, CommandKind::friction, -1, *schedule.friction}, "reals/friction");
+  if (schedule.course) {
+    const double rounded = degrees(schedule.course->rate) * (1.0 - 1e-12);
+    check({0, CommandKind::tilt_rate, -1, rounded}, "reals/tilt_rate");
+  }
+  if (!schedule.drag) return;
+  const double farthest = farthest_held * start.scenario.grains.mean_diameter;
+  start.require(std::abs(schedule.drag->x) <= farthest, "reals/drag_x", "is too far away");
+  start.require(std::abs(schedule.drag->y) <= farthest, "reals/drag_y", "is too far away");
+}
+
+}  // namespace
+
+void check_branch_start(const io::BranchOrigin& branch, const Scenario& scenario, const std::string& file) {
+  const Schedule schedule =
+      stored_schedule(start_of(branch.start), follows_failure(scenario), file, "/branch");
+  const CheckedStart start{branch, scenario, file};
+  check_boundary(start);
+  check_velocities(start);
+  check_phase(start, schedule);
+  check_tilt(start, schedule);
+  check_commanded(start, schedule);
+}
+
 namespace {
 
 Contacts memory_of(const FrameContacts& from) {
-  Contacts contacts;
-  contacts.a = from.a;
-  contacts.b = from.b;
-  contacts.shift = from.shift;
-  contacts.nx = from.nx;
-  contacts.ny = from.ny;
-  contacts.gap.assign(from.a.size(), 0.0);
-  contacts.fn = from.fn;
-  contacts.ft = from.ft;
-  contacts.moment = from.moment;
-  return contacts;
+  return {.a = from.a,
+          .b = from.b,
+          .shift = from.shift,
+          .nx = from.nx,
+          .ny = from.ny,
+          .gap = std::vector<double>(from.a.size(), 0.0),
+          .fn = from.fn,
+          .ft = from.ft,
+          .moment = from.moment};
 }
 
 /// Course of a run, from which its state at a step follows.
@@ -36,12 +155,11 @@ class RunCourse {
   explicit RunCourse(const io::RunFile& run)
       : run_(run),
         scenario_(runs::stored_scenario(run.header(), "/parameters/scenario_resolved")),
-        end_(stored_schedule(run.checkpoint(), follows_failure(), "the run")),
+        end_(stored_schedule(run.checkpoint(), follows_failure(scenario_), "the run")),
         steps_(run.steps()),
         rows_(run.all_observables()) {}
 
-  const scenario::Scenario& scenario() const { return scenario_; }
-  bool follows_failure() const { return scenario_.tilt.after_failure != scenario::AfterFailure::stop; }
+  const Scenario& scenario() const { return scenario_; }
 
   /// Returns the settings at a step. `turns`, if given, receives the tilts at which commands set the rate.
   Schedule commanded(std::int64_t step, std::vector<double>* turns = nullptr) const {
@@ -107,12 +225,16 @@ class RunCourse {
   }
 
  private:
+  Schedule start_of_branch() const {
+    return stored_schedule(start_of(run_.header().branch->start), follows_failure(scenario_), "the run",
+                           "/branch");
+  }
+
   /// Returns only the settings made before a branch started.
   Schedule before_commands() const {
     Schedule schedule;
     if (!run_.header().branch) return schedule;
-    const Schedule start =
-        stored_schedule(start_of(run_.header().branch->start), follows_failure(), "the run", "/branch");
+    const Schedule start = start_of_branch();
     schedule.deposition_friction = start.deposition_friction;
     schedule.course = start.course;
     schedule.drag = start.drag;
@@ -153,9 +275,7 @@ class RunCourse {
   /// Returns what the run recorded of the step that led to a state.
   LastStep last_step(std::int64_t step) const {
     if (step == run_.checkpoint().world.step) return end_.last;
-    const std::optional<io::BranchOrigin>& branch = run_.header().branch;
-    if (branch && step == branch->start.world.step)
-      return stored_schedule(start_of(branch->start), follows_failure(), "the run", "/branch").last;
+    if (run_.header().branch && step == run_.header().branch->start.world.step) return start_of_branch().last;
     LastStep last;
     if (const auto row = row_at(step);
         row != rows_.end() && at(*row, Observable::step) == static_cast<double>(step))
@@ -175,7 +295,8 @@ class RunCourse {
     auto row = row_at(step);
     if (row == rows_.end()) return {};
     const double now = at(*row, Observable::surface_displacement);
-    if (follows_failure() || !scenario_.tilt.end_angle) {  // the last row of the tilt is that of the failure
+    // In these cases the last row of the tilt is that of the failure.
+    if (follows_failure(scenario_) || !scenario_.tilt.end_angle) {
       const auto last = row_at(run_.checkpoint().world.step - end_.flow_steps);
       dynamics::SurfaceFlow flow = end_.flow;
       flow.displacement -= std::abs(at(*last, Observable::surface_displacement) - now);
@@ -193,7 +314,7 @@ class RunCourse {
   }
 
   const io::RunFile& run_;
-  scenario::Scenario scenario_;
+  Scenario scenario_;
   Schedule end_;
   std::vector<StepRow> steps_;
   std::vector<ObservableRow> rows_;
@@ -274,7 +395,7 @@ io::Checkpoint start_of(io::Checkpoint start) {
   return start;
 }
 
-io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const scenario::Scenario* branch) {
+io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const Scenario* branch) {
   io::Checkpoint checkpoint;
   checkpoint.world = world_at_frame(run, k);
   require_course(run);
@@ -285,12 +406,11 @@ io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const 
   schedule.last.friction = run.friction_of_frame(k).grains;
   schedule.last.wall_friction = run.friction_of_frame(k).walls;
   if (schedule.phase == Phase::done)
-    throw Error(ExitCode::usage,
-                fmt::format("the run ends with its frame at {} deg: a branch starts from an earlier one",
-                            degrees_text(checkpoint.world.tilt, 3)));
-  const scenario::Scenario& next = branch != nullptr ? *branch : course.scenario();
+    throw Error(ExitCode::usage, "the run ends with its frame at {} deg: a branch starts from an earlier one",
+                degrees_text(checkpoint.world.tilt, 3));
+  const Scenario& next = branch != nullptr ? *branch : course.scenario();
   if (!next.commands.empty()) course.follow_script(checkpoint.world.step, schedule);
-  store_schedule(schedule, next.tilt.after_failure != scenario::AfterFailure::stop, checkpoint);
+  store_schedule(schedule, follows_failure(next), checkpoint);
   return checkpoint;
 }
 

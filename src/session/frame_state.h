@@ -1,10 +1,23 @@
 #pragma once
 /// State of a run at one of its frames, from which a computation can start.
 
+#include <string>
+
 #include "io/run_file.h"
+#include "io/run_store.h"
+#include "scenario/scenario.h"
 #include "session/schedule.h"
 
 namespace talus::session {
+
+using scenario::Scenario;
+
+// Checks that the first state of a branch agrees with its scenario.
+
+/// Throws Error(bad_data) if a run of this scenario cannot have the stored start of a branch as its state:
+/// walls and floor, phase and step counts, tilt, and settings of commands. `file` denotes the file in
+/// messages. Readers of the header have already checked that the grains are those of the run.
+void check_branch_start(const io::BranchOrigin& branch, const Scenario& scenario, const std::string& file);
 
 /// Returns the world at frame k: bit-identical from the checkpoint if it is of the same step; otherwise from
 /// the single precision of the frame, with the contacts that carried force as memory. Throws Error(bad_data)
@@ -28,8 +41,7 @@ Schedule commanded_schedule(const io::RunFile& run, std::int64_t step);
 /// a repaired run lacks steps, rows or commands, and Error(usage) if the run ends with that frame. `branch`
 /// is the scenario with which the run continues, by default its own; it must agree on everything before the
 /// frame.
-io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k,
-                                   const scenario::Scenario* branch = nullptr);
+io::Checkpoint checkpoint_at_frame(const io::RunFile& run, std::size_t k, const Scenario* branch = nullptr);
 
 /// Returns the checkpoint of a branch from its start in a file, which has no results.
 io::Checkpoint start_of(io::Checkpoint start);

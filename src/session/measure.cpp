@@ -2,24 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/core.h>
 
-#include "stress/bed.h"
+#include "scenario/text.h"
 #include "stress/free_surface.h"
-#include "stress/internal_moment.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::session {
-namespace {
 
-double friction_of(const World& world, const dynamics::ContactLawParameters& law, Index b) {
-  const Index plane = b - world.grains.count();
-  return plane >= 0 && world.boundary.planes[static_cast<std::size_t>(plane)].wall ? law.wall_friction
-                                                                                   : law.friction;
+GuardValues guard_values(const World& world, const dynamics::StepReport& report, std::int64_t unconverged,
+                         const Scenario& scenario) {
+  const Motion& motion = report.motion;
+  const double diameter = scenario.grains.mean_diameter;
+  return {motion.largest_velocity / std::sqrt(world.gravity * diameter), report.largest_overlap / diameter,
+          motion.kinetic_energy / (motion.mass * world.gravity * scenario.bed.depth * diameter),
+          static_cast<double>(unconverged)};
 }
 
+GuardValues guard_limits(const Scenario& scenario) {
+  const Scenario::Guards& guards = scenario.guards;
+  return {guards.velocity, guards.overlap, guards.energy, static_cast<double>(guards.unconverged)};
+}
+
+std::string guard_message(std::size_t k, double value, double limit, std::int64_t step) {
+  constexpr std::array<std::string_view, guard_count> found = {
+      "a grain moves at {} sqrt(g D)", "two grains overlap by {} D",
+      "the mean kinetic energy of a grain is {} m g H", "{} consecutive steps did not reach their tolerance"};
+  return fmt::format("step {}: {}; guards.{} allows {}", step,
+                     fmt::format(fmt::runtime(found[k]), scenario::short_text(value)), guard_names[k],
+                     scenario::short_text(limit));
+}
+
+namespace {
+
 ContactStatus status_of(const World& world, const dynamics::ContactLawParameters& law, Index c) {
+  const Index plane = world.contacts.b[c] - world.grains.count();
+  const bool is_of_wall = plane >= 0 && world.boundary.planes[plane].wall;
   return stress::contact_status(world.contacts.fn[c], world.contacts.ft[c],
-                                friction_of(world, law, world.contacts.b[c]));
+                                is_of_wall ? law.wall_friction : law.friction);
 }
 
 void append_contact(const World& world, const dynamics::ContactLawParameters& law, Index c,

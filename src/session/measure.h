@@ -1,11 +1,43 @@
 #pragma once
-/// Quantities that a run records of its world.
+/// Quantities that a run records of its world, and guards against unsound runs.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "core/snapshot.h"
-#include "dynamics/contact_law_parameters.h"
 #include "dynamics/step.h"
+#include "scenario/scenario.h"
 
 namespace talus::session {
+
+using scenario::Scenario;
+
+// Guards against unsound runs: grains that are too fast, growing overlaps and energies, and steps that stay
+// unsolved. (A step whose velocities are not finite ends before the world is changed: dynamics/step.h.)
+
+inline constexpr std::size_t guard_count = 4;
+inline constexpr std::array<std::string_view, guard_count> guard_names = {"velocity", "overlap", "energy",
+                                                                          "unconverged"};
+
+/// Values that the guards check, in the units of their limits.
+using GuardValues = std::array<double, guard_count>;
+
+/// Returns the values after a step; `unconverged`: number of consecutive steps that have missed their
+/// tolerance.
+GuardValues guard_values(const World& world, const dynamics::StepReport& report, std::int64_t unconverged,
+                         const Scenario& scenario);
+GuardValues guard_limits(const Scenario& scenario);
+
+/// Returns "step 812: a grain moves at 1.2e+04 sqrt(g D); guards.velocity allows 1000" for guard k.
+std::string guard_message(std::size_t k, double value, double limit, std::int64_t step);
+
+/// Steps in which guards were exceeded, while guards.action is "warn".
+struct GuardWarnings {
+  std::array<std::int64_t, guard_count> steps{};  ///< number of steps
+  std::array<std::int64_t, guard_count> first{};  ///< first step
+};
 
 /// Reference of strains: the bed at rest before the tilt.
 struct Baseline {
@@ -19,7 +51,6 @@ Baseline measure_baseline(const World& world);
 struct RowContext {
   Baseline baseline;
   dynamics::ContactLawParameters law;
-  double mean_diameter = 0.0;         ///< m
   double surface_displacement = 0.0;  ///< m
   double largest_overlap = 0.0;       ///< m, of the last step
   double residual = 0.0;              ///< largest eta since the last row, that of the last step included

@@ -7,21 +7,21 @@
 #include <span>
 
 #include "base/errors.h"
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
 #include "core/tensor.h"
 #include "core/trigonometry.h"
 #include "scenario/scenario.h"
 #include "scenario/scripted_command.h"
 #include "scenario/text.h"
-#include "session/branch_start.h"
 #include "session/command.h"
-#include "session/drag.h"
 #include "session/frame_state.h"
 #include "session/run_header.h"
 #include "session/session.h"
 
 namespace talus::session {
 namespace {
+
+using scenario::short_text;
 
 /// Faults found so far.
 struct Findings {
@@ -32,15 +32,14 @@ struct Findings {
     ++check.changed;
     add(what, "is not as it was written: its hash differs");
   }
-  void add(const std::string& where, const std::string& what) {
+  template <typename... Args>
+  void add(const std::string& where, fmt::format_string<Args...> what, Args&&... args) {
     if (check.faults.size() < max_faults)
-      check.faults.push_back(fmt::format("{}: {}", where, what));
+      check.faults.push_back(fmt::format("{}: {}", where, fmt::format(what, std::forward<Args>(args)...)));
     else
       ++more;
   }
 };
-
-std::string frame_name(std::size_t k) { return fmt::format("frame {}", k); }
 
 bool all_finite(std::span<const double> values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
@@ -62,16 +61,14 @@ void check_steps(const std::vector<StepRow>& rows, std::int64_t begun, const io:
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::int64_t step = begun + static_cast<std::int64_t>(k) + 1;
     if (at(rows[k], StepField::step) != static_cast<double>(step)) {
-      found.add("/steps/step", fmt::format("row {} is of step {}, expected {}", k,
-                                           scenario::short_text(at(rows[k], StepField::step)), step));
+      found.add("/steps/step", "row {} is of step {}, expected {}", k,
+                short_text(at(rows[k], StepField::step)), step);
       break;
     }
-    if (!all_finite(rows[k]))
-      found.add("/steps", fmt::format("step {} has a value that is not finite", step));
+    if (!all_finite(rows[k])) found.add("/steps", "step {} has a value that is not finite", step);
   }
   if (checkpoint.world.step != begun + static_cast<std::int64_t>(rows.size()))
-    found.add("/checkpoint/step",
-              fmt::format("{}, but /steps has {} rows", checkpoint.world.step, rows.size()));
+    found.add("/checkpoint/step", "{}, but /steps has {} rows", checkpoint.world.step, rows.size());
 }
 
 /// Checks the rows of a run. The first row of a branch, at step `begun`, need not know the overlap of its
@@ -82,9 +79,8 @@ void check_observables(const std::vector<ObservableRow>& rows, double begun, dou
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const double step = at(rows[k], Observable::step);
     if (!(step > before) || step > last_step)
-      found.add("/observables/step", fmt::format("row {} is of step {}, expected one after {}, up to {}", k,
-                                                 scenario::short_text(step), scenario::short_text(before),
-                                                 scenario::short_text(last_step)));
+      found.add("/observables/step", "row {} is of step {}, expected one after {}, up to {}", k,
+                short_text(step), short_text(before), short_text(last_step));
     before = step;
     for (const Observable field : {Observable::time, Observable::tilt, Observable::kinetic_energy,
                                    Observable::volume_strain, Observable::largest_overlap})
@@ -92,7 +88,7 @@ void check_observables(const std::vector<ObservableRow>& rows, double begun, dou
           !(field == Observable::largest_overlap && step == begun))
         found.add(
             std::string("/observables/").append(observable_fields[static_cast<std::size_t>(field)].name),
-            fmt::format("row {} is not finite", k));
+            "row {} is not finite", k);
   }
 }
 
@@ -121,7 +117,7 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
   bool finite = true;
   for (const auto& [set, numbers] : values) {
     if (all_finite(*numbers)) continue;
-    found.add(name, fmt::format("{} has a value that is not finite", set));
+    found.add(name, "{} has a value that is not finite", set);
     finite = false;
   }
   // In single precision x may equal the period.
@@ -133,7 +129,7 @@ bool check_values(const BedFrame& bed, const std::string& name, Findings& found)
 }
 
 /// Returns the largest overlap allowed, D: that of the guards of the run, or any if these only warn.
-double overlap_allowed(const scenario::Scenario& scenario) {
+double overlap_allowed(const Scenario& scenario) {
   if (scenario.guards.action == scenario::GuardAction::warn) return std::numeric_limits<double>::infinity();
   return std::max(overlap_limit, scenario.guards.overlap);
 }
@@ -157,27 +153,25 @@ void check_contacts(const BedFrame& bed, double overlap_allowed, const std::stri
     deepest = std::max(deepest, overlap(bed, c));
     if (contacts.fn[c] < 0.0) ++pulling;
     // Forces far below the weight of a grain have few significant digits in single precision.
-    const double limit = friction_of_contact(bed.frame, static_cast<Index>(c)) * contacts.fn[c] + least;
+    const double limit = friction_of_contact(bed.frame, c) * contacts.fn[c] + least;
     mobilised = std::max(mobilised, std::abs(contacts.ft[c]) / limit);
   }
   RunCheck& check = found.check;
   check.largest_overlap = std::max(check.largest_overlap, deepest / bed.statics.mean_diameter);
   check.largest_mobilisation = std::max(check.largest_mobilisation, mobilised);
-  if (pulling > 0) found.add(name, fmt::format("{} contacts pull; normal forces are >= 0", pulling));
+  if (pulling > 0) found.add(name, "{} contacts pull; normal forces are >= 0", pulling);
   if (deepest > overlap_allowed * bed.statics.mean_diameter)
-    found.add(name, fmt::format("two grains overlap by {} D",
-                                scenario::short_text(deepest / bed.statics.mean_diameter)));
+    found.add(name, "two grains overlap by {} D", short_text(deepest / bed.statics.mean_diameter));
   if (mobilised > mobilisation_limit)
-    found.add(name, fmt::format("a tangential force is {} mu f_n, Coulomb's law allows 1",
-                                scenario::short_text(mobilised)));
+    found.add(name, "a tangential force is {} mu f_n, Coulomb's law allows 1", short_text(mobilised));
 }
 
 /// Checks that moments stay within rolling friction (T38).
 void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Findings& found) {
   const FrameContacts& contacts = bed.frame.contacts;
   if (contacts.moment.size() != (mu_r > 0.0 ? contacts.a.size() : 0)) {
-    found.add(name, fmt::format("{} moments of {} contacts, with contact.rolling_friction = {}",
-                                contacts.moment.size(), contacts.a.size(), scenario::short_text(mu_r)));
+    found.add(name, "{} moments of {} contacts, with contact.rolling_friction = {}", contacts.moment.size(),
+              contacts.a.size(), short_text(mu_r));
     return;
   }
   const double least = force_threshold(bed.statics);
@@ -189,8 +183,7 @@ void check_rolling(const BedFrame& bed, double mu_r, const std::string& name, Fi
         std::max(mobilised, std::abs(contacts.moment[c]) / (length * (mu_r * contacts.fn[c] + least)));
   }
   if (mobilised > mobilisation_limit)
-    found.add(name, fmt::format("a moment is {} mu_r (r_a + r_b) f_n, rolling friction allows 1",
-                                scenario::short_text(mobilised)));
+    found.add(name, "a moment is {} mu_r (r_a + r_b) f_n, rolling friction allows 1", short_text(mobilised));
 }
 
 /// Load of the contacts on each grain: the sum of forces, and the internal moment (paper, Eq. 4).
@@ -200,13 +193,13 @@ struct Loads {
 };
 
 Loads loads_of(const BedFrame& bed) {
-  const auto count = static_cast<std::size_t>(bed.frame.grain_count());
+  const std::size_t count = bed.frame.grain_count();
   Loads loads{std::vector<Vector2>(count, Vector2::Zero()), std::vector<Tensor2>(count)};
   const FrameContacts& contacts = bed.frame.contacts;
   // For the other body of a contact, lever arm and force both change sign, so their product does not.
   const auto add = [&](Index body, double sign, const Vector2& normal, const Vector2& force) {
     if (body >= bed.frame.grain_count()) return;  // plane
-    const auto grain = static_cast<std::size_t>(body);
+    const std::size_t grain = body;
     loads.force[grain] += sign * force;
     matrix(loads.moment[grain]) += bed.statics.radius[grain] * normal * force.transpose();  // (T19)
   };
@@ -237,26 +230,24 @@ void check_moments(const Frame& frame, const Loads& loads, const std::string& na
   if (largest == 0.0) return;
   found.check.largest_moment_error = std::max(found.check.largest_moment_error, error / largest);
   if (error > moment_error_limit * largest)
-    found.add(name,
-              fmt::format("internal_moment does not match the contacts: it differs by {} of the largest",
-                          scenario::short_text(error / largest)));
+    found.add(name, "internal_moment does not match the contacts: it differs by {} of the largest",
+              short_text(error / largest));
 }
 
 /// Returns the allowed imbalance, m g: twice the change of a velocity from one bound of rest to the other in
 /// one step.
-double imbalance_allowed(const scenario::Scenario& scenario) {
+double imbalance_allowed(const Scenario& scenario) {
   return std::max(imbalance_limit, 4.0 * scenario.deposition.rest_velocity);
 }
 
 /// Adds the force of the spring that drags a grain.
-void add_drag(const io::RunFile& run, const scenario::Scenario& scenario, std::size_t k, std::int64_t step,
+void add_drag(const io::RunFile& run, const Scenario& scenario, std::size_t k, std::int64_t step,
               Loads& loads) {
   const std::optional<Drag> drag = commanded_schedule(run, step).drag;
   if (!drag) return;
   const Vec2 pulled = drag_acceleration(*drag, scenario.grains.mean_diameter, scenario::time_step(scenario),
                                         world_at_frame(run, k));
-  loads.force[static_cast<std::size_t>(drag->grain)] +=
-      run.header().statics.mass[static_cast<std::size_t>(drag->grain)] * Vector2{pulled.x, pulled.y};
+  loads.force[drag->grain] += run.header().statics.mass[drag->grain] * Vector2{pulled.x, pulled.y};
 }
 
 /// Checks Newton's law for a bed at rest: forces balance the weight.
@@ -264,7 +255,7 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
                    Findings& found) {
   double squares = 0.0;
   for (Index i = 0; i < bed.statics.free_count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
+    const std::size_t k = i;
     const double weight = bed.statics.mass[k] * bed.statics.gravity;
     const double x = loads.force[k].x() / weight + sine(bed.frame.tilt);
     const double y = loads.force[k].y() / weight - cosine(bed.frame.tilt);
@@ -275,9 +266,8 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
   ++found.check.frames_at_rest;
   found.check.largest_imbalance = std::max(found.check.largest_imbalance, imbalance);
   if (imbalance > imbalance_allowed)
-    found.add(name,
-              fmt::format("the bed is recorded as at rest, but forces and weight differ by {} m g (rms)",
-                          scenario::short_text(imbalance)));
+    found.add(name, "the bed is recorded as at rest, but forces and weight differ by {} m g (rms)",
+              short_text(imbalance));
 }
 
 // --- data stored twice ---
@@ -285,7 +275,7 @@ void check_balance(const BedFrame& bed, const Loads& loads, double imbalance_all
 bool is_same(double one, double other) { return one == other || (std::isnan(one) && std::isnan(other)); }
 
 /// Checks that the parameters stored outside the scenario agree with it.
-void check_parameters(const io::RunHeader& header, const scenario::Scenario& scenario, Findings& found) {
+void check_parameters(const io::RunHeader& header, const Scenario& scenario, Findings& found) {
   const RunStatics& statics = header.statics;
   if (header.seed != scenario.seed) found.add("/provenance", "the seed is not that of the scenario");
   const double diameter = scenario.grains.mean_diameter;
@@ -296,9 +286,8 @@ void check_parameters(const io::RunHeader& header, const scenario::Scenario& sce
       {"gravity", {statics.gravity, World().gravity}}};
   for (const auto& [name, pair] : values)
     if (!is_same(pair.first, pair.second))
-      found.add(std::string("/parameters/").append(name), "is " + scenario::short_text(pair.first) +
-                                                              ", but the scenario has " +
-                                                              scenario::short_text(pair.second));
+      found.add(std::string("/parameters/").append(name), "is {}, but the scenario has {}",
+                short_text(pair.first), short_text(pair.second));
 }
 
 /// Checks that the grains that have arrived are those of the last state.
@@ -310,20 +299,18 @@ void check_grains(const RunStatics& all, const World& world, Findings& found) {
 }
 
 /// Checks that the results follow from the state of the run.
-void check_results(const scenario::Scenario& scenario, const io::Checkpoint& checkpoint,
-                   Findings& found) try {
+void check_results(const Scenario& scenario, const io::Checkpoint& checkpoint, Findings& found) try {
   const Figures results = Session(scenario, checkpoint, "/checkpoint").checkpoint(0.0).results;
   for (const auto& [name, value] : checkpoint.results)
     if (const auto expected = find_value(results, name); expected && !is_same(*expected, value))
-      found.add("/results/" + name, "is " + scenario::short_text(value) +
-                                        ", but the state of the run gives " +
-                                        scenario::short_text(*expected));
+      found.add("/results/" + name, "is {}, but the state of the run gives {}", short_text(value),
+                short_text(*expected));
 } catch (const Error& error) {
-  found.add("/checkpoint", error.what());
+  found.add("/checkpoint", "{}", error.what());
 }
 
 /// Checks that a branch starts with a state of its scenario, and that its first frame is that state.
-void check_branch(const io::RunFile& run, const scenario::Scenario& scenario, Findings& found) try {
+void check_branch(const io::RunFile& run, const Scenario& scenario, Findings& found) try {
   const io::BranchOrigin& branch = *run.header().branch;
   check_branch_start(branch, scenario, "the run");
   if (!run.lost().empty() || !run.has_frames() || run.all_frame_tilts().empty()) return;
@@ -337,7 +324,7 @@ void check_branch(const io::RunFile& run, const scenario::Scenario& scenario, Fi
       !std::ranges::equal(first.y, start.grains.y, same))
     found.add("/branch", "is not the state of the first frame");
 } catch (const Error& error) {
-  found.add("/branch", error.what());
+  found.add("/branch", "{}", error.what());
 }
 
 }  // namespace
@@ -361,7 +348,7 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
   else
     check_steps(steps, begun, run.checkpoint(), found);
   check_observables(rows, static_cast<double>(begun), static_cast<double>(last_step), lacks, found);
-  const scenario::Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
+  const Scenario scenario = runs::stored_scenario(run.header(), "/parameters/scenario_resolved");
   check_parameters(run.header(), scenario, found);
   if (run.header().branch) check_branch(run, scenario, found);
   if (run.has_state()) {
@@ -375,13 +362,12 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
        (run.header().branch && find_value(run.header().branch->start.integers, "drag_grain")));
   std::int64_t before = -1;
   for (std::size_t k = 0; run.has_frames() && k < run.all_frame_tilts().size(); ++k, ++check.frames) {
-    const std::string name = frame_name(k);
+    const std::string name = fmt::format("frame {}", k);
     try {
       Frame frame = run.stored_frame(k);
       if (!run.is_as_written(frame, k)) found.add_changed(name);
       if (frame.step <= before || frame.step > last_step)
-        found.add("/frames/step",
-                  fmt::format("{} is of step {}, after one of step {}", name, frame.step, before));
+        found.add("/frames/step", "{} is of step {}, after one of step {}", name, frame.step, before);
       before = frame.step;
       // A lost command can have set any friction.
       if (may_lack_commands(run)) frame.friction.grains = scenario::largest_friction;
@@ -396,7 +382,7 @@ RunCheck check_run(const io::RunFile& run, const std::function<void(std::size_t)
           check_balance(bed, loads, imbalance_allowed(scenario), name, found);
       }
     } catch (const Error& error) {
-      found.add(name, error.what());
+      found.add(name, "{}", error.what());
     }
     if (progress) progress(k + 1);
   }

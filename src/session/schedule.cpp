@@ -6,14 +6,13 @@
 #include <limits>
 #include <type_traits>
 #include <variant>
-#include <vector>
 
 #include "base/errors.h"
-#include "base/hash.h"
 #include "core/trigonometry.h"
 #include "scenario/text.h"
 
 namespace talus::session {
+
 namespace {
 
 constexpr double max_steps = 0x1p53;  // step counts up to this are exact in a double
@@ -148,9 +147,8 @@ struct CheckpointOrigin {
                          const std::string& fault) {
   const std::string groups[] = {origin.group + "/integers/", origin.group + "/reals/", "/results/",
                                 "/provenance/timing/"};
-  throw Error(ExitCode::bad_data,
-              fmt::format("{}: data set {}{} {}", origin.file, groups[static_cast<std::size_t>(field.place)],
-                          field.name, fault));
+  throw Error(ExitCode::bad_data, "{}: data set {}{} {}", origin.file,
+              groups[static_cast<std::size_t>(field.place)], field.name, fault);
 }
 
 /// Sets the value of a field, or throws if it is impossible.
@@ -188,7 +186,7 @@ std::optional<double> angle_of_repose(const Schedule& schedule) {
   return schedule.flow.failed ? std::optional<double>(schedule.flow.onset_tilt) : std::nullopt;
 }
 
-bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenario& scenario,
+bool is_reached(const scenario::ScriptedCommand& command, const Scenario& scenario,
                 const std::optional<ScriptCourse>& course) {
   if (!course) return false;
   if (!command.at)
@@ -198,7 +196,7 @@ bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenar
   return angle < 0.0 ? course->lowest <= angle + rounding : course->highest >= angle - rounding;
 }
 
-std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, const Schedule& schedule) {
+std::vector<std::size_t> waiting_commands(const Scenario& scenario, const Schedule& schedule) {
   std::vector<std::size_t> waiting;
   for (std::size_t k = 0; k < scenario.commands.size(); ++k)
     if (!is_reached(scenario.commands[k], scenario, schedule.script)) waiting.push_back(k);
@@ -234,18 +232,6 @@ Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const s
       refuse(field, origin, "is missing; without it the run cannot continue");
   }
   return schedule;
-}
-
-std::uint64_t schedule_hash(Schedule schedule) {
-  Hasher hash;
-  for (const ScheduleField& field : fields(schedule, true)) {
-    if (field.place == CheckpointGroup::timing || field.kept == StoragePolicy::as_result ||
-        field.kept == StoragePolicy::where_known)
-      continue;
-    hash.add_array(field.name);
-    hash.add(number_of(field.value));
-  }
-  return hash.value();
 }
 
 }  // namespace talus::session

@@ -1,7 +1,6 @@
 #pragma once
 /// Progress of a run: its entire state apart from the world.
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,11 +10,12 @@
 #include "dynamics/step.h"
 #include "io/run_store.h"
 #include "scenario/scenario.h"
-#include "session/guards.h"
 #include "session/measure.h"
 #include "session/phase.h"
 
 namespace talus::session {
+
+using scenario::Scenario;
 
 /// Record of unconverged steps and residuals.
 struct SolverRecord {
@@ -24,7 +24,11 @@ struct SolverRecord {
   std::int64_t unconverged_flow = 0;
   double residual_max_rest = 0.0;    ///< largest eta of a step of the tilt at rest
   double residual_max_moving = 0.0;  ///< largest eta of the other steps of the tilt
+
+  std::int64_t unconverged() const { return unconverged_deposition + unconverged_tilt + unconverged_flow; }
 };
+/// Fraction of unconverged steps considered usual (docs/solver.md).
+inline constexpr double usual_unconverged_share = 0.002;
 
 /// Course of a tilt after a command has changed its rate: it grows by `rate` h per step.
 struct TiltCourse {
@@ -33,7 +37,7 @@ struct TiltCourse {
   std::int64_t since = 0;  ///< steps of the tilt taken before the change
 };
 
-/// Spring that pulls a grain to a position, m (session/drag.h).
+/// Spring that pulls a grain to a position, m (session/command.h).
 struct Drag {
   Index grain = -1;
   double x = 0.0, y = 0.0;
@@ -100,11 +104,11 @@ struct Schedule {
 std::optional<double> angle_of_repose(const Schedule& schedule);
 
 /// Whether a command of a scenario has been carried out at this point of the course.
-bool is_reached(const scenario::ScriptedCommand& command, const scenario::Scenario& scenario,
+bool is_reached(const scenario::ScriptedCommand& command, const Scenario& scenario,
                 const std::optional<ScriptCourse>& course);
 
 /// Returns the indices of the commands of a scenario that have not been carried out.
-std::vector<std::size_t> waiting_commands(const scenario::Scenario& scenario, const Schedule& schedule);
+std::vector<std::size_t> waiting_commands(const Scenario& scenario, const Schedule& schedule);
 
 /// Adds the values of a schedule to a checkpoint, under the names of a common table. Omits settings that no
 /// command has changed, guards that were never exceeded, unknown values of the last step, and values of the
@@ -115,9 +119,5 @@ void store_schedule(Schedule schedule, bool follows, io::Checkpoint& checkpoint)
 /// name the file `origin` and the `group` of the checkpoint in it.
 Schedule stored_schedule(const io::Checkpoint& checkpoint, bool follows, const std::string& origin,
                          const std::string& group = "/checkpoint");
-
-/// Returns a hash of all values of the table that are state, to the last bit; wall times and values of the
-/// last step are excluded.
-std::uint64_t schedule_hash(Schedule schedule);
 
 }  // namespace talus::session

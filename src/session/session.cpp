@@ -2,24 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/core.h>
 
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "scenario/scripted_command.h"
-#include "session/drag.h"
 #include "stress/free_surface.h"
 
 namespace talus::session {
 namespace {
-
-std::int64_t steps_between(double degrees_between, double step) {
-  return std::max<std::int64_t>(1, std::llround(degrees_between / step));
-}
-
-bool follows_failure(const scenario::Scenario& scenario) {
-  return scenario.tilt.after_failure != scenario::AfterFailure::stop;
-}
 
 double seconds(const dynamics::StepReport& report) {
   double sum = 0.0;
@@ -29,19 +19,17 @@ double seconds(const dynamics::StepReport& report) {
 
 }  // namespace
 
-dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario) {
-  dynamics::ContactLawParameters law;
-  law.friction = scenario.contact.friction;
-  law.wall_friction = scenario.contact.wall_friction;
-  law.rolling_friction = scenario.contact.rolling_friction;
-  law.restitution = scenario.contact.restitution;
-  law.tangential_restitution = scenario.contact.tangential_restitution;
-  law.allowed_overlap = scenario.solver.allowed_overlap * scenario.grains.mean_diameter;
-  law.overlap_correction = scenario.solver.overlap_correction;
-  return law;
+dynamics::ContactLawParameters contact_law(const Scenario& scenario) {
+  return {.friction = scenario.contact.friction,
+          .wall_friction = scenario.contact.wall_friction,
+          .rolling_friction = scenario.contact.rolling_friction,
+          .restitution = scenario.contact.restitution,
+          .tangential_restitution = scenario.contact.tangential_restitution,
+          .allowed_overlap = scenario.solver.allowed_overlap * scenario.grains.mean_diameter,
+          .overlap_correction = scenario.solver.overlap_correction};
 }
 
-dynamics::StepSettings step_settings(const scenario::Scenario& scenario) {
+dynamics::StepSettings step_settings(const Scenario& scenario) {
   // Margin in addition to the distance that velocities may close, which the step adds: room for their change
   // in the step.
   constexpr double margin_over_d = 0.002;
@@ -57,7 +45,7 @@ dynamics::StepSettings step_settings(const scenario::Scenario& scenario) {
   return settings;
 }
 
-dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const World& world) {
+dynamics::StepSettings step_settings(const Scenario& scenario, const World& world) {
   dynamics::StepSettings settings = step_settings(scenario);
   const double velocity = rms_velocity(world.grains) / (world.gravity * settings.h);
   settings.solver.tolerance = std::clamp(velocity * scenario.solver.moving_tolerance,
@@ -65,22 +53,20 @@ dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const W
   return settings;
 }
 
-RunStatics run_statics(const scenario::Scenario& scenario, const World& world) {
-  RunStatics statics;
+RunStatics run_statics(const Scenario& scenario, const World& world) {
   const Grains grains =
       dynamics::with_remaining_grains(world.grains, arrivals_of(scenario), scenario.grains.density);
-  statics.free_count = grains.free_count;
-  statics.radius = grains.radius;
-  statics.mass = grains.mass;
-  statics.periodic = world.boundary.periodic;
-  statics.length = world.boundary.length;
-  statics.depth = scenario.bed.depth * scenario.grains.mean_diameter;
-  statics.mean_diameter = scenario.grains.mean_diameter;
-  statics.gravity = world.gravity;
-  return statics;
+  return {.free_count = grains.free_count,
+          .radius = grains.radius,
+          .mass = grains.mass,
+          .periodic = world.boundary.periodic,
+          .length = world.boundary.length,
+          .depth = scenario.bed.depth * scenario.grains.mean_diameter,
+          .mean_diameter = scenario.grains.mean_diameter,
+          .gravity = world.gravity};
 }
 
-double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltProgram& program,
+double scheduled_tilt(const Scenario& scenario, const scenario::TiltProgram& program,
                       const Schedule& schedule) {
   if (!program.empty() && !schedule.course) return program.tilt(schedule.tilt_steps);
   if (!schedule.course) return static_cast<double>(schedule.tilt_steps) * radians(scenario.tilt.step);
@@ -88,7 +74,7 @@ double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltPr
                                      schedule.course->rate * scenario::time_step(scenario);
 }
 
-Session::Session(const scenario::Scenario& scenario)
+Session::Session(const Scenario& scenario)
     : scenario_(scenario),
       program_(scenario),
       world_(initial_bed(scenario, &bed_remark_)),
@@ -98,12 +84,12 @@ Session::Session(const scenario::Scenario& scenario)
     if (const std::string fault =
             scenario::command_fault(scenario::command_of(scenario_.commands[k]), scenario_, grains);
         !fault.empty())
-      throw Error(ExitCode::bad_data, fmt::format("{}: {}", scenario::command_section(k), fault));
+      throw Error(ExitCode::bad_data, "{}: {}", scenario::command_section(k), fault);
   reserve_grains();
   dynamics::add_due_grains(arrivals_, pour_rule(scenario_), scenario::time_step(scenario_), world_);
 }
 
-Session::Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint, const std::string& origin,
+Session::Session(const Scenario& scenario, io::Checkpoint checkpoint, const std::string& origin,
                  const std::string& group)
     : scenario_(scenario),
       program_(scenario),
@@ -139,7 +125,7 @@ Frame Session::frame() const { return make_frame(world_, law_of_last_step()); }
 
 bool Session::adopt_friction() {
   if (!schedule_.friction) return false;
-  const scenario::Scenario was = scenario_;
+  const Scenario was = scenario_;
   scenario_.contact.friction = *std::exchange(schedule_.friction, {});
   keep_deposition_friction(was, scenario_);
   if (schedule_.deposition_friction) scenario_.deposition.friction = schedule_.deposition_friction;
@@ -160,7 +146,7 @@ bool Session::is_quiet() const {
 
 void Session::apply(Command command) {
   if (schedule_.phase == Phase::done)
-    throw Error(ExitCode::usage, fmt::format("{}: the run has ended", name_of(command.kind)));
+    throw Error(ExitCode::usage, "{}: the run has ended", name_of(command.kind));
   check_command(command, scenario_, world_);
   switch (command.kind) {
     case CommandKind::push:
@@ -177,7 +163,8 @@ void Session::apply(Command command) {
       if (schedule_.phase == Phase::flow)
         throw Error(ExitCode::usage,
                     "tilt_rate: the slope has failed, so its tilt follows tilt.after_failure");
-      schedule_.course = TiltCourse{radians(command.x) + 0.0, scheduled_tilt(), schedule_.tilt_steps};
+      schedule_.course = TiltCourse{radians(command.x) + 0.0, scheduled_tilt(scenario_, program_, schedule_),
+                                    schedule_.tilt_steps};
       break;
     case CommandKind::drag:
       schedule_.drag = Drag{command.grain, command.x, command.y};
@@ -198,8 +185,7 @@ void Session::record_start() {
 void Session::check_guards() const {
   for (std::size_t k = 0; k < guard_count; ++k)
     if (const double value = schedule_.broken[k]; value != 0.0 && schedule_.phase != Phase::done)
-      throw Error(ExitCode::bad_data,
-                  guard_message(static_cast<Guard>(k), value, guard_limits(scenario_)[k], world_.step));
+      throw Error(ExitCode::bad_data, guard_message(k, value, guard_limits(scenario_)[k], world_.step));
 }
 
 void Session::follow_commands() {
@@ -223,8 +209,8 @@ void Session::follow_commands() {
       world_ = before->first;
       schedule_ = before->second;
       segment_.commands.resize(recorded);
-      throw Error(ExitCode::bad_data, fmt::format("{}, {}: {}", scenario::command_section(k),
-                                                  scenario::moment_text(command), error.what()));
+      throw Error(ExitCode::bad_data, "{}, {}: {}", scenario::command_section(k),
+                  scenario::moment_text(command), error.what());
     }
   }
   schedule_.script = now;
@@ -281,10 +267,10 @@ void Session::advance_deposition() {
   } else if (world_.time >= end_of_arrivals(scenario_) + scenario_.deposition.max_time) {
     const double velocity = report_.motion.rms_velocity / (world_.gravity * scenario::time_step(scenario_));
     throw Error(ExitCode::bad_data,
-                fmt::format("the bed did not come to rest within deposition.max_time = {:g} s: its rms "
-                            "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; {}",
-                            scenario_.deposition.max_time, velocity, scenario_.deposition.rest_velocity,
-                            advice_for_rest(scenario_, velocity)));
+                "the bed did not come to rest within deposition.max_time = {:g} s: its rms "
+                "velocity is {:.3g} g h, rest requires deposition.rest_velocity = {:g} g h; {}",
+                scenario_.deposition.max_time, velocity, scenario_.deposition.rest_velocity,
+                advice_for_rest(scenario_, velocity));
   }
 }
 
@@ -296,10 +282,6 @@ void Session::begin_tilt() {
   record_start();
 }
 
-double Session::scheduled_tilt() const {
-  return talus::session::scheduled_tilt(scenario_, program_, schedule_);
-}
-
 bool Session::tilt_is_over() const {
   if (follows_program()) return schedule_.flow.failed || schedule_.tilt_steps >= program_.steps();
   const double tilt = std::abs(degrees(world_.tilt));
@@ -309,7 +291,7 @@ bool Session::tilt_is_over() const {
 
 void Session::advance_tilt() {
   ++schedule_.tilt_steps;
-  world_.tilt = scheduled_tilt();
+  world_.tilt = scheduled_tilt(scenario_, program_, schedule_);
   const double velocity = take_step_and_follow();
   if (schedule_.last_tilt_step) schedule_.last_tilt_step = world_.step;
   const bool failed_before = schedule_.flow.failed;
@@ -330,7 +312,8 @@ void Session::advance_flow() {
   ++schedule_.flow_steps;
   const double time = static_cast<double>(schedule_.flow_steps) * scenario::time_step(scenario_);
   const bool lowered = scenario_.tilt.after_failure == scenario::AfterFailure::lower;
-  const double failed_at = scheduled_tilt(), side = failed_at < 0.0 ? -1.0 : 1.0;
+  const double failed_at = scheduled_tilt(scenario_, program_, schedule_),
+               side = failed_at < 0.0 ? -1.0 : 1.0;
   if (lowered)
     world_.tilt = side * std::max(0.0, side * failed_at - time * radians(scenario_.tilt.lowering_rate)) + 0.0;
   take_step_and_follow();
@@ -354,7 +337,8 @@ double Session::take_step_and_follow() {
 
 void Session::record(bool row, bool frame) {
   const auto due = [this](double every) {
-    return (schedule_.tilt_steps + schedule_.flow_steps) % steps_between(every, scenario_.tilt.step) == 0;
+    const std::int64_t steps = std::max<std::int64_t>(1, std::llround(every / scenario_.tilt.step));
+    return (schedule_.tilt_steps + schedule_.flow_steps) % steps == 0;
   };
   if (row || due(scenario_.output.observable_every)) record_row();
   if (frame || due(scenario_.output.frame_every)) segment_.frames.push_back(this->frame());
@@ -401,16 +385,14 @@ void Session::watch() {
 }
 
 ObservableRow Session::row() const {
-  RowContext context;
-  context.baseline = schedule_.baseline;
-  context.law = law_of_last_step();
-  context.mean_diameter = scenario_.grains.mean_diameter;
-  context.surface_displacement = schedule_.surface_displacement;
-  context.largest_overlap = schedule_.last.largest_overlap.value_or(not_known);
-  context.residual = schedule_.residual_since_row > 0.0 ? schedule_.residual_since_row
-                                                        : schedule_.last.residual.value_or(not_known);
-  context.at_rest = is_at_rest();
-  return measure(world_, context);
+  return measure(
+      world_, {.baseline = schedule_.baseline,
+               .law = law_of_last_step(),
+               .surface_displacement = schedule_.surface_displacement,
+               .largest_overlap = schedule_.last.largest_overlap.value_or(not_known),
+               .residual = schedule_.residual_since_row > 0.0 ? schedule_.residual_since_row
+                                                              : schedule_.last.residual.value_or(not_known),
+               .at_rest = is_at_rest()});
 }
 
 void Session::record_row() {

@@ -1,4 +1,8 @@
 #pragma once
+/// Session makes a run of a scenario. A Session steps one World through its phases (schedule.h) and takes
+/// commands; run.h records and commits it; frame_state.h and deposition.h give it other beginnings;
+/// run_check.h verifies the result.
+///
 /// A run as a value that is stepped: deposition, rest, tilt, failure, and the flow after it. The command line
 /// and the interactive frontend are both thin clients of it.
 
@@ -17,6 +21,8 @@
 
 namespace talus::session {
 
+using scenario::Scenario;
+
 /// Session of a run. The tolerance required of a step grows with the velocity of the bed, from
 /// solver.tolerance at rest to solver.moving_tolerance at an rms velocity of g h. An error of the solver acts
 /// as a velocity; it must stay well below the actual one, so that a bed can always come to rest.
@@ -24,11 +30,11 @@ class Session {
  public:
   /// Starts a new run, with the bed of the scenario before its first step. Throws Error(bad_data) if a
   /// command of the scenario cannot be applied to it.
-  explicit Session(const scenario::Scenario& scenario);
+  explicit Session(const Scenario& scenario);
   /// Restores a run from its last commit. Throws Error(bad_data) if the checkpoint lacks a value; messages
   /// name the file `origin` and the `group` of the checkpoint in it.
-  Session(const scenario::Scenario& scenario, io::Checkpoint checkpoint,
-          const std::string& origin = "the checkpoint", const std::string& group = "/checkpoint");
+  Session(const Scenario& scenario, io::Checkpoint checkpoint, const std::string& origin = "the checkpoint",
+          const std::string& group = "/checkpoint");
 
   /// Records a row and a frame of the current state, with which a branch of another run starts.
   void record_start();
@@ -61,7 +67,7 @@ class Session {
   /// Sets the number of threads of the solver; the result does not depend on it.
   void use_threads(int threads) { threads_ = threads; }
 
-  const scenario::Scenario& scenario() const { return scenario_; }
+  const Scenario& scenario() const { return scenario_; }
   /// Returns the world; its grains keep their addresses in memory while more of them arrive.
   const World& world() const { return world_; }
   const Schedule& schedule() const { return schedule_; }
@@ -133,10 +139,9 @@ class Session {
   /// Records a row of observables and a frame if they are due, or if `row` or `frame` is true.
   void record(bool row, bool frame);
   void record_row();
-  double scheduled_tilt() const;  ///< rad, after the steps of the tilt taken so far
-  bool tilt_is_over() const;      ///< whether it ends at this step, whatever follows
+  bool tilt_is_over() const;  ///< whether it ends at this step, whatever follows
 
-  scenario::Scenario scenario_;
+  Scenario scenario_;
   scenario::TiltProgram program_;
   std::string bed_remark_;
   World world_;
@@ -151,21 +156,21 @@ class Session {
 };
 
 /// Returns the contact law of a scenario after deposition.
-dynamics::ContactLawParameters contact_law(const scenario::Scenario& scenario);
+dynamics::ContactLawParameters contact_law(const Scenario& scenario);
 
 /// Returns the settings of a step of the tilt of a bed at rest, on one thread.
-dynamics::StepSettings step_settings(const scenario::Scenario& scenario);
+dynamics::StepSettings step_settings(const Scenario& scenario);
 
 /// Returns the settings of the next step of a world in the tilt, on one thread, with the tolerance for its
 /// velocity.
-dynamics::StepSettings step_settings(const scenario::Scenario& scenario, const World& world);
+dynamics::StepSettings step_settings(const Scenario& scenario, const World& world);
 
 /// Returns the tilt after the steps of the tilt taken so far, rad.
-double scheduled_tilt(const scenario::Scenario& scenario, const scenario::TiltProgram& program,
+double scheduled_tilt(const Scenario& scenario, const scenario::TiltProgram& program,
                       const Schedule& schedule);
 
 /// Returns the constants of the run, for all grains, including those that have not arrived yet.
-RunStatics run_statics(const scenario::Scenario& scenario, const World& world);
+RunStatics run_statics(const Scenario& scenario, const World& world);
 
 /// Magnitude of the tilt at which a run ends if the slope has not failed, deg.
 inline constexpr double steepest_tilt = 60.0;

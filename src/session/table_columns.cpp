@@ -1,5 +1,3 @@
-#include "session/table_columns.h"
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -10,20 +8,15 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "base/visible_text.h"
+#include "scenario/text.h"
+#include "session/bed_table.h"
 
 namespace talus::session {
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t'; }
-
-TableCell trimmed(TableCell cell) {
-  while (!cell.text.empty() && is_space(cell.text.front())) {
-    cell.text.remove_prefix(1);
-    ++cell.column;
-  }
-  while (!cell.text.empty() && is_space(cell.text.back())) cell.text.remove_suffix(1);
-  return cell;
+TableCell trimmed(const TableCell& cell) {
+  const std::size_t blanks = std::min(cell.text.find_first_not_of(" \t"), cell.text.size());
+  return {scenario::trimmed(cell.text), cell.column + blanks};
 }
 
 TableCell unquoted(TableCell cell) {
@@ -77,20 +70,17 @@ std::string lower(std::string_view text) {
 }
 
 constexpr std::array units = {
-    std::pair<std::string_view, scenario::LengthUnit>{"d", scenario::LengthUnit::mean_diameter},
-    std::pair<std::string_view, scenario::LengthUnit>{"m", scenario::LengthUnit::metre},
-    std::pair<std::string_view, scenario::LengthUnit>{"cm", scenario::LengthUnit::centimetre},
-    std::pair<std::string_view, scenario::LengthUnit>{"mm", scenario::LengthUnit::millimetre},
-    std::pair<std::string_view, scenario::LengthUnit>{"um", scenario::LengthUnit::micrometre},
-    std::pair<std::string_view, scenario::LengthUnit>{"\xc2\xb5m",
-                                                      scenario::LengthUnit::micrometre},  // micro sign
-    std::pair<std::string_view, scenario::LengthUnit>{"\xce\xbcm",
-                                                      scenario::LengthUnit::micrometre},  // Greek letter
+    std::pair<std::string_view, LengthUnit>{"d", LengthUnit::mean_diameter},
+    std::pair<std::string_view, LengthUnit>{"m", LengthUnit::metre},
+    std::pair<std::string_view, LengthUnit>{"cm", LengthUnit::centimetre},
+    std::pair<std::string_view, LengthUnit>{"mm", LengthUnit::millimetre},
+    std::pair<std::string_view, LengthUnit>{"um", LengthUnit::micrometre},
+    std::pair<std::string_view, LengthUnit>{"\xc2\xb5m", LengthUnit::micrometre},  // micro sign
+    std::pair<std::string_view, LengthUnit>{"\xce\xbcm", LengthUnit::micrometre},  // Greek letter
 };
 
-std::optional<scenario::LengthUnit> unit_of(std::string_view word) {
-  const auto found =
-      std::ranges::find(units, word, &std::pair<std::string_view, scenario::LengthUnit>::first);
+std::optional<LengthUnit> unit_of(std::string_view word) {
+  const auto found = std::ranges::find(units, word, &std::pair<std::string_view, LengthUnit>::first);
   return found == units.end() ? std::nullopt : std::optional(found->second);
 }
 
@@ -133,7 +123,7 @@ struct NamedColumn {
 
 /// Returns the meaning of a column name; empty for a name without a role here, such as "x_velocity".
 std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& cell, std::size_t at,
-                                      scenario::LengthUnit unit) {
+                                      LengthUnit unit) {
   const std::string name = lower(cell.text);
   const auto end = std::min(name.find_first_of(" \t_/[("), name.size());
   const auto role = std::ranges::find(roles, std::string_view(name).substr(0, end), &RoleName::name);
@@ -147,13 +137,13 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
     word = trimmed({word.substr(1, word.size() - 2), 1}).text;
   else if (word.starts_with('_') || word.starts_with('/'))
     word.remove_prefix(1);
-  const std::optional<scenario::LengthUnit> own = unit_of(word);
+  const std::optional<LengthUnit> own = unit_of(word);
   if (!own && !bracketed) return std::nullopt;
   const std::string shown = visible_word(cell.text);
   if (!own)
     place.refuse(cell.column,
                  fmt::format("the column \"{}\" has an unknown unit: expected D, m, cm, mm or um", shown));
-  if (unit != scenario::LengthUnit::mean_diameter && *own != unit)
+  if (unit != LengthUnit::mean_diameter && *own != unit)
     place.refuse(
         cell.column,
         fmt::format("the column \"{}\" has a unit other than deposition.file_unit: omit one of them", shown));
@@ -162,8 +152,8 @@ std::optional<NamedColumn> meaning_of(const TablePlace& place, const TableCell& 
 }
 
 /// Finds the columns among the cells; returns a message about missing ones, or an empty text.
-std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells,
-                         scenario::LengthUnit unit, TableColumns& columns) {
+std::string find_columns(const TablePlace& place, const std::vector<TableCell>& cells, LengthUnit unit,
+                         TableColumns& columns) {
   std::array<std::optional<TableColumn>, role_count> found;
   std::string twice;
   for (std::size_t at = 0; at < cells.size(); ++at) {
@@ -254,13 +244,12 @@ std::vector<TableCell> cells_of(std::string_view line, bool tabs) {
   return any ? cells : std::vector<TableCell>();
 }
 
-std::string unit_text(scenario::LengthUnit unit) {
-  if (unit == scenario::LengthUnit::mean_diameter) return "mean diameters D";
-  return std::string(
-      std::ranges::find(units, unit, &std::pair<std::string_view, scenario::LengthUnit>::second)->first);
+std::string unit_text(LengthUnit unit) {
+  if (unit == LengthUnit::mean_diameter) return "mean diameters D";
+  return std::string(std::ranges::find(units, unit, &std::pair<std::string_view, LengthUnit>::second)->first);
 }
 
-TableColumns named_columns(const TablePlace& place, std::string_view line, scenario::LengthUnit unit) {
+TableColumns named_columns(const TablePlace& place, std::string_view line, LengthUnit unit) {
   std::vector<TableCell> cells;
   TableColumns columns = columns_in(place, line, cells);
   const std::string fault = find_columns(place, cells, unit, columns);
@@ -276,7 +265,7 @@ TableColumns named_columns(const TablePlace& place, std::string_view line, scena
 }
 
 std::optional<TableColumns> columns_of_comment(const TablePlace& place, std::string_view comment,
-                                               scenario::LengthUnit unit, std::size_t count) {
+                                               LengthUnit unit, std::size_t count) {
   std::vector<TableCell> cells;
   TableColumns columns = columns_in(place, comment, cells);
   if (cells.size() == count && find_columns(place, cells, unit, columns).empty()) return columns;

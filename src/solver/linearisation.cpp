@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact_law.h"
+#include "solver/problem.h"
 
 namespace talus::solver {
 namespace {
@@ -57,7 +57,7 @@ void set_rolling(const ContactProblem& problem, std::size_t c, double pr, Linear
 /// of the inverses vectorises.
 void load_diagonals(const ContactProblem& problem, std::size_t first, std::size_t last, Linearisation& w) {
   for (std::size_t c = first; c < last; ++c) {
-    const DelassusDiagonal diagonal = delassus_diagonal(problem, static_cast<Index>(c));
+    const DelassusDiagonal diagonal = delassus_diagonal(problem, c);
     w.wn[c] = diagonal.normal;
     w.wt[c] = diagonal.tangential;
   }
@@ -156,7 +156,7 @@ void spread(std::size_t first, std::size_t last, const BlockOfContacts& block, L
 
 /// Sizes the groups for the order. Lanes with a contact are overwritten later.
 void size_groups(Linearisation& w) {
-  const auto groups = static_cast<std::size_t>(w.order.group_count());
+  const std::size_t groups = w.order.group_count();
   const auto size = [groups](auto& field) {
     // The number of groups varies from step to step; the spare room avoids allocations in steady steps.
     if (field.capacity() < groups) field.reserve(groups + groups / 4);
@@ -265,7 +265,7 @@ void end_order_of_contacts(const ContactProblem& problem, Linearisation& w) {
   end_order(w.order);
   size_groups(w);
   clear_groups(problem.body_count(), w);
-  for (auto* field : {&w.velocity, &w.before}) field->resize(static_cast<std::size_t>(w.order.row_count));
+  for (auto* field : {&w.velocity, &w.before}) field->resize(w.order.row_count);
   w.ordered_swept = w.swept;
 }
 

@@ -62,7 +62,7 @@ void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& 
   distribute(team, w.moves.size(), [&](std::size_t first, std::size_t last) {
     std::copy(w.first_side.data() + first, w.first_side.data() + last, w.next_side.data() + first);
     for (std::size_t c = 0; c < problem.b.size(); ++c) {
-      const auto b = static_cast<std::size_t>(problem.b[c]);
+      const std::size_t b = problem.b[c];
       if (first <= b && b < last) w.sides[w.next_side[b]++] = 2 * static_cast<std::uint32_t>(c);
     }
     for (std::size_t i = first; i < last; ++i) {
@@ -75,7 +75,7 @@ void list_sides(const ContactProblem& problem, ThreadTeam* team, Linearisation& 
 
 /// Links each body to its contacts, unless contacts and bodies are those of the last problem.
 void link(const ContactProblem& problem, bool were_loaded, ThreadTeam* team, Linearisation& w) {
-  const auto bodies = static_cast<std::size_t>(problem.body_count());
+  const std::size_t bodies = problem.body_count();
   const bool same_contacts = follow_contacts(problem, w.linked);
   const bool same_bodies = follow_bodies(problem, w.linked);
   w.are_loaded = were_loaded && w.first_a.size() == bodies + 1 && same_contacts && same_bodies;
@@ -86,7 +86,7 @@ void link(const ContactProblem& problem, bool were_loaded, ThreadTeam* team, Lin
   for (auto* field : {&w.first_a, &w.first_side, &w.first_own_side}) field->assign(bodies + 1, 0);
   count_contacts(problem, team, w);
   place_contacts(w);
-  w.sides.resize(static_cast<std::size_t>(w.first_side[bodies]));
+  w.sides.resize(w.first_side[bodies]);
   w.next_side.resize(bodies);
   list_sides(problem, team, w);
 }
@@ -165,8 +165,8 @@ void choose_units(const ContactProblem& problem, const ContactSolution& guess, T
 void prepare(const ContactProblem& problem, const ContactSolution& guess, ThreadTeam* team,
              Linearisation& w) {
   const bool were_loaded = std::exchange(w.are_loaded, false);  // false while an allocation may fail
-  const auto contacts = static_cast<std::size_t>(problem.contact_count());
-  w.exact_velocity.resize(static_cast<std::size_t>(problem.body_count()));
+  const std::size_t contacts = problem.contact_count();
+  w.exact_velocity.resize(problem.body_count());
   w.exact_force.resize(contacts + 1);
   w.exact_force[contacts] = {};
   for (auto* field : {&w.pn, &w.pt, &w.un, &w.ut, &w.wn, &w.wt}) field->resize(contacts);

@@ -1,11 +1,49 @@
 #pragma once
-/// The contact problem of one step, as seen by the solvers, which know neither grains nor geometry.
+/// The contact problem of one step, as seen by the solvers, which know neither grains nor geometry; its law;
+/// and the error measure of all solvers.
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/types.h"
 
 namespace talus::solver {
+
+// Signorini's condition (T9), Coulomb's law (T10) and rolling resistance (T38), exact for one contact.
+
+struct Impulse {
+  double normal = 0.0;
+  double tangential = 0.0;
+};
+
+/// Returns the nearest impulse that the contact law admits: P_n >= 0, |P_t| <= mu P_n. P_t is cut off at the
+/// bound, following Coulomb's law. An orthogonal projection on the cone would be an associated law, with
+/// dilatant sliding.
+inline Impulse admissible(double pn, double pt, double mu) {
+  const double normal = pn > 0.0 ? pn : 0.0;
+  const double bound = mu * normal;
+  return {normal, std::min(std::max(pt, -bound), bound)};
+}
+
+/// Returns the impulse that solves one contact exactly with all others held fixed (T13), from the present
+/// impulse and relative velocity; w_n and w_t are the inverse of the Delassus diagonal, kg.
+inline Impulse solve_contact(double pn, double pt, double un, double ut, double w_n, double w_t, double mu) {
+  return admissible(pn - un * w_n, pt - ut * w_t, mu);
+}
+
+/// Returns the nearest rolling impulse that a contact with normal impulse `pn` >= 0 admits: |P_r| <= mu_r
+/// P_n.
+inline double admissible_rolling(double pr, double mu_r, double pn) {
+  const double bound = mu_r * pn;
+  return std::min(std::max(pr, -bound), bound);
+}
+
+/// Returns the rolling impulse that solves its condition (T40) with all other impulses held fixed; w_r is
+/// 1 / W_rr, kg.
+inline double solve_rolling(double pr, double ur, double w_r, double mu_r, double pn) {
+  return admissible_rolling(pr - ur * w_r, mu_r, pn);
+}
 
 /// A problem of bodies i with velocity (v_x, v_y, omega) and contacts c between bodies a and b with normal n
 /// (from a to b) and tangent t = (-n_y, n_x). The unknowns are the impulses P = (P_n, P_t) on b. With
@@ -39,8 +77,8 @@ struct ContactProblem {
   std::vector<double> mu;
   std::vector<double> rolling_friction;  ///< mu_r; empty if no contact resists rolling
 
-  Index body_count() const { return static_cast<Index>(vx.size()); }
-  Index contact_count() const { return static_cast<Index>(a.size()); }
+  Index body_count() const { return vx.size(); }
+  Index contact_count() const { return a.size(); }
   bool resists_rolling() const { return !rolling_friction.empty(); }
 };
 
@@ -89,5 +127,43 @@ RelativeVelocity free_relative_velocity(const ContactProblem& problem, Index c);
 
 /// Computes v = v_free + M^-1 H P (T6), summed contact by contact in their order.
 void velocities_from_impulses(const ContactProblem& problem, ContactSolution& solution);
+
+// The error measure of all solvers.
+
+struct Residual {
+  double eta = 0.0;      ///< || P' - P || / || P ||, dimensionless
+  double largest = 0.0;  ///< largest | P' - P | / || P || of a single contact
+};
+
+/// Sums over contacts from which the residual is computed.
+struct ResidualSums {
+  double change = 0.0;                        ///< || P' - P ||^2
+  double impulse = 0.0, impulse_after = 0.0;  ///< || P ||^2 and || P' ||^2
+  double largest = 0.0;                       ///< largest | P' - P |^2 of a single contact
+
+  /// Adds a contact whose exact solution changes its impulse from `from` to `to`.
+  void add(Impulse from, Impulse to) { add(from, to, 0.0, 0.0); }
+  /// Adds a contact with its rolling impulse.
+  void add(Impulse from, Impulse to, double rolling_from, double rolling_to) {
+    const double dn = to.normal - from.normal;
+    const double dt = to.tangential - from.tangential;
+    const double dr = rolling_to - rolling_from;
+    const double square = dn * dn + dt * dt + dr * dr;
+    change += square;
+    largest = std::max(largest, square);
+    impulse += from.normal * from.normal + from.tangential * from.tangential + rolling_from * rolling_from;
+    impulse_after += to.normal * to.normal + to.tangential * to.tangential + rolling_to * rolling_to;
+  }
+
+  /// Returns || P ||^2, or || P' ||^2 if P vanishes.
+  double scale() const { return impulse > 0.0 ? impulse : impulse_after; }
+  Residual residual() const;  ///< (T14)
+};
+
+/// Returns the natural-map residual (T14). P' is the result of one Jacobi step: every contact is solved
+/// exactly with all others held fixed; if contacts resist rolling, each of its impulses with the others held
+/// fixed (T40). The residual vanishes exactly at a solution. If P vanishes and P' does not, the norm of P'
+/// replaces that of P. `solution` must hold impulses and the velocities that belong to them.
+Residual natural_map_residual(const ContactProblem& problem, const ContactSolution& solution);
 
 }  // namespace talus::solver

@@ -1,6 +1,6 @@
-#include "solver/rolling_contacts.h"
-
 #include <algorithm>
+
+#include "solver/linearisation.h"
 
 namespace talus::solver {
 namespace {
@@ -19,8 +19,8 @@ void size_rolling(const ContactProblem& problem, RollingContacts& w) {
 }
 
 void load_rolling(const ContactProblem& problem, std::size_t c, RollingContacts& w) {
-  w.length[c] = rolling_length(problem, static_cast<Index>(c));
-  w.wr[c] = inverse_rolling_delassus(problem, static_cast<Index>(c));
+  w.length[c] = rolling_length(problem, c);
+  w.wr[c] = inverse_rolling_delassus(problem, c);
 }
 
 void load_rolling_group(const ContactProblem& problem, std::size_t c, Index slot, const RollingUnits& units,

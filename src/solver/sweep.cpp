@@ -27,7 +27,7 @@ void sweep_part(const Sweeper& sweeper, Index part, std::span<const float> beta,
   const ContactKernel kernel =
       sweeper.at.rolling.any() ? sweeper.kernels.rolling_contacts : sweeper.kernels.contacts;
   kernel(contact_arrays(sweeper.at), order.part_begin[part], order.part_begin[part + 1], beta[sweep],
-         sweeper.sums[first_sum(sweeper, static_cast<Index>(sweep)) + part]);
+         sweeper.sums[first_sum(sweeper, sweep) + part]);
 }
 
 void extrapolate(const Sweeper& sweeper, SweepOrder::Rows rows, float beta) {
@@ -144,7 +144,7 @@ double sweep(Sweeper& sweeper, int count, Momentum& momentum) {
   std::array<float, max_sweeps_in_a_row> beta{};
   Momentum ahead = momentum;
   for (int k = 0; k < count; ++k) {
-    beta[static_cast<std::size_t>(k)] = static_cast<float>(ahead.beta);
+    beta[k] = static_cast<float>(ahead.beta);
     ahead.grow();
   }
   const std::span<const float> sweeps(beta.data(), static_cast<std::size_t>(count));

@@ -112,7 +112,7 @@ struct ResidualArrays {
   double* ur = nullptr;                       ///< output: rolling velocities
 };
 
-/// Sums over contacts, as in ResidualSums (residual.h).
+/// Sums over contacts, as in ResidualSums (problem.h).
 struct ContactResidualSums {
   double change = 0.0, impulse = 0.0, impulse_after = 0.0, largest = 0.0;
 };

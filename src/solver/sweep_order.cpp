@@ -1,11 +1,10 @@
-#include "solver/sweep_order.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <numeric>
 
 #include "base/thread_team.h"
+#include "solver/linearisation.h"
 
 namespace talus::solver {
 namespace {
@@ -50,7 +49,7 @@ void share_bodies(const std::vector<Index>& first_a, long long contacts, Index d
 void share_columns(const ContactProblem& problem, const std::vector<Index>& first_a, Index domains,
                    SweepOrder& order) {
   const std::vector<Index>& column = problem.column;
-  order.contacts_of_column.assign(static_cast<std::size_t>(problem.columns), 0);
+  order.contacts_of_column.assign(problem.columns, 0);
   for (std::size_t i = 0; i < column.size(); ++i)
     order.contacts_of_column[column[i]] += first_a[i + 1] - first_a[i];
   order.domain_of_column.resize(order.contacts_of_column.size());
@@ -141,7 +140,7 @@ void make_places(std::size_t contacts, Index parts, SweepOrder& order) {
 
 void begin_order(const ContactProblem& problem, const std::vector<Index>& first_a, int size,
                  SweepOrder& order) {
-  const auto bodies = static_cast<std::size_t>(problem.body_count());
+  const std::size_t bodies = problem.body_count();
   const auto [domains, by_columns] = domains_of(problem);
   for (auto* field : {&order.slot, &order.row_a, &order.row_b, &order.part}) field->resize(problem.a.size());
   order.shares.resize(static_cast<std::size_t>(size));
@@ -168,7 +167,7 @@ void find_parts(const ContactProblem& problem, const std::vector<std::uint8_t>& 
     order.part[c] = in.a == in.b ? order.part_of(in.a) : of_two_domains;
     if (in.a == in.b) ++share[order.part[c]];
   }
-  order.shares[static_cast<std::size_t>(member)] = share;
+  order.shares[member] = share;
 }
 
 void open_order(const ContactProblem& problem, const std::vector<std::uint8_t>& moves,

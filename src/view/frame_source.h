@@ -1,9 +1,8 @@
 #pragma once
-/// Frames of the run shown: those of a file, or those that a live run has recorded.
+/// Frames of the run shown: those of a file, or those that a live run (live_run.h) has recorded.
 
 #include <cstddef>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,12 +18,14 @@ struct RunInstants {
   std::vector<double> tilts;   ///< rad, one per frame
   std::vector<double> times;   ///< s, one per frame
   std::size_t tilt_count = 0;  ///< number of frames of the tilt, which come first
+
+  /// Returns the first ones of these tilts or times, those of the tilt.
+  std::vector<double> of_tilt(const std::vector<double>& all) const {
+    return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(tilt_count)};
+  }
 };
 
-/// Function that returns frame k of a run; it may be called from any thread.
-using ReadFrame = std::function<std::shared_ptr<const Frame>(std::size_t k)>;
-
-/// Frames of a run for several threads. Every member except `read` belongs to the thread that shows them.
+/// Frames of a run for several threads. Only `read` and `frame` may be called from any thread.
 class FrameSource {
  public:
   FrameSource() = default;
@@ -34,57 +35,32 @@ class FrameSource {
 
   std::size_t count() const { return instants_.tilts.size(); }
   const RunInstants& instants() const { return instants_; }
-  /// Returns frame k; may be called from any thread. Throws as RunFile::frame does.
+  /// Returns frame k. Throws as RunFile::frame does.
   virtual std::shared_ptr<const Frame> read(std::size_t k) = 0;
-  /// Returns frame k to the thread that shows it.
+  /// Returns frame k, which is shown or will be soon.
   virtual std::shared_ptr<const Frame> frame(std::size_t k) { return read(k); }
 
  protected:
   RunInstants instants_;
 };
 
-/// Frames that a live run has recorded; one thread adds them, another reads them.
-class RecordedFrames final : public FrameSource {
- public:
-  void add(const std::vector<std::shared_ptr<const Frame>>& more);
-  std::shared_ptr<const Frame> read(std::size_t k) override;
-
- private:
-  std::mutex mutex_;
-  std::vector<std::shared_ptr<const Frame>> frames_;
-};
-
-/// Frames of a run file.
-class RunFrames final : public FrameSource {
+/// Frames of a run file that is replayed, the current one of them, and its motion during playback.
+class Replay final : public FrameSource {
  public:
   /// Opens a run. Throws as RunFile::open does, and Error(bad_data) if the run has no frames.
-  explicit RunFrames(const std::string& path);
+  explicit Replay(const std::string& path);
 
   /// Header, tilts and results; until a second thread runs, also the series.
   const io::RunFile& file() const { return file_; }
   std::shared_ptr<const Frame> read(std::size_t k) override;
   /// Returns frame k. The frames requested most recently are cached, up to about 256 MB.
   std::shared_ptr<const Frame> frame(std::size_t k) override;
-  /// Returns frame k if it is cached, else null.
-  std::shared_ptr<const Frame> kept(std::size_t k) const;
-  /// Caches frame k, which another reader has read, as if it had been requested.
-  void keep(std::size_t k, std::shared_ptr<const Frame> frame);
-
- private:
-  std::mutex mutex_;  ///< held while reading, because HDF5 admits one thread at a time
-  io::RunFile file_;
-  std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< most recently requested first
-};
-
-/// Current frame of a replay, and its motion during playback.
-class Replay {
- public:
-  explicit Replay(std::shared_ptr<const RunFrames> frames) : frames_(std::move(frames)) {}
+  /// Caches frame k.
+  void keep(std::size_t k, const std::shared_ptr<const Frame>& frame);
 
   std::size_t index() const { return index_; }
   /// Goes to that frame, or to the last one if the number is too large.
   void go_to(std::size_t frame);
-
   bool playing() const { return playing_; }
   /// Starts or stops playback; from the last frame it starts again at the first.
   void play(bool on);
@@ -99,7 +75,10 @@ class Replay {
  private:
   double seconds_shown(std::size_t k) const;
 
-  std::shared_ptr<const RunFrames> frames_;
+  std::mutex file_mutex_;  ///< held while reading, because HDF5 admits one thread at a time
+  io::RunFile file_;
+  std::mutex kept_mutex_;  ///< another one, so that a cached frame is returned while others are read
+  std::deque<std::pair<std::size_t, std::shared_ptr<const Frame>>> kept_;  ///< most recently requested first
   std::size_t index_ = 0;
   bool playing_ = false;
   double speed_ = 2.0;   ///< deg/s

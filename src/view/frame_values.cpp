@@ -4,7 +4,7 @@
 
 #include "analysis/frame_analysis.h"
 #include "core/trigonometry.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
 

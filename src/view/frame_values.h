@@ -2,14 +2,13 @@
 /// Values per frame that curves, landmarks and cluster colours need: the frame's record, with one threshold.
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "analysis/overload/clusters.h"
 #include "analysis/overload/coarse_graining.h"
 #include "analysis/record.h"
 #include "io/run_file.h"
-#include "pictures/overload_rule.h"
+#include "pictures/cluster_colours.h"
 
 namespace talus::view {
 

@@ -8,7 +8,6 @@
 #include <functional>
 #include <limits>
 #include <mutex>
-#include <span>
 #include <thread>
 #include <utility>
 
@@ -16,10 +15,8 @@
 #include "base/hash.h"
 #include "core/trigonometry.h"
 #include "session/measure.h"
-#include "session/recorder.h"
+#include "session/run.h"
 #include "session/run_header.h"
-#include "session/tilt_goal.h"
-#include "view/live_history.h"
 
 namespace talus::view {
 namespace {
@@ -41,7 +38,7 @@ bool is_reached(const Goal& goal, const session::Session& session) {
          (goal.end_of_deposition && session.phase() != session::Phase::deposition);
 }
 
-/// Position in the session's segment up to which the history has copied it, or a position in the history.
+/// Position up to which the history has copied the records of the session.
 struct HistoryCursor {
   std::size_t observables = 0, frames = 0, commands = 0, steps = 0;
 };
@@ -92,7 +89,10 @@ struct LiveRun::State {
   std::exception_ptr refusal;     ///< exception of the last request
   LiveStatus status;
   std::shared_ptr<const Frame> frame;
-  LiveHistory history;
+  // Recorded since the beginning; changed by the solver's thread alone.
+  std::vector<ObservableRow> observables;
+  std::vector<std::shared_ptr<const Frame>> frames;
+  std::vector<Command> commands;
 
   std::jthread solver;  ///< last member: it ends before the data that it uses
 
@@ -103,295 +103,271 @@ struct LiveRun::State {
     if (origin.branch) session.record_start();
   }
 
-  void play_to(const Goal& next);
-  void submit_request(std::function<void()> next);
+  // --- requests to the solver, from other threads ---
 
-  void work(const std::stop_token& stop);
-  bool should_step();
-  void execute_request();
-  void apply(const Command& command);
-  void back(const std::string& output);
-  io::Segment recorded_until(const HistoryCursor& end) const;
-  void record(const std::string& output, bool overwrite);
-  void take_step();
-  void wait_for_pace(const std::stop_token& stop);
-  void keep(const std::function<void()>& store_something);
-  void collect_ready();
-  void describe();
-  void show_frame();
-  void show_pause();
-  void pack();
-  void end();
-  void fail(const std::exception& error);
-};
+  /// Returns a copy of a member that both threads use.
+  template <typename Value>
+  Value copy(Value State::*member) const {
+    const std::lock_guard lock(mutex);
+    return this->*member;
+  }
 
-// --- requests to the solver, from other threads ---
+  void play_to(const Goal& next) {
+    const std::lock_guard lock(mutex);
+    if (status.done) return;
+    goal = next;
+    pause_asked = false;
+    status.running = true;
+    status.state_hash.clear();
+    status.error.clear();
+    asked.notify_one();
+  }
 
-void LiveRun::State::play_to(const Goal& next) {
-  const std::lock_guard lock(mutex);
-  if (status.done) return;
-  goal = next;
-  pause_asked = false;
-  status.running = true;
-  status.state_hash.clear();
-  status.error.clear();
-  asked.notify_one();
-}
+  /// Waits until the solver has executed the request between two steps, which takes at most one step.
+  /// Rethrows its exceptions.
+  void submit_request(std::function<void()> next) {
+    std::unique_lock lock(mutex);
+    request = std::move(next);
+    asked.notify_one();
+    answered.wait(lock, [this] { return !request; });
+    if (refusal) std::rethrow_exception(std::exchange(refusal, nullptr));
+  }
 
-/// Waits until the solver has executed the request between two steps, which takes at most one step. Rethrows
-/// its exceptions.
-void LiveRun::State::submit_request(std::function<void()> next) {
-  std::unique_lock lock(mutex);
-  request = std::move(next);
-  asked.notify_one();
-  answered.wait(lock, [this] { return !request; });
-  if (refusal) std::rethrow_exception(std::exchange(refusal, nullptr));
-}
+  // --- the solver's thread ---
 
-// --- the solver's thread ---
+  void work(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      execute_request();
+      if (should_step()) {
+        take_step();
+        wait_for_pace(stop);
+        continue;
+      }
+      show_pause();
+      pack();
+      std::unique_lock lock(mutex);
+      asked.wait(lock, stop, [this] { return goal || request; });
+      speed_since = Clock::now();
+      speed_step = session.world().step;
+    }
+    end();
+  }
 
-void LiveRun::State::work(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    execute_request();
-    if (should_step()) {
-      take_step();
-      wait_for_pace(stop);
-      continue;
+  bool should_step() {
+    const std::lock_guard lock(mutex);
+    if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
+      goal.reset();
+    pause_asked = false;
+    return goal.has_value();
+  }
+
+  void execute_request() {
+    std::unique_lock lock(mutex);
+    if (!request) return;
+    const std::function<void()> next = request;
+    lock.unlock();
+    std::exception_ptr refused;
+    try {
+      next();
+    } catch (const std::exception&) {
+      refused = std::current_exception();
     }
     show_pause();
-    pack();
-    std::unique_lock lock(mutex);
-    asked.wait(lock, stop, [this] { return goal || request; });
-    speed_since = Clock::now();
-    speed_step = session.world().step;
+    lock.lock();
+    refusal = refused;
+    request = nullptr;
+    answered.notify_one();
   }
-  end();
-}
 
-bool LiveRun::State::should_step() {
-  const std::lock_guard lock(mutex);
-  if (pause_asked || session.phase() == session::Phase::done || (goal && is_reached(*goal, session)))
-    goal.reset();
-  pause_asked = false;
-  return goal.has_value();
-}
-
-/// Executes the pending request.
-void LiveRun::State::execute_request() {
-  std::unique_lock lock(mutex);
-  if (!request) return;
-  const std::function<void()> next = request;
-  lock.unlock();
-  std::exception_ptr refused;
-  try {
-    next();
-  } catch (const std::exception&) {
-    refused = std::current_exception();
-  }
-  show_pause();
-  lock.lock();
-  refusal = refused;
-  request = nullptr;
-  answered.notify_one();
-}
-
-void LiveRun::State::apply(const Command& command) {
-  if (begins(command, session.schedule().drag)) {
-    const HistoryCursor now = {history.observables.size(), history.frames.size(), history.commands.size(),
-                               steps.size()};  // only this thread changes it
-    Mark mark{session.checkpoint(0.0), now};
-    session.apply(command);
-    if (marks.size() == max_marks) marks.erase(marks.begin());
-    marks.push_back(std::move(mark));
-  } else {
-    session.apply(command);
-  }
-  collect_ready();
-  const std::lock_guard lock(mutex);
-  describe();
-}
-
-/// Returns everything recorded from the beginning up to that position.
-io::Segment LiveRun::State::recorded_until(const HistoryCursor& end) const {
-  const auto first = [](const auto& list, std::size_t count) { return std::span(list).first(count); };
-  io::Segment segment;
-  for (const auto& one : first(history.frames, end.frames)) segment.frames.push_back(*one);
-  for (const auto& row : first(history.observables, end.observables)) segment.observables.push_back(row);
-  for (const Command& command : first(history.commands, end.commands)) segment.commands.push_back(command);
-  for (const StepRow& row : first(steps, end.steps)) segment.steps.push_back(row);
-  return segment;
-}
-
-void LiveRun::State::back(const std::string& output) {
-  if (marks.empty()) throw Error(ExitCode::usage, "there is no command to undo");
-  Mark& mark = marks.back();
-  session::Session before(session.scenario(), mark.state, "the state before the command");
-  before.use_threads(origin.threads);
-  io::Segment segment = recorded_until(mark.history);
-  const HistoryCursor whole = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
-                               segment.steps.size()};
-  if (is_recorded) {
-    io::RunStore next = io::RunStore::create(output, session::run_header(before, origin), false);
-    end();
-    store.emplace(std::move(next));
-    recorder.emplace(session, *store);
-  }
-  before.restore_segment(std::move(segment));
-  session = std::move(before);
-  cursor = whole;
-  steps.resize(whole.steps);
-  {
-    const std::lock_guard lock(mutex);
-    goal.reset();
-    status.error.clear();
-    history.frames.resize(whole.frames);
-    history.observables.resize(whole.observables);
-    history.commands.resize(whole.commands);
-    history.steps.clear();
-    history.stride = 1;
-    add_steps(steps, history);
-  }
-  marks.pop_back();
-  if (recorder) keep([this] { recorder->commit(); });
-}
-
-/// Records everything that the session has done since its beginning, and what follows.
-void LiveRun::State::record(const std::string& output, bool overwrite) {
-  store = io::RunStore::create(output, session::run_header(session, origin), overwrite);
-  recorder.emplace(session, *store);
-  is_recorded = true;
-}
-
-void LiveRun::State::take_step() {
-  bool failed = false;
-  try {
-    session.advance();
-  } catch (const std::exception& error) {
-    failed = true;
-    fail(error);
-  }
-  collect_ready();
-  keep([this, failed] {
-    if (!recorder) return;
-    if (failed)
-      recorder->commit();  // the state before the failure is complete
-    else
-      recorder->commit_if_due();
-  });
-  {
-    const std::lock_guard lock(mutex);
+  void apply(const Command& command) {
+    if (begins(command, session.schedule().drag)) {
+      Mark mark{session.checkpoint(0.0), {observables.size(), frames.size(), commands.size(), steps.size()}};
+      session.apply(command);
+      if (marks.size() == max_marks) marks.erase(marks.begin());
+      marks.push_back(std::move(mark));
+    } else {
+      session.apply(command);
+    }
+    collect_ready();
     describe();
   }
-  if (Clock::now() >= show_at) show_frame();
-}
 
-/// Waits until the next step is due or a request arrives.
-void LiveRun::State::wait_for_pace(const std::stop_token& stop) {
-  std::unique_lock lock(mutex);
-  const bool tilts = status.tilt_rate != 0.0 && !status.depositing;
-  const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / std::abs(status.tilt_rate) : pace.seconds;
-  if (!(seconds > 0.0)) return;
-  const std::chrono::duration<double> step(scenario::time_step(session.scenario()) / seconds);
-  // Lost time is not made up, so that the run does not rush after a slow step.
-  due = std::max(due + std::chrono::duration_cast<Clock::duration>(step), Clock::now());
-  asked.wait_until(lock, stop, due, [this] { return pause_asked || request; });
-}
-
-/// Performs an action that empties the segment unless it fails.
-void LiveRun::State::keep(const std::function<void()>& store_something) {
-  try {
-    store_something();
-  } catch (const std::exception& error) {
-    fail(error);
+  /// Returns everything recorded from the beginning up to that position.
+  io::Segment recorded_until(const HistoryCursor& end) const {
+    io::Segment segment;
+    for (std::size_t k = 0; k < end.frames; ++k) segment.frames.push_back(*frames[k]);
+    const auto first = [](const auto& all, std::size_t count) {
+      return std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+    };
+    segment.observables = first(observables, end.observables);
+    segment.commands = first(commands, end.commands);
+    segment.steps = first(steps, end.steps);
+    return segment;
   }
-  if (session.segment().steps.empty() && session.segment().commands.empty()) cursor = {};
-}
 
-/// Copies new entries of the segment to the history.
-void LiveRun::State::collect_ready() {
-  const io::Segment& segment = session.segment();
-  std::vector<std::shared_ptr<const Frame>> frames;
-  for (std::size_t k = cursor.frames; k < segment.frames.size(); ++k)
-    frames.push_back(std::make_shared<const Frame>(segment.frames[k]));
-  const std::lock_guard lock(mutex);
-  const auto append = [](auto& to, const auto& from, std::size_t first) {
-    to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
-  };
-  append(history.frames, frames, 0);
-  append(history.observables, segment.observables, cursor.observables);
-  append(history.commands, segment.commands, cursor.commands);
-  append(steps, segment.steps, cursor.steps);
-  add_steps(std::span(segment.steps).subspan(cursor.steps), history);
-  cursor = {segment.observables.size(), segment.frames.size(), segment.commands.size(), segment.steps.size()};
-}
+  void back(const std::string& output) {
+    if (marks.empty()) throw Error(ExitCode::usage, "there is no command to undo");
+    Mark& mark = marks.back();
+    session::Session before(session.scenario(), mark.state, "the state before the command");
+    before.use_threads(origin.threads);
+    io::Segment segment = recorded_until(mark.history);
+    const HistoryCursor whole = mark.history;
+    if (is_recorded) {
+      io::RunStore next = io::RunStore::create(output, session::run_header(before, origin), false);
+      end();
+      store.emplace(std::move(next));
+      recorder.emplace(session, *store);
+    }
+    before.restore_segment(std::move(segment));
+    session = std::move(before);
+    cursor = whole;
+    steps.resize(whole.steps);
+    {
+      const std::lock_guard lock(mutex);
+      goal.reset();
+      status.error.clear();
+      frames.resize(whole.frames);
+      observables.resize(whole.observables);
+      commands.resize(whole.commands);
+    }
+    marks.pop_back();
+    if (recorder) keep([this] { recorder->commit(); });
+  }
 
-/// Updates the status from the session; requires the mutex.
-void LiveRun::State::describe() {
-  const World& world = session.world();
-  status.step = world.step;
-  status.time = world.time;
-  status.tilt = world.tilt;
-  status.depositing = session.phase() == session::Phase::deposition;
-  status.done = session.phase() == session::Phase::done;
-  status.theta_c = session.angle_of_repose();
-  status.tilt_rate = degrees(session.tilt_rate());
-  status.friction = session.law().friction;
-  status.dragged.reset();
-  if (session.schedule().drag) status.dragged = session.schedule().drag->grain;
-  status.commands_given = marks.size();
-  const std::chrono::duration<double> elapsed = Clock::now() - speed_since;
-  if (elapsed < speed_interval) return;
-  status.steps_per_second = static_cast<double>(world.step - speed_step) / elapsed.count();
-  speed_since = Clock::now();
-  speed_step = world.step;
-}
+  /// Records everything that the session has done since its beginning, and what follows.
+  void record(const std::string& output, bool overwrite) {
+    store = io::RunStore::create(output, session::run_header(session, origin), overwrite);
+    recorder.emplace(session, *store);
+    is_recorded = true;
+  }
 
-void LiveRun::State::show_frame() {
-  auto next = std::make_shared<const Frame>(session.frame());
-  // A delay of one step is made up by the next.
-  const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
-  show_at = std::max(show_at + interval, Clock::now());
-  const std::lock_guard lock(mutex);
-  frame = std::move(next);
-}
+  void take_step() {
+    bool failed = false;
+    try {
+      session.advance();
+    } catch (const std::exception& error) {
+      failed = true;
+      fail(error);
+    }
+    collect_ready();
+    keep([this, failed] {
+      if (recorder)  // the state before a failure is complete
+        failed ? recorder->commit() : recorder->commit_if_due();
+    });
+    describe();
+    if (Clock::now() >= show_at) show_frame();
+  }
 
-/// Shows the frame and, if nothing more is to run, the paused status with its state hash.
-void LiveRun::State::show_pause() {
-  show_frame();
-  const std::string hash = hash_text(state_hash(session.world()));
-  const std::lock_guard lock(mutex);
-  describe();
-  status.running = goal.has_value();
-  if (status.running) return;
-  status.state_hash = hash;
-  status.steps_per_second = 0.0;
-}
+  /// Waits until the next step is due or a request arrives.
+  void wait_for_pace(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    const bool tilts = status.tilt_rate != 0.0 && !status.depositing;
+    const double seconds = pace.tilt > 0.0 && tilts ? pace.tilt / std::abs(status.tilt_rate) : pace.seconds;
+    if (!(seconds > 0.0)) return;
+    const std::chrono::duration<double> step(scenario::time_step(session.scenario()) / seconds);
+    // Lost time is not made up, so that the run does not rush after a slow step.
+    due = std::max(due + std::chrono::duration_cast<Clock::duration>(step), Clock::now());
+    asked.wait_until(lock, stop, due, [this] { return pause_asked || request; });
+  }
 
-/// Packs a finished run.
-void LiveRun::State::pack() {
-  if (!store || session.phase() != session::Phase::done) return;
-  keep([this] {
-    if (cursor.steps > 0 || cursor.commands > 0) recorder->commit();
-    store->pack();
-    recorder.reset();
-    store.reset();
-  });
-}
+  /// Performs an action that empties the segment unless it fails.
+  void keep(const std::function<void()>& store_something) {
+    try {
+      store_something();
+    } catch (const std::exception& error) {
+      fail(error);
+    }
+    if (session.segment().steps.empty() && session.segment().commands.empty()) cursor = {};
+  }
 
-void LiveRun::State::end() {
-  const io::Segment& segment = session.segment();
-  if (recorder && !(segment.steps.empty() && segment.commands.empty())) keep([this] { recorder->commit(); });
-  pack();
-}
+  /// Copies new entries of the segment to those recorded since the beginning.
+  void collect_ready() {
+    const io::Segment& segment = session.segment();
+    std::vector<std::shared_ptr<const Frame>> copies;
+    for (std::size_t k = cursor.frames; k < segment.frames.size(); ++k)
+      copies.push_back(std::make_shared<const Frame>(segment.frames[k]));
+    const std::lock_guard lock(mutex);
+    const auto append = [](auto& to, const auto& from, std::size_t first) {
+      to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(first), from.end());
+    };
+    append(frames, copies, 0);
+    append(observables, segment.observables, cursor.observables);
+    append(commands, segment.commands, cursor.commands);
+    append(steps, segment.steps, cursor.steps);
+    cursor = {segment.observables.size(), segment.frames.size(), segment.commands.size(),
+              segment.steps.size()};
+  }
 
-void LiveRun::State::fail(const std::exception& error) {
-  const std::lock_guard lock(mutex);
-  status.error = error.what();
-  std::ranges::replace(status.error, '\n', ' ');
-  const auto* known = dynamic_cast<const Error*>(&error);
-  status.error_code = known ? known->code() : ExitCode::internal;
-  goal.reset();
-}
+  void describe() {
+    const std::lock_guard lock(mutex);
+    const World& world = session.world();
+    status.step = world.step;
+    status.time = world.time;
+    status.tilt = world.tilt;
+    status.depositing = session.phase() == session::Phase::deposition;
+    status.done = session.phase() == session::Phase::done;
+    status.theta_c = session.angle_of_repose();
+    status.tilt_rate = degrees(session.tilt_rate());
+    status.friction = session.law().friction;
+    status.dragged.reset();
+    if (session.schedule().drag) status.dragged = session.schedule().drag->grain;
+    status.commands_given = marks.size();
+    status.solved = {std::ssize(steps), session.schedule().record.unconverged(), {}};
+    if (!steps.empty()) status.solved.last = steps.back();
+    const std::chrono::duration<double> elapsed = Clock::now() - speed_since;
+    if (elapsed < speed_interval) return;
+    status.steps_per_second = static_cast<double>(world.step - speed_step) / elapsed.count();
+    speed_since = Clock::now();
+    speed_step = world.step;
+  }
+
+  void show_frame() {
+    auto next = std::make_shared<const Frame>(session.frame());
+    // A delay of one step is made up by the next.
+    const auto interval = std::chrono::duration_cast<Clock::duration>(frame_interval);
+    show_at = std::max(show_at + interval, Clock::now());
+    const std::lock_guard lock(mutex);
+    frame = std::move(next);
+  }
+
+  /// Shows the frame and, if nothing more is to run, the paused status with its state hash.
+  void show_pause() {
+    show_frame();
+    const std::string hash = hash_text(state_hash(session.world()));
+    describe();
+    const std::lock_guard lock(mutex);
+    status.running = goal.has_value();
+    if (status.running) return;
+    status.state_hash = hash;
+    status.steps_per_second = 0.0;
+  }
+
+  void pack() {
+    if (!store || session.phase() != session::Phase::done) return;
+    keep([this] {
+      if (cursor.steps > 0 || cursor.commands > 0) recorder->commit();
+      store->pack();
+      recorder.reset();
+      store.reset();
+    });
+  }
+
+  void end() {
+    const io::Segment& segment = session.segment();
+    if (recorder && !(segment.steps.empty() && segment.commands.empty()))
+      keep([this] { recorder->commit(); });
+    pack();
+  }
+
+  void fail(const std::exception& error) {
+    const std::lock_guard lock(mutex);
+    status.error = error.what();
+    std::ranges::replace(status.error, '\n', ' ');
+    const auto* known = dynamic_cast<const Error*>(&error);
+    status.error_code = known ? known->code() : ExitCode::internal;
+    goal.reset();
+  }
+};
 
 // --- the interface ---
 
@@ -404,6 +380,7 @@ LiveRun::LiveRun(const scenario::Scenario& scenario, const std::string& scenario
   state_->collect_ready();
   if (!output.empty()) state_->record(output, overwrite);
   state_->show_pause();
+  take_frames();
   state_->solver = std::jthread([state = state_.get()](const std::stop_token& stop) { state->work(stop); });
 }
 
@@ -434,10 +411,9 @@ void LiveRun::finish_deposition() { state_->play_to({.end_of_deposition = true})
 
 void LiveRun::halt() {
   state_->submit_request([state = state_.get()] {
-    {
-      const std::lock_guard lock(state->mutex);
-      state->goal.reset();
-    }
+    std::unique_lock lock(state->mutex);
+    state->goal.reset();
+    lock.unlock();
     state->pack();
   });
 }
@@ -448,12 +424,14 @@ void LiveRun::apply(Command command) {
 
 void LiveRun::back(const std::string& output) {
   state_->submit_request([state = state_.get(), &output] { state->back(output); });
+  instants_ = {};
+  take_frames();
 }
 
-void LiveRun::record(const std::string& output, bool overwrite) {
-  state_->submit_request([state = state_.get(), &output, overwrite] {
+void LiveRun::record(const std::string& output) {
+  state_->submit_request([state = state_.get(), &output] {
     if (state->is_recorded) throw Error(ExitCode::usage, "this run is already being recorded");
-    state->record(output, overwrite);
+    state->record(output, false);
     state->keep([state] { state->recorder->commit(); });
     state->pack();
   });
@@ -467,34 +445,28 @@ void LiveRun::save() {
 
 const RunStatics& LiveRun::statics() const { return state_->statics; }
 
-LiveStatus LiveRun::status() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->status;
-}
+LiveStatus LiveRun::status() const { return state_->copy(&State::status); }
 
-std::shared_ptr<const Frame> LiveRun::frame() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->frame;
-}
+std::shared_ptr<const Frame> LiveRun::newest() const { return state_->copy(&State::frame); }
+
+std::vector<Command> LiveRun::commands() const { return state_->copy(&State::commands); }
 
 std::vector<ObservableRow> LiveRun::observables(std::size_t from) const {
   const std::lock_guard lock(state_->mutex);
-  return since(state_->history.observables, from);
+  return {state_->observables.begin() + static_cast<std::ptrdiff_t>(from), state_->observables.end()};
 }
 
-std::vector<std::shared_ptr<const Frame>> LiveRun::recorded_frames(std::size_t from) const {
+std::shared_ptr<const Frame> LiveRun::read(std::size_t k) {
   const std::lock_guard lock(state_->mutex);
-  return since(state_->history.frames, from);
+  return state_->frames.at(k);
 }
 
-std::vector<StepRow> LiveRun::steps(std::size_t from) const {
+void LiveRun::take_frames() {
   const std::lock_guard lock(state_->mutex);
-  return since(state_->history.steps, from);
-}
-
-std::vector<Command> LiveRun::commands() const {
-  const std::lock_guard lock(state_->mutex);
-  return state_->history.commands;
+  for (std::size_t& k = instants_.tilt_count; k < state_->frames.size(); ++k) {
+    instants_.tilts.push_back(state_->frames[k]->tilt);
+    instants_.times.push_back(state_->frames[k]->time);
+  }
 }
 
 }  // namespace talus::view

@@ -13,6 +13,7 @@
 #include "io/run_store.h"
 #include "scenario/scenario.h"
 #include "session/command.h"
+#include "view/frame_source.h"
 
 namespace talus::view {
 
@@ -27,18 +28,25 @@ inline constexpr LivePace live_paces[] = {
     {"fastest"},     {"real time", 0.0, 1.0}, {"0.1°/s", 0.1}, {"0.2°/s", 0.2},
     {"0.5°/s", 0.5}, {"1°/s", 1.0},           {"2°/s", 2.0},   {"5°/s", 5.0}};
 
+/// Steps of a run or a branch, and how well they were solved.
+struct SolvedSteps {
+  std::int64_t count = 0, unconverged = 0;
+  std::optional<StepRow> last;  ///< empty before the first step
+};
+
 /// Report of the solver's thread: a copy that does not change.
 struct LiveStatus {
   std::int64_t step = 0;
   double time = 0.0;  ///< s
   double tilt = 0.0;  ///< rad
   bool depositing = false;
-  bool running = false;                      ///< false: waiting for play or step
-  bool done = false;                         ///< the run has failed or reached its final angle
-  std::optional<double> theta_c;             ///< rad
-  double steps_per_second = 0.0;             ///< averaged over about the last second
-  double tilt_rate = 0.0;                    ///< deg/s, current value
-  double friction = 0.0;                     ///< between grains, current value
+  bool running = false;           ///< false: waiting for play or step
+  bool done = false;              ///< the run has failed or reached its final angle
+  std::optional<double> theta_c;  ///< rad
+  double steps_per_second = 0.0;  ///< averaged over about the last second
+  double tilt_rate = 0.0;         ///< deg/s, current value
+  double friction = 0.0;          ///< between grains, current value
+  SolvedSteps solved{};
   std::optional<Index> dragged;              ///< grain being dragged
   std::size_t commands_given = 0;            ///< commands that back() can undo
   std::string state_hash;                    ///< hash of the state after `step` steps; empty while running
@@ -46,10 +54,10 @@ struct LiveStatus {
   ExitCode error_code = ExitCode::internal;  ///< exit code of `error`
 };
 
-/// A live run. All members must be called from one thread other than the solver's. While a run is recorded,
-/// the solver's thread writes files: no other thread may read or write HDF5 (RunFile) until halt() has
-/// returned.
-class LiveRun {
+/// A live run; its frames are those recorded (output.frame_every). All members but those of a FrameSource
+/// must be called from one thread other than the solver's. While a run is recorded, the solver's thread
+/// writes files: no other thread may read or write HDF5 (RunFile) until halt() has returned.
+class LiveRun final : public FrameSource {
  public:
   /// Begins the run of a scenario, paused before its first step. With an `output`, the run is recorded
   /// together with its commands, as `talus run` records it, and `overwrite` has the same meaning; without, it
@@ -58,9 +66,7 @@ class LiveRun {
           bool overwrite, const std::string& command_line,
           const std::optional<io::BranchOrigin>& branch = {});
   /// Finishes the current step, commits, and ends. A finished run is packed.
-  ~LiveRun();
-  LiveRun(const LiveRun&) = delete;
-  LiveRun& operator=(const LiveRun&) = delete;
+  ~LiveRun() override;
 
   void play();
   void pause();
@@ -85,7 +91,7 @@ class LiveRun {
   void back(const std::string& output);
   /// Starts to record a run that is not recorded yet, from its beginning, and returns when the data are on
   /// disk. Throws as RunStore::create does, and Error(usage) if the run is already recorded.
-  void record(const std::string& output, bool overwrite);
+  void record(const std::string& output);
   /// Commits a checkpoint and returns when that is done; does nothing without an output. A failure is
   /// reported in the status.
   void save();
@@ -94,15 +100,12 @@ class LiveRun {
   LiveStatus status() const;
   /// Returns the newest state of the bed, updated about every 1/30 s while running, and at once when the run
   /// pauses. Never null.
-  std::shared_ptr<const Frame> frame() const;
+  std::shared_ptr<const Frame> newest() const;
+  std::shared_ptr<const Frame> read(std::size_t k) override;
+  /// Adds what has been recorded since the last call to the frames.
+  void take_frames();
   /// Returns the recorded rows of observables from row `from` on, in order.
   std::vector<ObservableRow> observables(std::size_t from) const;
-  /// Returns the recorded frames (output.frame_every) from number `from` on.
-  std::vector<std::shared_ptr<const Frame>> recorded_frames(std::size_t from) const;
-  /// Returns rows of single steps from row `from` on, thinned to at most 4000 at equal intervals. When there
-  /// are more, every second row is dropped; the number of rows then decreases, and the caller must read them
-  /// again from 0.
-  std::vector<StepRow> steps(std::size_t from) const;
   std::vector<Command> commands() const;
 
  private:

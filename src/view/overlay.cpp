@@ -6,10 +6,11 @@
 #include <utility>
 
 #include "analysis/free_grains.h"
-#include "analysis/overload/links.h"
+#include "analysis/overload/clusters.h"
 #include "core/trigonometry.h"
 #include "pictures/bed_view.h"
-#include "pictures/texts.h"
+#include "pictures/layers.h"
+#include "pictures/scale.h"
 #include "view/scene.h"
 
 namespace talus::view {
@@ -20,6 +21,11 @@ constexpr std::size_t few = 500;                 // maximum number of grains who
 constexpr double largest_ring_width = 0.05;      // D
 constexpr double min_ring_width = 1.0 / 2500.0;  // relative to the width of the picture: about a pixel
 
+void add_stroke(render::FrameView& view, Vec2 from, Vec2 to, double half_width, const render::Colour& colour,
+                const RunStatics& statics) {
+  pictures::add_line(view, pictures::line_between(from.x, from.y, to.x, to.y, half_width, colour), statics);
+}
+
 /// Adds a circle made of straight lines, with its images in a periodic bed.
 void add_circle(render::FrameView& view, Vec2 centre, double radius, double half_width,
                 const render::Colour& colour, const RunStatics& statics, int circle_lines = 64) {
@@ -27,13 +33,8 @@ void add_circle(render::FrameView& view, Vec2 centre, double radius, double half
     const double angle = 2.0 * pi * k / circle_lines;
     return Vec2{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
   };
-  for (int k = 0; k < circle_lines; ++k) {
-    const Vec2 from = corner(k), to = corner(k + 1);
-    pictures::add_line(view,
-                       {static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(to.x),
-                        static_cast<float>(to.y), static_cast<float>(half_width), colour},
-                       statics);
-  }
+  for (int k = 0; k < circle_lines; ++k)
+    add_stroke(view, corner(k), corner(k + 1), half_width, colour, statics);
 }
 
 bool is_in_picture(const render::FrameView& view, const BedFrame& bed, std::size_t i) {
@@ -55,12 +56,8 @@ void add_contact(render::FrameView& view, const BedFrame& bed, std::size_t c, do
       statics.radius[a] + (plane ? 0.0 : statics.radius[static_cast<std::size_t>(contacts.b[c])]);
   for (const auto& [width, colour] :
        {std::pair{2.0 * half_width, render::white}, {half_width, selection_colour}}) {
-    pictures::add_line(
-        view,
-        {static_cast<float>(from.x), static_cast<float>(from.y),
-         static_cast<float>(from.x + reach * contacts.nx[c]),
-         static_cast<float>(from.y + reach * contacts.ny[c]), static_cast<float>(width), colour},
-        statics);
+    add_stroke(view, from, {from.x + reach * contacts.nx[c], from.y + reach * contacts.ny[c]}, width, colour,
+               statics);
     add_circle(view, {contacts.px[c], contacts.py[c]}, 0.22 * statics.mean_diameter, width, colour, statics);
   }
 }
@@ -80,12 +77,9 @@ void add_outline(render::FrameView& view, const BedFrame& bed, const analysis::C
     const double ux = dx / distance, uy = dy / distance;
     const double reach = r + 0.5 * (distance - r - statics.radius[link.b]);
     const double half = 0.6 * std::min(r, statics.radius[link.b]);
-    pictures::add_line(
-        view,
-        {static_cast<float>(x + reach * ux - half * uy), static_cast<float>(y + reach * uy + half * ux),
-         static_cast<float>(x + reach * ux + half * uy), static_cast<float>(y + reach * uy - half * ux),
-         static_cast<float>(0.07 * statics.mean_diameter), cluster_colour},
-        statics);
+    add_stroke(view, {x + reach * ux - half * uy, y + reach * uy + half * ux},
+               {x + reach * ux + half * uy, y + reach * uy - half * ux}, 0.07 * statics.mean_diameter,
+               cluster_colour, statics);
   }
 }
 
@@ -96,7 +90,6 @@ void add_ring(render::FrameView& view, Vec2 centre, double radius, double half_w
   add_circle(view, centre, radius, half_width, colour, statics);
 }
 
-/// Adds the inspected grain and its neighbourhoods.
 void add_inspected(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   if (!overlay.selected) return;
   const RunStatics& statics = bed.statics;
@@ -111,7 +104,6 @@ void add_inspected(render::FrameView& view, const BedFrame& bed, const Overlay& 
   add_ring(view, centre, statics.radius[grain] + 0.05 * d, 0.08 * pen, selection_colour, statics);
 }
 
-/// Adds the rest of the selection.
 void add_selection(render::FrameView& view, const BedFrame& bed, const Overlay& overlay) {
   const double d = bed.statics.mean_diameter, width = view.x_max - view.x_min;
   const double half_width = std::clamp(min_ring_width * width, 0.02 * d, largest_ring_width * d);
@@ -137,10 +129,18 @@ std::vector<double> growing_diameters(double largest) {
 }
 
 void add_overlay(render::FrameView& view, const BedFrame& bed, const Overlay& overlay,
-                 const analysis::Clusters& clusters) {
+                 const analysis::Clusters& clusters, const pictures::MapExtent& extent) {
+  const auto first = static_cast<std::ptrdiff_t>(view.lines.size());
   add_outline(view, bed, clusters, overlay.cluster);
   add_inspected(view, bed, overlay);
   add_selection(view, bed, overlay);
+  // Rings, and their images in a periodic bed, would float in the margins of the picture.
+  const auto is_outside = [&extent](const render::Line& line) {
+    const double x = 0.5 * (line.x0 + line.x1), y = 0.5 * (line.y0 + line.y1);
+    return x < extent.x_min || x > extent.x_max || y < extent.y_min || y > extent.y_max;
+  };
+  view.lines.erase(std::remove_if(view.lines.begin() + first, view.lines.end(), is_outside),
+                   view.lines.end());
 }
 
 }  // namespace talus::view

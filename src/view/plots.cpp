@@ -10,12 +10,10 @@
 namespace talus::view {
 namespace {
 
-constexpr std::size_t max_points = 2000;  // maximum for a curve over steps: about the number of pixels
 constexpr int gamma_bins = 50;
 
 Plot& plot_of(std::vector<Plot>& plots, PlotKind kind) { return plots[static_cast<std::size_t>(kind)]; }
 
-PlotSeries curve(const std::string& name) { return {name, {}, {}, false, {}}; }
 PlotSeries law(const std::string& name) { return {name, {}, {}, true, {}}; }
 PlotSeries series_of(const analysis::QuantityMember& member) {
   return talus::view::series_of(analysis::quantity_of(member));
@@ -34,13 +32,6 @@ void add(PlotSeries& series, double x, double y) {
   series.y.push_back(y);
 }
 
-/// Returns the largest value of a field.
-double largest_of(std::span<const StepRow> rows, StepField field) {
-  double largest = 0.0;
-  for (const StepRow& row : rows) largest = std::max(largest, at(row, field));
-  return largest;
-}
-
 }  // namespace
 
 PlotSeries series_of(const analysis::Quantity& quantity) {
@@ -48,27 +39,13 @@ PlotSeries series_of(const analysis::Quantity& quantity) {
 }
 
 double place_on(const PlotAbscissa& abscissa, double tilt, double time) {
-  switch (abscissa.axis) {
-    case PlotAxis::tilt:
-      return degrees(tilt);
-    case PlotAxis::angle_left:
-      return degrees(abscissa.theta_c - std::abs(tilt));
-    case PlotAxis::time:
-      return time;
-  }
-  return not_known;
+  if (abscissa.axis == PlotAxis::time) return time;
+  return degrees(abscissa.axis == PlotAxis::tilt ? tilt : abscissa.theta_c - std::abs(tilt));
 }
 
 std::string title_of(PlotAxis axis) {
-  switch (axis) {
-    case PlotAxis::tilt:
-      return analysis::axis_title("θ", "deg");
-    case PlotAxis::angle_left:
-      return analysis::axis_title("θ_c − θ", "deg");
-    case PlotAxis::time:
-      return analysis::axis_title("t", "s");
-  }
-  return {};
+  if (axis == PlotAxis::time) return analysis::axis_title("t", "s");
+  return analysis::axis_title(axis == PlotAxis::tilt ? "θ" : "θ_c − θ", "deg");
 }
 
 Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series) {
@@ -84,28 +61,23 @@ Plot plot_of_quantity(const analysis::Quantity& quantity) {
 }
 
 std::vector<Plot> empty_plots() {
-  std::vector<Plot> plots(plot_count);
-  const auto set = [&plots](PlotKind kind, Plot plot) { plot_of(plots, kind) = std::move(plot); };
-  const auto set_quantity = [&set](PlotKind kind, const std::string& name,
-                                   const analysis::QuantityMember& member) {
-    set(kind,
-        plot_along_run(name, analysis::shown_title(analysis::quantity_of(member)), {series_of(member)}));
+  const auto of_quantity = [](const std::string& name, const analysis::QuantityMember& member) {
+    return plot_along_run(name, analysis::shown_title(analysis::quantity_of(member)), {series_of(member)});
   };
-  set(PlotKind::stress,
+  std::vector<Plot> plots = {
+      // in the order of PlotKind
       plot_along_run("stress", "Packing",
                      {series_of(&analysis::FrameRecord::stress_ratio),
-                      series_of(&analysis::FrameRecord::sigma_t_over_n), law("sin θ"), law("tan θ")}));
-  set_quantity(PlotKind::overloaded, "overloaded", &analysis::FrameThreshold::overloaded_fraction);
-  set_quantity(PlotKind::cluster, "cluster", &analysis::FrameThreshold::largest_share);
-  set(PlotKind::lengths, plot_along_run("lengths", analysis::axis_title("ℓ_c", "D"),
-                                        {series_of(&analysis::FrameThreshold::lc_mean),
-                                         series_of(&analysis::FrameThreshold::lc_max)}));
-  set_quantity(PlotKind::strain, "strain", &analysis::FrameRecord::volume_strain);
-  set(PlotKind::energy, plot_along_run("energy", "Energy E_k/mgD of a grain", {curve("kinetic energy")}));
+                      series_of(&analysis::FrameRecord::sigma_t_over_n), law("sin θ"), law("tan θ")}),
+      of_quantity("overloaded", &analysis::FrameThreshold::overloaded_fraction),
+      of_quantity("cluster", &analysis::FrameThreshold::largest_share),
+      plot_along_run(
+          "lengths", analysis::axis_title("ℓ_c", "D"),
+          {series_of(&analysis::FrameThreshold::lc_mean), series_of(&analysis::FrameThreshold::lc_max)}),
+      of_quantity("strain", &analysis::FrameRecord::volume_strain),
+      plot_along_run("energy", "Energy E_k/mgD of a grain", {PlotSeries{"kinetic energy", {}, {}}}),
+      {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {PlotSeries{"pdf", {}, {}}}}};
   plot_of(plots, PlotKind::energy).log_y = true;
-  set(PlotKind::gamma, {"gamma", "Density of γ, this frame", "γ = q/p", false, false, {curve("pdf")}});
-  set(PlotKind::residual, {"residual", "Solver residual η", "step", false, true, {curve("η")}});
-  set(PlotKind::iterations, {"iterations", "Solver iterations", "step", false, false, {curve("iterations")}});
   return plots;
 }
 
@@ -171,28 +143,19 @@ void note_threshold(double factor, std::optional<double> assumed, std::vector<Pl
 }
 
 RangeStatistics statistics_of(const PlotSeries& series, double low, double high) {
-  RangeStatistics statistics;
-  double x_sum = 0.0, y_sum = 0.0;
-  const auto counts = [&](std::size_t k) {
-    return series.x[k] >= low && series.x[k] <= high && std::isfinite(series.y[k]);
-  };
+  std::vector<double> x, y;
   for (std::size_t k = 0; k < series.x.size(); ++k) {
-    if (!counts(k)) continue;
-    ++statistics.count;
-    x_sum += series.x[k];
-    y_sum += series.y[k];
+    if (!(series.x[k] >= low && series.x[k] <= high) || !std::isfinite(series.y[k])) continue;
+    x.push_back(series.x[k]);
+    y.push_back(series.y[k]);
   }
-  const auto count = static_cast<double>(statistics.count);
-  statistics.mean = statistics.count > 0 ? y_sum / count : not_known;
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (std::size_t k = 0; k < series.x.size(); ++k) {
-    if (!counts(k)) continue;
-    const double dx = series.x[k] - x_sum / count, dy = series.y[k] - statistics.mean;
-    xx += dx * dx;
-    xy += dx * dy;
-    yy += dy * dy;
+  RangeStatistics statistics{talus::statistics_of(y)};
+  const double x_mean = talus::statistics_of(x).mean;
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    xx += (x[k] - x_mean) * (x[k] - x_mean);
+    xy += (x[k] - x_mean) * (y[k] - statistics.mean);
   }
-  statistics.deviation = statistics.count > 1 ? std::sqrt(yy / (count - 1.0)) : not_known;
   statistics.slope = xx > 0.0 ? xy / xx : not_known;
   return statistics;
 }
@@ -206,17 +169,22 @@ void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots) {
   for (std::size_t bin = 0; bin < density.size(); ++bin) add(series, histogram.centre(bin), density[bin]);
 }
 
-void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots) {
-  PlotSeries& residual = plot_of(plots, PlotKind::residual).series[0];
-  PlotSeries& iterations = plot_of(plots, PlotKind::iterations).series[0];
-  for (PlotSeries* series : {&residual, &iterations}) clear(*series);
-  const std::size_t together = (steps.size() + max_points - 1) / max_points;
-  for (std::size_t k = 0; k < steps.size(); k += together) {
-    const auto rows = steps.subspan(k, std::min(together, steps.size() - k));
-    const double x = at(rows.front(), StepField::step);
-    add(residual, x, positive(largest_of(rows, StepField::residual)));
-    add(iterations, x, largest_of(rows, StepField::iterations));
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, double weight,
+                                const PlotAbscissa& abscissa) {
+  PlotSeries normal{"f_n", {}, {}}, tangential{"f_t", {}, {}}, mobilisation{"|f_t|/μf_n", {}, {}},
+      sliding{"slides", {}, {}, true};
+  for (const HistoryInstant& at : instants) {
+    const double x = place_on(abscissa, at.tilt, at.time);
+    add(normal, x, at.fn / weight);
+    add(tangential, x, at.ft / weight);
+    add(mobilisation, x, mobilised(at.fn, at.ft, at.friction));
+    add(sliding, x, 1.0);
   }
+  std::vector<Plot> plots = {
+      plot_along_run("contact forces", "f/mg", {std::move(normal), std::move(tangential)}),
+      plot_along_run("mobilisation", "", {std::move(mobilisation), std::move(sliding)})};
+  name_axis(abscissa.axis, plots);
+  return plots;
 }
 
 }  // namespace talus::view

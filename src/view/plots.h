@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "analysis/quantities.h"
-#include "core/bed_frame.h"
 #include "core/observables.h"
 #include "core/snapshot.h"
+#include "core/statistics.h"
 #include "view/frame_values.h"
+#include "view/selection.h"
 
 namespace talus::view {
 
@@ -56,8 +57,7 @@ struct Plot {
   bool falling_x = false;          ///< the largest x is on the left, so that failure is on the right
 };
 
-/// Plots in display order: "stress", "overloaded", "cluster", "lengths", "strain", "energy", "gamma",
-/// "residual", "iterations".
+/// Plots in display order; the enumerators are their names.
 enum class PlotKind : std::size_t {
   stress,      ///< Gamma and sigma_T/sigma_N of the packing, with the laws for a periodic bed
   overloaded,  ///< p_o
@@ -66,11 +66,7 @@ enum class PlotKind : std::size_t {
   strain,      ///< volume strain, %
   energy,      ///< mean kinetic energy per grain, in units of m g D with the mean mass m
   gamma,       ///< probability density of gamma in the frame shown
-  residual,    ///< residual of the solver, over steps
-  iterations,  ///< iterations of the solver, over steps
-  count
 };
-inline constexpr std::size_t plot_count = static_cast<std::size_t>(PlotKind::count);
 
 /// Returns an empty curve of a quantity, named by its symbol, and an empty plot of some quantities along the
 /// run.
@@ -101,17 +97,16 @@ void plot_frames(std::span<const analysis::FrameRecord> frames, std::span<const 
 void note_threshold(double factor, std::optional<double> assumed, std::vector<Plot>& plots);
 
 /// Statistics of a curve between two x, both included, ignoring NaN.
-struct RangeStatistics {
-  std::size_t count = 0;
-  double mean = 0.0;       ///< NaN without values
-  double deviation = 0.0;  ///< standard deviation, over count - 1; NaN for fewer than two values
-  double slope = 0.0;      ///< slope of the least-squares line, per unit of x; NaN if all x are equal
+struct RangeStatistics : Statistics {
+  double slope = 0.0;  ///< slope of the least-squares line, per unit of x; NaN if all x are equal
 };
 RangeStatistics statistics_of(const PlotSeries& series, double low, double high);
 /// Fills gamma; it stays empty if no grain of the frame carries force.
 void plot_gamma(const BedFrame& bed, std::vector<Plot>& plots);
-/// Fills residual and iterations. Long curves are drawn as groups of consecutive steps, each at its largest
-/// value.
-void plot_steps(std::span<const StepRow> steps, std::vector<Plot>& plots);
+
+/// Returns two plots along the run: "contact forces", in units of the weight `weight` (N/m), and
+/// "mobilisation", which is 1 while the contact slides. An open contact has no mobilisation.
+std::vector<Plot> contact_plots(std::span<const HistoryInstant> instants, double weight,
+                                const PlotAbscissa& abscissa);
 
 }  // namespace talus::view

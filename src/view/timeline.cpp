@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fmt/core.h>
 
-#include "analysis/failure/last_rise.h"
 #include "analysis/failure/transition.h"
+#include "base/text.h"
 #include "core/trigonometry.h"
 #include "session/command.h"
 
@@ -25,7 +25,8 @@ struct EventList {
   std::size_t rise_begins;                   ///< frame
   std::vector<double> rise_tilts;            ///< rad, absolute values
   bool mirrored_slope;                       ///< whether the bed slopes backwards in the rise
-  std::vector<double> row_tilts, row_times;  ///< rows of the rise: absolute tilts (rad) and times (s)
+  std::vector<ObservableRow> rows;           ///< those of the rise
+  std::vector<double> row_tilts, row_times;  ///< their absolute tilts (rad) and times (s)
   std::vector<TimelineEvent> events;
 
   explicit EventList(const TimelineSource& timeline_source) : source(timeline_source) {
@@ -33,7 +34,7 @@ struct EventList {
     rise_begins = rise.first;
     rise_tilts = analysis::magnitudes(timeline_source.tilts, rise);
     mirrored_slope = analysis::slopes_backwards(timeline_source.tilts, rise);
-    const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(timeline_source.rows);
+    rows = analysis::rows_of_last_rise(timeline_source.rows);
     row_tilts = column_of(rows, Observable::tilt);
     row_times = column_of(rows, Observable::time);
   }
@@ -57,8 +58,8 @@ struct EventList {
 
   void add_at(const std::string& name, const char* label, const std::string& what, double tilt, double place,
               double time, TimelineEvent::Kind kind) {
-    events.push_back({name, label, what, kind, tilt, place, static_cast<std::size_t>(std::lround(place))});
-    events.back().time = time;
+    const auto frame = static_cast<std::size_t>(std::lround(place));
+    events.push_back({name, label, what, kind, tilt, place, frame, time});
   }
 
   /// Adds an event at a tilt (rad) and a time (s), in any rise.
@@ -82,18 +83,17 @@ struct EventList {
 };
 
 void add_of_rows(EventList& list, double theta_c) {
-  const std::vector<ObservableRow> rows = analysis::rows_of_last_rise(list.source.rows);
-  const std::vector<double> tilts = column_of(rows, Observable::tilt);
+  const std::vector<double>& tilts = list.row_tilts;
   const auto onset = [&](Observable strain) {
-    return analysis::dilation_onset(tilts, column_of(rows, strain), theta_c,
+    return analysis::dilation_onset(tilts, column_of(list.rows, strain), theta_c,
                                     radians(analysis::dilation_window))
         .tilt;
   };
-  list.add("dilation", "θ_d", "the volume begins to grow", onset(Observable::volume_strain));
-  list.add("centre of mass", "θ_d", "the centre of mass begins to rise",
+  list.add("dilation", "θ_d, volume", "the volume begins to grow", onset(Observable::volume_strain));
+  list.add("centre of mass", "θ_d, centre of mass", "the centre of mass begins to rise",
            onset(Observable::centre_of_mass_strain));
   list.add("first slide", "slide", "the surface layer slides first",
-           analysis::first_slide(tilts, column_of(rows, Observable::surface_displacement),
+           analysis::first_slide(tilts, column_of(list.rows, Observable::surface_displacement),
                                  analysis::slide_distance * list.source.mean_diameter,
                                  radians(analysis::slide_window)));
 }
@@ -117,7 +117,7 @@ void add_of_frames(EventList& list, double theta_c) {
   }
   list.add("length jump", "ℓ_c", "the largest ℓ_c jumps",
            analysis::length_jump(tilts, lengths, theta_c, source.cut).tilt);
-  list.add("percolation", "θ_d", "clusters percolate from here on",
+  list.add("percolation", "θ_d, clusters", "clusters percolate from here on",
            analysis::percolation_onset(tilts, spans, theta_c).tilt);
 }
 
@@ -138,8 +138,9 @@ void add_rearrangements(EventList& list) {
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     const analysis::EventRecord& event = chosen[k];
     list.add_timed(fmt::format("rearrangement {}", k),
-                   fmt::format("rearrangement, {:.3g} m g D, {} grains moved; the bed {}",
-                               event.energy / list.source.energy_unit, event.grains,
+                   fmt::format("rearrangement, {:.3g} m g D, {} moved; the bed {}",
+                               event.energy / list.source.energy_unit,
+                               counted(static_cast<std::size_t>(event.grains), "grain"),
                                event.centre_of_mass_strain > 0.0 ? "dilates" : "contracts"),
                    event.begin, event.time, TimelineEvent::Kind::rearrangement);
     const double below = std::log10(largest / event.energy) / labelled_decades;
@@ -149,20 +150,15 @@ void add_rearrangements(EventList& list) {
 
 }  // namespace
 
-std::string_view event_name(Landmark landmark) {
-  switch (landmark) {
-    case Landmark::theta_d:
-      return "dilation";
-    case Landmark::length_jump:
-      return "length jump";
-    case Landmark::percolation:
-      return "spans";
-    case Landmark::first:
-    case Landmark::theta_c:
-    case Landmark::last:
-      break;
-  }
-  return {};
+const LandmarkText& text_of(Landmark landmark) {
+  static constexpr LandmarkText texts[] = {
+      {"", "The first frame"},
+      {"dilation", "The frame at which the volume begins to grow"},
+      {"length jump", "The frame at which the largest coarse-graining length jumps"},
+      {"spans", "The frame in which a cluster first spans from floor to surface"},
+      {"", "The last frame before failure"},
+      {"", "The last frame"}};
+  return texts[static_cast<std::size_t>(landmark)];
 }
 
 double place_among(std::span<const double> tilts, double tilt) {

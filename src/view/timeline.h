@@ -4,7 +4,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/command.h"
@@ -23,21 +22,27 @@ enum class Landmark {
   last,
 };
 
-/// Returns the name of the event at the landmark; empty for the first and the last frame and the frame before
-/// failure.
-std::string_view event_name(Landmark landmark);
+/// Name of the event at a landmark, empty for the first and the last frame and the frame before failure, and
+/// the landmark as the beginning of a sentence.
+struct LandmarkText {
+  const char* event;
+  const char* sentence;
+};
+const LandmarkText& text_of(Landmark landmark);
 
 struct TimelineEvent {
   enum class Kind { transition, failure, command, rearrangement };
-  std::string name;   ///< also the name of its widget: "dilation", "theta_c", "command 0"
-  std::string label;  ///< short rich text: "θ_d"; empty for a command or a rearrangement
-  std::string what;   ///< rich text: the event and the measure that shows it
+  std::string name;  ///< also the name of its widget: "dilation", "theta_c", "command 0"
+  /// Rich text: "θ_d, volume", or its part before the comma if there is little room; empty for a command or a
+  /// rearrangement.
+  std::string label;
+  std::string what;  ///< rich text: the event and the measure that shows it
   Kind kind = Kind::transition;
   double tilt = 0.0;      ///< rad
   double place = 0.0;     ///< frames from the first, interpolated
   std::size_t frame = 0;  ///< nearest frame
-  double size = 1.0;      ///< value in (0, 1]: for a rearrangement, by the logarithm of its energy
   double time = 0.0;      ///< s; NaN if no row gives it
+  double size = 1.0;      ///< value in (0, 1]: for a rearrangement, by the logarithm of its energy
 };
 
 /// Data from which events are derived, as far as they are known.

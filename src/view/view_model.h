@@ -1,49 +1,40 @@
 #pragma once
-/// The interactive view without its widgets: a run file that is replayed or a run that is computed, the frame
-/// shown, the properties of the selected grain, and the curves next to its maps. It provides two views.
+/// View is the window of `talus view` without its widgets. A ViewModel is the run shown, a Replay or a
+/// LiveRun, with its frame, its selection and its curves; a View is one of its two maps. Widgets change a
+/// ViewState, update() takes it up, and drawing reads the model. Read next: view_state.h, frame_source.h,
+/// frame_reader.h.
 
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "render/frame_view.h"
-#include "view/frame_ahead.h"
-#include "view/frame_series.h"
+#include "view/frame_reader.h"
 #include "view/frame_source.h"
-#include "view/history.h"
-#include "view/inspection.h"
 #include "view/live_run.h"
 #include "view/plots.h"
 #include "view/scene.h"
+#include "view/selection.h"
 #include "view/timeline.h"
 #include "view/view_state.h"
 
 namespace talus::view {
 
-/// Origin of a live run, and where it is recorded.
+/// Origin of a run, and where it is recorded.
 struct Recording {
-  std::string scenario;  ///< empty for a branch, whose scenario is in its file
+  std::string scenario;  ///< path; empty for a branch, whose scenario is in its file
   std::vector<std::string> settings;
   std::string output;  ///< empty: not recorded
   std::uint64_t seed = 0;
 };
 
-/// Parent run of a branch, for the time line.
-struct BranchLine {
-  std::string run;
-  std::size_t frame = 0;      ///< frame of the parent at which the branch begins
-  std::vector<double> tilts;  ///< rad, one per frame of the parent
-};
-
 /// A map, and the data from which it was made.
 struct MapCache {
-  MapSource source;
+  MapKey key;
   bool dark = false;  ///< drawn with on_dark_ground
   render::FrameView view;
-  std::optional<GrainValues> values;  ///< values of its grains, once requested
 };
 
 class ViewModel;
@@ -51,7 +42,8 @@ class ViewModel;
 /// One of the two views: a map of the run, valid until either is changed. The second view shows another map.
 struct View {
   ViewModel& run;
-  const ViewState& state;  ///< state with the map of this view
+  pictures::MapSettings chosen;  ///< settings of its map, not yet completed by the run
+  std::optional<double> minus;   ///< rad: show the frame minus that at this tilt
   MapCache& cache;
   bool second = false;
 
@@ -64,8 +56,8 @@ struct View {
   /// Returns the map on white in any theme, with legends, title and caption, cropped to the bed, in the
   /// aspect that map() was last called with. A map that cannot be drawn has the reason as its title.
   render::FrameView furnished_map() const;
-  /// Returns the values that the map assigns to the free grains, computed at the first request for a frame.
-  const GrainValues& values() const;
+  /// Returns the first bar of that map, with the values of the free grains; null if there is none.
+  const render::Bar* bar() const;
   /// Returns the part of the bed that map(aspect) shows, m.
   pictures::MapExtent part(double aspect) const;
   /// Returns the aspect (width / height) of a picture that just holds the entire bed as it is shown, turned
@@ -75,12 +67,20 @@ struct View {
   pictures::MapSettings settings() const;
   /// Returns the angle (rad) from which motions are measured, if the frame shown comes after it.
   std::optional<double> since() const;
-  /// Returns the frame from which motions are measured; null if there is none.
-  std::shared_ptr<const Frame> reference() const;
+  /// Returns the range that fits the values of a map of motion in the frame shown, that of `talus render`;
+  /// nothing for other maps, or if nothing has moved.
+  std::optional<pictures::ScaleRange> fitting_range() const;
+  /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
+  /// for a frame and a selection.
+  const Inspection* inspection() const;
 
  private:
-  const render::FrameView& whole_map(const pictures::MapExtent& shown) const;
-  render::FrameView picture(const pictures::MapExtent& shown) const;
+  /// Returns the frame that is subtracted from the frame shown, or from which motions are measured; null if
+  /// there is none.
+  std::shared_ptr<const Frame> reference() const;
+  const analysis::Clusters& clusters() const;
+  const render::FrameView& whole_map(const pictures::MapExtent& shown, bool dark) const;
+  render::FrameView picture(const pictures::MapExtent& shown, bool dark) const;
 };
 
 class ViewModel {
@@ -92,14 +92,14 @@ class ViewModel {
 
   ViewState state;  ///< changed by the caller
 
-  View first() { return {*this, state, map_, false}; }
+  View first() { return {*this, state.map, std::nullopt, map_, false}; }
   /// Returns the second view, as state.second_view requests it.
   View second();
 
   bool is_live() const { return live_ != nullptr; }
   const std::string& path() const { return pictures_.path; }
-  LiveRun* live() const { return live_.get(); }  ///< null in a replay
-  std::uint64_t seed() const { return pictures_.run.seed; }
+  LiveRun* live() const { return live_.get(); }     ///< null in a replay
+  Replay* replay() const { return replay_.get(); }  ///< null in a live run
   /// Restarts a live run from its scenario, with this seed and without the commands. If the current run is
   /// recorded, so is the new one, in a file next to it: "slope-2.h5" after "slope.h5". Throws as LiveRun
   /// does; the current run then continues to exist.
@@ -108,13 +108,13 @@ class ViewModel {
   /// to that frame, whatever the seed. Does nothing in a live run. Throws as checkpoint_at_frame does; the
   /// replay then continues to exist.
   void branch();
-  std::optional<BranchLine> branch_line() const;  ///< set if the live run is a branch
+  const std::optional<io::BranchOrigin>& origin() const { return origin_; }  ///< set if the run is a branch
   /// Returns a live run to the state before its last command, paused; a recorded run is continued in a file
   /// next to it. Throws as LiveRun::back does.
   void back();
   /// Starts to record a live run that is not recorded, from its beginning. Throws as LiveRun::record does.
   void record(const std::string& output);
-  Recording recording() const;
+  const Recording& recording() const { return recording_; }
   /// Returns whether the content may be discarded; an unsaved live run only at the second request.
   bool may_discard();
   /// Stops all background reading and writing until the next update(), because HDF5 is not thread-safe. Must
@@ -131,19 +131,16 @@ class ViewModel {
   /// Goes to a frame. A live run continues to compute while the frame is shown, until it is followed again.
   /// Does nothing if there is no frame yet.
   void go_to(std::size_t frame);
-  bool shows_recorded_frame() const {
-    return held_.has_value();
-  }  ///< whether a live run shows a recorded frame
+  /// Returns whether a live run shows a recorded frame.
+  bool shows_recorded_frame() const { return held_; }
   void follow();
   /// Returns the frame nearest to an angle in degrees, or "repose"; throws as frames_at does, and
   /// Error(usage) for a live run.
   std::size_t frame_at_angle(const std::string& angle) const;
   void go_to(Landmark landmark);  ///< does nothing if the run has no such place
-  bool has(Landmark landmark) const { return place_of(landmark).has_value(); }
-  bool playing() const { return replay_ && replay_->playing(); }
-  void play(bool on);  ///< starts again from the beginning if it is at the end
-  void set_speed(double degrees_per_second);
-  double speed() const { return replay_ ? replay_->speed() : 0.0; }
+  std::optional<std::size_t> place_of(Landmark landmark) const;
+  /// Starts or stops playback of a replay, from the beginning if it is at the end.
+  void play(bool on);
 
   /// Updates the view; call once per picture. Fetches the newest frame of a live run, advances a playing
   /// replay by `seconds`, collects the results of background work, and returns the camera to the bed. Errors,
@@ -154,10 +151,13 @@ class ViewModel {
   const RunStatics& statics() const { return pictures_.run.statics; }
   const Frame& frame() const { return *frame_; }
   BedFrame bed() const { return {frame(), statics()}; }
-  double theta_c()
-      const;  ///< rad; scales the maps: that of the run, or an assumed one (20 deg) while it is unknown
+  /// rad; scales the maps: that of the run, or an assumed one (20 deg) while it is unknown
+  double theta_c() const;
   bool theta_c_known() const { return theta_c_.has_value(); }
   double mean_diameter() const { return statics().mean_diameter; }
+  /// Returns the steps of a live run so far, or those of a replay, the last one being that of the frame
+  /// shown.
+  SolvedSteps solved_steps() const;
 
   /// Moves the camera, limited to the bed and to a few grains. Returns false if the part of the bed shown
   /// does not change.
@@ -174,18 +174,14 @@ class ViewModel {
   void select(const ContactKey& contact);
   /// Returns all selected grains that exist in the frame shown, sorted by id.
   std::vector<Index> selected_grains() const;
-  /// Calls find_contact for the frame shown.
-  std::optional<ContactKey> contact_at(double x, double y, double reach) const;
-
   /// Returns the properties of the selected contact in the frame shown; nothing if none is selected.
   std::optional<ContactInspection> contact_inspection() const;
   /// Returns its contact_plots, over the axis of all plots; frames are added as they are read.
   std::vector<Plot> contact_history() const;
-  /// Returns the properties of state.selected in the frame shown; null if nothing is selected. Computed once
-  /// for a frame and a selection.
-  const Inspection* inspection() { return inspect_selected(first()); }
   /// Returns the plots in display order; values computed in the background are added later.
   std::span<const Plot> plots() const { return plots_; }
+  /// Returns whether a replay knows all values of its frames, so that a plot without any stays empty.
+  bool all_values_known() const;
   /// Returns the quantities of the table that have a value in each frame of this run, with or without a
   /// threshold, and no added plot yet: all if the run has a stored analysis, else those of its rows and of
   /// overload.
@@ -218,9 +214,7 @@ class ViewModel {
   void start_live(const std::string& output, bool overwrite);
   /// Collects everything that a live run has recorded since its beginning.
   void take_all_recorded();
-  void begin_series();
-  /// Stops all background reading.
-  void end_series();
+  void begin_reading();
   /// Returns frame k of the available frames; null, with the reason in error_, if it cannot be read.
   std::shared_ptr<const Frame> frame_at(std::size_t k);
   /// Shows the current frame of a replay. If it cannot be read, the previous one stays, and playback stops.
@@ -231,87 +225,60 @@ class ViewModel {
   void make_frame(std::shared_ptr<const Frame> mapped = nullptr);
   /// Collects the results of a live run; returns whether its frame has changed.
   bool poll_live_run();
-  /// Shows a recorded frame of a live run, or follows the run again.
-  void hold_at(std::optional<std::size_t> frame);
   /// Returns the report on a live run that has just failed or ended; else empty.
   std::string take_end();
   bool is_falling() const;
   pictures::MapExtent live_extent() const;
-  /// Restarts the series of frames if `rule` has changed, and collects its results; returns whether anything
-  /// has changed.
-  bool follow_frames(const pictures::OverloadRule& rule);
+  /// Requests the values of all frames if `rule` has changed, and the history of the selected contact, and
+  /// collects what has been read; returns whether anything has changed.
+  bool follow_reader(const pictures::OverloadRule& rule);
 
-  // view_events.cpp: its events.
+  // view_shown.cpp: events of the run, and its curves from its records and its frames.
   void find_events();
-  std::optional<std::size_t> place_of(Landmark landmark) const;
-
-  // view_plots.cpp: recompute its curves, from its records and from its frames.
   void plot_rows();
   void plot_values();
-  void note_thresholds(const pictures::OverloadRule& rule);
   PlotAbscissa abscissa() const { return {axis_, theta_c_.value_or(not_known)}; }
 
-  // view_shown.cpp: results for the frame shown.
-  const analysis::Clusters& shown_clusters(const pictures::MapSettings& settings);
-  const Inspection* inspect_selected(const View& view);
-  /// Returns the mapped frame at a tilt (rad); null if there is none.
-  std::shared_ptr<const Frame> reference_at(double tilt);
-
-  // view_selection.cpp
-  /// Returns the marks of the selection in the frame shown, without the inspected grain.
-  Overlay selection_marks() const;
-  /// Reads the history of the selected contact; returns whether any of it has arrived.
-  bool follow_history();
-  /// Moves the camera to the inspected grain, if requested.
-  void follow_grain();
-
-  // The tilts and times of the frames of the tilt.
-  std::vector<double> tilts_of_tilt() const;
-  std::vector<double> times_of_tilt() const;
+  std::vector<double> tilts_of_tilt() const { return frames_->instants().of_tilt(frame_tilts()); }
 
   /// Pictures of the run, with the current map and part of the bed.
   pictures::PictureSeries pictures_;
   RunStatics all_statics_;
-  std::shared_ptr<FrameSource> frames_ = std::make_shared<RecordedFrames>();
+  std::shared_ptr<FrameSource> frames_;     ///< the replay or the live run
   std::shared_ptr<const Frame> stored_;     ///< the frame shown, as it was read or computed
   std::shared_ptr<const Frame> frame_;      ///< the same with the gamma of neighbourhoods of l_min_
   double l_min_ = analysis::default_l_min;  ///< D
   std::optional<double> theta_c_;           ///< rad
   pictures::MapExtent bed_;                 ///< over the frames known so far
   std::vector<ObservableRow> rows_;
+  std::vector<StepRow> steps_;  ///< rows of a replay
   std::vector<Plot> plots_ = empty_plots();
   PlotAxis axis_ = PlotAxis::tilt;  ///< abscissa of the plots along the run
   std::string error_;               ///< error since the last update
 
-  ViewState second_state_;  ///< state of the second view, when last requested
-
   // Members of a replay.
-  std::shared_ptr<RunFrames> run_file_;
-  std::optional<Replay> replay_;
-  std::unique_ptr<FrameAhead> ahead_;
+  std::shared_ptr<Replay> replay_;
   std::size_t shown_before_ = 0;  ///< previous frame, which gives the direction of playback
   std::optional<analysis::Analysis> analysis_;
 
+  Recording recording_;
+
   // Members of a live run.
   scenario::Scenario scenario_;
-  std::vector<std::string> scenario_settings_;
   std::string scenario_text_, command_line_;
-  std::string first_output_, output_;  ///< first requested output, and that of this run; empty: not recorded
+  std::string first_output_;                ///< first requested output; empty: not recorded
   std::optional<io::BranchOrigin> origin_;  ///< origin, if the run is a branch
-  std::vector<double> parent_tilts_;        ///< rad, one per frame of the parent run
   std::optional<double> parent_theta_c_;    ///< rad; assumed for the branch until it fails
-  std::unique_ptr<LiveRun> live_;
-  std::shared_ptr<RecordedFrames> recorded_;
+  std::shared_ptr<LiveRun> live_;
   std::shared_ptr<const Frame> newest_;  ///< current state of the run
-  std::optional<std::size_t> held_;      ///< recorded frame that is shown instead
+  bool held_ = false;                    ///< whether a recorded frame is shown instead
   bool ended_ = false;                   ///< whether the end has been reported
 
   std::vector<Command> commands_;
-  std::vector<ObservableRow> file_rows_;  ///< for a replay with commands: rows_up_to the end of the run
+  std::vector<ObservableRow> command_rows_;  ///< rows_up_to the newest state, which give commands a tilt
   std::vector<TimelineEvent> events_;
 
-  std::unique_ptr<FrameSeries> series_;
-  std::unique_ptr<HistorySeries> history_;  ///< null if nothing is requested
+  std::unique_ptr<FrameReader> reader_;  ///< null while no frame may be read
 
   // Results for the frame shown, with the data from which they were computed.
   struct {

@@ -1,21 +1,54 @@
 #pragma once
-/// State of the interactive view: plain data that widgets change and drawing reads.
+/// State of the interactive view: plain data that widgets change and drawing reads, with its camera, colour
+/// bar and theme.
 
 #include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.h"
 #include "pictures/maps.h"
-#include "view/bar_range.h"
 #include "view/plots.h"
 #include "view/selection.h"
-#include "view/theme.h"
 
 namespace talus::view {
+
+/// Ends of a bar.
+struct BarEnds {
+  double low = 0.0, high = 1.0;
+  bool logarithmic = false;  ///< requires 0 < low
+};
+
+/// Returns the value at a share of the bar's length; the share may lie beyond the ends.
+double value_at(const BarEnds& bar, double share);
+
+/// Part of a bar that is being dragged, and the state of the bar when the drag began.
+struct HeldBar {
+  enum class Part { none, low, high, middle };
+  Part part = Part::none;
+  BarEnds before;
+  double from = 0.0;  ///< position of the mouse at the beginning, px
+};
+
+/// Returns the ends after the dragged part has moved by a share of the bar's length. Pulling an end outwards
+/// widens the range; pulling the middle moves both ends. The ends are rounded to what a pixel can resolve and
+/// stay apart.
+std::array<double, 2> pulled(const HeldBar& held, double share);
+
+enum class Theme {
+  light,
+  dark,   ///< for dark rooms: the grays of maps are mirrored, so that black becomes bright
+  print,  ///< journal style: white background, black text, nothing filled with gray
+};
+
+/// Names in the order of the themes, which is that in which they are offered.
+inline constexpr std::array<std::string_view, 3> theme_names = {"light", "dark", "print"};
+/// Returns the theme of one of these names.
+Theme theme_of(std::string_view name);
 
 /// Part of the bed that fills the window.
 struct ViewCamera {
@@ -56,7 +89,6 @@ struct ViewState {
   pictures::MapSettings map;  ///< layers, colours, threshold, length, turned, ...
   ViewCamera camera;
   SecondViewState second_view;
-  std::optional<double> minus;    ///< rad, for a view that shows a frame minus that at this tilt
   double scale = 0.0;             ///< scale of text and widgets; 0: that of the display
   std::optional<double> since;    ///< rad: motion and strain since that tilt; empty: per degree
   std::optional<Index> selected;  ///< the inspected grain, which commands act on
@@ -65,7 +97,8 @@ struct ViewState {
   bool show_neighbourhoods = true;
   bool highlight_cluster = false;
   bool show_help = false;
-  bool show_controls = true, show_inspector = true, show_plots = true;
+  bool inspected = false;  ///< whether something has been selected since the window was opened
+  bool show_controls = true, show_plots = true;
   bool discard_asked = false;                       ///< whether the user was asked to discard an unsaved run
   std::string panel_asked;                          ///< panel to open with the next picture
   HeldBar held_bar;                                 ///< drag of the legend's bar
@@ -73,8 +106,7 @@ struct ViewState {
   std::string quantity_filter;                      ///< filter on the names of quantities offered for plots
   std::string enlarged_plot;                        ///< name of the plot; empty: all are shown
   std::string plots_folder = "talus-plots";         ///< folder for exported plots
-  float picture_share =
-      0.0f;  ///< share of the height for the map; 0: as high as the bed, the rest for the plots
+  float picture_share = 0.0f;  ///< share of the height for the map; 0: as much as it needs
   Theme theme = Theme::light;
   std::string announcement;  ///< report on a run that has failed or ended, until dismissed
   std::string message;       ///< latest message: a file written, an error
@@ -86,12 +118,33 @@ struct ViewState {
   double push_angle = 0.0;    ///< deg to the bed
   double drop_height = 5.0;   ///< D
   double run_to_tilt = 10.0;  ///< deg
-  int drop_count = 5;
+  std::int64_t drop_count = 5;
   int pace = 0;           ///< index in live_paces
   std::int64_t seed = 1;  ///< seed of the next reset; that of the run when it begins
   std::string folder;     ///< folder shown in the list of files; empty: the working directory at start
   std::string picture_path = "talus.png";
   std::string run_path = "talus.h5";  ///< path in which an unrecorded run is saved
 };
+
+/// Returns the camera with its zoom limited to [1, zoom that shows 3 D], and its centre inside the bed. Zoom
+/// 1 shows the entire bed.
+ViewCamera clamped(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter);
+
+/// Returns the aspect (width / height) of the smallest picture that holds a part of length 1 and depth
+/// `depth`, turned by up to `turn_max` (rad, >= 0).
+double picture_aspect(double depth, double turn_max);
+
+/// Returns the part of the bed that fills a picture of that aspect (width / height). At zoom 1 it contains
+/// the entire bed, with empty space around it; at other zooms it extends beyond the ends of the bed only as
+/// far as it must. The part fits even if it is drawn turned by up to `turn_max` (rad, >= 0).
+pictures::MapExtent shown_part(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter,
+                               double aspect, double turn_max);
+
+/// Returns the camera moved to the middle of the part that it shows. A centre pushed beyond an end of the bed
+/// then moves back at once.
+ViewCamera centred(const ViewCamera& camera, const pictures::MapExtent& part);
+
+/// Returns the intersection of two parts.
+pictures::MapExtent common_part(const pictures::MapExtent& one, const pictures::MapExtent& other);
 
 }  // namespace talus::view

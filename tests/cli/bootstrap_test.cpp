@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "pictures.h"
+#include "support/commands.h"
 #include "support/places.h"
-#include "support/process.h"
 
 namespace talus::test {
 namespace {
@@ -20,7 +20,7 @@ const char* const failing_bed =
 
 /// Checkout that contains only what the demo needs. Fake commands, ahead of the system's, report that
 /// everything is installed; they neither install nor build anything.
-class BootstrapDemo : public testing::Test {
+class BootstrapDemo : public CommandTest {
  protected:
   void SetUp() override {
     fs::copy_file(source_folder() + "/bootstrap", folder_.path() / "bootstrap");
@@ -46,9 +46,7 @@ class BootstrapDemo : public testing::Test {
     return std::system(command.c_str());
   }
 
-  std::string said() const { return file_bytes(folder_.path() / "said"); }
-
-  TemporaryFolder folder_;
+  std::string said() const { return folder_.text("said"); }
 };
 
 TEST_F(BootstrapDemo, works_as_often_as_it_is_typed) {
@@ -60,7 +58,7 @@ TEST_F(BootstrapDemo, works_as_often_as_it_is_typed) {
   const std::string pixels = pixels_of(first);
   ASSERT_EQ(demo(2), 0) << said();
   EXPECT_FALSE(pixels_of(first) == pixels) << *names.begin() << " is left over from the first run";
-  EXPECT_NE(said().find("From deposition to avalanche"), std::string::npos) << said();
+  EXPECT_TRUE(has(said(), "From deposition to avalanche"));
 }
 
 }  // namespace

@@ -6,23 +6,18 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "support/process.h"
+#include "support/commands.h"
 
 namespace talus::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-const char* const tiny_bed =
-    "[bed]\nlength = 10\ndepth = 4\n[tilt]\nend_angle = 1.5\n[output]\nframe_every = 0.5\n";
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// Ensemble of four beds that have not begun, with a folder of fake commands.
-class EnsembleSubmit : public testing::Test {
+class EnsembleSubmit : public CommandTest {
  protected:
   void SetUp() override {
-    write_file(folder_, "bed.toml", tiny_bed);
+    write_file(folder_, "bed.toml", stable_bed);
     fs::create_directory(folder_.path() / "bin");
     const Outcome begun =
         talus({"ensemble", "bed.toml", "--seeds", "1-4", "--jobs", "0", "-o", "./" + name_});
@@ -42,27 +37,22 @@ class EnsembleSubmit : public testing::Test {
     fs::permissions(folder_.path() / "bin" / name, fs::perms::owner_all);
   }
 
-  Outcome talus(const std::vector<std::string>& arguments, const std::vector<std::string>& variables = {}) {
-    std::vector<std::string> environment = {"PATH=" + folder_.path("bin") + ":/usr/bin:/bin"};
-    environment.insert(environment.end(), variables.begin(), variables.end());
-    return run_talus(arguments, folder_.path(), environment);
+  Outcome talus(const Words& arguments, const Words& variables = {}) {
+    Words environment = Words{"PATH=" + folder_.path("bin") + ":/usr/bin:/bin"} + variables;
+    return folder_.talus(arguments, environment);
   }
-  Outcome ensemble(const std::string& what, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {"ensemble", what, "./" + name_};
-    words.insert(words.end(), more.begin(), more.end());
+  Outcome ensemble(const std::string& what, const Words& more = {}) {
+    Words words = Words{"ensemble", what, "./" + name_} + more;
     return talus(words);
   }
-  std::string called() { return text_of(folder_.path("called")); }
+  std::string called() { return folder_.text("called"); }
   std::string file(const std::string& name) { return folder_.path(name_ + "/" + name); }
-
-  TemporaryFolder folder_;
   std::string name_ = "-it's \"$(touch oops)\"";
 };
 
 TEST_F(EnsembleSubmit, gives_sbatch_an_array_of_what_is_missing) {
-  const Outcome done = ensemble("submit", {"--time", "04:00", "--", "--partition=long", "-A", "it's me"});
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_TRUE(has(done.out, "job 12: 4 tasks for 4 missing members")) << done.out;
+  EXPECT_TRUE(ends(ensemble("submit", {"--time", "04:00", "--", "--partition=long", "-A", "it's me"}), 0,
+                   {"job 12: 4 tasks for 4 missing members; a member takes about "}));
   EXPECT_TRUE(has(called(), "sbatch\n--parsable\n--array=1-4\n")) << called();
   EXPECT_TRUE(has(called(), "--time=04:00:00\n--partition=long\n-A\nit's me\nslurm/job.sh\n")) << called();
   EXPECT_EQ(text_of(file("slurm/job-12.csv")), "job,cluster,tasks\n12,,4\n");
@@ -77,10 +67,26 @@ TEST_F(EnsembleSubmit, has_a_script_that_computes_members_by_itself) {
   EXPECT_EQ(std::system(run.c_str()), 0);
   EXPECT_TRUE(has(ensemble("status").out, "4 of 4 done")) << text_of(file("workers/slurm-12_3.log"));
   EXPECT_TRUE(has(text_of(file("workers/slurm-12_3.log")), "seed-4 done\n"));
-  EXPECT_FALSE(fs::exists(folder_.path() / "oops")) << "the name of the folder was executed";
-  const Outcome more = ensemble("submit");
-  EXPECT_EQ(more.exit_code, 0);
-  EXPECT_TRUE(has(more.out, "4 of 4 done, 0 under way; nothing is missing\n")) << more.out;
+  EXPECT_FALSE(folder_.has_file("oops")) << "the name of the folder was executed";
+  EXPECT_TRUE(ends(ensemble("submit"), 0, {"4 of 4 done, 0 under way; nothing is missing\n"}));
+}
+
+TEST_F(EnsembleSubmit, has_a_worker_for_each_processor_of_a_task) {
+  ASSERT_EQ(ensemble("submit", {"--tasks", "1", "--", "--cpus-per-task=2"}).exit_code, 0);
+  fs::copy(folder_.path() / name_, folder_.path() / "plain", fs::copy_options::recursive);
+  EXPECT_EQ(
+      std::system(("cd '" + folder_.path("plain") + "' && sed -i 's/^cd .*/cd ./' slurm/job.sh && " +
+                   "SLURM_CPUS_PER_TASK=2 SLURM_ARRAY_JOB_ID=12 SLURM_ARRAY_TASK_ID=1 bash slurm/job.sh")
+                      .c_str()),
+      0);
+  const std::string log = text_of(folder_.path("plain/workers/slurm-12_1.log"));
+  std::size_t ended = 0;
+  for (std::size_t at = log.find(" failed here"); at != std::string::npos;
+       at = log.find(" failed here", at + 1))
+    ++ended;
+  EXPECT_EQ(ended, 2U) << log;
+  for (int seed = 1; seed <= 4; ++seed)
+    EXPECT_TRUE(has(log, "seed-" + std::to_string(seed) + " done\n")) << log;
 }
 
 TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
@@ -89,10 +95,7 @@ TEST_F(EnsembleSubmit, adds_tasks_only_for_members_that_none_is_queued_for) {
   command("sbatch", "echo 13");
   EXPECT_TRUE(has(ensemble("submit").out, "job 13: 1 task for 4")) << called();
   command("squeue", "printf '13|PENDING|Priority\\n12|RUNNING|None\\n12|RUNNING|None\\n12|RUNNING|None\\n'");
-  const Outcome enough = ensemble("submit");
-  EXPECT_EQ(enough.exit_code, 0);
-  EXPECT_TRUE(has(enough.out, "4 members are missing, and 4 tasks for them are already in the queue"))
-      << enough.out;
+  EXPECT_TRUE(ends(ensemble("submit"), 0, {"4 members missing, 4 tasks in the queue already"}));
   command("squeue", "echo 'slurm_load_jobs error: Invalid job id specified' >&2; exit 1");
   command("sbatch", "echo 14");
   EXPECT_TRUE(has(ensemble("submit").out, "job 14: 4 tasks"));
@@ -111,26 +114,20 @@ TEST_F(EnsembleSubmit, shows_what_sbatch_says_and_obeys_nothing_of_it) {
   command("sbatch", "echo 'Submitted batch job'");
   EXPECT_EQ(ensemble("submit").exit_code, 69) << "not a number";
   fs::remove(folder_.path() / "bin/sbatch");
-  const Outcome missing =
-      run_talus({"ensemble", "submit", "./" + name_}, folder_.path(), {"PATH=" + folder_.path("bin")});
-  EXPECT_EQ(missing.exit_code, 69);
-  EXPECT_TRUE(has(missing.err, "sbatch is not on PATH")) << missing.err;
-  EXPECT_TRUE(has(missing.err, "--engine print")) << missing.err;
+  EXPECT_TRUE(ends(folder_.talus({"ensemble", "submit", "./" + name_}, {"PATH=" + folder_.path("bin")}), 69,
+                   {"sbatch is not on PATH", "--engine print"}));
 }
 
 TEST_F(EnsembleSubmit, tells_status_of_its_tasks) {
   ASSERT_EQ(ensemble("submit").exit_code, 0);
   command("squeue",
           "printf '12|RUNNING|None\\n12|PENDING|\\033[31mResources\\n12|PENDING|\\033[31mResources\\n'");
-  const Outcome text = ensemble("status");
-  EXPECT_TRUE(has(text.out, "\njob 12: 2 pending (\\x1b[31mResources), 1 running\n")) << text.out;
+  EXPECT_TRUE(has(ensemble("status").out, "\njob 12: 2 pending (\\x1b[31mResources), 1 running\n"));
   const std::string json = ensemble("status", {"--json"}).out;
   EXPECT_EQ(json_value(json, "pending"), "2") << json;
   EXPECT_EQ(json_value(json, "running"), "1") << json;
   command("squeue", "echo 'slurm_load_jobs error: Unable to contact slurm controller' >&2; exit 1");
-  const Outcome unknown = ensemble("status");
-  EXPECT_EQ(unknown.exit_code, 0);
-  EXPECT_TRUE(has(unknown.out, "job 12: unknown, slurm_load_jobs error: Unable to contact")) << unknown.out;
+  EXPECT_TRUE(ends(ensemble("status"), 0, {"job 12: unknown, slurm_load_jobs error: Unable to contact"}));
   EXPECT_EQ(json_value(ensemble("status", {"--json"}).out, "queued"), "null");
 }
 
@@ -138,9 +135,7 @@ TEST_F(EnsembleSubmit, can_be_cancelled) {
   EXPECT_TRUE(has(ensemble("cancel").out, "no job of this ensemble is known"));
   ASSERT_EQ(ensemble("submit").exit_code, 0);
   command("scancel", "echo 'scancel: error: no permission' >&2; exit 1");
-  const Outcome refused = ensemble("cancel");
-  EXPECT_EQ(refused.exit_code, 69);
-  EXPECT_TRUE(has(refused.err, "no permission")) << refused.err;
+  EXPECT_TRUE(ends(ensemble("cancel"), 69, {"no permission"}));
   EXPECT_TRUE(fs::exists(file("slurm/job-12.csv"))) << "it may still exist";
   command("scancel", "");
   EXPECT_TRUE(has(ensemble("cancel").out, "job 12 is cancelled\n"));
@@ -151,16 +146,14 @@ TEST_F(EnsembleSubmit, can_be_cancelled) {
 TEST_F(EnsembleSubmit, queues_a_task_again_while_members_come_further) {
   ASSERT_EQ(ensemble("submit").exit_code, 0);
   command("scontrol", "");
-  const std::vector<std::string> words = {"ensemble", "requeue", "./" + name_};
-  const std::vector<std::string> task = {"SLURM_ARRAY_JOB_ID=12", "SLURM_ARRAY_TASK_ID=3"};
+  const Words words = {"ensemble", "requeue", "./" + name_};
+  const Words task = {"SLURM_ARRAY_JOB_ID=12", "SLURM_ARRAY_TASK_ID=3"};
   EXPECT_EQ(talus(words).exit_code, 64) << "no task";
   EXPECT_EQ(talus(words, task).exit_code, 0);
   EXPECT_TRUE(called().ends_with("scontrol\nrequeue\n12_3\n")) << called();
   EXPECT_EQ(talus(words, task).exit_code, 0);
   const std::string before = called();
-  const Outcome enough = talus(words, task);
-  EXPECT_EQ(enough.exit_code, 75);
-  EXPECT_TRUE(has(enough.err, "3 consecutive starts made no progress on any member")) << enough.err;
+  EXPECT_TRUE(ends(talus(words, task), 75, {"3 consecutive starts made no progress on any member"}));
   EXPECT_EQ(called(), before) << "it asks for no other start";
   std::ofstream(file("seed-1.h5")) << "done";
   std::ofstream(file("seed-2.failed")) << "exit code 65\n\n";

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/process.h"
+#include "support/commands.h"
 #include "support/runs.h"
 
 namespace talus::test {
@@ -12,19 +12,15 @@ const char* const collapsed_bed =
     "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"collapse\"\nrest_velocity = 0.1\n"
     "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 1\n[output]\nframe_every = 0.5\nobservable_every = 0.2\n";
 
-class ForeignBed : public testing::Test {
+class ForeignBed : public CommandTest {
  protected:
-  ForeignBed() { write_file(folder_, "bed.toml", collapsed_bed); }
-  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
-  Outcome run_from(const std::string& file, std::vector<std::string> more = {}) {
-    more.insert(more.begin(), {"run", "bed.toml", "--overwrite", "-o", "from.h5", "--set",
-                               "deposition.method=file", "--set", "deposition.file=" + file});
-    return talus(more);
+  ForeignBed() : CommandTest(collapsed_bed) {}
+  Outcome run_from(const std::string& file, Words more = {}) {
+    return talus(Words{"run", "bed.toml", "--overwrite", "-o", "from.h5", "--set", "deposition.method=file",
+                       "--set", "deposition.file=" + file} +
+                 more);
   }
-  std::string grains_of(const std::string& run) {
-    return json_value(talus({"info", run, "--json"}).out, "grains");
-  }
-  TemporaryFolder folder_;
+  std::string grains_of(const std::string& run) { return info(run, "grains"); }
 };
 
 TEST_F(ForeignBed, is_read_from_what_talus_exports) {
@@ -37,8 +33,7 @@ TEST_F(ForeignBed, is_read_from_what_talus_exports) {
     const Outcome run = run_from(path, {"--set", "deposition.frame=-1"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out.find(path + ": frame 2 of 3"), 0u) << run.out;
-    EXPECT_NE(run.out.find("10 grains with their tops at y = 0 left out as the floor\n"), std::string::npos)
-        << run.out;
+    EXPECT_TRUE(has(run.out, "10 grains with their tops at y = 0 left out as the floor\n"));
     EXPECT_EQ(grains_of("from.h5"), "30");
     EXPECT_EQ(talus({"replay", "from.h5"}).exit_code, 0);
   }
@@ -48,14 +43,10 @@ TEST_F(ForeignBed, of_soft_grains_is_told_how_far_they_were_moved) {
   write_file(
       folder_, "soft.txt",
       "#format x_y_z_r\n0.02\t0.1\t0.006\t0.005\n0.0295\t0.1\t0.006\t0.005\n0.06\t0.1\t0.016\t0.005\n");
-  const std::vector<std::string> metres = {"--set", "deposition.file_unit=m"};
-  const Outcome refused = run_from("soft.txt", metres);
-  EXPECT_EQ(refused.exit_code, 65);
-  EXPECT_NE(refused.err.find(
-                "soft.txt:3:1: error: the grain overlaps with the grain in line 2 by 0.05 D: expected at "
-                "most 0.01 D; deposition.relax = true"),
-            std::string::npos)
-      << refused.err;
+  const Words metres = {"--set", "deposition.file_unit=m"};
+  EXPECT_TRUE(ends(run_from("soft.txt", metres), 65,
+                   {"soft.txt:3:1: error: the grain overlaps with the grain in line 2 by 0.05 D: expected at "
+                    "most 0.01 D; deposition.relax = true"}));
   const Outcome run =
       run_from("soft.txt", {"--set", "deposition.file_unit=m", "--set", "deposition.relax=true"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -65,10 +56,11 @@ TEST_F(ForeignBed, of_soft_grains_is_told_how_far_they_were_moved) {
           "moved grains by 0.017 D on average, 0.025 D at most\n"),
       0u)
       << run.out;
-  const Outcome check =
-      talus({"check", "bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=soft.txt",
-             "--set", "deposition.file_scale=100", "--set", "deposition.relax=true"});
-  EXPECT_NE(check.out.find("# soft.txt: x and z are the plane"), std::string::npos) << check.out << check.err;
+  EXPECT_TRUE(
+      has(talus({"check", "bed.toml", "--set", "deposition.method=file", "--set", "deposition.file=soft.txt",
+                 "--set", "deposition.file_scale=100", "--set", "deposition.relax=true"})
+              .out,
+          "# soft.txt: x and z are the plane"));
 }
 
 }  // namespace

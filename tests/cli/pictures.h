@@ -3,28 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <set>
-#include <sstream>
 #include <string>
 
+#include "support/process.h"
+
 namespace talus::test {
-
-inline std::string file_bytes(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
-/// Returns the names of the files in a folder; none if it does not exist.
-inline std::set<std::string> names_in(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  if (std::filesystem::exists(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      names.insert(entry.path().filename().string());
-  return names;
-}
 
 inline std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -36,14 +19,14 @@ struct PictureSize {
   int width = 0, height = 0;
 };
 inline PictureSize picture_size(const std::filesystem::path& png) {
-  const std::string bytes = file_bytes(png);
+  const std::string bytes = text_of(png);
   if (bytes.size() < 24) return {};
   return {static_cast<int>(big_endian(bytes, 16)), static_cast<int>(big_endian(bytes, 20))};
 }
 
 /// Returns the compressed pixels of a PNG without its texts; equal for equal pictures.
 inline std::string pixels_of(const std::filesystem::path& png) {
-  const std::string bytes = file_bytes(png);
+  const std::string bytes = text_of(png);
   std::string pixels;
   for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + big_endian(bytes, at))
     if (bytes.compare(at + 4, 4, "IDAT") == 0) pixels += bytes.substr(at + 8, big_endian(bytes, at));

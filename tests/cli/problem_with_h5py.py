@@ -108,26 +108,12 @@ def change(source, target, how):
             replace(file, "fclib_local/spacedim", [3])
         elif how == "no-problem":
             del file["fclib_local"]
-        elif how == "no-values":
-            del file["fclib_local/W/x"]
         elif how == "constraints":
             file["fclib_local/R/m"] = [1]
-        elif how == "friction":
-            file["fclib_local/vectors/mu"][3] = -0.5
-        elif how == "nan":
-            file["fclib_local/vectors/q"][7] = np.nan
-        elif how == "index":
-            file["fclib_local/W/i"][5] = 1 << 20
-        elif how == "size":
-            replace(file, "fclib_local/vectors/q", np.zeros(3))
         elif how == "text":
             replace(file, "fclib_local/vectors/mu", b"rough")
         elif how == "order":
             file["fclib_local/W/p"][2] = 1 << 20
-        elif how == "bodies":
-            del file["talus/bodies/lever"]
-        elif how == "tolerance":
-            del file["talus/run/tolerance"]
 
 
 if sys.argv[1] == "check":

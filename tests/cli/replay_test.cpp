@@ -1,4 +1,4 @@
-/// `talus replay`, and the commands listed by `talus info`.
+/// `talus replay`, the commands listed by `talus info`, and runs in tests/runs.
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,11 @@
 
 #include "core/trigonometry.h"
 #include "io/run_file.h"
+#include "io/run_schema.h"
 #include "session/run.h"
 #include "session/run_header.h"
-#include "support/process.h"
+#include "support/commands.h"
+#include "support/places.h"
 #include "support/runs.h"
 
 namespace talus::test {
@@ -18,13 +20,8 @@ const char* const small_bed =
     "[bed]\nlength = 10\ndepth = 3\n[deposition]\nmethod = \"collapse\"\nrest_velocity = 0.1\n"
     "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 4\n[output]\nframe_every = 0.5\nobservable_every = 0.2\n";
 
-class Replay : public testing::Test {
+class Replay : public CommandTest {
  protected:
-  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
-  std::string info(const std::string& run, const std::string& key) {
-    return json_value(talus({"info", run, "--json"}).out, key);
-  }
-
   /// Writes an unfinished run of the small bed with a push during its fall and commands at 1.06 deg, between
   /// two rows of observables.
   void write_left_run() {
@@ -40,30 +37,25 @@ class Replay : public testing::Test {
     session.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
     store.commit(session.segment(), session.checkpoint(0.0));
   }
-
-  TemporaryFolder folder_;
 };
 
 TEST_F(Replay, of_a_plain_run_finds_its_end) {
   take_run(folder_, "bed.h5", small_bed);
   const Outcome replay = talus({"replay", "bed.h5"});
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
-  const std::string hash = info("bed.h5", "state_hash");
-  EXPECT_NE(replay.out.find("stored      " + hash), std::string::npos) << replay.out;
-  EXPECT_NE(replay.out.find("recomputed  " + hash), std::string::npos) << replay.out;
+  const std::string hash = folder_.hash("bed.h5");
+  EXPECT_TRUE(has_all(replay.out, {"stored      " + hash, "recomputed  " + hash}));
   EXPECT_EQ(info("bed.h5", "commands"), "0");
-  EXPECT_EQ(talus({"info", "bed.h5"}).out.find("commands"), std::string::npos);
+  EXPECT_FALSE(has(talus({"info", "bed.h5"}).out, "commands"));
   EXPECT_EQ(talus({"replay", "bed.h5", "--quiet"}).out, "");
 }
 
 TEST_F(Replay, of_a_run_with_commands_that_was_left_and_resumed_finds_its_end) {
   write_left_run();
-  const Outcome left = talus({"replay", "bed.h5"});
-  EXPECT_EQ(left.exit_code, 0) << left.err;
+  EXPECT_TRUE(ends(talus({"replay", "bed.h5"}), 0));
   ASSERT_EQ(talus({"run", "bed.toml", "-o", "bed.h5", "--resume"}).exit_code, 0);
   EXPECT_EQ(info("bed.h5", "complete"), "true");
-  const Outcome whole = talus({"replay", "bed.h5", "-o", "again.h5"});
-  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_TRUE(ends(talus({"replay", "bed.h5", "-o", "again.h5"}), 0));
   for (const char* key : {"complete", "commands", "state_hash", "steps", "frames"})
     EXPECT_EQ(info("again.h5", key), info("bed.h5", key)) << key;
   EXPECT_EQ(talus({"replay", "again.h5"}).exit_code, 0);
@@ -75,16 +67,15 @@ TEST_F(Replay, keeps_a_run_that_was_left_as_one_that_can_be_resumed) {
   EXPECT_EQ(info("again.h5", "complete"), "false");
   for (const char* run : {"bed.h5", "again.h5"})
     ASSERT_EQ(talus({"run", "bed.toml", "-o", run, "--resume"}).exit_code, 0);
-  EXPECT_EQ(info("again.h5", "state_hash"), info("bed.h5", "state_hash"));
+  EXPECT_EQ(folder_.hash("again.h5"), folder_.hash("bed.h5"));
 }
 
 TEST_F(Replay, commands_are_listed) {
   write_left_run();
-  const std::string text = talus({"info", "bed.h5"}).out;
-  for (const char* line : {"commands            4\n", "deposition   push grain 7 by (0.25, 0.5) m/s\n",
-                           "1.060 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
-                           "1.060 deg    friction 0.3\n", "1.060 deg    tilt rate 10 deg/s\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_TRUE(has_all(talus({"info", "bed.h5"}).out,
+                      {"commands            4\n", "deposition   push grain 7 by (0.25, 0.5) m/s\n",
+                       "1.060 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
+                       "1.060 deg    friction 0.3\n", "1.060 deg    tilt rate 10 deg/s\n"}));
   EXPECT_EQ(info("bed.h5", "commands"), "4");
 }
 
@@ -99,13 +90,10 @@ TEST_F(Replay, that_finds_another_end_says_so) {
   io::RunStore store = io::RunStore::create(folder_.path("bed.h5"), header, false);
   for (int k = 0; k < 100; ++k) session.advance();
   store.commit(session.segment(), session.checkpoint(0.0));
-  const Outcome replay = talus({"replay", "bed.h5", "--quiet"});
-  EXPECT_EQ(replay.exit_code, 70);
-  EXPECT_NE(replay.err.find("an end state that differs"), std::string::npos) << replay.err;
+  EXPECT_TRUE(ends(talus({"replay", "bed.h5", "--quiet"}), 70, {"an end state that differs"}));
 }
 
 TEST_F(Replay, of_nothing_and_over_what_exists_is_refused) {
-  EXPECT_EQ(talus({"replay", "none.h5"}).exit_code, 66);
   write_left_run();
   write_file(folder_, "other.h5", "precious");
   EXPECT_EQ(talus({"replay", "bed.h5", "-o", "other.h5"}).exit_code, 73);
@@ -122,7 +110,7 @@ TEST_F(Replay, stops_when_asked) {
   io::Checkpoint checkpoint = session.checkpoint(0.0);
   checkpoint.world.step = 1'000'000'000;
   store.commit(session.segment(), checkpoint);
-  const pid_t process = start_talus({"replay", "bed.h5"}, folder_.path());
+  const pid_t process = folder_.start({"replay", "bed.h5"});
   EXPECT_TRUE(wait_until_caught(process, SIGINT));
   kill(process, SIGINT);
   EXPECT_EQ(wait_for(process), 75);
@@ -140,11 +128,52 @@ TEST_F(Replay, that_was_stopped_is_not_resumed_as_a_run) {
     io::RunStore store = io::RunStore::create(folder_.path("part.h5"), header, false);
     session::replay(session, &store, run.commands(), 30, {});
   }
-  const Outcome resumed = talus({"run", "bed.toml", "-o", "part.h5", "--resume"});
-  EXPECT_EQ(resumed.exit_code, 65);
-  EXPECT_NE(resumed.err.find("talus replay bed.h5 -o part.h5 --overwrite"), std::string::npos) << resumed.err;
+  EXPECT_TRUE(ends(talus({"run", "bed.toml", "-o", "part.h5", "--resume"}), 65,
+                   {"talus replay bed.h5 -o part.h5 --overwrite"}));
   ASSERT_EQ(talus({"replay", "bed.h5", "-o", "part.h5", "--overwrite"}).exit_code, 0);
   EXPECT_EQ(talus({"run", "bed.toml", "-o", "part.h5", "--resume"}).exit_code, 0) << "now it has all of them";
+}
+
+const std::filesystem::path kept_runs = std::filesystem::path(source_folder()) / "tests/runs";
+
+const std::string schema = "schema_" + std::to_string(io::run_schema_version);
+
+Outcome succeed(const Words& arguments, const CommandFolder& folder) {
+  Outcome outcome = folder.talus(arguments);
+  EXPECT_EQ(outcome.exit_code, 0) << arguments.front() << " " << arguments.back() << ": " << outcome.err;
+  return outcome;
+}
+
+class KeptRun : public testing::TestWithParam<std::string> {
+ protected:
+  std::string kept_run() const { return (kept_runs / (GetParam() + ".h5")).string(); }
+
+  const CommandFolder folder_;
+};
+
+// HDF5 1.10 of Debian 12, and its versions of Debian 13 and of testing.
+INSTANTIATE_TEST_SUITE_P(WrittenUnder, KeptRun,
+                         testing::Values(schema, schema + "_hdf5_1.14", schema + "_hdf5_2.2"));
+
+TEST_P(KeptRun, opens_in_every_command) {
+  ASSERT_TRUE(std::filesystem::exists(kept_run()))
+      << "each version of the schema keeps a small run (docs/file_format.md, Versions)";
+  const std::string run = folder_.path("run.h5");
+  std::filesystem::copy_file(kept_run(), run);
+  succeed({"check", run}, folder_);
+  succeed({"analyze", run, "--quiet"}, folder_);
+  succeed({"render", run, "--map", "gamma", "-o", "maps", "--set", "gamma_c=0.342"}, folder_);
+  succeed({"replay", run}, folder_);
+  EXPECT_EQ(json_value(succeed({"info", "--json", run}, folder_).out, "frames"), "5");
+}
+
+TEST_P(KeptRun, that_was_stopped_goes_on_to_the_same_end) {
+  const std::string run = folder_.path("run.h5");
+  std::filesystem::copy(kept_runs / (GetParam() + "_stopped.h5.run"), run + ".run");
+  succeed({"check", run}, folder_);
+  EXPECT_TRUE(has(succeed({"run", "--quiet", "--resume", run}, folder_).err, "was started by version"));
+  EXPECT_EQ(folder_.hash(run), folder_.hash(kept_run()));
+  succeed({"check", run}, folder_);
 }
 
 }  // namespace

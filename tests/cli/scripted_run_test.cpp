@@ -1,10 +1,10 @@
-/// Commands in a scenario and branches of a run, as users create and inspect them.
+/// Commands in a scenario, branches of a run, and tilt programmes, as users create and inspect them.
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <set>
 
-#include "support/process.h"
+#include "support/commands.h"
 #include "support/runs.h"
 
 namespace talus::test {
@@ -18,29 +18,21 @@ const char* const scripted =
     "[[command]]\ntime = 0.1\nkind = \"friction\"\nx = 0.3\n"
     "[[command]]\nat = 30\nkind = \"push\"\ngrain = 7\ny = 0.5\n";
 
-class ScriptedCommandLine : public testing::Test {
+class ScriptedCommandLine : public CommandTest {
  protected:
-  ScriptedCommandLine() { write_file(folder_, "bed.toml", std::string(plain_bed) + scripted); }
-  Outcome talus(const std::vector<std::string>& arguments) { return run_talus(arguments, folder_.path()); }
-  std::string info(const std::string& run, const std::string& key) {
-    return json_value(talus({"info", run, "--json"}).out, key);
-  }
-  TemporaryFolder folder_;
+  ScriptedCommandLine() : CommandTest(std::string(plain_bed) + scripted) {}
 };
 
 TEST_F(ScriptedCommandLine, a_run_tells_what_was_carried_out_and_what_was_not) {
   const Outcome run = talus({"run", "bed.toml", "-o", "bed.h5"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_NE(
-      run.err.find("talus: warning: command.3 (push grain 7 by (0, 0.5) m/s, at 30 deg) was not carried "
-                   "out: the run ended earlier, at 4.000 deg\n"),
-      std::string::npos)
-      << run.err;
-  const std::string text = talus({"info", "bed.h5"}).out;
-  for (const char* line : {"1.060 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
-                           "2.000 deg    friction 0.3\n",
-                           "not carried out     command.3: push grain 7 by (0, 0.5) m/s, at 30 deg\n"})
-    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  EXPECT_TRUE(has(run.err,
+                  "talus: warning: command.3 (push grain 7 by (0, 0.5) m/s, at 30 deg) was not carried "
+                  "out: the run ended earlier, at 4.000 deg\n"));
+  EXPECT_TRUE(has_all(talus({"info", "bed.h5"}).out,
+                      {"1.060 deg    drop 4 grains at x = 0.05 m from 0.02 m above the surface\n",
+                       "2.000 deg    friction 0.3\n",
+                       "not carried out     command.3: push grain 7 by (0, 0.5) m/s, at 30 deg\n"}));
   EXPECT_EQ(info("bed.h5", "commands"), "2");
   EXPECT_EQ(talus({"replay", "bed.h5", "--threads", "2"}).exit_code, 0);
   EXPECT_EQ(talus({"check", "bed.h5"}).exit_code, 0);
@@ -48,56 +40,42 @@ TEST_F(ScriptedCommandLine, a_run_tells_what_was_carried_out_and_what_was_not) {
   // `talus check` writes the same scenario.
   write_file(folder_, "full.toml", talus({"check", "bed.toml"}).out);
   ASSERT_EQ(talus({"run", "full.toml", "-q", "-o", "full.h5"}).exit_code, 0);
-  EXPECT_EQ(info("full.h5", "state_hash"), info("bed.h5", "state_hash"));
-}
-
-TEST_F(ScriptedCommandLine, an_ensemble_varies_a_command) {
-  const Outcome ensemble = talus({"ensemble", "bed.toml", "--seeds", "1", "--vary", "command.1.grain=2,4",
-                                  "-o", "drops", "--jobs", "1"});
-  ASSERT_EQ(ensemble.exit_code, 0) << ensemble.err;
-  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
-  const auto hash = [&](const char* grains) {
-    return info(std::string("drops/command.1.grain=") + grains + "/seed-1.h5", "state_hash");
-  };
-  EXPECT_EQ(hash("4"), info("bed.h5", "state_hash"));
-  EXPECT_NE(hash("2"), hash("4"));
+  EXPECT_EQ(folder_.hash("full.h5"), folder_.hash("bed.h5"));
 }
 
 TEST_F(ScriptedCommandLine, a_branch_begins_with_a_frame) {
   write_file(folder_, "plain.toml", plain_bed);
   take_run(folder_, "plain.h5", plain_bed);
-  const auto branch = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {"run", "--branch", "plain.h5", "-o", "branch.h5", "--overwrite"});
-    return talus(more);
+  const auto branch = [&](Words more) {
+    return talus(Words{"run", "--branch", "plain.h5", "-o", "branch.h5", "--overwrite"} + more);
   };
   ASSERT_EQ(branch({"--at", "1", "bed.toml"}).exit_code, 0);
   EXPECT_EQ(info("branch.h5", "branch_frame"), "2");
   EXPECT_EQ(info("branch.h5", "commands"), "2");
-  const std::string hash = info("branch.h5", "state_hash");
+  const std::string hash = folder_.hash("branch.h5");
   EXPECT_EQ(talus({"replay", "branch.h5"}).exit_code, 0);
   EXPECT_EQ(talus({"check", "branch.h5"}).exit_code, 0);
   ASSERT_EQ(branch({"--at", "frame2", "bed.toml", "--threads", "2", "-q"}).exit_code, 0);
-  EXPECT_EQ(info("branch.h5", "state_hash"), hash);
+  EXPECT_EQ(folder_.hash("branch.h5"), hash);
   ASSERT_EQ(
       branch({"--at", "1", "--set", "contact.friction=0.2", "--set", "tilt.after_failure=lower"}).exit_code,
       0);
-  EXPECT_NE(info("branch.h5", "state_hash"), hash);
+  EXPECT_NE(folder_.hash("branch.h5"), hash);
   EXPECT_EQ(info("branch.h5", "branch_of"), "plain.h5");
 }
 
 // In the run the friction is 0.5 up to 2 deg, and 0.3 from there on.
 TEST_F(ScriptedCommandLine, a_branch_takes_the_friction_that_is_given_or_that_of_the_run) {
   ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5"}).exit_code, 0);
-  const auto branch = [&](const std::string& name, std::vector<std::string> more) {
-    more.insert(more.begin(), {"run", "--branch", "bed.h5", "--at", "3", "-q", "-o", name});
-    return talus(more);
+  const auto branch = [&](const std::string& name, Words more) {
+    return talus(Words{"run", "--branch", "bed.h5", "--at", "3", "-q", "-o", name} + more);
   };
   ASSERT_EQ(branch("same.h5", {}).exit_code, 0);
   EXPECT_EQ(info("same.h5", "friction"), "0.3");
-  EXPECT_NE(talus({"info", "same.h5"}).out.find("friction            0.3\n"), std::string::npos);
+  EXPECT_TRUE(has(talus({"info", "same.h5"}).out, "friction            0.3\n"));
   ASSERT_EQ(branch("given.h5", {"--set", "contact.friction=0.5"}).exit_code, 0);
   EXPECT_EQ(info("given.h5", "friction"), "0.5");
-  EXPECT_NE(info("given.h5", "state_hash"), info("same.h5", "state_hash"));
+  EXPECT_NE(folder_.hash("given.h5"), folder_.hash("same.h5"));
   for (const char* run : {"same.h5", "given.h5"}) {
     EXPECT_EQ(talus({"check", run}).exit_code, 0) << run;
     EXPECT_EQ(talus({"replay", run}).exit_code, 0) << run;
@@ -112,12 +90,10 @@ TEST_F(ScriptedCommandLine, a_branch_takes_the_friction_that_is_given_or_that_of
 
 TEST_F(ScriptedCommandLine, a_branch_that_cannot_be_is_refused) {
   take_run(folder_, "plain.h5", plain_bed);
-  const auto refused = [&](std::vector<std::string> more, int code, const std::string& message) {
+  const auto refused = [&](Words more, int code, const std::string& message) {
     more.insert(more.begin(), {"run", "--branch", "plain.h5"});
-    const Outcome outcome = talus(more);
-    EXPECT_EQ(outcome.exit_code, code) << outcome.err;
-    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
-    EXPECT_FALSE(std::filesystem::exists(folder_.path("b.h5")));
+    EXPECT_TRUE(ends(talus(more), code, {message}));
+    EXPECT_FALSE(folder_.has_file("b.h5"));
   };
   refused({"--at", "1"}, 64, "name the branch of plain.h5 with -o");
   refused({"-o", "b.h5"}, 64, "--at");
@@ -130,6 +106,94 @@ TEST_F(ScriptedCommandLine, a_branch_that_cannot_be_is_refused) {
   refused({"-o", "plain.h5", "--at", "1", "--overwrite"}, 64, "plain.h5 is read by this command");
   refused({"bed.toml", "-o", "b.h5", "--at", "2"}, 65,
           "command.1 is due at 1.06 deg, before the branch of plain.h5 begins");
+}
+
+/// Small bed that is tilted up and down twice and then fails within a few seconds.
+const char* const cycled_bed =
+    "seed = 2\n[bed]\nlength = 20\ndepth = 6\n[deposition]\nrate = 2\nrest_velocity = 0.05\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nprogram = [\"to 4\", \"hold 0.1\", \"to -2\", \"2 times\", \"to "
+    "repose\"]\n"
+    "[output]\nframe_every = 1\nobservable_every = 0.2\n";
+
+class TiltProgramCommands : public CommandTest {
+ protected:
+  TiltProgramCommands() : CommandTest(cycled_bed) {}
+
+  std::set<std::string> files_in(const std::string& name) const { return names_in(folder_.path(name)); }
+};
+
+TEST_F(TiltProgramCommands, check_tells_the_programme_and_what_it_takes) {
+  const Outcome check = talus({"check", "bed.toml"});
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_TRUE(
+      has_all(check.out, {"program = [\"to 4\", \"hold 0.1\", \"to -2\", \"2 times\", \"to repose\"]",
+                          "#   programme   7 parts, repetitions included, 2.4 s if it fails at 20 deg\n",
+                          "about 2400 of tilt (failure at 20 deg)"}));
+  write_file(folder_, "full.toml", check.out);
+  EXPECT_EQ(talus({"check", "full.toml", "--json"}).out.find("\"tilt_steps\": 2400") == std::string::npos,
+            false);
+  EXPECT_TRUE(
+      has(talus({"check", "bed.toml", "--set", "tilt.program=to 4, to 0, 3 times"}).out, " 1200 of tilt\n"));
+}
+
+TEST_F(TiltProgramCommands, a_bad_one_is_refused_before_anything_is_made) {
+  EXPECT_TRUE(ends(talus({"run", "bed.toml", "-o", "bed.h5", "--set", "tilt.program=to 4, hold"}), 65,
+                   {"key 'tilt.program' = \"hold\": expected "}));
+  EXPECT_FALSE(folder_.has_file("bed.h5"));
+  EXPECT_TRUE(
+      ends(talus({"check", "bed.toml", "--set", "tilt.end_angle=5"}), 65, {"no tilt.end_angle, because"}));
+}
+
+TEST_F(TiltProgramCommands, a_run_is_made_told_replayed_drawn_and_exported) {
+  ASSERT_EQ(talus({"run", "bed.toml", "-q", "-o", "bed.h5", "--pictures", "live", "--map", "gamma", "--set",
+                   "gamma_c=0.342", "--size", "300"})
+                .exit_code,
+            0);
+  const std::string info = talus({"info", "bed.h5", "--json"}).out;
+  const int frames = std::stoi(json_value(info, "frames"));
+  EXPECT_NEAR(std::stod(json_value(info, "tilt_lowest_deg")), -2.0, 1e-9);
+  EXPECT_TRUE(has(talus({"info", "bed.h5"}).out, "by a programme"));
+  EXPECT_EQ(talus({"replay", "bed.h5"}).exit_code, 0);
+  EXPECT_EQ(talus({"check", "bed.h5"}).exit_code, 0);
+
+  // One picture per frame, although several frames have the same angle.
+  EXPECT_EQ(static_cast<int>(files_in("live").size()), frames);
+  EXPECT_TRUE(files_in("live").contains("gamma_00000_000.00.png"));
+  ASSERT_TRUE(ends(talus({"render", "bed.h5", "--map", "gamma", "--every", "0.001", "--set", "gamma_c=0.342",
+                          "--size", "300", "-o", "maps"}),
+                   0));
+  EXPECT_EQ(files_in("maps"), files_in("live"));
+  const Outcome some = talus({"render", "bed.h5", "--map", "gamma", "--at", "4,frame9,repose", "--trace",
+                              "stress_ratio,overloaded", "--size", "300", "-o", "some"});
+  ASSERT_EQ(some.exit_code, 0) << some.err;
+  EXPECT_EQ(files_in("some").size(), 3u);
+  EXPECT_TRUE(files_in("some").contains("gamma_00004_004.00.png")) << "the first frame at 4 deg";
+  const Outcome turned =
+      talus({"render", "bed.h5", "--map", "gamma", "--at=-2", "--turned", "--size", "300", "-o", "turned"});
+  ASSERT_EQ(turned.exit_code, 0) << turned.err;
+  EXPECT_EQ(files_in("turned").size(), 1u);
+
+  EXPECT_EQ(talus({"export", "bed.h5", "--to", "observables", "-o", "rows.csv"}).exit_code, 0);
+  EXPECT_EQ(talus({"export", "bed.h5", "--to", "paraview", "--at", "0,4", "-o", "paraview"}).exit_code, 0);
+  EXPECT_EQ(talus({"dump", "bed.h5", "--at", "4", "-o", "problem.h5"}).exit_code, 0);
+}
+
+TEST_F(TiltProgramCommands, the_analysis_says_what_its_angles_refer_to) {
+  take_run(folder_, "bed.h5", cycled_bed);
+  const Outcome analysis = talus({"analyze", "bed.h5"});
+  ASSERT_EQ(analysis.exit_code, 0) << analysis.err;
+  EXPECT_TRUE(has(analysis.out, "theta_c, theta_d and the first slide refer to the last rise, from 0"));
+  EXPECT_TRUE(has(talus({"analyze", "bed.h5"}).out, "(analysis read from the file)"));
+  EXPECT_TRUE(has(analysis.out, " -2.00 to "));
+}
+
+TEST_F(TiltProgramCommands, cycles_are_a_figure_of_runs_that_have_them) {
+  take_run(folder_, "bed.h5", cycled_bed);
+  ASSERT_TRUE(ends(talus({"figures", "bed.h5", "--only", "cycles", "-o", "figures"}), 0));
+  for (const char* file : {"cycles.png", "cycles.pdf", "cycles.csv", "cycles-ends.csv"})
+    EXPECT_TRUE(files_in("figures").contains(file)) << file;
+  take_run(folder_, "plain.h5", cycled_bed, {"--set", "tilt.program=none", "--set", "tilt.end_angle=2"});
+  EXPECT_NE(talus({"figures", "plain.h5", "--only", "cycles", "-o", "none"}).exit_code, 0);
 }
 
 }  // namespace

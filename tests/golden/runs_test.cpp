@@ -32,27 +32,22 @@ std::string final_hash(const scenario::Scenario& scenario, int threads) {
   return text;
 }
 
-TEST(GoldenRun, periodic_bed) {
-  const scenario::Scenario scenario = bed(60.0, 20.0);  // large enough that two threads have work
-  const std::string golden = "18be6dfdce6d13a9";
-  EXPECT_EQ(final_hash(scenario, 1), golden);
-  EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
-}
-
-TEST(GoldenRun, poured_bed) {
-  scenario::Scenario scenario = bed(60.0, 5.0);
+scenario::Scenario poured_bed(double length, double depth) {
+  scenario::Scenario scenario = bed(length, depth);
   scenario.deposition.method = scenario::DepositionMethod::pour;
   scenario.deposition.rate = 1.0;
-  const std::string golden = "ee0bf7fa864fd8e6";
-  EXPECT_EQ(final_hash(scenario, 1), golden);
-  EXPECT_EQ(final_hash(scenario, 2), golden) << "on two threads";
+  return scenario;
+}
+
+TEST(GoldenRun, on_one_and_two_threads) {
+  for (const auto& [scenario, golden] : {std::pair(bed(60.0, 20.0), "18be6dfdce6d13a9"),  // work for two
+                                         {poured_bed(60.0, 5.0), "ee0bf7fa864fd8e6"}})
+    for (const int threads : {1, 2}) EXPECT_EQ(final_hash(scenario, threads), golden) << threads;
 }
 
 TEST(GoldenRun, poured_bed_between_walls) {
-  scenario::Scenario scenario = bed(20.0, 10.0);
+  scenario::Scenario scenario = poured_bed(20.0, 10.0);
   scenario.bed.boundary = scenario::BedBoundary::walls;
-  scenario.deposition.method = scenario::DepositionMethod::pour;
-  scenario.deposition.rate = 1.0;
   scenario.deposition.wall_friction = 0.0;
   EXPECT_EQ(final_hash(scenario, 1), "38c7a745db85af72");
 }

@@ -1,4 +1,4 @@
-/// The left column: groups that fold and unfold, labels in front of their widgets, and rows that keep their
+/// The column: groups that fold and unfold, labels in front of their widgets, and rows that keep their
 /// places.
 
 #include <gtest/gtest.h>
@@ -22,12 +22,8 @@ void expect_in_sight(const test::DrivenGui& gui, const std::string& name, float 
   EXPECT_LE(place.y1, height) << name;
 }
 
-TEST_F(Replay, a_high_column_has_several_groups) {
-  for (const char* name : {"play", "map kind", "group act"}) expect_in_sight(gui_, name, 900.0f);
-  EXPECT_FALSE(gui_.has("push")) << "folded initially";
-}
-
 TEST_F(Replay, a_heading_folds_and_unfolds) {
+  EXPECT_FALSE(gui_.has("push")) << "folded initially";
   gui_.click("group map");
   EXPECT_FALSE(gui_.has("map kind"));
   gui_.click("group map");
@@ -50,9 +46,19 @@ TEST_F(Replay, a_low_column_has_one_group_and_brings_it_into_sight) {
     low.key(key);
     expect_in_sight(low, widget, 480.0f);
     for (const auto& [other, folded] : widgets)
-      if (other != key && other != 'A') {  // "branch here" is in two groups
+      if (other != key) {
         EXPECT_FALSE(low.has(folded)) << key << other;
       }
+  }
+}
+
+TEST_F(Replay, the_map_has_at_least_half_of_the_window) {
+  gui_.resize(1280, 800);
+  for (const char* map : {"gamma", "displacement", "clusters+forces"}) {
+    model_.state.map.layers = pictures::map_layers(map);
+    gui_.settle();
+    const gui::WidgetPlace border = gui_.place("border");  // below the map, and as wide
+    EXPECT_GE((border.x1 - border.x0) * border.y0, 0.5f * 1280.0f * 800.0f) << map;
   }
 }
 
@@ -65,32 +71,22 @@ TEST_F(Replay, labels_are_on_the_left_and_widgets_below_each_other) {
   }
 }
 
-/// Returns the names of widgets that have moved; those that have disappeared do not count.
-std::string moved_since(const std::vector<gui::WidgetPlace>& before, const test::DrivenGui& gui) {
-  std::string moved;
-  for (const gui::WidgetPlace& was : before) {
-    if (!gui.has(was.name)) continue;
-    const gui::WidgetPlace now = gui.place(was.name);
-    if (now.x0 != was.x0 || now.y0 != was.y0 || now.x1 != was.x1 || now.y1 != was.y1) moved += " " + was.name;
-  }
-  return moved;
-}
-
 TEST_F(Live, nothing_moves_while_the_run_goes_on) {
   model_.state.selected = 20;
   gui_.settle();
+  gui_.key('R');
   const std::vector<gui::WidgetPlace> before = gui_.places();
   gui_.click("deposit");
   EXPECT_TRUE(wait_until([&] { return status().step > 20; }));
-  EXPECT_EQ(moved_since(before, gui_), "") << "in the deposition";
+  EXPECT_EQ(test::moved_since(before, gui_), "") << "in the deposition";
   EXPECT_TRUE(wait_until([&] { return !status().depositing && !status().running; }));
   gui_.settle();  // the last drawing may be one step behind
   EXPECT_FALSE(gui_.has("deposit"));
-  EXPECT_EQ(moved_since(before, gui_), "") << "at rest";
+  EXPECT_EQ(test::moved_since(before, gui_), "") << "at rest";
   gui_.click("play");
   EXPECT_TRUE(wait_until([&] { return status().done; }));
   gui_.settle();
-  EXPECT_EQ(moved_since(before, gui_), "") << "at the end";
+  EXPECT_EQ(test::moved_since(before, gui_), "") << "at the end";
 }
 
 Index contacts_of(const Frame& frame, Index grain) {
@@ -116,10 +112,21 @@ Index busiest_grain(view::ViewModel& model) {
   return busiest;
 }
 
+TEST_F(Replay, the_first_selection_unfolds_the_inspector) {
+  EXPECT_FALSE(gui_.has("outline"));
+  gui_.key('n');
+  expect_in_sight(gui_, "outline", 900.0f);
+  gui_.click("group grain");
+  EXPECT_FALSE(gui_.has("outline"));
+  gui_.key('n');
+  EXPECT_FALSE(gui_.has("outline")) << "the user has folded it";
+}
+
 TEST_F(Replay, the_inspector_stays_where_it_is_from_frame_to_frame) {
   model_.state.selected = busiest_grain(model_);
   model_.go_to(0);
   gui_.settle();
+  gui_.key('R');
   const gui::WidgetPlace circle = gui_.place("mohr circle"), curve = gui_.place("neighbourhood");
   for (std::size_t frame = 1; frame < model_.frame_count(); ++frame) {
     model_.go_to(frame);

@@ -1,15 +1,13 @@
 /// Rendering of ImGui's layout: positions, colours, clipping, textures, and orientation of rows.
 
-#include "gui/draw_data.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 #include <memory>
 
-#include "gui/font.h"
-#include "gui/map_texture.h"
+#include "gui/imgui_fonts.h"
+#include "gui/screen.h"
 #include "gui/theme.h"
 #include "render/font.h"
 
@@ -205,20 +203,18 @@ TEST(GuiFont, has_what_pictures_say) {
   ImFontAtlas atlas;
   gui::add_embedded_font(atlas, 1.0f);
   ImFont& font = *atlas.Fonts[0];
-  EXPECT_EQ(gui::font_size(font), gui::type_scale[0]);
+  EXPECT_EQ(test::font_size(font), gui::type_scale[0]);
   for (const char32_t code : render::font_code_points())
-    EXPECT_TRUE(gui::has_letter(font, static_cast<ImWchar>(code))) << std::hex << unsigned{code};
+    EXPECT_TRUE(test::has_letter(font, static_cast<ImWchar>(code))) << std::hex << unsigned{code};
 }
 
 TEST(GuiFont, grows_with_the_display) {
   ImFontAtlas atlas;
   gui::add_embedded_font(atlas, 2.0f);
   ASSERT_EQ(atlas.Fonts.Size, 3);
-  EXPECT_EQ(gui::font_size(*atlas.Fonts[0]), 2.0f * gui::type_scale[0]);
-  EXPECT_LT(gui::font_size(*atlas.Fonts[static_cast<int>(gui::TextSize::small)]),
-            gui::font_size(*atlas.Fonts[0]));
-  EXPECT_GT(gui::font_size(*atlas.Fonts[static_cast<int>(gui::TextSize::heading)]),
-            gui::font_size(*atlas.Fonts[0]));
+  EXPECT_EQ(test::font_size(*atlas.Fonts[0]), 2.0f * gui::type_scale[0]);
+  EXPECT_LT(test::font_size(*atlas.Fonts[1]), test::font_size(*atlas.Fonts[0]));
+  EXPECT_GT(test::font_size(*atlas.Fonts[2]), test::font_size(*atlas.Fonts[0]));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "gui/offscreen.h"
+#include "gui/screen.h"
 
 namespace talus::test {
 

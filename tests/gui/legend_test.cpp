@@ -4,6 +4,7 @@
 
 #include "gui/offscreen_fixture.h"
 #include "gui/panels.h"
+#include "pictures/picture_series.h"
 
 namespace talus {
 namespace {
@@ -87,10 +88,34 @@ TEST_F(Replay, a_grain_is_told_in_the_unit_of_the_map) {
       << shown_view(pictures::MapKind::displacement);
   EXPECT_NE(shown_view(pictures::MapKind::overloaded).find("γ = "), std::string::npos);
   EXPECT_EQ(shown_view(pictures::MapKind::forces), "grain 7");
+  EXPECT_TRUE(gui::grain_text(model_.first(), model_.statics().free_count).starts_with("floor grain "));
   for (const pictures::MapKind kind : pictures::map_kinds()) {
     if (!pictures::has_bar({kind})) continue;
     EXPECT_NE(shown_view(kind).find(" = "), std::string::npos) << pictures::map_name(kind);
   }
+}
+
+TEST_F(Replay, the_range_of_a_map_of_motion_fits_the_frame_shown) {
+  EXPECT_FALSE(gui_.has("fit")) << "gamma has its own range";
+  model_.state.map.layers = {pictures::MapKind::displacement};
+  model_.go_to(3);
+  gui_.settle();
+  const auto fitting = model_.first().fitting_range();
+  ASSERT_TRUE(fitting);
+  ASSERT_TRUE(test::drawn_until(gui_, [this] { return model_.all_values_known(); }));
+  pictures::MapPlan plan;
+  plan.maps.resize(1);
+  plan.maps[0].layers = {pictures::MapKind::displacement};
+  pictures::DrawnRun drawn = pictures::open_drawn_run(folder_.path("bed.h5"), plan, {});
+  const std::size_t shown = 3;
+  pictures::fit_to_frames(drawn, {&shown, 1});
+  EXPECT_EQ(fitting, drawn.series.plan.maps[0].motion.range(pictures::MapKind::displacement, true))
+      << "that of talus render";
+  const render::Image fixed = gui_.frame();
+  gui_.click("fit");
+  EXPECT_EQ(model_.state.map.range_low, std::optional(fitting->low));
+  EXPECT_EQ(model_.state.map.range_high, std::optional(fitting->high));
+  EXPECT_NE(gui_.frame().pixels, fixed.pixels);
 }
 
 }  // namespace

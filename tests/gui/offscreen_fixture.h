@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "gui/driven_gui.h"
 #include "support/process.h"
@@ -40,6 +41,18 @@ class Replay : public testing::Test {
             static_cast<float>((y_max - model_.frame().y[k]) / (y_max - y_min))};
   }
 
+  /// Expects everything but the column, which unfolds its inspector at the first selection, to be where it
+  /// was.
+  void expect_unmoved(const std::vector<gui::WidgetPlace>& before) const {
+    const float column = gui_.place("map").x0;
+    for (const gui::WidgetPlace& place : before) {
+      if (place.x1 < column) continue;
+      const gui::WidgetPlace now = gui_.place(place.name);
+      EXPECT_TRUE(now.x0 == place.x0 && now.y0 == place.y0 && now.x1 == place.x1 && now.y1 == place.y1)
+          << place.name;
+    }
+  }
+
   const view::Plot& plot_called(const std::string& name) const {
     return *std::ranges::find(model_.plots(), name, &view::Plot::name);
   }
@@ -48,6 +61,17 @@ class Replay : public testing::Test {
   view::ViewModel model_;
   DrivenGui gui_;
 };
+
+/// Returns the names of widgets that have moved; those that have disappeared do not count.
+inline std::string moved_since(const std::vector<gui::WidgetPlace>& before, const DrivenGui& gui) {
+  std::string moved;
+  for (const gui::WidgetPlace& was : before) {
+    if (!gui.has(was.name)) continue;
+    const gui::WidgetPlace now = gui.place(was.name);
+    if (now.x0 != was.x0 || now.y0 != was.y0 || now.x1 != was.x1 || now.y1 != was.y1) moved += " " + was.name;
+  }
+  return moved;
+}
 
 /// Draws until the condition holds; returns false after ten seconds.
 inline bool drawn_until(DrivenGui& gui, const std::function<bool()>& so) {

@@ -74,7 +74,7 @@ TEST_F(Replay, the_mouse_tells_values_in_the_second_view) {
   const render::Image before = gui_.frame();
   gui_.move(at.x0 + x * (at.x1 - at.x0), at.y0 + y * (at.y1 - at.y0));
   EXPECT_NE(gui_.frame().pixels, before.pixels);
-  EXPECT_EQ(model_.second().values().values.size(), static_cast<std::size_t>(model_.statics().free_count));
+  EXPECT_EQ(model_.second().bar()->values.size(), static_cast<std::size_t>(model_.statics().free_count));
 }
 
 TEST_F(Replay, two_views_have_room_or_it_is_said) {
@@ -94,13 +94,6 @@ TEST_F(Replay, two_views_have_room_or_it_is_said) {
   gui_.resize(1400, 900);
   EXPECT_TRUE(gui_.has("second map"));
   EXPECT_EQ(model_.state.message, "");
-}
-
-TEST_F(Live, has_a_second_view_too) {
-  gui_.key('P');
-  EXPECT_TRUE(gui_.has("second map"));
-  gui_.key('D');
-  EXPECT_TRUE(gui_.has("second map"));
 }
 
 }  // namespace

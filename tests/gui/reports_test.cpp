@@ -8,6 +8,7 @@
 
 #include "gui/offscreen_fixture.h"
 #include "gui/panels.h"
+#include "gui/theme.h"
 
 namespace talus {
 namespace {
@@ -22,6 +23,49 @@ TEST_F(Replay, frames_are_counted_from_0_as_by_the_commands) {
   EXPECT_EQ(slider(), "frame 4 (0 to 4)");
   model_.go_to(model_.frame_at_angle("frame3"));
   EXPECT_EQ(slider(), "frame 3 (0 to 4)") << "like talus render --at frame3";
+}
+
+/// Counts the pixels of a widget that have the colour of warnings.
+int warning_pixels(test::DrivenGui& gui, const char* widget) {
+  const render::Image window = gui.frame();
+  const gui::WidgetPlace place = gui.place(widget);
+  const render::Colour warning = gui::palette_of(view::Theme::light).warning;
+  const auto near = [](int one, int other) { return std::abs(one - other) < 40; };
+  int count = 0;
+  for (int y = static_cast<int>(place.y0); y < static_cast<int>(place.y1); ++y)
+    for (int x = static_cast<int>(place.x0); x < static_cast<int>(place.x1); ++x) {
+      const std::uint8_t* pixel = window.pixels.data() + 3 * (y * window.width + x);
+      if (near(pixel[0], warning.red) && near(pixel[1], warning.green) && near(pixel[2], warning.blue))
+        ++count;
+    }
+  return count;
+}
+
+std::string bed_solved_in(int max_iterations) {
+  return fmt::format("{}[solver]\nmax_iterations = {}\n", test::small_bed, max_iterations);
+}
+
+TEST(Solver, that_misses_its_tolerance_is_a_warning_in_a_replay) {
+  const test::TemporaryFolder folder;
+  for (const int iterations : {20, 1'000'000}) {
+    const std::string run =
+        test::take_run(folder, fmt::format("{}.h5", iterations), bed_solved_in(iterations));
+    view::ViewModel model = view::ViewModel::open(run, {}, "", false, "");
+    test::DrivenGui gui(model, 1400, 900);
+    EXPECT_EQ(warning_pixels(gui, "not converged") > 20, iterations == 20) << iterations;
+    EXPECT_EQ(model.solved_steps().unconverged > 10, iterations == 20) << iterations;
+  }
+}
+
+TEST(Solver, that_misses_its_tolerance_is_a_warning_in_a_live_run) {
+  const test::TemporaryFolder folder;
+  test::write_file(folder, "bed.toml", bed_solved_in(20));
+  view::ViewModel model = view::ViewModel::open(folder.path("bed.toml"), {}, "", false, "");
+  test::DrivenGui gui(model, 1400, 900);
+  EXPECT_EQ(warning_pixels(gui, "not converged"), 0);
+  gui.click("deposit");
+  EXPECT_TRUE(test::drawn_until(gui, [&] { return model.solved_steps().unconverged > 10; }));
+  EXPECT_GT(warning_pixels(gui, "not converged"), 20);
 }
 
 TEST_F(Replay, colours_are_reversed_and_clusters_have_palettes) {
@@ -72,16 +116,6 @@ TEST_F(Replay, no_grain_is_told_what_the_map_does_not_show) {
 TEST_F(Live, grains_that_carry_nothing_have_no_number_that_is_none) {
   ASSERT_GT(model_.statics().free_count, 0) << "the first grain, before the first step";
   EXPECT_GT(expect_described_by_maps(gui_, model_), 0);
-}
-
-TEST_F(Replay, a_grain_is_told_by_what_the_map_shows) {
-  const std::string gamma = gui::grain_text(model_.first(), 7);
-  EXPECT_NE(gamma.find("grain 7, γ = "), std::string::npos) << gamma;
-  model_.state.map.layers = {pictures::MapKind::forces};
-  EXPECT_EQ(gui::grain_text(model_.first(), 7), "grain 7");
-  model_.state.map.layers = {pictures::MapKind::displacement, pictures::MapKind::gamma};
-  EXPECT_EQ(gui::grain_text(model_.first(), model_.statics().free_count),
-            fmt::format("floor grain {}", model_.statics().free_count));
 }
 
 TEST_F(Live, grains_that_are_dropped_are_seen_before_they_fall) {

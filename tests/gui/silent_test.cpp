@@ -62,7 +62,7 @@ struct OpenWindow {
   test::DrivenGui gui;
   explicit OpenWindow(view::ViewModel&& opened) : model(std::move(opened)), gui(model, 900, 600) {}
   view::LiveStatus status() { return model.live()->status(); }
-  bool runs() { return model.is_live() ? status().running : model.playing(); }
+  bool runs() { return model.is_live() ? status().running : model.replay()->playing(); }
 };
 
 using OpenAgain = std::function<std::unique_ptr<OpenWindow>()>;
@@ -238,18 +238,6 @@ TEST_F(SilentLive, a_tilt_that_is_reached_is_offered_no_more_and_a_bed_that_rest
   EXPECT_EQ(model.state.run_to_tilt, 0.0) << "the next round angle on its way";
   window->gui.key('b');
   EXPECT_NE(model.state.message.find("The bed is deposited and tilted by 0.20°"), std::string::npos)
-      << model.state.message;
-}
-
-TEST_F(SilentLive, a_command_is_told_with_what_it_did_and_the_step_that_info_lists) {
-  const auto window = tilting();
-  view::ViewModel& model = window->model;
-  model.state.selected = 3;
-  const std::int64_t step = window->status().step;
-  window->gui.key('u');
-  ASSERT_EQ(model.live()->commands().size(), 1u);
-  EXPECT_EQ(model.live()->commands().front().step, step);
-  EXPECT_TRUE(model.state.message.starts_with(fmt::format("Applied after step {}: push grain 3 by (", step)))
       << model.state.message;
 }
 

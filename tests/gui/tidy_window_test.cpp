@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "gui/imgui_fonts.h"
 #include "gui/imgui_versions.h"
 #include "gui/offscreen_fixture.h"
 
@@ -88,7 +89,7 @@ class TidyWindow : public Replay {
     gui_.frame();
     const ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     const std::vector<Letter> letters =
-        letters_of(*ImGui::GetDrawData(), gui::font_texture(fonts), fonts.TexUvWhitePixel);
+        letters_of(*ImGui::GetDrawData(), test::font_texture(fonts), fonts.TexUvWhitePixel);
     EXPECT_GT(letters.size(), 100u) << what << ": every layout has this much text";
     EXPECT_EQ(untidy(letters), "") << what;
   }

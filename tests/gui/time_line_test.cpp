@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -28,6 +29,35 @@ TEST_F(Replay, the_time_line_goes_where_it_is_clicked) {
     gui_.click("event " + event.name);
     EXPECT_EQ(model_.frame_index(), event.frame) << event.name;
   }
+}
+
+/// Returns a small bed whose tilt follows a programme.
+view::ViewModel bed_of_programme(const test::TemporaryFolder& folder, const std::string& program) {
+  const std::string run =
+      test::take_run(folder, "bed.h5",
+                     "seed = 18\n[bed]\nlength = 10\ndepth = 4\n[tilt]\nstep = 0.01\nprogram = " + program +
+                         "\n[output]\nframe_every = 0.25\n");
+  return view::ViewModel::open(run, {}, "", false, "");
+}
+
+TEST(TimeLine, of_a_programme_has_angles_between_its_turns) {
+  const test::TemporaryFolder folder;
+  view::ViewModel model = bed_of_programme(folder, "['to 1', 'hold 0.5', 'to 0']");
+  const test::DrivenGui gui(model, 1400, 900);
+  const auto times = [&gui](const char* label) {
+    return std::ranges::count(gui.places(), std::string("angle ") + label, &gui::WidgetPlace::name);
+  };
+  EXPECT_EQ(times("1°"), 2) << "it begins to be held, and falls";
+  EXPECT_EQ(times("0.4°"), 2) << "while the tilt grows, and while it falls";
+}
+
+TEST(TimeLine, has_one_minus_sign) {
+  const test::TemporaryFolder folder;
+  view::ViewModel model = bed_of_programme(folder, "['to 0.5', 'to -1']");
+  const test::DrivenGui gui(model, 1400, 900);
+  EXPECT_TRUE(gui.has("angle −1°")) << "where the programme ends";
+  for (const gui::WidgetPlace& place : gui.places())
+    EXPECT_FALSE(place.name.starts_with("angle -")) << place.name;
 }
 
 TEST_F(Replay, a_plot_answers) {
@@ -82,6 +112,38 @@ TEST_F(Replay, plots_of_overloaded_grains_say_their_threshold) {
   EXPECT_EQ(plot_called("overloaded").note, "at 1.1 Γ_c, if θ_c = 20°");
 }
 
+/// Counts the numbers of the y axis of a plot: the groups of rows with ink to the left of its frame.
+int numbers_beside(test::DrivenGui& gui, const std::string& plot) {
+  const render::Image window = gui.frame();
+  const gui::WidgetPlace place = gui.place("plot " + plot);
+  const float em = gui::type_scale[0];
+  int count = 0;
+  bool before = false;
+  for (int y = static_cast<int>(place.y0 + 0.5f * em); y < static_cast<int>(place.y1 - 2.2f * em); ++y) {
+    bool ink = false;
+    for (int x = static_cast<int>(place.x0 + 1.0f); x < static_cast<int>(place.x0 + 3.2f * em); ++x)
+      ink = ink || window.pixels[static_cast<std::size_t>(3 * (y * window.width + x))] < 128;
+    count += ink && !before ? 1 : 0;
+    before = ink;
+  }
+  return count;
+}
+
+TEST_F(Replay, plots_have_two_numbers_at_least_and_rows_that_are_whole) {
+  ASSERT_TRUE(test::drawn_until(gui_, [this] { return model_.all_values_known(); }));
+  for (const auto& [width, height] : {std::pair{1280, 800}, {1500, 950}, {1920, 1080}}) {
+    gui_.resize(width, height);
+    const float end = gui_.place("time line").y0;
+    for (const view::Plot& plot : model_.plots()) {
+      if (!gui_.has("plot " + plot.name)) continue;
+      const gui::WidgetPlace place = gui_.place("plot " + plot.name);
+      if (place.y0 >= end - 1.5f * gui::type_scale[0]) continue;  // scrolled to
+      EXPECT_LE(place.y1, end) << plot.name << " at " << width;
+      EXPECT_GE(numbers_beside(gui_, plot.name), plot.series[0].x.empty() ? 0 : 2) << plot.name << width;
+    }
+  }
+}
+
 TEST_F(Replay, plots_answer_over_time_as_well) {
   gui_.drag("plot stress", 0.3f, 0.5f, 0.7f, 0.5f);
   gui_.click("over time");
@@ -97,10 +159,16 @@ TEST_F(Replay, plots_answer_over_time_as_well) {
   EXPECT_GT((*chosen)[0], begin);
   gui_.scroll("plot stress", 3.0f);
   EXPECT_TRUE(model_.state.plot_options["stress"].zoomed.has_value());
-  gui_.click("over angle left");
-  EXPECT_EQ(model_.plot_axis(), view::PlotAxis::time) << "theta_c is unknown";
   gui_.click("over tilt");
   EXPECT_EQ(model_.plot_axis(), view::PlotAxis::tilt);
+}
+
+TEST_F(Replay, what_a_run_does_not_have_is_not_shown_empty) {
+  EXPECT_TRUE(gui_.has("plot lengths"));
+  model_.state.map.threshold_factor = 4.0;  // no grain is overloaded
+  EXPECT_TRUE(test::drawn_until(gui_, [this] { return !gui_.has("plot lengths"); }));
+  EXPECT_TRUE(gui_.has("plot stress"));
+  EXPECT_FALSE(gui_.has("over angle left")) << "theta_c is unknown";
 }
 
 TEST_F(Replay, a_plot_of_another_quantity_is_added_and_removed) {
@@ -124,15 +192,6 @@ TEST_F(Replay, plots_are_asked_for_as_figures) {
   gui_.type("my-plots");
   gui_.click("write plots");
   EXPECT_EQ(gui_.requests().plots_folder, "my-plots");
-}
-
-TEST_F(Replay, failure_is_at_the_right_of_what_is_left_to_it) {
-  view::Plot plot = view::empty_plots()[0];
-  std::vector<view::Plot> plots = {plot};
-  view::name_axis(view::PlotAxis::angle_left, plots);
-  EXPECT_TRUE(plots[0].falling_x);
-  view::name_axis(view::PlotAxis::time, plots);
-  EXPECT_FALSE(plots[0].falling_x);
 }
 
 TEST_F(Replay, an_announcement_stays_until_it_is_clicked) {

@@ -67,6 +67,17 @@ bool ends_without(long k, const Do& what) {
   return ended;
 }
 
+/// Lets each allocation of an action fail in turn until it succeeds, and returns how often it did not. `what`
+/// takes the number of the allocation.
+template <typename Do>
+int count_failures(const Do& what) {
+  for (int k = 1; k < 1000; ++k) {
+    SCOPED_TRACE(k);
+    if (what(k)) return k - 1;
+  }
+  return 1000;
+}
+
 /// Takes steps of a slow tilt, every fifth with a new neighbour list, and returns the number of allocations.
 long allocations_of_steps(World& world, const dynamics::StepSettings& settings,
                           dynamics::StepWorkspace& workspace, int steps) {
@@ -202,9 +213,7 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
   Contacts expected;
   contact::NeighbourList fresh;
   contact::detect_contacts(fresh, old.world.grains, old.world.boundary, reach, expected);
-  int failed = 0;
-  for (long k = 1; k < 1000; ++k) {
-    SCOPED_TRACE(k);
+  const int failed = count_failures([&](long k) {
     contact::NeighbourList list = old.list;
     const bool ended = ends_without(
         k, [&] { contact::update_neighbour_list(list, old.world.grains, old.world.boundary, reach); });
@@ -214,9 +223,8 @@ TEST(FailingAllocation, of_a_renewal_leaves_the_list_usable) {
     EXPECT_EQ(found.a, expected.a);
     EXPECT_EQ(found.b, expected.b);
     EXPECT_EQ(found.gap, expected.gap);
-    if (ended) break;
-    ++failed;
-  }
+    return ended;
+  });
   EXPECT_GT(failed, 5);
 }
 
@@ -234,18 +242,15 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
   solver::SolverWorkspace fresh;
   solver::ContactSolution expected = frozen.guess;
   solver::solve(problem, solver, fresh, expected);
-  int failed = 0;
-  for (long k = 1; k < 1000; ++k) {
-    SCOPED_TRACE(k);
+  const int failed = count_failures([&](long k) {
     solver::SolverWorkspace workspace;
     solver::ContactSolution solution = frozen.guess;
     const bool ended = ends_without(k, [&] { solver::solve(problem, solver, workspace, solution); });
     solver::ContactSolution again = frozen.guess;
     solver::solve(problem, solver, workspace, again);
     EXPECT_EQ(again.pn, expected.pn);
-    if (ended) break;
-    ++failed;
-  }
+    return ended;
+  });
   EXPECT_GT(failed, 30);
 }
 
@@ -254,7 +259,9 @@ TEST(FailingAllocation, of_two_threads_ends_the_solve_and_leaves_the_workspace_u
 TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
   const dynamics::StepSettings settings = test::bed_step(1e-3);
   const World world = test::fallen_bed(test::bed_plan(true, 400, 40, 5), settings, 200);
-  const auto [contacts, problem, guess] = test::next_problem(world, settings);
+  const test::FrozenStep frozen = test::next_problem(world, settings);
+  const solver::ContactProblem& problem = frozen.problem;
+  const solver::ContactSolution& guess = frozen.guess;
   solver::ContactProblem smaller = problem;
   const std::size_t count = problem.a.size() / 2;
   for (auto* field : {&smaller.a, &smaller.b}) field->resize(count);
@@ -265,18 +272,15 @@ TEST(FailingAllocation, of_a_smaller_problem_leaves_nothing_to_the_one_before) {
   solver::SolverSettings solver;
   solver.tolerance = 1e-9;
   solver.max_iterations = 20;
-  int failed = 0;
-  for (long k = 1; k < 1000; ++k) {
-    SCOPED_TRACE(k);
+  const int failed = count_failures([&](long k) {
     solver::SolverWorkspace workspace;
     solver::ContactSolution expected = guess, of_smaller = guess_of_smaller, again = guess;
     const double eta = solver::solve(problem, solver, workspace, expected).residual.eta;
     const bool ended = ends_without(k, [&] { solver::solve(smaller, solver, workspace, of_smaller); });
     EXPECT_EQ(solver::solve(problem, solver, workspace, again).residual.eta, eta);
     EXPECT_EQ(again.pn, expected.pn);
-    if (ended) break;
-    ++failed;
-  }
+    return ended;
+  });
   EXPECT_GT(failed, 5);
 }
 

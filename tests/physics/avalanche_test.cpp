@@ -2,19 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "core/trigonometry.h"
-#include "dynamics/failure.h"
 #include "session/session.h"
 #include "stress/free_surface.h"
+#include "support/recorded_run.h"
 
 namespace talus {
 namespace {
 
 /// Returns a small bed that is tilted fast and fails within a second of simulated time.
-scenario::Scenario bed(scenario::AfterFailure after_failure, scenario::BedBoundary boundary) {
+scenario::Scenario bed(scenario::AfterFailure after_failure,
+                       scenario::BedBoundary boundary = scenario::BedBoundary::periodic) {
   scenario::Scenario scenario;
   scenario.bed.length = 20.0;
   scenario.bed.depth = 6.0;
@@ -29,14 +29,9 @@ scenario::Scenario bed(scenario::AfterFailure after_failure, scenario::BedBounda
   return scenario;
 }
 
-void advance_to_end(session::Session& session) {
-  while (session.phase() != session::Phase::done) session.advance();
-}
-
 session::Session run_to_failure(const scenario::Scenario& scenario) {
-  session::Session session(scenario);
-  while (session.phase() == session::Phase::deposition || session.phase() == session::Phase::tilt)
-    session.advance();
+  session::Session session = test::tilting(scenario);
+  while (session.phase() == session::Phase::tilt) session.advance();
   return session;
 }
 
@@ -47,15 +42,14 @@ bool at_rest(const session::Session& session) {
 }
 
 TEST(Avalanche, failure_ends_the_run_unless_told) {
-  const session::Session session =
-      run_to_failure(bed(scenario::AfterFailure::stop, scenario::BedBoundary::periodic));
+  const session::Session session = run_to_failure(bed(scenario::AfterFailure::stop));
   EXPECT_EQ(session.phase(), session::Phase::done);
   EXPECT_TRUE(session.angle_of_repose());
   EXPECT_FALSE(session.angle_at_rest());
 }
 
 TEST(Avalanche, stops_when_the_tilt_is_lowered) {
-  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower);
   scenario.tilt.end_angle = 60.0;  // failure comes first
   session::Session session = run_to_failure(scenario);
   ASSERT_EQ(session.phase(), session::Phase::flow);
@@ -64,7 +58,7 @@ TEST(Avalanche, stops_when_the_tilt_is_lowered) {
   EXPECT_FALSE(session.angle_at_rest());
   session.advance();
   EXPECT_NEAR(highest - session.world().tilt, radians(20.0) * 1e-3, 1e-12) << "lowering_rate * h";
-  advance_to_end(session);
+  test::run_session(session);
   EXPECT_TRUE(at_rest(session));
   ASSERT_TRUE(session.angle_at_rest());
   EXPECT_EQ(*session.angle_at_rest(), session.world().tilt) << "the only slope of a periodic bed";
@@ -74,38 +68,36 @@ TEST(Avalanche, stops_when_the_tilt_is_lowered) {
 
 // The same failure with a slower decrease of the tilt, which gives the flow more time to follow.
 TEST(Avalanche, lags_behind_a_tilt_that_falls_faster) {
-  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower);
   session::Session fast = run_to_failure(scenario);
   scenario.tilt.lowering_rate = 5.0;
   session::Session slow = run_to_failure(scenario);
   EXPECT_EQ(state_hash(fast.world()), state_hash(slow.world()));
-  advance_to_end(fast);
-  advance_to_end(slow);
+  test::run_session(fast);
+  test::run_session(slow);
   ASSERT_TRUE(fast.angle_at_rest() && slow.angle_at_rest());
   EXPECT_GT(*slow.angle_at_rest(), *fast.angle_at_rest());
 }
 
 TEST(Avalanche, that_has_not_stopped_at_0_deg_has_no_angle_at_rest) {
-  scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::lower);
   scenario.tilt.lowering_rate = 100.0;
   scenario.deposition.rest_velocity = 1e-9;
-  session::Session session =
-      run_to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
+  session::Session session = run_to_failure(bed(scenario::AfterFailure::lower));
   session::Session impatient(scenario, session.checkpoint(0.0));
-  advance_to_end(impatient);
+  test::run_session(impatient);
   EXPECT_EQ(impatient.world().tilt, 0.0);
   EXPECT_FALSE(impatient.angle_at_rest());
 }
 
 TEST(Avalanche, that_is_held_where_nothing_stops_it_ends_after_max_time) {
-  scenario::Scenario scenario = bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic);
+  scenario::Scenario scenario = bed(scenario::AfterFailure::hold);
   scenario.deposition.max_time = 0.5;
-  session::Session before =
-      run_to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::periodic));
+  session::Session before = run_to_failure(bed(scenario::AfterFailure::hold));
   session::Session session(scenario, before.checkpoint(0.0));
   const double failed_at = session.world().time;
   const double tilt = session.world().tilt;
-  advance_to_end(session);
+  test::run_session(session);
   EXPECT_EQ(session.world().tilt, tilt);
   EXPECT_NEAR(session.world().time - failed_at, 0.5, 1.5e-3);
   EXPECT_FALSE(session.angle_at_rest());
@@ -115,7 +107,7 @@ TEST(Avalanche, relaxes_its_surface_between_walls) {
   session::Session session = run_to_failure(bed(scenario::AfterFailure::hold, scenario::BedBoundary::walls));
   ASSERT_EQ(session.phase(), session::Phase::flow);
   const double tilt = session.world().tilt;
-  advance_to_end(session);
+  test::run_session(session);
   EXPECT_EQ(session.world().tilt, tilt);
   ASSERT_TRUE(session.angle_at_rest());
   const double inclination = stress::surface_inclination(session.world().grains, session.world().boundary);
@@ -124,12 +116,11 @@ TEST(Avalanche, relaxes_its_surface_between_walls) {
 }
 
 TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
-  session::Session session =
-      run_to_failure(bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic));
+  session::Session session = run_to_failure(bed(scenario::AfterFailure::lower));
   session.clear_segment();
   const double highest = session.world().tilt;
   const std::int64_t failed_at = session.world().step;
-  advance_to_end(session);
+  test::run_session(session);
   const auto steps = session.world().step - failed_at;
   const io::Segment& segment = session.segment();
   EXPECT_EQ(segment.steps.size(), static_cast<std::size_t>(steps));
@@ -142,7 +133,7 @@ TEST(Avalanche, records_frames_and_rows_until_it_has_stopped) {
 }
 
 TEST(Avalanche, is_resumed_to_the_same_bits) {
-  const scenario::Scenario scenario = bed(scenario::AfterFailure::lower, scenario::BedBoundary::periodic);
+  const scenario::Scenario scenario = bed(scenario::AfterFailure::lower);
   session::Session whole = run_to_failure(scenario);
   std::optional<session::Session> parts;
   parts.emplace(scenario, whole.checkpoint(0.0));

@@ -13,24 +13,29 @@ struct FallenBed {
   // Large enough that three threads have work, because a solver may leave threads idle on small problems.
   World world = test::fallen_bed(test::bed_plan(true, 3000, 60, 5), settings, 160);
 
-  FallenBed() { settings.solver.max_iterations = 100; }
+  explicit FallenBed(double rolling_friction = 0.0) {
+    settings.solver.max_iterations = 100;
+    settings.law.rolling_friction = rolling_friction;
+  }
 };
 
 TEST(Threads, any_number_of_them_gives_the_same_bits) {
-  FallenBed bed;
-  ASSERT_GT(bed.world.contacts.count(), 3200);
-  World alone = bed.world;
-  dynamics::StepWorkspace workspace;
-  for (int k = 0; k < 5; ++k) dynamics::step(alone, bed.settings, workspace);
-  for (int threads : {2, 3}) {
-    bed.settings.solver.threads = threads;
-    World together = bed.world;
-    dynamics::StepWorkspace fresh;
-    for (int k = 0; k < 5; ++k) {
-      fresh.solver.accelerated.choice = {};  // all of them, whether or not they pay off
-      dynamics::step(together, bed.settings, fresh);
+  for (const double rolling_friction : {0.0, 0.1}) {
+    FallenBed bed(rolling_friction);
+    ASSERT_GT(bed.world.contacts.count(), 3200);
+    World alone = bed.world;
+    dynamics::StepWorkspace workspace;
+    for (int k = 0; k < 5; ++k) dynamics::step(alone, bed.settings, workspace);
+    for (int threads : {2, 3, 4}) {
+      bed.settings.solver.threads = threads;
+      World together = bed.world;
+      dynamics::StepWorkspace fresh;
+      for (int k = 0; k < 5; ++k) {
+        fresh.solver.accelerated.choice = {};  // all of them, whether or not they pay off
+        dynamics::step(together, bed.settings, fresh);
+      }
+      EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
     }
-    EXPECT_EQ(state_hash(together), state_hash(alone)) << threads << " threads";
   }
 }
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstring>
 
-#include "solver/accelerated.h"
 #include "solver/solve.h"
 #include "solver/sweep.h"
 #include "unit/solver/small_problems.h"

@@ -1,5 +1,6 @@
 """Run files changed by someone who knows the format: afterwards all hashes are correct again."""
 
+import json
 import re
 from pathlib import Path
 
@@ -27,6 +28,19 @@ def sealed_text(text):
     """Returns a manifest whose last line is the hash of the others."""
     body = text[: text.rindex("hash ")]
     return body + f"hash {xxhash.xxh3_64_hexdigest(body.encode())}\n"
+
+
+def ensemble_manifest(variants=({},), **members):
+    """Returns the manifest of an ensemble of seed 1, with the given members and variants, and the hash that belongs to it."""
+    members = {"format": "talus ensemble 2", "version": "0.1.0", "seeds": "1", "until": "", "task": "", "keep": "", **members}
+    members["variants"] = [{"name": "", "full_name": "", "scenario": "0", "bed": "", **variant} for variant in variants]
+    return sealed_json(json.dumps(members, indent=1, ensure_ascii=False))
+
+
+def sealed_json(text):
+    """Returns an object of JSON with the hash of its text as its last member."""
+    body = text.rstrip().removesuffix("}").rstrip() + ',\n "hash": '
+    return f'{body}"{xxhash.xxh3_64_hexdigest(body.encode("utf-8", "surrogateescape"))}"\n}}\n'
 
 
 def reseal_folder(folder):

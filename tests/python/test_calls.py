@@ -80,7 +80,7 @@ def test_what_is_wrong_ends_in_an_error(kept, name):
 def test_errors_are_those_that_python_asks_for(kept):
     frames = kept.frames
     for wrong, kind in [(len(frames), IndexError), (1.7, TypeError), ("x", TypeError), (True, TypeError)]:
-        with pytest.raises(kind):
+        with pytest.raises(kind, match=f"has {len(frames)} frames" if kind is IndexError else ""):
             frames[wrong]
     with pytest.raises(KeyError):
         kept.observables["none"]
@@ -180,17 +180,6 @@ def test_a_run_that_has_changed_is_not_taken_for_the_one_that_was_pickled(tmp_pa
         pickle.loads(packed)
     path.unlink()
     with pytest.raises(talus.Error, match="no such run"):
-        pickle.loads(packed)
-
-
-def test_a_changed_byte_of_a_pickled_run_is_noticed(tmp_path):
-    path = Path(shutil.copy(KEPT, tmp_path / "run.h5"))
-    with talus.open(path) as run:
-        packed = pickle.dumps(run)
-    data = bytearray(path.read_bytes())
-    data[len(data) // 2] ^= 1
-    path.write_bytes(data)
-    with pytest.raises(talus.Error, match="run.h5: is damaged"):
         pickle.loads(packed)
 
 

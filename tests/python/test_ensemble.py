@@ -8,7 +8,7 @@ import shutil
 import numpy as np
 import pytest
 from conftest import BED, json_of, run_talus
-from resealed import sealed_text
+from resealed import ensemble_manifest, sealed_json
 
 import talus
 
@@ -46,21 +46,47 @@ def test_numbers_are_those_of_members_csv(ensemble, folder_of):
     with (folder_of / "members.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert [(m.variant, str(m.seed)) for m in ensemble.done()] == [(row["variant"], row["seed"]) for row in rows]
-    for column in list(rows[0])[5:]:
+    assert list(rows[0])[:6] == ["variant", "contact.friction", "seed", "state_hash", "version", "seconds"]
+    assert all(row["variant"] == f"contact.friction={row['contact.friction']}" for row in rows)
+    assert rows[0]["theta_c (deg)"] == f"{ensemble.numbers('theta_c', VARIANTS[0])[0]:.3f}".rstrip("0"), "steps of the tilt"
+    for column in list(rows[0])[6:]:
         name, unit = column[:-1].split(" (")
         for variant in VARIANTS:
             expected = [float(row[column] or "nan") for row in rows if row["variant"] == variant]
-            np.testing.assert_array_equal(ensemble.numbers(name, variant), expected, err_msg=column)
+            np.testing.assert_allclose(ensemble.numbers(name, variant), expected, rtol=5e-10, err_msg=column)
         assert ensemble.unit(name) == unit
 
 
-def test_table_is_members_csv(ensemble, folder_of):
+def table_like_members_csv(ensemble):
+    """Returns the table of an ensemble, compared with members.csv."""
     pandas = pytest.importorskip("pandas", reason="pandas is not installed: python3-pandas")
-    expected = pandas.read_csv(folder_of / "members.csv")
+    expected = pandas.read_csv(ensemble.folder / "members.csv", dtype={"state_hash": str})
     found = ensemble.to_pandas()
     assert list(found.columns) == [column.split(" (")[0] for column in expected.columns]
     found.columns = expected.columns
-    pandas.testing.assert_frame_equal(found, expected, check_dtype=False, rtol=1e-15)
+    pandas.testing.assert_frame_equal(found, expected, check_dtype=False, rtol=5e-10)
+    return found
+
+
+def test_table_is_members_csv(ensemble):
+    found = table_like_members_csv(ensemble)
+    assert found["contact.friction"].tolist() == [float(variant.split("=")[1]) for variant in found["variant"]]
+
+
+@pytest.mark.parametrize("varied, expected", [
+    (["command.1.kind=push,drop", "command.1.grain=2,4"],
+     {"command.1.kind": ["push", "push", "drop", "drop"], "command.1.grain": [2, 4, 2, 4]}),
+    (['tilt.program=["to 1", "to 0"],["to 1"]', "contact.friction=0.5"], {"tilt.program": ["to 1, to 0", "to 1"]})])
+def test_tables_have_the_keys_in_which_variants_differ(tmp_path, varied, expected):
+    (tmp_path / "bed.toml").write_text("[bed]\nlength = 10\ndepth = 3\n[tilt]\nrate = 4\nstep = 0.01\nprogram = [\"to 1\"]\n"
+                                       "[[command]]\nat = 0.5\nkind = \"push\"\ngrain = 3\nx = 0.01\ny = 0.01\n")
+    run_talus("ensemble", "bed.toml", "--seeds", "1", *(word for each in varied for word in ("--vary", each)), "-o", "e", folder=tmp_path)
+    with (tmp_path / "e/members.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert list(rows[0])[:len(expected) + 2] == ["variant", *expected, "seed"]
+    assert {key: [row[key] for row in rows] for key in expected} == {key: [str(each) for each in expected[key]] for key in expected}
+    found = table_like_members_csv(talus.open_ensemble(tmp_path / "e"))
+    assert {key: found[key].tolist() for key in expected} == expected
 
 
 def test_own_measures_are_taken_of_each_run(ensemble):
@@ -119,37 +145,49 @@ def test_errors_name_what_there_is(ensemble, folder_of, tmp_path):
         talus.open(folder_of)
 
 
-@pytest.mark.parametrize("text", ["", "talus ensemble 2\n", "talus ensemble 1\nseeds 1-x\nhash 0\n",
-                                  "talus ensemble 1\nseeds 1-3\nvariant 0 \n"])
+@pytest.mark.parametrize("text", ["", "{}\n", "[" * 100000, ensemble_manifest()[:-3], ensemble_manifest().replace("1", "2", 1),
+                                  sealed_json("[" * 100000), sealed_json('{"seeds": ' + "1" * 5000), sealed_json('{"seeds": "1", "seeds": "2"'),
+                                  sealed_json('{"seeds": NaN'), sealed_json("{,")])
 def test_damaged_manifests(tmp_path, text):
     (tmp_path / "ensemble.manifest").write_text(text)
     with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus"):
         talus.open_ensemble(tmp_path)
 
 
+def test_manifests_of_an_earlier_revision_are_named(tmp_path):
+    (tmp_path / "ensemble.manifest").write_text("talus ensemble 1\nseeds 1-3\n")
+    with pytest.raises(talus.Error, match="ensemble.manifest was written by an earlier revision of Talus; start another"):
+        talus.open_ensemble(tmp_path)
+
+
 @pytest.mark.parametrize("name", ["..", "../victim", "a/../../victim", "/tmp/victim", ".", "a//b", "a/", "a\x1b[2J",
-                                  "a\tb", "a\rb", "twice\nvariant 0 twice"])
+                                  "a\tb", "a\rb", "a\nb", "scenario", "", "x" * 256, "é" * 128, "a/b", 1, None, ["a"]])
 def test_names_of_a_manifest_stay_in_its_folder(tmp_path, name):
-    text = sealed_text(f"talus ensemble 1\nseeds 1-3\nvariant 0 {name}\nhash 0\n")
-    (tmp_path / "ensemble.manifest").write_text(text, newline="")
-    with pytest.raises(talus.Error, match=r"ensemble.manifest: was not written by talus, in line [34]: "):
+    (tmp_path / "ensemble.manifest").write_text(ensemble_manifest([{}, {"name": name}]))
+    with pytest.raises(talus.Error, match=r"ensemble.manifest: was not written by talus, at /variants/1/name: expected"):
         talus.open_ensemble(tmp_path)
 
 
-@pytest.mark.parametrize("line", ["frob 1", "", "Seeds 1"])
-def test_lines_that_talus_does_not_write_are_refused(tmp_path, line):
-    (tmp_path / "ensemble.manifest").write_text(sealed_text(f"talus ensemble 1\n{line}\nseeds 1\nvariant 0 \nhash 0\n"))
-    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus, in line 2: "):
+@pytest.mark.parametrize("member", [
+    {"format": "talus ensemble 3"}, {"version": 1}, *({"seeds": seeds} for seeds in (
+        "1-1000000000000", "5-1", "1-9000,10000-19000", str(2**63), "1" * 5000, "-1", "1-", "+1", "1_0", " 1", 1, [1], {})),
+    *({"keep": keep} for keep in ("-5", "some", "1.5", "+1", f"{2**64}", "1" * 5000, 10, True)),
+    *({"until": until} for until in ("foo", "theta_c:", "theta_c:x", ":1", "theta_c:0", "theta_c:-1", "theta_c:nan", "theta_c:1_0",
+                                     "theta_c[x]:1", 0.2))])
+def test_members_that_talus_does_not_write_are_refused(tmp_path, member):
+    (tmp_path / "ensemble.manifest").write_text(ensemble_manifest(**member))
+    with pytest.raises(talus.Error, match=f"ensemble.manifest: was not written by talus, at /{next(iter(member))}: expected"):
         talus.open_ensemble(tmp_path)
 
 
-@pytest.mark.parametrize("seeds", ["1-1000000000000", "5-1", "1-9000,10000-19000", str(2**63), "1" * 5000, "-1", "1-", "+1",
-                                   "1_0", " 1"])
-def test_seeds_of_a_manifest_have_bounds(tmp_path, seeds):
-    text = sealed_text(f"talus ensemble 1\nseeds {seeds}\nvariant 0 \nhash 0\n")
-    (tmp_path / "ensemble.manifest").write_text(text)
-    with pytest.raises(talus.Error, match="ensemble.manifest: was not written by talus, in line 2: "):
-        talus.open_ensemble(tmp_path)
+@pytest.mark.parametrize("member", [{"keep": keep} for keep in ("all", "analysis", "0", f"{1:030}")] + [
+    {"until": until} for until in ("theta_c:0.2", "lc/max@theta_d[1]:0.5", "theta_c:1e-3", "theta_d/dilation_low:.5", "threshold[1]:2",
+                                   "theta_c:inf")])
+def test_members_that_talus_writes_are_taken(tmp_path, member):
+    (tmp_path / "ensemble.manifest").write_text(ensemble_manifest([{"name": "x" * 255}, {"name": "é" * 127}], **member))
+    ensemble = talus.open_ensemble(tmp_path)
+    assert next(iter(member.values())) in (ensemble.keep, ensemble.until)
+    assert ensemble.variants == ["x" * 255, "é" * 127]
 
 
 def test_runs_of_other_members_are_refused(folder_of, tmp_path):

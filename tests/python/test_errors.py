@@ -1,11 +1,10 @@
 """Foreign, outdated and damaged files are reported with their name and a remedy."""
 
-import shutil
 import sys
 
 import h5py
 import pytest
-from conftest import ROOT, run_talus
+from conftest import run_talus
 from resealed import seal, sealed
 
 import talus
@@ -75,32 +74,9 @@ def test_changed_bytes_of_a_frame_are_noticed(copied):
             run.frames[4].position
 
 
-def test_destroyed_structure_is_damage(copied):
-    with copied.open("r+b") as file:
-        file.seek(512)
-        file.write(b"\0" * 256)
-    with pytest.raises(talus.Error, match="is damaged"):
-        talus.open(copied)
-
-
 def test_missing_data_sets_are_named(copied):
     with pytest.raises(talus.Error, match="has no data set particles/grains/radius"):
         talus.open(sealed(copied, lambda file: file.__delitem__("particles/grains/radius")))
-
-
-@pytest.mark.parametrize("change, text", [
-    (lambda folder: (folder / "header.h5").unlink(), "header.h5: is missing, although the manifest names it"),
-    (lambda folder: (folder / "header.h5").write_bytes(b"x"), "header.h5: is damaged: it has 1 bytes, the manifest says"),
-    (lambda folder: (folder / "manifest").write_text("talus run folder 2\n"), "expected 'talus run folder 1'"),
-    (lambda folder: (folder / "manifest").write_text("talus run folder 1\nheader\n"), "manifest: is damaged"),
-    (lambda folder: (folder / "manifest").write_text(""), "manifest: begins with ''"),
-])
-def test_damaged_folders(tmp_path, change, text):
-    folder = tmp_path / "damaged.h5.run"
-    shutil.copytree(ROOT / "tests/runs/schema_4_stopped.h5.run", folder)
-    change(folder)
-    with pytest.raises(talus.Error, match=text):
-        talus.open(folder)
 
 
 def test_names_and_units_that_do_not_exist(run, analysed):

@@ -31,7 +31,7 @@ def plain_names(found, names):
 def test_extended_xyz_is_read_by_ase(boundary, request, tmp_path):
     ase = pytest.importorskip("ase.io", reason="ASE is not installed: python3-ase")
     path, chosen = request.getfixturevalue(boundary), [0, 2, 9]
-    run_talus("export", path, "--to", "xyz", "--frames", "0,2,9", "-o", tmp_path / "made" / "frames.xyz")
+    run_talus("export", path, "--to", "xyz", "--at", "frame0,frame2,frame9", "-o", tmp_path / "made" / "frames.xyz")
     frames = ase.read(tmp_path / "made" / "frames.xyz", index=":")
     assert len(frames) == 3
     with talus.open(path) as run:
@@ -61,7 +61,7 @@ def test_extended_xyz_is_read_by_ase(boundary, request, tmp_path):
 def test_beds_shorter_than_a_metre_are_no_shares_of_their_box(analysed, run, tmp_path):
     """OVITO interprets coordinates as fractions of the box if all are between 0 and 1."""
     assert run.length < 1
-    run_talus("export", analysed, "--to", "xyz", "--frames", "0", "-o", tmp_path / "frame.xyz")
+    run_talus("export", analysed, "--to", "xyz", "--at", "frame0", "-o", tmp_path / "frame.xyz")
     x = [float(line.split()[1]) for line in (tmp_path / "frame.xyz").read_text().splitlines()[2:]]
     assert max(x) > 5
 
@@ -92,7 +92,7 @@ def parse_dump(text):
 @pytest.mark.parametrize("boundary", ["analysed", "walls"])
 def test_lammps_dump_has_the_columns_that_ovito_knows(boundary, request, tmp_path):
     path, chosen = request.getfixturevalue(boundary), [0, 2, 9]
-    run_talus("export", path, "--to", "lammps", "--frames", "9,2,0", "-o", tmp_path / "frames.dump")
+    run_talus("export", path, "--to", "lammps", "--at", "frame9,frame2,frame0", "-o", tmp_path / "frames.dump")
     frames = parse_dump((tmp_path / "frames.dump").read_text())
     assert len(frames) == 3
     with talus.open(path) as run:

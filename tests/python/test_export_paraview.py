@@ -47,7 +47,7 @@ def entries(pvd):
 @pytest.fixture(scope="module")
 def written(analysed, tmp_path_factory):
     folder = tmp_path_factory.mktemp("paraview") / "made" / "here"
-    run_talus("export", analysed, "--to", "paraview", "--frames", "0,3-5,11", "-o", folder)
+    run_talus("export", analysed, "--to", "paraview", "--at", "frame0,frame3-frame5,frame11", "-o", folder)
     return folder
 
 
@@ -114,9 +114,9 @@ def test_planes_and_frames_of_a_flow(walls, tmp_path):
 
 
 def test_runs_under_way_have_no_threshold_unless_one_is_given(stopped, tmp_path):
-    said = run_talus("export", stopped, "--to", "paraview", "--frames", "0", "-o", tmp_path / "without")
+    said = run_talus("export", stopped, "--to", "paraview", "--at", "frame0", "-o", tmp_path / "without")
     assert "left out" in said and "--set gamma_c" in said
-    said = run_talus("export", f"{stopped}.run", "--to", "paraview", "--frames", "0", "--set", "gamma_c=0.3",
+    said = run_talus("export", f"{stopped}.run", "--to", "paraview", "--at", "frame0", "--set", "gamma_c=0.3",
                      "--set", "threshold_factors=1.5", "--set", "l_min=0", "-o", tmp_path / "given")
     assert "left out" not in said
     names = {}
@@ -133,7 +133,7 @@ def test_fields_on_a_grid_sum_up_to_the_packings_own_values(run, analysed, tmp_p
     """The sums over all points, times the area per point, are the totals of the packing: mass, momentum,
     and internal moments without the contribution of rotations."""
     folder = tmp_path / "fields"
-    run_talus("export", analysed, "--to", "vti", "--frames", "0,11", "--length", "4", "-o", folder)
+    run_talus("export", analysed, "--to", "vti", "--at", "frame0,frame11", "--set", "length=4", "-o", folder)
     listed = entries(folder / "fields.pvd")
     assert [time for time, _ in listed] == [run.frames[k].time for k in (0, 11)]
     for (_, file), k in zip(listed, (0, 11)):

@@ -35,7 +35,7 @@ def without_units(table):
 @pytest.mark.parametrize("boundary", ["analysed", "walls"])
 def test_tables_have_a_row_for_each_frame_grain_and_contact(pandas, boundary, request, tmp_path):
     path, chosen = request.getfixturevalue(boundary), [0, 9]
-    run_talus("export", path, "--to", "csv", "--frames", "0,9", "-o", tmp_path / "made" / "tables")
+    run_talus("export", path, "--to", "csv", "--at", "frame0,frame9", "-o", tmp_path / "made" / "tables")
     read = {name: pandas.read_csv(tmp_path / "made" / "tables" / f"{name}.csv", float_precision="round_trip")
             for name in ("frames", "grains", "contacts")}
     assert {"radius (m)", "internal_moment_xy (J/m)", "gamma"} < set(read["grains"])
@@ -80,8 +80,8 @@ def test_moments_are_averaged_as_the_analysis_is_told_to(pandas, copied, walls, 
         return pandas.read_csv(tmp_path / folder / "grains.csv")
 
     run_talus("analyze", copied, "--set", "averaging=1")
-    read = grains_of(copied, "averaged", "--frames", "9", "--set", "averaging=1")
-    plain = grains_of(copied, "plain", "--frames", "9")
+    read = grains_of(copied, "averaged", "--at", "frame9", "--set", "averaging=1")
+    plain = grains_of(copied, "plain", "--at", "frame9")
     with talus.open(copied) as run:
         np.testing.assert_array_equal(read["cluster_1"], run.analysis["clusters/label"][9, 0])
         np.testing.assert_array_equal(np.float32(read["lc_2 (m)"]), np.float32(run.analysis["lc/length"][9, 1]))
@@ -90,5 +90,5 @@ def test_moments_are_averaged_as_the_analysis_is_told_to(pandas, copied, walls, 
     with talus.open(walls) as run:
         last = len(run.frames) - 1
         assert last >= run.frames_of_tilt
-    read = grains_of(walls, "flow", "--frames", last, "--set", "averaging=1")
-    assert read.equals(grains_of(walls, "plain-flow", "--frames", last)), "a flow has no frames to average over"
+    read = grains_of(walls, "flow", "--at", f"frame{last}", "--set", "averaging=1")
+    assert read.equals(grains_of(walls, "plain-flow", "--at", f"frame{last}")), "a flow has no frames to average over"

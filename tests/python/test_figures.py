@@ -102,24 +102,30 @@ def test_files_have_their_data_and_their_sources(beds, tmp_path):
 
 def test_existing_files_are_kept(beds, tmp_path):
     run_figures(beds, "flow.h5", "-o", tmp_path, "--only", "4", "-q")
+    provenance = tmp_path / "fig04-shear-stress.json"
+    provenance.write_text("mine")
     with pytest.raises(talus.Error, match="exists; give --overwrite") as refused:
         run_figures(beds, "flow.h5", "-o", tmp_path, "--only", "4", "-q")
-    assert refused.value.exit_code == 73
+    assert refused.value.exit_code == 73 and provenance.read_text() == "mine"
     command = [sys.executable, "-m", "talus.figures", "flow.h5", "-o", tmp_path, "--only", "4", "-q"]
     refused = subprocess.run(command, cwd=beds, capture_output=True, text=True)
     assert refused.returncode == 73 and refused.stderr.startswith("talus: error: ")
-    subprocess.run([*command, "--overwrite"], cwd=beds, check=True)
+    done = subprocess.run([*command, "--overwrite"], cwd=beds, check=True, capture_output=True, text=True)
+    assert done.stdout == done.stderr == "" and provenance.read_text() != "mine"
     assert not list(tmp_path.glob("*.part"))
 
 
 @pytest.mark.parametrize("words, code, message", [
     (["--only", "fig09-overloaded-friction"], 64, "did you mean 'fig09-overloaded-fraction'"),
+    (["--only", "3"], 64, "--only 3: no such figure"),
     (["--only", "5", "--at", "1"], 64, "--at: no requested figure shows single frames"),
     (["--only", "8", "--at", "80"], 65, "--at 80: no run of .* has such a frame"),
     (["--only", "6"], 65, "no figure can be made of these runs"),
-    (["--size", "3"], 64, "expected a width in cm from 8 to 60"),
+    (["--size", "3cm"], 64, "expected a width from 8 to 60 cm"),
+    (["--size", "8.6"], 64, "such as 8.6cm"),
     (["--size", "12x6x"], 64, "expected a width"),
     (["--set", "nothing=1"], 65, "nothing"),
+    (["-o", "x.pdf"], 64, "x.pdf: expected a folder"),
     (["--add", "papers"], 64, "--add papers: expected one of paper, spread, svg")])
 def test_requests_are_refused(beds, tmp_path, words, code, message):
     with pytest.raises(talus.Error, match=message) as refused:
@@ -161,12 +167,12 @@ def test_figures_that_need_other_runs_are_left_out(beds, tmp_path, capsys):
     said = capsys.readouterr()
     assert said.err.splitlines() == [
         "left out: fig07-wall-ratio needs a bed between walls that has failed",
-        "left out: force-chains needs a run that has failed; the input has only values of members, without frames of their runs"]
-    assert "1 figure in" in said.out
+        "left out: force-chains needs the frames of a run that has failed"]
+    assert said.out == "" and len(list(tmp_path.glob("*.pdf"))) == 1
 
 
 def test_sizes():
-    assert parse_size("") == (0, 0) and parse_size("8.6") == (8.6, 0) and parse_size("17.8x10") == (17.8, 10)
+    assert parse_size("") == (0, 0) and parse_size("8.6cm") == (8.6, 0) and parse_size("17.8x10cm") == (17.8, 10)
 
 
 def test_groups_are_named_by_what_differs(groups):
@@ -308,7 +314,7 @@ def test_names_of_files_may_be_any_bytes(beds, tmp_path):
     os.mkdir(folder)
     for name in (b"/a.h5", b"/b.h5"):
         shutil.copy(beds / ("flow.h5" if name == b"/a.h5" else "cycles.h5"), folder + name)
-    command = [sys.executable, "-X", "utf8", "-m", "talus.figures", folder + b"/a.h5", folder + b"/b.h5", "-o", folder + b"/out", "--only", "4,10", "-q"]
+    command = [sys.executable, "-X", "utf8", "-m", "talus.figures", folder + b"/a.h5", folder + b"/b.h5", "-o", folder + b"/out", "--only", "4,10"]
     done = subprocess.run(command, capture_output=True)
     assert done.returncode == 0 and b"Warning" not in done.stderr, done.stderr
     assert folder + b"/out: .pdf" in done.stdout and len(os.listdir(folder + b"/out")) == 9
@@ -353,7 +359,7 @@ def test_a_figure_takes_axes_a_style_and_own_groups(groups):
     figure = figures.over_parameter(groups["two"], width=8.6, style={"axes.labelsize": 5, "font.size": 5})
     assert figure.get_size_inches()[0] == pytest.approx(8.6 / 2.54)
     assert figure.axes[-1].xaxis.label.get_fontsize() == 5
-    with pytest.raises(talus.Error, match="fig06-wall-stress needs a bed between walls"):
+    with pytest.raises(talus.Error, match="fig06-wall-stress needs the file of a bed between walls"):
         figures.fig06(groups["two"])
     assert set(figures.recipes()) <= set(dir(figures))
 
@@ -405,6 +411,13 @@ def test_numbers_are_written_with_all_their_digits():
     assert [rounded(21.625), rounded(-0.001), rounded(13.25), rounded(2.5, 0)] == ["21.63", "0", "13.25", "3"]
 
 
+def test_a_range_of_frames_is_each_of_them():
+    from talus.figures.data import single_words
+
+    assert single_words("frame3-frame5") == ["frame3", "frame4", "frame5"]
+    assert [single_words(word) for word in ("frame3", "repose", "5", "frame5-frame3")] == [["frame3"], ["repose"], ["5"], ["frame5-frame3"]]
+
+
 def test_plots_of_the_window_are_figures(tmp_path):
     from talus.figures import plots
 
@@ -418,6 +431,6 @@ def test_plots_of_the_window_are_figures(tmp_path):
     plots.main([str(tmp_path / "plots.json"), str(tmp_path / "out"), "talus view"])
     assert (tmp_path / "out/plot-packing-strain.csv").read_text() == "x,strain,law\n0,0,0\n1,NaN,1\n"
     assert (tmp_path / "out/plot-packing-strain-2.csv").read_text() == "x,other\n0,1\n2,2\n"
-    assert {path.suffix for path in (tmp_path / "out").iterdir()} == {".csv", ".json", ".pdf", ".png", ".svg"}
+    assert {path.suffix for path in (tmp_path / "out").iterdir()} == {".csv", ".json", ".pdf", ".png"}
     with pytest.raises(talus.Error, match="exists"):
         plots.main([str(tmp_path / "plots.json"), str(tmp_path / "out"), "talus view"])

@@ -1,4 +1,4 @@
-"""The commands and the Python code of docs/tutorial.md, docs/questions.md and docs/gallery.md run as
+"""The commands and the files of docs/quickstart.md, docs/tutorial.md, docs/questions.md and docs/gallery.md run as
 printed, in order, as a reader types them. Only the bed of the demo is smaller."""
 
 import importlib.machinery
@@ -12,7 +12,7 @@ import sys
 import pytest
 from conftest import PACKAGE, PROGRAM, ROOT
 
-PAGES = ["tutorial", "questions", "gallery"]
+PAGES = ["quickstart", "tutorial", "questions", "gallery"]
 
 #: Replacement for demo.toml: 84 grains, which fail above 10 deg within a second of computing.
 SMALL_DEMO = """
@@ -44,10 +44,10 @@ def pieces(page):
     """Returns what the reader of a page types, in order: (None, command), or (NAME, text) of a file
     to be saved."""
     text = (ROOT / f"docs/{page}.md").read_text()
-    found = re.finditer(r"^```python\n(?P<code>.*?)^```$|^ {4}(?P<command>\S[^\n]*)$", text, re.MULTILINE | re.DOTALL)
+    found = re.finditer(r"^```(?:python|toml)\n(?P<code>.*?)^```$|^ {4}(?P<command>\S[^\n]*)$", text, re.MULTILINE | re.DOTALL)
     for piece in found:
         if piece["code"]:
-            yield re.findall(r"as `(\w+\.py)`", text[: piece.start()])[-1], piece["code"]
+            yield re.findall(r"as `(\w+\.(?:py|toml))`", text[: piece.start()])[-1], piece["code"]
         else:
             yield None, piece["command"]
 
@@ -93,11 +93,12 @@ def test_page_can_be_typed_from_its_first_line_to_its_last(page, checkout):
 
 
 def test_commands_are_recognised():
-    """Every step of the tutorial is found by the test."""
+    """Every step of the first pages is found by the test."""
     commands = [text for name, text in pieces("tutorial") if not name]
     for step in ["./bootstrap demo", "talus info", "talus panel", "talus run", "talus ensemble", "talus figures", "talus view", "python3"]:
         assert any(step in command for command in commands), step
     assert [name for name, _ in pieces("tutorial") if name] == ["first.py", "hold.py"]
+    assert [name for name, _ in pieces("quickstart") if name] == ["own.toml", "share.py", "back.py"]
 
 
 @pytest.mark.chosen
@@ -117,6 +118,21 @@ def test_pictures_are_made_by_the_commands_next_to_them():
     for run, commands in make.RUNS.items():
         missing = {line.strip() for line in commands.splitlines()} - printed
         assert not missing, f"{run} is made by what no page prints: {missing}"
+
+
+@pytest.mark.chosen
+def test_small_pictures_keep_the_colours_of_legends():
+    from PIL import Image
+
+    picture = Image.new("RGB", (256, 200), "white")
+    for k in range(256):
+        picture.paste((k, k, k), (k, 40, k + 1, 200))
+    amber, vermilion = (230, 159, 0), (213, 94, 0)
+    picture.paste(amber, (10, 10, 16, 16))
+    picture.paste(vermilion, (30, 10, 36, 16))
+    shown = docs_make().with_palette(picture, 16).convert("RGB")
+    assert len(shown.getcolors()) <= 16
+    assert [shown.getpixel(at) for at in [(12, 12), (32, 12), (2, 2)]] == [amber, vermilion, (255, 255, 255)]
 
 
 @pytest.mark.chosen

@@ -47,7 +47,7 @@ RUN, SCENARIO = NAME + b".h5", NAME + b".toml"
     (["run", SCENARIO, "--set", b"deposition.file=" + NAME], 65), (["render", RUN, "--map", NAME], 64),
     (["render", RUN, "--map", "gamma", "--at", "0", "-o", NAME], 0), (["render", RUN, "--at", NAME], 64),
     (["panel", RUN, "--map", "gamma", "--at", "0", "-o", NAME + b".png"], 0),
-    (["export", RUN, "--to", "xyz", "--frames", "0", "-o", NAME + b".xyz"], 0),
+    (["export", RUN, "--to", "xyz", "--at", "frame0", "-o", NAME + b".xyz"], 0),
     (["export", RUN, "--to", "html", "-o", NAME + b".html"], 0), (["dump", RUN, "--at", "0", "-o", NAME + b".fclib"], 0),
     (["solve", NAME + b".none"], 66), (["ensemble", SCENARIO, "--seeds", "1", "--jobs", "0", "-o", NAME + b"-e"], 0),
     (["figures", RUN, RUN + b"#" + NAME, "--only", NAME, "-o", "f"], 64), ([NAME], 64), (["info", b"no" + NAME], 66),
@@ -78,9 +78,9 @@ def test_text_of_files_is_utf8(place, tmp_path):
 
 def test_exports_and_tables_are_utf8(place, tmp_path):
     for words in (["export", RUN, "--to", "html", "-o", tmp_path / "page.html"],
-                  ["export", RUN, "--to", "paraview", "--frames", "0", "-o", tmp_path / "vtk"],
-                  ["export", RUN, "--to", "csv", "--frames", "0", "-o", tmp_path / "csv"],
-                  ["export", RUN, "--to", "xyz", "--frames", "0", "-o", tmp_path / "bed.xyz"],
+                  ["export", RUN, "--to", "paraview", "--at", "frame0", "-o", tmp_path / "vtk"],
+                  ["export", RUN, "--to", "csv", "--at", "frame0", "-o", tmp_path / "csv"],
+                  ["export", RUN, "--to", "xyz", "--at", "frame0", "-o", tmp_path / "bed.xyz"],
                   ["ensemble", SCENARIO, "--seeds", "1", "--jobs", "0", "-o", tmp_path / "ensemble"]):
         call(*words, folder=place)
     texts = [path for path in tmp_path.rglob("*") if path.is_file() and path.suffix not in (".h5", ".lock")]
@@ -90,7 +90,7 @@ def test_exports_and_tables_are_utf8(place, tmp_path):
 
 
 OUTPUTS = [["render", "analysed.h5", "--map", "gamma", "--at", "0"], ["panel", "analysed.h5", "--map", "gamma", "--at", "0"],
-           ["export", "analysed.h5", "--to", "xyz", "--frames", "0"], ["export", "analysed.h5", "--to", "csv", "--frames", "0"],
+           ["export", "analysed.h5", "--to", "xyz", "--at", "frame0"], ["export", "analysed.h5", "--to", "csv", "--at", "frame0"],
            ["repair", "analysed.h5"], ["replay", "analysed.h5"], ["run", "bed.toml"], ["dump", "analysed.h5", "--at", "0"],
            ["figures", "analysed.h5", "--only", "fig04"], ["animate", "analysed.h5", "--map", "gamma"],
            ["ensemble", "bed.toml", "--seeds", "1", "--jobs", "0"]]
@@ -116,7 +116,7 @@ def test_output_that_cannot_be_named_is_refused(analysed, tmp_path, words):
 
 
 @pytest.mark.parametrize("words", [["info"], ["check"], ["analyze"], ["events"], ["run"], ["render", "--map", "gamma"],
-                                   ["panel"], ["replay"], ["repair", "-o", "r.h5"], ["figures"], ["solve"], ["ensemble"],
+                                   ["panel", "-o", "p.png"], ["replay"], ["repair", "-o", "r.h5"], ["figures"], ["solve"], ["ensemble"],
                                    ["export", "--to", "xyz"], ["view"], ["dump", "--at", "0"]], ids=lambda words: words[0])
 def test_input_that_cannot_be_named_is_missing(tmp_path, words):
     os.symlink("loop.h5", tmp_path / "loop.h5")

@@ -36,7 +36,7 @@ def near_end(request, tmp_path_factory):
 
 
 def exported(path, kind, output):
-    run_talus("export", path, "--to", kind, "--frames", 0, "-o", output)
+    run_talus("export", path, "--to", kind, "--at", "frame0", "-o", output)
     return output
 
 
@@ -81,22 +81,6 @@ def test_file_has_places_below_the_period(near_end):
     h5py = pytest.importorskip("h5py")
     with h5py.File(path) as file:
         assert file["particles/grains/position/value"][0, 0, 0] < np.float32(file["particles/grains/box/edges"][0])
-
-
-def test_export_is_read_back_as_a_bed(near_end, tmp_path):
-    path, length = near_end
-    lines = [line.split() for line in exported(path, "xyz", tmp_path / "bed.xyz").read_text().splitlines()]
-    names = re.search(r"Properties=(\S+)", " ".join(lines[1]))[1].split(":")
-    columns = {}
-    at = 0
-    for name, width in zip(names[::3], names[2::3]):
-        columns[name] = at
-        at += int(width)
-    rows = [f"{line[columns['pos']]} {line[columns['pos'] + 1]} {line[columns['radius']]}" for line in lines[2:]]
-    assert len(rows) == 2
-    (tmp_path / "bed.csv").write_text("\n".join(rows))
-    (tmp_path / "bed.toml").write_text(BED.format(length=length, table=tmp_path / "bed.csv"))
-    run_talus("run", tmp_path / "bed.toml", "-o", tmp_path / "again.h5")
 
 
 @pytest.fixture(scope="module")

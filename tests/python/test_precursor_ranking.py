@@ -81,24 +81,18 @@ def ensemble(tmp_path):
     except for a scale of each bed, `strain` except for an offset, `steep` is the sine of the tilt, `noise`
     predicts nothing; `same` does not vary, and `lc/mean` is at two thresholds."""
     theta_c = 18 + 4 * (5 * np.arange(12) % 12) / 11
-    tilt, left = np.arange(93) * 0.25, np.arange(93) * 0.25
-    scale = RANDOM.uniform(1, 3, 12)[:, None]
-
-    def write(file, group, tilts, left):
-        noise = RANDOM.uniform(size=tilts.shape)
-        growth = np.exp(-left / 3)
-        for name, values in {"reported": scale * (1 + growth) * (1 + 0.001 * noise), "strain": scale - 2 + growth + 0.02 * noise,
-                             "steep": np.sin(np.radians(tilts)), "noise": noise, "same": 0.5 + 0 * tilts,
-                             "lc/mean": 20 - left + 0.1 * noise, "lc/mean[1]": 20 - left + noise}.items():
-            file[f"variants/0/{group}/{name}/values"] = np.where((tilts < 0) | (left < 0), np.nan, values)
-
+    frames = (theta_c / 0.25).astype(int) + 1
+    tilt = np.concatenate([np.arange(count) * 0.25 for count in frames])
+    scale, left = np.repeat(RANDOM.uniform(1, 3, 12), frames), np.repeat(theta_c, frames) - tilt
+    noise, growth = RANDOM.uniform(size=tilt.shape), np.exp(-left / 3)
     with h5py.File(tmp_path / "ensemble.h5", "w") as file:
-        file["variants/0/numbers/theta_c/values"] = theta_c[:, None]
-        file["variants/0/numbers/gamma_c/values"] = np.sin(np.radians(theta_c))[:, None]
-        file["variants/0/over_tilt/theta"] = tilt
-        file["variants/0/before_failure/angle_left"] = left
-        write(file, "over_tilt", tilt + np.zeros((12, 1)), theta_c[:, None] - tilt)
-        write(file, "before_failure", theta_c[:, None] - left, left + np.zeros((12, 1)))
+        analysis = file.create_group("variants/0/analysis")
+        analysis["frames"], analysis["tilt"] = frames, np.radians(tilt)
+        analysis["theta_c"], analysis["gamma_c"] = np.radians(theta_c), np.sin(np.radians(theta_c))
+        analysis["reported"] = scale * (1 + growth) * (1 + 0.001 * noise)
+        analysis["strain"] = scale - 2 + growth + 0.02 * noise
+        analysis["steep"], analysis["noise"], analysis["same"] = np.sin(np.radians(tilt)), noise, 0.5 + 0 * tilt
+        analysis["lc/mean"] = np.stack([20 - left + 0.1 * noise, 20 - left + noise], axis=1)
     return tmp_path / "ensemble.h5"
 
 
@@ -121,7 +115,7 @@ def test_ranking_has_the_best_measure_first_and_the_tilt_to_compare_with(ensembl
 
 def test_few_beds_are_refused(ensemble):
     with h5py.File(ensemble, "r+") as file:
-        file["variants/0/numbers/theta_c/values"][:5] = np.nan
+        file["variants/0/analysis/theta_c"][:5] = np.nan
     with pytest.raises(ValueError, match="7 beds have failed; expected at least 8"):
         study.ranking(study.beds_of_ensemble(ensemble))
 

@@ -296,7 +296,7 @@ def test_readings_change_one_factor_from_their_base():
 
 
 def test_analyses_are_those_that_the_program_makes():
-    source = (ROOT / "src/ensemble/readings.cpp").read_text()
+    source = (ROOT / "src/ensemble/member_task.cpp").read_text()
     block = source[source.index("  return {\n", source.index("settings_of_readings")):]
     made = [re.sub(r'[{}" ]', "", line).strip(",").replace("cut", "lc_cut=CUT") for line in block[: block.index("};")].splitlines()[1:]]
     assert f"reading_version = {paper.READING_VERSION.strip()};" in source

@@ -62,8 +62,8 @@ def value(rng):
 
 
 def number(rng):
-    """Returns mostly a value of the expected kind."""
-    return value(rng) if rng.random() < 0.4 else rng.choice([0, 1, 3, 17, 0.01, 0.05, 0.5, np.float64(0.2), rng.random()])
+    """Returns mostly a value of the expected kind, of less than the 12 digits to which a simulation reports its rate."""
+    return value(rng) if rng.random() < 0.4 else rng.choice([0, 1, 3, 17, 0.01, 0.05, 0.5, np.float64(0.2), round(rng.random(), 9)])
 
 
 def name(rng):

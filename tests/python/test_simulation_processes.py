@@ -30,6 +30,15 @@ def refused(do):
         return str(error)
     sys.exit("it was not refused")
 
+def commit_in_a_thread(sim, ends=threading.Event()):
+    def commits():
+        while not ends.is_set():
+            sim.step(1)
+            sim.commit()
+    thread = threading.Thread(target=commits, daemon=True)
+    thread.start()
+    return thread
+
 def in_child(do):
     sys.stdout.flush()
     child = os.fork()
@@ -107,28 +116,7 @@ def test_a_child_of_fork_while_another_thread_steps():
         """)
 
 
-def test_a_child_of_fork_while_another_thread_records(tmp_path):
-    script("""
-        sim = large()
-        sim.record("run.h5")
-        def commits():
-            while True:
-                sim.step(1)
-                sim.commit()
-        threading.Thread(target=commits, daemon=True).start()
-        time.sleep(0.3)
-        def child():
-            try:
-                bed().save(f"{os.getpid()}.h5")
-            except talus.Error as error:
-                assert "spawn" in str(error), error
-            os._exit(0)  # as children of multiprocessing end: h5py, too, would wait for the lock of HDF5
-        for _ in range(10):
-            in_child(child)
-        """, folder=tmp_path)
-
-
-def test_a_child_of_fork_while_another_thread_records_reports_that_it_cannot_read(tmp_path):
+def test_a_child_of_fork_while_another_thread_records_writes_or_says_that_it_cannot_and_reads_nothing(tmp_path):
     script("""
         done = bed()
         done.record("done.h5")
@@ -136,13 +124,13 @@ def test_a_child_of_fork_while_another_thread_records_reports_that_it_cannot_rea
         run = talus.open("done.h5")
         sim = large()
         sim.record("run.h5")
-        def commits():
-            while True:
-                sim.step(1)
-                sim.commit()
-        threading.Thread(target=commits, daemon=True).start()
+        commit_in_a_thread(sim)
         time.sleep(0.3)
         def child():
+            try:
+                bed().save(f"{os.getpid()}.h5")
+            except talus.Error as error:
+                assert "spawn" in str(error), error
             for do in (lambda: talus.open("done.h5"), lambda: run.frames[0].position, lambda: talus.resume("done.h5"),
                        lambda: bed(**{"deposition.method": "file", "deposition.file": "done.h5"})):
                 try:
@@ -151,7 +139,7 @@ def test_a_child_of_fork_while_another_thread_records_reports_that_it_cannot_rea
                     assert "spawn" in str(error) and error.exit_code == 69, error
                 else:
                     os._exit(1)
-            os._exit(0)
+            os._exit(0)  # as children of multiprocessing end: h5py, too, would wait for the lock of HDF5
         for _ in range(5):
             in_child(child)
         """, folder=tmp_path)
@@ -166,12 +154,7 @@ def test_a_file_is_walked_through_while_another_thread_records(tmp_path):
         sim = bed(**{"bed.length": 30, "tilt.rate": 1, "tilt.step": 0.005})
         sim.record("run.h5")
         ends = threading.Event()
-        def commits():
-            while not ends.is_set():
-                sim.step(1)
-                sim.commit()
-        thread = threading.Thread(target=commits)
-        thread.start()
+        thread = commit_in_a_thread(sim, ends)
         for k in range(30):
             shutil.copy("done.h5", f"{k}.h5")
             before = time.monotonic()

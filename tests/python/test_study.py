@@ -72,6 +72,8 @@ def test_only_the_named_seeds_and_variations_are_compared(place):
     assert found.values["theta_c_deg"].shape == (2, 2) and len(found.runs) == 4
     assert found.reference == 22, "the run that fails at 18.3 deg is not among them"
     assert "contact.friction=0.3" not in study.markdown(found)
+    named = study.read(place / "study", scenario="<img src=x>.toml")
+    assert study.markdown(named).startswith("# Study of &lt;img src=x>.toml\n"), "text and not HTML"
 
 
 def test_an_angle_that_no_bed_reaches_and_an_unknown_variation_are_stated(place):

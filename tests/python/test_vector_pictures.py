@@ -45,7 +45,7 @@ def texts_of_pdf(path):
 def pictures(analysed, tmp_path_factory):
     """Creates one picture of each map and a panel, in three formats."""
     folder = tmp_path_factory.mktemp("vector")
-    options = ["--for", "paper", "--theta-c", "20", "-q"]
+    options = ["--for", "paper", "--set", "gamma_c=0.342", "-q"]
     for ending in ("png", "pdf", "svg"):
         run_talus("render", analysed, "--map", ",".join(MAPS), "--at", "repose", "--trace", "overloaded", "--turned",
                   "--format", ending, "-o", folder, *options)

@@ -1,14 +1,11 @@
 /// Environment of a command: signals, pipes, memory, user settings, terminal.
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 #include "base/errors.h"
 #include "core/random.h"
@@ -18,66 +15,54 @@
 #include "session/run_check.h"
 #include "session/run_header.h"
 #include "session/session.h"
+#include "support/commands.h"
+#include "support/resource_limit.h"
 
 namespace talus::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-using Words = std::vector<std::string>;
 
 constexpr double soon = 1.0;  // s
 constexpr int stop_signals[] = {SIGINT, SIGTERM, SIGHUP};
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Returns whether `holds()` becomes true within ten seconds.
-template <typename Condition>
-bool wait_for_condition(const Condition& holds) {
-  for (int wait = 0; wait < 2000; ++wait, std::this_thread::sleep_for(std::chrono::milliseconds(5)))
-    if (holds()) return true;
-  return false;
-}
 
 /// A run and files made from it, shared by all tests.
 class Edges : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder = new TemporaryFolder;
+    folder = new CommandFolder;
     hostile::make_run(folder->path("run.h5"));
     hostile::make_problem(folder->path("run.h5"), folder->path("problem.h5"));
-    write_file(*folder, "bed.toml", small_bed);
+    write_file(*folder, "bed.toml", short_bed);
   }
   static void TearDownTestSuite() {
     delete folder;
     folder = nullptr;
   }
   static Outcome talus(const Words& words, const Words& environment = {}) {
-    return run_talus(words, folder->path(), environment);
+    return folder->talus(words, environment);
   }
 
   /// Returns the exit status of a command that receives a signal while it works; checks that it ends soon.
   static int end_by(const Words& words, int signal) {
-    const pid_t process = start_talus(words, folder->path());
+    const pid_t process = folder->start(words);
     if (!wait_until_caught(process, SIGTERM)) return wait_for(process);  // it had already ended
     const auto begin = Clock::now();
     kill(process, signal);
-    const bool ended = wait_for_condition([process] { return has_ended(process); });
+    const bool ended = wait_until([process] { return has_ended(process); });
     EXPECT_LT(seconds_since(begin), soon + 1.0) << words[0] << " after signal " << signal;
     if (!ended) kill(process, SIGKILL);
     return wait_for(process);
   }
 
-  static inline TemporaryFolder* folder = nullptr;
+  static inline CommandFolder* folder = nullptr;
 };
 
 TEST_F(Edges, each_signal_ends_each_command) {
   const std::vector<Words> commands = {
       {"figures", "run.h5", "-o", "figures", "--overwrite"},
-      {"panel", "run.h5", "--map", "gamma", "--theta-c", "20", "--at", "0,0.5,1", "-o", "panel.png"},
-      {"render", "run.h5", "--map", "gamma", "--theta-c", "20", "-o", "maps"},
+      {"panel", "run.h5", "--map", "pressure", "--at", "0,0.5,1", "-o", "panel.png", "--overwrite"},
+      {"render", "run.h5", "--map", "pressure", "-o", "maps", "--overwrite"},
       {"animate", "run.h5", "--map", "pressure", "-o", "movie.mp4", "--overwrite"},
       {"solve", "problem.h5", "--cold", "--tol", "1e-15"},
       {"analyze", "run.h5"},
@@ -86,21 +71,21 @@ TEST_F(Edges, each_signal_ends_each_command) {
   for (const Words& words : commands)
     for (const int signal : stop_signals) {
       const int code = end_by(words, signal);
-      EXPECT_TRUE(code == 75 || code == 0) << words[0] << " ended with " << code << " after signal " << signal
-                                           << ": " << errors_in(folder->path());
+      EXPECT_TRUE(code == 75 || code == 0)
+          << words[0] << " ended with " << code << " after signal " << signal << ": " << folder->errors();
       if (code == 75) {
-        EXPECT_NE(errors_in(folder->path()).find("topped"), std::string::npos) << words[0];
-        EXPECT_EQ(errors_in(folder->path()).find("error"), std::string::npos) << words[0];
+        EXPECT_TRUE(has(folder->errors(), "topped")) << words[0];
+        EXPECT_FALSE(has(folder->errors(), "error")) << words[0];
       }
     }
 }
 
 TEST_F(Edges, a_hangup_stops_a_run_with_a_checkpoint) {
-  const pid_t process = start_talus({"run", "bed.toml", "-o", "hung.h5", "--threads", "1"}, folder->path());
-  ASSERT_TRUE(wait_for_condition([] { return fs::exists(folder->path("hung.h5.run/manifest")); }));
+  const pid_t process = folder->start({"run", "bed.toml", "-o", "hung.h5", "--threads", "1"});
+  ASSERT_TRUE(wait_until([] { return folder->has_file("hung.h5.run/manifest"); }));
   kill(process, SIGHUP);
-  EXPECT_EQ(wait_for(process), 75) << errors_in(folder->path());
-  EXPECT_NE(errors_in(folder->path()).find("Stopped at "), std::string::npos) << errors_in(folder->path());
+  EXPECT_EQ(wait_for(process), 75) << folder->errors();
+  EXPECT_TRUE(has(folder->errors(), "Stopped at "));
   EXPECT_EQ(talus({"run", "--resume", "hung.h5", "-q"}).exit_code, 0);
 }
 
@@ -115,10 +100,10 @@ TEST_F(Edges, a_pipe_or_a_device_is_no_run_and_no_problem) {
   for (const char* file : {"pipe.h5", "/dev/tty", "/dev/zero"})
     for (const char* command : {"info", "analyze", "solve"}) {
       const auto begin = Clock::now();
-      const pid_t process = start_talus({command, file}, folder->path());
-      const bool ended = wait_for_condition([process] { return has_ended(process); });
+      const pid_t process = folder->start({command, file});
+      const bool ended = wait_until([process] { return has_ended(process); });
       if (!ended) kill(process, SIGKILL);
-      EXPECT_EQ(wait_for(process), 66) << command << " " << file << errors_in(folder->path());
+      EXPECT_EQ(wait_for(process), 66) << command << " " << file << folder->errors();
       EXPECT_LT(seconds_since(begin), soon + 1.0) << command;
     }
 }
@@ -130,10 +115,10 @@ TEST_F(Edges, figures_that_are_stopped_leave_no_files_behind) {
       if (entry.path().extension() == ".part") return true;
     return false;
   };
-  const pid_t process = start_talus({"figures", "run.h5", "-o", "slow", "--overwrite"}, folder->path());
-  ASSERT_TRUE(wait_for_condition(has_part)) << errors_in(folder->path());
+  const pid_t process = folder->start({"figures", "run.h5", "-o", "slow", "--overwrite"});
+  ASSERT_TRUE(wait_until(has_part)) << folder->errors();
   kill(process, SIGTERM);
-  EXPECT_EQ(wait_for(process), 75) << errors_in(folder->path());
+  EXPECT_EQ(wait_for(process), 75) << folder->errors();
   EXPECT_FALSE(has_part());
 }
 
@@ -162,7 +147,7 @@ std::string reported_by(const std::string& path) try {
 /// TALUS_TRIES sets the number of tries.
 TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
   const hostile::Bytes good = hostile::read_bytes(folder->path("run.h5"));
-  std::vector<std::string> paths = hostile::data_sets(good);
+  Words paths = hostile::data_sets(good);
   std::erase_if(paths, [](const std::string& data_set) { return data_set.starts_with("/help/"); });  // texts
   const std::uint64_t whole = hostile::values_hash(good);
   const std::string path = folder->path("changed.h5");
@@ -188,41 +173,28 @@ TEST_F(Edges, a_value_changed_and_sealed_again_is_told_or_changes_nothing) {
   std::printf("%d changes: %d reported, %d without effect\n", count, reported, count - reported);
 }
 
-/// Limits the memory of this process and its children to a number of bytes during its lifetime.
-struct MemoryLimit {
-  explicit MemoryLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_AS, &before);
-    const rlimit less = {bytes, before.rlim_max};
-    setrlimit(RLIMIT_AS, &less);
-  }
-  ~MemoryLimit() { setrlimit(RLIMIT_AS, &before); }
-  MemoryLimit(const MemoryLimit&) = delete;
-  MemoryLimit& operator=(const MemoryLimit&) = delete;
-  rlimit before = {};
-};
-
 constexpr rlim_t mebibyte = rlim_t{1} << 20;
 
 TEST_F(Edges, a_bed_for_which_there_is_no_memory_is_refused_before_it_is_made) {
-  const MemoryLimit limit(4096 * mebibyte);
-  const Outcome outcome =
-      talus({"run", "bed.toml", "--set", "bed.length=100000", "--set", "bed.depth=20", "-o", "large.h5"});
-  EXPECT_EQ(outcome.exit_code, 71);
-  EXPECT_NE(outcome.err.find("this run needs up to about 1"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("only 4.3 GB are available"), std::string::npos) << outcome.err;
-  EXPECT_FALSE(fs::exists(folder->path("large.h5.run")));
+  const ResourceLimit limit(RLIMIT_AS, 4096 * mebibyte);
+  EXPECT_TRUE(ends(
+      talus({"run", "bed.toml", "--set", "bed.length=100000", "--set", "bed.depth=20", "-o", "large.h5"}), 71,
+      {"this run needs up to about 1", "only 4.3 GB are available"}));
+  EXPECT_FALSE(folder->has_file("large.h5.run"));
 }
 
 TEST_F(Edges, too_little_memory_to_draw_is_not_told_as_a_missing_library) {
   int drawn = 0, refused = 0;
   for (rlim_t size = 60; size <= 420; size += 40) {
-    const MemoryLimit limit(size * mebibyte);
+    const ResourceLimit limit(RLIMIT_AS, size * mebibyte);
     const Outcome outcome =
         talus({"render", "run.h5", "--map", "pressure", "--at", "0", "-o", "small", "--overwrite"});
     if (outcome.exit_code == 127) continue;  // the system could not start it
-    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 71)
+    // A library may crash without memory.
+    EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 71 || outcome.exit_code == -1)
         << size << " MiB: " << outcome.exit_code << outcome.err;
-    (outcome.exit_code == 0 ? drawn : refused) += 1;
+    drawn += outcome.exit_code == 0;
+    refused += outcome.exit_code == 71;
   }
   EXPECT_GT(drawn, 0);
   EXPECT_GT(refused, 0);
@@ -242,25 +214,17 @@ TEST_F(Edges, no_text_of_a_file_reaches_the_terminal_raw) {
                              {"info", "attack.h5", "--json"},
                              {"check", "attack.h5"},
                              {"replay", "attack.h5"},
-                             {"analyze", "attack.h5"}}) {
-    const Outcome outcome = talus(words);
-    for (const std::string& text : {outcome.out, outcome.err}) {
-      EXPECT_EQ(text.find_first_of("\x1b\a\r\x7f"), std::string::npos) << words[0];
-      EXPECT_EQ(text.find("\xc2\x9b"), std::string::npos) << words[0];
-    }
-  }
-  EXPECT_NE(talus({"info", "attack.h5"}).out.find("\\x1b[2J"), std::string::npos);
+                             {"analyze", "attack.h5"}})
+    expect_no_controls(talus(words));
+  EXPECT_TRUE(has(talus({"info", "attack.h5"}).out, "\\x1b[2J"));
 }
 
 TEST_F(Edges, settings_of_the_user_change_no_figure) {
   write_file(*folder, "matplotlibrc", "lines.linewidth: 9\nfont.size: 20\n");
   const Words make = {"figures", "run.h5", "--only", "fig04", "--add", "svg", "--overwrite", "-o"};
   const auto figure = [&](const std::string& into, const Words& environment) {
-    Words words = make;
-    words.push_back(into);
-    const Outcome outcome = talus(words, environment);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return text_of(folder->path(into + "/fig04-shear-stress.svg"));
+    EXPECT_TRUE(ends(talus(make + Words{into}, environment), 0));
+    return folder->text(into + "/fig04-shear-stress.svg");
   };
   const std::string usual = figure("usual", {"HOME=/nonexistent"});
   EXPECT_FALSE(usual.empty());
@@ -269,13 +233,6 @@ TEST_F(Edges, settings_of_the_user_change_no_figure) {
                            "MPLBACKEND=tkagg", "MATPLOTLIBRC=" + folder->path("matplotlibrc")}),
             usual);
   umask(mask);
-}
-
-TEST_F(Edges, an_unknown_command_is_reported_with_the_nearest) {
-  const Outcome outcome = talus({"frob", "x"});
-  EXPECT_EQ(outcome.exit_code, 64);
-  EXPECT_EQ(outcome.err, "talus: error: 'frob' is not a command; talus --help lists them\n");
-  EXPECT_NE(talus({"rnu", "x"}).err.find("did you mean 'run'"), std::string::npos);
 }
 
 TEST_F(Edges, a_seed_out_of_range_is_told_as_such) {
@@ -288,19 +245,12 @@ TEST_F(Edges, a_seed_out_of_range_is_told_as_such) {
   EXPECT_EQ(talus({"run", "bed.toml", "--seed", "seven", "-o", "none.h5"}).exit_code, 64);
 }
 
-TEST_F(Edges, a_missing_run_is_told_where_there_is_no_display_too) {
-  const Outcome outcome = talus({"view", "nope.h5"}, {"DISPLAY=", "WAYLAND_DISPLAY="});
-  if (outcome.err.find("without its window") != std::string::npos) GTEST_SKIP() << "talus has no window";
-  EXPECT_EQ(outcome.exit_code, 66);
-  EXPECT_NE(outcome.err.find("nope.h5"), std::string::npos) << outcome.err;
-}
-
 TEST_F(Edges, a_replay_that_was_killed_is_not_advised_to_resume) {
   hostile::make_folder_of_run(folder->path("part.h5"), 0.3);
   const Outcome outcome = talus({"replay", "run.h5", "-o", "part.h5"});
   EXPECT_EQ(outcome.exit_code, 73);
-  EXPECT_EQ(outcome.err.find("--resume"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("--overwrite"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(has(outcome.err, "--resume"));
+  EXPECT_TRUE(has(outcome.err, "--overwrite"));
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "base/hash.h"
-#include "io/hdf5_handle.h"
-#include "io/seal.h"
+#include "io/durable_file.h"
+#include "io/hdf5_file.h"
 
 namespace talus::hostile {
 namespace {
@@ -179,7 +179,7 @@ Bytes image_of(hid_t file, std::size_t before) {
   return image;
 }
 
-herr_t note_data_set(hid_t, const char* name, const io::hdf5::ObjectInfo* info, void* found) {
+herr_t note_data_set(hid_t, const char* name, const H5O_info_t* info, void* found) {
   if (info->type == H5O_TYPE_DATASET)
     static_cast<std::vector<std::string>*>(found)->push_back(std::string("/").append(name));
   return 0;
@@ -193,7 +193,11 @@ std::vector<std::string> data_sets(const Bytes& file) {
   Bytes bytes = file;
   const Handle open = io::hdf5::open_image(bytes, "listed", H5F_ACC_RDONLY);
   std::vector<std::string> found;
-  io::hdf5::visit_objects(open.get(), H5_ITER_INC, note_data_set, &found);
+#if H5_VERSION_GE(1, 12, 0)
+  H5Ovisit(open.get(), H5_INDEX_NAME, H5_ITER_INC, note_data_set, &found, H5O_INFO_BASIC);
+#else
+  H5Ovisit(open.get(), H5_INDEX_NAME, H5_ITER_INC, note_data_set, &found);
+#endif
   return found;
 }
 
@@ -227,12 +231,7 @@ Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils) {
   const Handle open = io::hdf5::open_image(bytes, "spoilt", H5F_ACC_RDWR);
   for (const Spoil& spoil : spoils) spoil_one(open.get(), spoil);
   const std::string_view kind = kind_of_seal(file);
-  return kind.empty() ? image_of(open.get(), 0) : sealed(image_of(open.get(), io::seal_size), kind);
-}
-
-Bytes sealed(Bytes file, std::string_view kind) {
-  io::seal(file, kind);
-  return file;
+  return kind.empty() ? image_of(open.get(), 0) : io::sealed(image_of(open.get(), io::seal_size), kind);
 }
 
 Bytes read_bytes(const std::string& path) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "io/seal.h"
+#include "io/durable_file.h"
 
 namespace talus::hostile {
 
@@ -58,9 +58,6 @@ std::uint64_t values_hash(const Bytes& file);
 
 /// Returns the file with the damage done, sealed again if it has a seal.
 Bytes spoilt(const Bytes& file, std::span<const Spoil> spoils);
-
-/// Returns the bytes with a seal over them.
-Bytes sealed(Bytes file, std::string_view kind = io::run_seal);
 
 Bytes read_bytes(const std::string& path);
 void write_bytes(const std::string& path, std::span<const std::byte> bytes);

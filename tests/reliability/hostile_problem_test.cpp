@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <optional>
 
@@ -15,7 +14,7 @@
 namespace talus::hostile {
 namespace {
 
-void make_good(const test::TemporaryFolder& folder) {
+void make_good(const test::CommandFolder& folder) {
   make_run(folder.path("run.h5"));
   make_problem(folder.path("run.h5"), folder.path("good.h5"));
 }
@@ -35,25 +34,17 @@ TEST_F(HostileProblem, a_byte_flipped_anywhere_is_refused_or_harmless) {
   int refused = 0, failed = 0;
   for (int k = 0; k < count; ++k) {
     Bytes bytes = good;
-    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
-    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+    const std::size_t at = flip(bytes, random);
     SCOPED_TRACE("byte " + std::to_string(at));
     const auto message = refusal(bad(bytes));
     refused += message ? 1 : 0;
     failed += message && message->find("HDF5") != std::string::npos ? 1 : 0;
   }
-  RecordProperty("refused", refused);
-  RecordProperty("failed_in_the_child", failed);
   std::printf("%d flips: %d refused, of these %d where HDF5 itself failed\n", count, refused, failed);
   EXPECT_GT(refused, 0);
 }
 
-TEST_F(HostileProblem, cut_at_any_length_is_refused) {
-  const std::size_t step = std::max<std::size_t>(1, good.size() / static_cast<std::size_t>(tries(200)));
-  for (std::size_t size = 0; size < good.size(); size += step)
-    EXPECT_TRUE(refusal(bad(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)))))
-        << size << " bytes";
-}
+TEST_F(HostileProblem, cut_at_any_length_is_refused) { expect_cuts_refused(use_problem, tries(200)); }
 
 TEST_F(HostileProblem, each_data_set_of_another_make_is_refused_by_name) {
   for (const std::string& path : data_sets(good)) {
@@ -72,17 +63,7 @@ TEST_F(HostileProblem, each_data_set_of_another_make_is_refused_by_name) {
 }
 
 TEST_F(HostileProblem, values_of_chance_are_refused_or_harmless) {
-  const std::vector<std::string> paths = data_sets(good);
-  Random random(50);
-  for (int k = 0; k < tries(200); ++k) {
-    std::vector<Spoil> spoils(1 + random.below(2));
-    for (Spoil& spoil : spoils)
-      spoil = {paths[random.below(static_cast<std::uint32_t>(paths.size()))],
-               static_cast<Harm>(random.below(harm_count)), random.next(), random.below(40),
-               folder->path("good.h5")};
-    SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm));
-    refusal(bad(spoilt(good, spoils)));
-  }
+  refusals_of_chance(use_problem, data_sets(good), 50, tries(200));
 }
 
 TEST_F(HostileProblem, a_solution_is_added_to_a_flipped_file_or_not) {

@@ -2,7 +2,7 @@
 
 #include "base/hash.h"
 #include "core/trigonometry.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "problems/local_solvers.h"
 #include "problems/step_problem.h"
 #include "runs/analysis_run.h"

@@ -4,16 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 
-#include "base/sanitizers.h"
 #include "core/random.h"
 #include "io/child_process.h"
 #include "io/run_file.h"
 #include "reliability/hostile_test.h"
-#include "support/places.h"
-#include "support/process.h"
+#include "support/has.h"
 
 namespace talus::hostile {
 namespace {
@@ -22,8 +19,8 @@ namespace fs = std::filesystem;
 
 void open_run(const std::string& path) { io::RunFile::open(path); }
 
-/// Uses the file in a child process, because HDF5 may crash on malformed files that were sealed again; the
-/// program reports this (src/app/program_end.cpp). Taking longer than any file needs is also a failure.
+/// Uses the file in a child process, because HDF5 may crash on malformed files that were sealed again. Taking
+/// longer than any file needs is also a failure.
 void use_apart(const std::string& path) {
   io::in_child_process(path, fs::file_size(path), [&path] {
     use_run(path);
@@ -35,7 +32,7 @@ std::optional<std::string> refusal(const std::string& path, void (*use)(const st
   return hostile::refusal(path, use);
 }
 
-void make_good(const test::TemporaryFolder& folder) { make_run(folder.path("good.h5")); }
+void make_good(const test::CommandFolder& folder) { make_run(folder.path("good.h5")); }
 
 using HostileRun = HostileFile<make_good>;
 
@@ -75,8 +72,7 @@ TEST_F(HostileRun, each_data_set_of_another_make_is_refused_by_name) {
           refusal(bad(spoilt(good, std::vector<Spoil>{{path, harm, 0, 0, folder->path("good.h5")}})));
       ASSERT_TRUE(message) << path << " " << name_of(harm) << " was accepted";
       const auto leaf = path.rfind('/');
-      EXPECT_TRUE(message->find(path.substr(0, leaf)) != std::string::npos ||
-                  message->find(path.substr(leaf + 1)) != std::string::npos)
+      EXPECT_TRUE(test::has(*message, path.substr(0, leaf)) || test::has(*message, path.substr(leaf + 1)))
           << path << ": " << *message;
       ++refused;
     }
@@ -143,65 +139,24 @@ TEST_F(HostileRun, values_that_cannot_be_are_refused_by_name) {
   for (const auto& [path, bits] : cases) {
     const auto message = refusal(bad(spoilt(good, std::vector<Spoil>{{path, Harm::one_value, 1, bits, {}}})));
     ASSERT_TRUE(message) << path << " with value " << bits << " was accepted";
-    EXPECT_NE(message->find(std::string("data set ") + path), std::string::npos) << *message;
+    EXPECT_TRUE(has(*message, std::string("data set ") + path));
   }
   const auto changed =
       refusal(bad(spoilt(good, std::vector<Spoil>{{"/checkpoint/x", Harm::one_value, 1, 10, {}}})));
-  EXPECT_NE(changed.value_or("").find("data set /checkpoint/state_hash is "), std::string::npos);
+  EXPECT_TRUE(test::has(changed.value_or(""), "data set /checkpoint/state_hash is "));
   for (const char* count : {"/checkpoint/integers/tilt_steps", "/checkpoint/integers/phase"}) {
     const auto message =
         refusal(bad(spoilt(good, std::vector<Spoil>{{count, Harm::one_value, 0, negative, {}}})));
-    EXPECT_NE(message.value_or("").find(std::string("data set ") + count + " is -1"), std::string::npos)
-        << count;
+    EXPECT_TRUE(test::has(message.value_or(""), std::string("data set ") + count + " is -1")) << count;
   }
 }
 
 TEST_F(HostileRun, sizes_and_values_of_chance_are_refused_or_harmless) {
-  const std::vector<std::string> paths = data_sets(good);
-  Random random(20);
-  int refused = 0;
   const int count = tries(200);
-  for (int k = 0; k < count; ++k) {
-    const std::vector<Spoil> spoils = spoils_of_chance(random, paths, folder->path("good.h5"));
-    SCOPED_TRACE(spoils.front().path + " " + name_of(spoils.front().harm) + " " +
-                 std::to_string(spoils.front().bits));
-    refused += refusal(bad(spoilt(good, spoils))) ? 1 : 0;
-  }
-  EXPECT_GT(refused, count / 4);
+  EXPECT_GT(refusals_of_chance(use_apart, data_sets(good), 20, count), count / 4);
 }
 
-TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) {
-  Random random(10);
-  const int count = tries(400);
-  for (int k = 0; k < count; ++k) {
-    Bytes bytes = good;
-    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
-    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
-    EXPECT_TRUE(refusal(bad(bytes), open_run)) << "byte " << at;
-  }
-}
-
-/// Addresses of link lists outside the file, at which HDF5 reads and crashes.
-TEST_F(HostileRun, that_HDF5_crashes_on_is_refused_by_the_program) {
-  if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers report a crash themselves";
-  const Bytes kept = read_bytes(test::source_folder() + "/tests/runs/schema_4.h5");
-  for (const auto& [at, value] : {std::pair<std::size_t, int>{647, 0x0e}, {2480, 0x0e}}) {
-    Bytes bytes = kept;
-    ASSERT_EQ(bytes.at(at), std::byte{0xff}) << "no address";
-    bytes[at] = static_cast<std::byte>(value);
-    const std::string path = bad(sealed(bytes));
-    for (const char* command : {"info", "check"}) {
-      const test::Outcome outcome = test::run_talus({command, path}, folder->path());
-      EXPECT_EQ(outcome.exit_code, 65);
-      // HDF5 1.14 does not crash, and finds nothing there; HDF5 2 may print an assertion of its own first.
-      const std::string refused = "talus: error: " + path + ": ";
-      EXPECT_TRUE(outcome.err.ends_with(refused + "HDF5 crashes on this file: it is malformed, although its "
-                                                  "hash is right; restore it from a copy\n") ||
-                  outcome.err == refused + "data set /parameters/schema_version is missing\n")
-          << outcome.err;
-    }
-  }
-}
+TEST_F(HostileRun, a_byte_flipped_anywhere_is_refused) { expect_flips_refused(open_run, 10, tries(400)); }
 
 TEST_F(HostileRun, a_byte_flipped_and_sealed_again_is_refused_or_harmless) {
   Random random(11);
@@ -209,23 +164,15 @@ TEST_F(HostileRun, a_byte_flipped_and_sealed_again_is_refused_or_harmless) {
   const int count = tries(40);
   for (int k = 0; k < count; ++k) {
     Bytes bytes = good;
-    const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
-    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
-    SCOPED_TRACE(at);
-    const std::optional<std::string> message = refusal(bad(sealed(bytes)));
-    EXPECT_EQ(message.value_or("").find("longer than a file of its size can need"), std::string::npos);
+    SCOPED_TRACE(flip(bytes, random));
+    const std::optional<std::string> message = refusal(bad(io::sealed(bytes)));
+    EXPECT_FALSE(test::has(message.value_or(""), "longer than a file of its size can need"));
     refused += message ? 1 : 0;
   }
   EXPECT_GT(refused, count / 20);
 }
 
-TEST_F(HostileRun, cut_at_any_length_is_refused) {
-  const std::size_t step = std::max<std::size_t>(1, good.size() / static_cast<std::size_t>(tries(400)));
-  for (std::size_t size = 0; size < good.size(); size += size < 600 ? 7 : step) {
-    const Bytes cut(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
-    EXPECT_TRUE(refusal(bad(cut), open_run)) << size << " bytes";
-  }
-}
+TEST_F(HostileRun, cut_at_any_length_is_refused) { expect_cuts_refused(open_run, tries(400)); }
 
 TEST_F(HostileRun, a_byte_flipped_or_a_cut_in_a_folder_is_refused) {
   const std::string run = folder->path("stopped.h5");
@@ -236,13 +183,9 @@ TEST_F(HostileRun, a_byte_flipped_or_a_cut_in_a_folder_is_refused) {
     const Bytes whole = read_bytes(entry.path());
     for (int k = 0; k < tries(400) / 4; ++k) {
       Bytes bytes = whole;
-      const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
-      if (k % 2 == 0)
-        bytes.resize(at);
-      else
-        bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
+      damage(bytes, k % 2 == 0 ? Damage::cut : Damage::flip, random);
       write_bytes(entry.path(), bytes);
-      EXPECT_TRUE(refusal(run, open_run)) << entry.path() << " at " << at;
+      EXPECT_TRUE(refusal(run, open_run)) << entry.path() << ", try " << k;
     }
     write_bytes(entry.path(), whole);
   }

@@ -8,12 +8,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/run_file.h"
@@ -22,22 +18,10 @@
 
 namespace talus::test {
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 constexpr int done = 0, usage = 64, refused = 73, io_error = 74;
 constexpr int block = 4;          // KiB, block of a file system
 constexpr int ample = 64 * 1024;  // KiB
-
-inline std::string content(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-inline std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  return names;
-}
 
 /// Command that writes, with "OUT" as the output among its words. Its inputs are in the parent folder.
 struct Writer {
@@ -56,7 +40,7 @@ inline bool decodes(const fs::path& movie) {
 /// Returns whether a file ends as its format requires. Files written through memory can only be torn at the
 /// end.
 inline bool has_end_of_format(const fs::path& file) {
-  const std::string ending = file.extension().string(), bytes = content(file);
+  const std::string ending = file.extension().string(), bytes = text_of(file);
   if (ending == ".png") return bytes.ends_with("IEND\xAE\x42\x60\x82");
   if (ending == ".gif") return bytes.ends_with(";");
   if (ending == ".pdf") return bytes.ends_with("%%EOF\n");
@@ -79,42 +63,38 @@ inline const std::vector<Writer>& writers() {
       {"solve", "s.h5", {"solve", "p.h5", "-o", "OUT"}},
       {"panel",
        "p.png",
-       {"panel", "f.h5", "-q", "--map", "pressure", "--at", "0,1", "--width", "300", "-o", "OUT"}},
+       {"panel", "f.h5", "-q", "--map", "pressure", "--at", "0,1", "--size", "300", "-o", "OUT"}},
       {"screenshot", "v.png", {"view", "f.h5", "--size", "400x300", "--screenshot", "OUT"}},
       {"mp4",
        "m.mp4",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
        false,
        true},
       {"webm",
        "m.webm",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
        false,
        true},
       {"gif",
        "m.gif",
-       {"animate", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"},
+       {"animate", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"},
        false,
        true},
-      {"render", "maps", {"render", "f.h5", "-q", "--map", "pressure", "--width", "300", "-o", "OUT"}, true},
+      {"render", "maps", {"render", "f.h5", "-q", "--map", "pressure", "--size", "300", "-o", "OUT"}, true},
       {"figures", "figs", {"figures", "f.h5", "-q", "--only", "fig04", "-o", "OUT"}, true},
   };
   return all;
 }
 
 /// Inputs of all writers, created once.
-class Outputs : public testing::Test {
+class Outputs : public CommandTest {
  protected:
   static void SetUpTestSuite() {
-    inputs_ = std::make_unique<TemporaryFolder>();
-    write_file(*inputs_, "bed.toml", tiny_bed);
+    inputs_ = std::make_unique<CommandFolder>(tiny_bed);
     take_run(*inputs_, "f.h5", tiny_bed);
-    for (const Words& words :
-         {Words{"analyze", "f.h5", "-q"}, Words{"dump", "f.h5", "--at", "frame1", "-o", "p.h5"}}) {
-      const Outcome outcome = run_talus(words, inputs_->path());
-      ASSERT_EQ(outcome.exit_code, done) << outcome.err;
-    }
-    std::string bytes = content(inputs_->path() / "f.h5");
+    ASSERT_TRUE(ends(inputs_->talus({"analyze", "f.h5", "-q"}), done));
+    ASSERT_TRUE(ends(inputs_->talus({"dump", "f.h5", "--at", "frame1", "-o", "p.h5"}), done));
+    std::string bytes = inputs_->text("f.h5");
     bytes[100] = '?';  // part of the seal
     write_file(*inputs_, "damaged.h5", bytes);
     // Mounts made here are visible only to this process and its children.
@@ -127,7 +107,6 @@ class Outputs : public testing::Test {
       if (name[0] != '.') fs::copy_file(inputs_->path() / name, folder_.path() / name);
   }
 
-  Outcome talus(const Words& words) const { return run_talus(words, folder_.path()); }
   std::string path(const std::string& name) const { return folder_.path(name); }
 
   /// Expects everything below a folder of outputs to be complete, without temporary files. Remains of an
@@ -189,8 +168,7 @@ class Outputs : public testing::Test {
     return sizes;
   }
 
-  static inline std::unique_ptr<TemporaryFolder> inputs_;
-  TemporaryFolder folder_;
+  static inline std::unique_ptr<CommandFolder> inputs_;
 };
 
 }  // namespace talus::test

@@ -10,32 +10,17 @@
 #include "base/errors.h"
 #include "core/random.h"
 #include "io/run_file.h"
-#include "io/run_repair.h"
 #include "reliability/hostile_run.h"
 #include "reliability/hostile_test.h"
 #include "reliability/whole_run.h"
 #include "session/run_check.h"
-#include "support/temporary_folder.h"
 
 namespace talus::hostile {
 namespace {
 
 namespace fs = std::filesystem;
 
-enum class Kind : std::uint8_t { flip, zeros, cut };
-constexpr std::array kinds = {Kind::flip, Kind::zeros, Kind::cut};
-constexpr std::array kind_names = {"a byte flipped", "up to 4 KiB of zeros", "cut"};
-
-void damage(Bytes& bytes, Kind kind, Random& random) {
-  const auto at = random.below(static_cast<std::uint32_t>(bytes.size()));
-  if (kind == Kind::cut) return bytes.resize(at);
-  if (kind == Kind::flip) {
-    bytes[at] ^= static_cast<std::byte>(1 + random.below(255));
-    return;
-  }
-  const std::size_t count = std::min<std::size_t>(bytes.size() - at, std::size_t{1} << random.below(13));
-  std::fill_n(bytes.begin() + at, count, std::byte{0});
-}
+constexpr std::array damage_names = {"a byte flipped", "up to 4 KiB of zeros", "cut"};
 
 /// Amounts of data kept over many repairs.
 struct Count {
@@ -51,7 +36,7 @@ struct Count {
 class RepairOfChance : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder = new test::TemporaryFolder;
+    folder = new test::CommandFolder;
     make_run(folder->path("good.h5"));
     make_folder_of_run(folder->path("left.h5"), 0.7);
     const io::RunFile run = io::RunFile::open(folder->path("good.h5"));
@@ -88,7 +73,7 @@ class RepairOfChance : public testing::Test {
     EXPECT_TRUE(io::damaged_pieces(report.was_whole ? path : out).empty());
   }
 
-  static inline test::TemporaryFolder* folder = nullptr;
+  static inline test::CommandFolder* folder = nullptr;
   static inline std::map<std::int64_t, std::string> frame_of;  ///< digest by step
 };
 
@@ -96,7 +81,7 @@ TEST_F(RepairOfChance, of_a_packed_file) {
   const Bytes good = read_bytes(folder->path("good.h5"));
   const std::string bad = folder->path("bad.h5");
   Random random(40);
-  for (const Kind kind : kinds) {
+  for (const Damage kind : damages) {
     Count count;
     for (int k = 0; k < tries(8) && !HasFailure(); ++k) {
       Bytes bytes = good;
@@ -106,7 +91,7 @@ TEST_F(RepairOfChance, of_a_packed_file) {
       check_repair(bad, frame_of.size(), count);
     }
     count.print(std::string("packed file of ").append(std::to_string(good.size() / 1024)).append(" KiB, ") +
-                kind_names[static_cast<std::size_t>(kind)]);
+                damage_names[static_cast<std::size_t>(kind)]);
     EXPECT_GT(count.kept, count.frames / 4);
   }
 }
@@ -121,7 +106,7 @@ TEST_F(RepairOfChance, of_each_file_of_a_folder) {
     Count count;
     for (int k = 0; k < std::max(3, tries(0) / 10) && !HasFailure(); ++k) {
       Bytes bytes = whole;
-      damage(bytes, kinds[static_cast<std::size_t>(k) % kinds.size()], random);
+      damage(bytes, damages[static_cast<std::size_t>(k) % damages.size()], random);
       write_bytes(entry.path(), bytes);
       SCOPED_TRACE(entry.path().filename().string() + ", try " + std::to_string(k));
       check_repair(run, frames, count);

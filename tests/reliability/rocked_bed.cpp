@@ -1,14 +1,12 @@
 #include "reliability/rocked_bed.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/hash.h"
 #include "core/trigonometry.h"
-#include "dynamics/collapse.h"
+#include "dynamics/bed.h"
 #include "stress/free_surface.h"
-#include "stress/internal_moment.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::test {
 namespace {

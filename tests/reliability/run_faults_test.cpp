@@ -1,5 +1,6 @@
 /// Faults at any call of a complete run: committed data are kept, the message describes the fault, and
-/// --resume alone brings the run to the same end.
+/// --resume alone brings the run to the same end. For any failing allocation, a run reports it, crashes in
+/// HDF5, or does not need it, and can be resumed.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -20,13 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--quiet"};
+const Words command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--quiet"};
 
-std::vector<std::string> resumed() {
-  std::vector<std::string> words = command;
-  words.emplace_back("--resume");
-  return words;
-}
+Words resumed() { return command + Words{"--resume"}; }
 
 /// Returns the names in a folder, without those written by the test itself.
 std::set<std::string> files_in(const fs::path& folder) {
@@ -49,11 +46,9 @@ class RunFaults : public testing::Test {
   /// Runs the bed under a fault in a separate folder. The committed data must be consistent, never less than
   /// after an earlier fault, and must lead to the same end.
   Outcome strike(const std::string& fault) {
-    const TemporaryFolder folder;
-    write_file(folder, "bed.toml", tiny_bed);
-    std::vector<std::string> environment = with_fault(fault);
-    environment.push_back("TALUS_FAULT_COUNT=" + folder.path(".counts"));
-    const Outcome outcome = run_talus(command, folder.path(), environment);
+    const CommandFolder folder(tiny_bed);
+    Words environment = with_fault(fault) + Words{"TALUS_FAULT_COUNT=" + folder.path(".counts")};
+    const Outcome outcome = folder.talus(command, environment);
     struck_ = read_counts(folder.path(".counts")).struck;
     const std::string run = folder.path("run.h5");
     const int found = committed_frames(run);
@@ -66,9 +61,8 @@ class RunFaults : public testing::Test {
     return outcome;
   }
 
-  void finish_run(const TemporaryFolder& folder) {
-    const Outcome outcome = run_talus(resumed(), folder.path());
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  void finish_run(const CommandFolder& folder) {
+    EXPECT_TRUE(ends(folder.talus(resumed()), 0));
     EXPECT_EQ(digest(folder.path("run.h5")), reference_);
     EXPECT_EQ(files_in(folder.path()), (std::set<std::string>{"bed.toml", "run.h5"}));
   }
@@ -93,10 +87,8 @@ class RunFaults : public testing::Test {
       ++refused;
       EXPECT_TRUE(outcome.exit_code == 74 || outcome.exit_code == 66) << outcome.exit_code;
       EXPECT_EQ(outcome.err.find("talus: error: "), 0u) << outcome.err;
-      EXPECT_NE(outcome.err.find(std::strerror(errno_value)), std::string::npos) << outcome.err;
-      EXPECT_TRUE(outcome.err.find("run.h5") != std::string::npos ||
-                  outcome.err.find("bed.toml") != std::string::npos)
-          << outcome.err;
+      EXPECT_TRUE(has(outcome.err, std::strerror(errno_value)));
+      EXPECT_TRUE(has(outcome.err, "run.h5") || has(outcome.err, "bed.toml")) << outcome.err;
     }
     EXPECT_GT(refused, 5) << "no fault occurred, so nothing was tested";
     std::printf("%s %s: %d points ended with an error", kind.c_str(), std::strerror(errno_value), refused);
@@ -104,7 +96,7 @@ class RunFaults : public testing::Test {
     std::printf("\n");
   }
 
-  TemporaryFolder reference_folder_;
+  CommandFolder reference_folder_;
   Counts counts_;
   std::string struck_;  ///< call that failed last
   std::string reference_;
@@ -130,24 +122,9 @@ TEST_F(RunFaults, no_space_at_any_call_is_said) { strike_every_call("error", ENO
 TEST_F(RunFaults, a_disk_that_stays_full_is_said) { strike_every_call("lasting", ENOSPC); }
 
 TEST_F(RunFaults, clocks_that_jump_change_nothing) {
-  const TemporaryFolder folder;
-  write_file(folder, "bed.toml", tiny_bed);
-  ASSERT_EQ(run_talus(command, folder.path(), with_fault("clock")).exit_code, 0);
+  const CommandFolder folder(tiny_bed);
+  ASSERT_EQ(folder.talus(command, with_fault("clock")).exit_code, 0);
   EXPECT_EQ(digest(folder.path("run.h5")), reference_);
-}
-
-TEST_F(RunFaults, a_file_that_may_not_grow_is_an_error_and_not_a_signal) {
-  const TemporaryFolder folder;
-  write_file(folder, "bed.toml", tiny_bed);
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small = {16384, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  const Outcome outcome = run_talus(command, folder.path());
-  setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_EQ(outcome.exit_code, 74);
-  EXPECT_NE(outcome.err.find(std::strerror(EFBIG)), std::string::npos) << outcome.err;
-  finish_run(folder);
 }
 
 TEST_F(RunFaults, results_that_cannot_be_printed_are_an_error) {
@@ -158,55 +135,51 @@ TEST_F(RunFaults, results_that_cannot_be_printed_are_an_error) {
   EXPECT_EQ(WEXITSTATUS(status), 74);
 }
 
-TEST_F(RunFaults, without_ffmpeg_no_movie_is_left) {
-  const std::set<std::string> before = files_in(reference_folder_.path());
-  const Outcome outcome = run_talus({"animate", "run.h5", "--map", "pressure", "-o", "run.mp4"},
-                                    reference_folder_.path(), {"PATH=/nowhere"});
-  EXPECT_EQ(outcome.exit_code, 69);
-  EXPECT_NE(outcome.err.find("ffmpeg is not installed"), std::string::npos) << outcome.err;
-  EXPECT_EQ(files_in(reference_folder_.path()), before);
-}
-
-TEST_F(RunFaults, on_a_full_disk_it_waits_for_room) {
-  const TemporaryFolder folder;
-  const SmallDisk disk(folder.path() / "disk");
-  if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
-  write_file(folder, "bed.toml", tiny_bed);
-  const auto on_disk = [](std::vector<std::string> words) {
-    words[3] = "disk/run.h5";
-    return words;
-  };
-  const std::string run = folder.path("disk/run.h5");
-  const int sizes = 20;
-  int full = 0;
-  for (int k = 0; k < sizes; k += stride(sizes, 3)) {
-    const int kib = 40 + 24 * k;
-    SCOPED_TRACE(std::to_string(kib) + " KiB");
-    ASSERT_TRUE(disk.resize(kib));
-    const Outcome outcome = run_talus(on_disk(command), folder.path());
-    EXPECT_EQ(outcome.exit_code, 74) << outcome.err;
-    if (outcome.exit_code == 74) ++full;
-    EXPECT_NE(outcome.err.find(std::strerror(ENOSPC)), std::string::npos) << outcome.err;
-    const int frames = committed_frames(run);
-    ASSERT_TRUE(disk.resize(16384));
-    const Outcome after = run_talus(on_disk(resumed()), folder.path());
-    EXPECT_EQ(after.exit_code, 0) << after.err;
-    EXPECT_EQ(digest(run), reference_) << "after " << frames << " frames";
-    fs::remove(run);
-  }
-  std::printf("full at %d sizes\n", full);
-}
-
 TEST_F(RunFaults, a_folder_that_may_not_be_written_is_said) {
-  const TemporaryFolder folder;
+  const CommandFolder folder;
   const SmallDisk disk(folder.path() / "disk");
   if (!disk.is_mounted()) GTEST_SKIP() << "needs root, to mount a small file system";
   ASSERT_TRUE(disk.forbid_writing());
   write_file(folder, "bed.toml", tiny_bed);
-  const Outcome outcome = run_talus({"run", "bed.toml", "-o", "disk/run.h5"}, folder.path());
+  const Outcome outcome = folder.talus({"run", "bed.toml", "-o", "disk/run.h5"});
   EXPECT_EQ(outcome.exit_code, 73);
   EXPECT_EQ(outcome.err, "talus: error: disk/run.h5.run: cannot create the folder: Read-only file system\n");
 }
+
+/// A bed reduced to its last steps: a start, some steps, commits, and the end.
+const char* const short_bed =
+    "seed = 5\n[bed]\nlength = 10\ndepth = 2\n[deposition]\nrest_velocity = 0.1\n"
+    "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 0.1\n[output]\nframe_every = 0.06\nobservable_every = "
+    "0.02\n";
+
+/// Fails one allocation after the other, each in a separate run.
+void fail_every_allocation(const std::string& kind) {
+  const CommandFolder folder(short_bed);
+  const int allocations = count_calls(command, folder).allocations;
+  ASSERT_GT(allocations, 1000);
+  const std::string reference = digest(folder.path("run.h5"));
+  int tried = 0, reported = 0, crashed = 0;
+  for (int number = 1; number <= allocations; number += stride(allocations, 12)) {
+    SCOPED_TRACE(kind + " " + std::to_string(number));
+    std::filesystem::remove(folder.path("run.h5"));
+    const Outcome outcome = folder.talus(command, with_fault(kind + " " + std::to_string(number)));
+    // HDF5 may crash after a failed allocation of its own.
+    EXPECT_TRUE(outcome.exit_code == 71 || outcome.exit_code == 0 || outcome.exit_code == -1)
+        << outcome.exit_code << " " << outcome.err;
+    ++tried;
+    reported += outcome.exit_code == 71;
+    crashed += outcome.exit_code == -1;
+    Words resumed = command + Words{"--resume"};
+    EXPECT_TRUE(ends(folder.talus(resumed), 0));
+    EXPECT_EQ(digest(folder.path("run.h5")), reference);
+  }
+  EXPECT_GT(reported, 3) << "no fault occurred, so nothing was tested";
+  std::printf("%s: %d allocations, %d tried: %d reported, %d crashed, %d harmless\n", kind.c_str(),
+              allocations, tried, reported, crashed, tried - reported - crashed);
+}
+
+TEST(RunMemory, one_allocation_that_fails_is_told) { fail_every_allocation("memory"); }
+TEST(RunMemory, all_allocations_from_one_on_are_told) { fail_every_allocation("no-memory"); }
 
 }  // namespace
 }  // namespace talus::test

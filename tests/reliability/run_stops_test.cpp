@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <future>
@@ -18,53 +17,36 @@ namespace talus::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 void pause(int milliseconds) { std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds)); }
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Waits until `holds()`; returns false after half a minute.
-template <typename Condition>
-bool wait_for_condition(const Condition& holds) {
-  for (int wait = 0; wait < 6000; ++wait, pause(5))
-    if (holds()) return true;
-  return false;
-}
 
 bool is_running(pid_t process) { return waitpid(process, nullptr, WNOHANG) == 0; }
 
 /// A bed, its undisturbed run, and a place for disturbed runs.
-class RunStops : public testing::Test {
+class RunStops : public CommandTest {
  protected:
   RunStops() {
-    write_file(folder_, "bed.toml", small_bed);
+    write_file(folder_, "bed.toml", short_bed);
     const Clock::time_point start = Clock::now();
-    EXPECT_EQ(run_talus({"run", "bed.toml", "-o", "whole.h5", "--threads", "1"}, folder_.path()).exit_code,
-              0);
+    EXPECT_EQ(folder_.talus({"run", "bed.toml", "-o", "whole.h5", "--threads", "1"}).exit_code, 0);
     milliseconds_ = static_cast<int>(1000.0 * seconds_since(start));
     whole_ = digest(folder_.path("whole.h5"));
   }
 
   pid_t start_or_resume() const {
-    return start_talus({"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--resume"}, folder_.path());
+    return folder_.start({"run", "bed.toml", "-o", "run.h5", "--threads", "1", "--resume"});
   }
 
   /// Completes the run by its name alone, if it exists, and removes it.
   void finish() {
-    std::vector<std::string> command = {"run", "--resume", "run.h5", "--threads", "1"};
+    Words command = {"run", "--resume", "run.h5", "--threads", "1"};
     if (io::run_presence(run_) == io::RunPresence::none)
       command = {"run", "bed.toml", "-o", "run.h5", "--resume"};
-    const Outcome outcome = run_talus(command, folder_.path());
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(ends(folder_.talus(command), 0));
     EXPECT_EQ(digest(run_), whole_);
     EXPECT_FALSE(fs::exists(run_ + ".run"));
     fs::remove(run_);
   }
-
-  TemporaryFolder folder_;
   const std::string run_ = folder_.path("run.h5");
   std::string whole_;
   int milliseconds_ = 0;  ///< duration of the run
@@ -80,7 +62,7 @@ TEST_F(RunStops, ended_one_to_five_times_it_has_the_same_bits) {
     for (int end = 0; end < most; ++end) {
       const pid_t process = start_or_resume();
       if (end == 0)  // leaves something to resume at least once on a slow machine
-        EXPECT_TRUE(wait_for_condition([this] { return io::run_presence(run_) != io::RunPresence::none; }));
+        EXPECT_TRUE(wait_until([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       else
         pause(dice_.below(milliseconds_ / 2));
       kill(process, signals[dice_.below(3)]);
@@ -128,7 +110,7 @@ TEST_F(RunStops, told_to_stop_it_leaves_a_checkpoint) {
     const pid_t process = start_or_resume();
     // It handles signals before it takes its lock, which names its process.
     const std::string holder = "process " + std::to_string(process) + " ";
-    EXPECT_TRUE(wait_for_condition([&] {
+    EXPECT_TRUE(wait_until([&] {
       return text_of(run_ + ".run/lock").starts_with(holder) ||
              io::run_presence(run_) == io::RunPresence::packed;
     }));
@@ -154,21 +136,19 @@ const char* const endless_step =
     "initial_solid_fraction = 0.7\n";
 const char* const long_deposition = "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 86400\n";
 
-class LongRun : public testing::Test {
+class LongRun : public CommandTest {
  protected:
   /// Starts the bed, and returns once the run exists.
   pid_t start(const char* bed) {
     write_file(folder_, "bed.toml", bed);
-    const pid_t process = start_talus({"run", "bed.toml", "-o", "run.h5"}, folder_.path());
-    EXPECT_TRUE(wait_for_condition([this] { return fs::exists(manifest_); }));
+    const pid_t process = folder_.start({"run", "bed.toml", "-o", "run.h5"});
+    EXPECT_TRUE(wait_until([this] { return fs::exists(manifest_); }));
     return process;
   }
   void end(pid_t process) {
     kill(process, SIGKILL);
     wait_for(process);
   }
-
-  TemporaryFolder folder_;
   const std::string run_ = folder_.path("run.h5");
   const std::string manifest_ = run_ + ".run/manifest";
 };
@@ -198,7 +178,7 @@ TEST_F(LongRun, takes_a_checkpoint_when_asked_and_goes_on) {
   const std::string before = text_of(manifest_);
   ASSERT_EQ(io::RunFile::open(run_).checkpoint().world.step, 0);
   kill(process, SIGUSR1);
-  EXPECT_TRUE(wait_for_condition([&] { return text_of(manifest_) != before; }));
+  EXPECT_TRUE(wait_until([&] { return text_of(manifest_) != before; }));
   EXPECT_TRUE(is_running(process));
   const io::RunFile run = io::RunFile::open(run_);
   EXPECT_GT(run.checkpoint().world.step, 0);
@@ -206,28 +186,16 @@ TEST_F(LongRun, takes_a_checkpoint_when_asked_and_goes_on) {
   end(process);
 }
 
-TEST_F(LongRun, ends_with_a_checkpoint_before_its_time_is_over) {
-  write_file(folder_, "bed.toml", long_deposition);
-  const Clock::time_point start = Clock::now();
-  const Outcome outcome =
-      run_talus({"run", "bed.toml", "-o", "run.h5", "--max-wall", "00:00:01", "--quiet"}, folder_.path());
-  std::printf("--max-wall 00:00:01 took %.3f s\n", seconds_since(start));
-  EXPECT_EQ(outcome.exit_code, 75);
-  EXPECT_NE(outcome.err.find("for --max-wall; talus run --resume run.h5 continues.\n"), std::string::npos)
-      << outcome.err;
-  EXPECT_GT(io::RunFile::open(run_).checkpoint().world.step, 0);
-}
-
 TEST_F(LongRun, says_that_its_folder_is_gone) {
   write_file(folder_, "bed.toml", "[bed]\nlength = 50\ndepth = 20\n[output]\ncheckpoint_every = 0\n");
   std::future<Outcome> running = std::async(std::launch::async, [this] {
-    return run_talus({"run", "bed.toml", "-o", "run.h5", "--quiet"}, folder_.path());
+    return folder_.talus({"run", "bed.toml", "-o", "run.h5", "--quiet"});
   });
-  ASSERT_TRUE(wait_for_condition([this] { return fs::exists(manifest_); }));
+  ASSERT_TRUE(wait_until([this] { return fs::exists(manifest_); }));
   fs::rename(run_ + ".run", run_ + ".moved.run");
   const Outcome outcome = running.get();
   EXPECT_TRUE(outcome.exit_code == 73 || outcome.exit_code == 74) << outcome.exit_code;
-  EXPECT_NE(outcome.err.find("run.h5.run"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "run.h5.run"));
   EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
   EXPECT_FALSE(fs::exists(run_ + ".run"));
   EXPECT_GE(io::RunFile::open(folder_.path("run.h5.moved")).checkpoint().world.step, 0);
@@ -238,15 +206,15 @@ TEST_F(RunStops, of_two_writers_one_runs) {
   double longest = 0.0;
   for (int k = 0; k < races; ++k) {
     SCOPED_TRACE("race " + std::to_string(k));
-    std::vector<std::string> command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1"};
+    Words command = {"run", "bed.toml", "-o", "run.h5", "--threads", "1"};
     if (k % 2 == 1) {  // after a run that was killed and left its lock
-      const pid_t killed = start_talus(command, folder_.path());
-      EXPECT_TRUE(wait_for_condition([this] { return io::run_presence(run_) != io::RunPresence::none; }));
+      const pid_t killed = folder_.start(command);
+      EXPECT_TRUE(wait_until([this] { return io::run_presence(run_) != io::RunPresence::none; }));
       kill(killed, SIGKILL);
       wait_for(killed);
       command.emplace_back("--resume");
     }
-    for (int racer = 0; racer < 2; ++racer) start_talus(command, folder_.path());
+    for (int racer = 0; racer < 2; ++racer) folder_.start(command);
     const Clock::time_point start = Clock::now();
     std::multiset<int> codes;
     for (int racer = 0; racer < 2; ++racer) {

@@ -1,4 +1,5 @@
-/// Faults at any call: committed data are kept, and the run can be brought to the same end.
+/// Faults at any call: committed data are kept, and the run can be brought to the same end. While an analysis
+/// is stored, the file still holds the run, and the old or the new analysis.
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -10,7 +11,7 @@
 #include <optional>
 
 #include "base/errors.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "io/run_file.h"
 #include "reliability/faults.h"
 #include "unit/io/example_analysis.h"
@@ -62,26 +63,36 @@ void compute(const std::string& path, bool again, ChildReport& reported) {
   attempt([&] { store->pack(); });
 }
 
-/// Computes the run in a child process under a fault, and returns the exit code of the child.
-int compute_under(const faults::Fault& fault, bool again, const std::string& path, ChildReport& reported) {
-  reported = {};
+/// Performs an action in a child process under a fault. Returns the exit code of the child, which is that of
+/// the action or of its error; `calls` receives the number of its calls.
+template <typename Action>
+int code_under(const faults::Fault& fault, const Action& action, int* calls = nullptr) {
   const pid_t child = fork();
   if (child == 0) {
     int code = defect;
     try {
       faults::arm(fault);
-      compute(path, again, reported);
-      code = 0;
+      code = action();
     } catch (const Error& error) {
       code = static_cast<int>(error.code());
     } catch (...) {
     }
-    reported.calls = faults::calls();
+    if (calls != nullptr) *calls = faults::calls();
     _exit(code);
   }
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+/// Computes the run in a child process under a fault, and returns the exit code of the child.
+int compute_under(const faults::Fault& fault, bool again, const std::string& path, ChildReport& reported) {
+  reported = {};
+  const auto action = [&] {
+    compute(path, again, reported);
+    return 0;
+  };
+  return code_under(fault, action, &reported.calls);
 }
 
 /// Opens the remains after a fault, and returns how many commits they hold, all of them intact.
@@ -117,7 +128,7 @@ class StoreFaults : public testing::Test {
  protected:
   StoreFaults() {
     example::store_with_commits(folder_.path("reference.h5"), commits).pack();
-    reference_ = example::file_text(folder_.path("reference.h5"));
+    reference_ = test::text_of(folder_.path("reference.h5"));
     EXPECT_EQ(compute_under({}, false, folder_.path("counted.h5"), *shared_.reported), 0);
     calls_ = shared_.reported->calls;
     EXPECT_GT(calls_, 60);
@@ -134,7 +145,7 @@ class StoreFaults : public testing::Test {
       EXPECT_GE(found, acknowledged) << "lost";
       EXPECT_LE(found, acknowledged + 1);
       finish_run(path, found);
-      EXPECT_TRUE(example::file_text(path) == reference_) << "the end differs";
+      EXPECT_TRUE(test::text_of(path) == reference_) << "the end differs";
     }
   }
 
@@ -160,7 +171,7 @@ void begin_old_run(const std::string& path, bool is_whole) {
 bool finds_new_run(const std::string& path, const std::string& old, const std::string& reference) {
   EXPECT_NE(io::run_presence(path), io::RunPresence::none) << "neither is found";
   if (io::run_presence(path) == io::RunPresence::none) return false;
-  const std::string file = std::filesystem::exists(path) ? example::file_text(path) : "";
+  const std::string file = std::filesystem::exists(path) ? test::text_of(path) : "";
   const io::RunFile run = io::RunFile::open(path);
   EXPECT_TRUE(file == old || file == reference);
   EXPECT_EQ(run.complete(),
@@ -176,7 +187,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
  protected:
   ReplacedRun() {
     begin_old_run(old_path_, is_whole_);
-    if (is_whole_) old_ = example::file_text(old_path_);
+    if (is_whole_) old_ = test::text_of(old_path_);
     restore_old_run();
     EXPECT_EQ(compute_under({}, false, path_, *shared_.reported), 0);
     all_ = *shared_.reported;
@@ -201,7 +212,7 @@ class ReplacedRun : public StoreFaults, public testing::WithParamInterface<bool>
       finish_run(path_, commits_in(path_));
     else
       compute(path_, false, reported);
-    EXPECT_TRUE(example::file_text(path_) == reference_) << "the end differs";
+    EXPECT_TRUE(test::text_of(path_) == reference_) << "the end differs";
   }
 
   bool is_whole_ = GetParam();
@@ -398,6 +409,51 @@ TEST_F(TakenOver, when_it_packs_it_leaves_the_run_of_its_successor_whole) {
   begin_old_run(old_path_, true);
   replaces_ = true;
   visit_every_call([] { return begun(1); }, [](std::optional<io::RunStore>& store) { store->pack(); });
+}
+
+constexpr int calls_at_most = 60;  // limit for one store_analysis; the tests check that it takes fewer
+constexpr int done = 0;
+
+/// Stores an analysis in a child process under a fault, and returns the exit code of the child.
+int store_under(const faults::Fault& fault, const std::string& path) {
+  return code_under(fault, [&] {
+    io::store_analysis(path, example::analysis(2, 2), example::analysed_state());
+    return faults::calls() < calls_at_most ? done : defect;
+  });
+}
+
+/// Injects a fault at every call in turn while the second analysis of a file replaces the first.
+void strike_every_call(faults::Fault fault, const std::vector<int>& allowed_codes) {
+  const example::TemporaryFolder folder;
+  const std::string path = folder.path("run.h5");
+  example::store_with_commits(path, example::analysis_commits).pack();
+  io::store_analysis(path, example::analysis(2, 1), example::analysed_state());
+  const std::string before = test::text_of(path);
+  ASSERT_EQ(store_under({}, path), done);
+  const std::string after = test::text_of(path);
+  ASSERT_TRUE(before != after);
+  int kept = 0;
+  for (fault.call = 1; fault.call < calls_at_most; ++fault.call) {
+    SCOPED_TRACE("call " + std::to_string(fault.call));
+    example::write_text(path, before);
+    const int code = store_under(fault, path);
+    EXPECT_TRUE(std::ranges::count(allowed_codes, code) == 1) << "exit code " << code;
+    const std::string found = test::text_of(path);
+    EXPECT_TRUE(found == before || found == after) << "neither the old nor the new analysis";
+    EXPECT_TRUE(code != done || found == after) << "reported as stored";
+    kept += found == before ? 1 : 0;
+  }
+  EXPECT_GT(kept, 5) << "no fault occurred, so nothing was tested";
+}
+
+TEST(AnalysisFaults, kill_at_every_call) {
+  strike_every_call({.kind = faults::Kind::kill}, {done, faults::killed});
+}
+
+TEST(AnalysisFaults, full_disk_from_every_call_on) {
+  strike_every_call({.kind = faults::Kind::error, .errno_value = ENOSPC, .lasting = true},
+                    {done, static_cast<int>(ExitCode::io_error), static_cast<int>(ExitCode::missing_input),
+                     static_cast<int>(ExitCode::bad_data)});
 }
 
 }  // namespace

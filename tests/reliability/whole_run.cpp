@@ -49,7 +49,7 @@ const char* const tiny_bed =
     "seed = 5\n[bed]\nlength = 10\ndepth = 3\n[deposition]\nrest_velocity = 0.1\n"
     "[tilt]\nrate = 20\nstep = 0.02\nend_angle = 3.5\n[output]\nframe_every = 0.5\nobservable_every = 0.1\n";
 
-const char* const small_bed =
+const char* const short_bed =
     "seed = 3\n[bed]\nlength = 16\ndepth = 6\n[tilt]\nend_angle = 3.0\n[output]\nframe_every = 0.25\n"
     "checkpoint_every = 0.05\n";
 
@@ -82,12 +82,12 @@ int committed_frames(const std::string& path) {
   return static_cast<int>(run.all_frame_tilts().size());
 }
 
-std::vector<std::string> with_fault(const std::string& fault) {
+Words with_fault(const std::string& fault) {
   return {"LD_PRELOAD=" + faults_library(), "TALUS_FAULT=" + fault};
 }
 
-Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFolder& folder) {
-  std::vector<std::string> environment = with_fault("none");
+Counts count_calls(const Words& arguments, const TemporaryFolder& folder) {
+  Words environment = with_fault("none");
   const std::string path = folder.path("counts.txt");
   environment.push_back("TALUS_FAULT_COUNT=" + path);
   Counts counts;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/snapshot.h"
-#include "support/process.h"
+#include "support/commands.h"
 
 namespace talus::test {
 
@@ -19,7 +19,7 @@ int stride(int count, int few);
 /// Bed of 30 grains with 8 frames, computed in a tenth of a second.
 extern const char* const tiny_bed;
 /// Bed of 96 grains with 13 frames, which takes about a second.
-extern const char* const small_bed;
+extern const char* const short_bed;
 
 /// Returns a digest of everything in a run except its provenance and its times: frames with contacts,
 /// observables, steps, commands, results, final state. Equal for equal bits. `complete` in its last
@@ -34,7 +34,7 @@ std::string frame_digest(const Frame& frame);
 int committed_frames(const std::string& run);
 
 /// Returns the environment that injects a fault (preload.cpp).
-std::vector<std::string> with_fault(const std::string& fault);
+Words with_fault(const std::string& fault);
 
 /// Numbers of system calls and of allocations of a command.
 struct Counts {
@@ -43,9 +43,17 @@ struct Counts {
   std::string struck;  ///< call that a fault made fail, and its path; empty if there was none
 };
 /// Counts those of a command without a fault.
-Counts count_calls(const std::vector<std::string>& arguments, const TemporaryFolder& folder);
+Counts count_calls(const Words& arguments, const TemporaryFolder& folder);
 /// Reads the file named by TALUS_FAULT_COUNT.
 Counts read_counts(const std::string& path);
+
+/// Expects that nothing that a command prints controls the terminal.
+inline void expect_no_controls(const Outcome& outcome) {
+  for (const std::string& text : {outcome.out, outcome.err}) {
+    EXPECT_EQ(text.find_first_of("\x1b\a\r\x7f\xff"), std::string::npos) << text;
+    EXPECT_FALSE(has(text, "\xc2\x9b"));
+  }
+}
 
 /// Reproducible sequence of numbers in 0 ... bound - 1.
 class Dice {

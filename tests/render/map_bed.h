@@ -43,6 +43,15 @@ inline pictures::MapSettings settings_of(const std::string& layers) {
   return settings;
 }
 
+/// Returns these settings in gray, with a range.
+inline pictures::MapSettings in_gray(const std::string& layers, double low, double high) {
+  pictures::MapSettings settings = settings_of(layers);
+  settings.colours = render::ColourMap::gray;
+  settings.range_low = low;
+  settings.range_high = high;
+  return settings;
+}
+
 /// Returns the shade in the map of gamma (paper, Fig. 10): 0 is white, up to 0.05 and if a grain carries
 /// nothing; 1 is black, from 2 gamma_c on; linear between.
 inline double gamma_shade(double gamma, double gamma_c) {

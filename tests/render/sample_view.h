@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/colour_map.h"
+#include "render/colour.h"
 #include "render/frame_view.h"
 
 namespace talus::test {

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "pictures/cluster_colours.h"
-#include "pictures/overload_rule.h"
 #include "render/map_bed.h"
 
 namespace talus::render {
@@ -84,7 +83,7 @@ TEST(ClusterColours, SmallClustersHaveNoneUntilTheyGrow) {
 TEST(ClusterColours, ANewClusterTakesTheColourThatTheFewestGrainsWear) {
   pictures::ClusterColours colours;
   std::string letters;
-  const auto palette = static_cast<int>(pictures::cluster_palette().size());
+  const auto palette = static_cast<int>(pictures::cluster_palette().size()) - 1;  // without the spanning one
   for (int k = 0; k < palette; ++k) letters += times(10 + k, static_cast<char>('a' + k));
   const auto first = colours.next(clusters_of(letters));
   std::set<int> used;
@@ -136,7 +135,8 @@ TEST(ClusterPalette, OfContrastIsToldApartInGrayPrint) {
 }
 
 /// Returns a column of three overloaded grains from floor to surface with a force between them, twelve more
-/// in a row at the bottom, joined by forces, and three grains next to it that are not overloaded.
+/// in a row at the bottom, joined by forces, three grains next to it that are not overloaded, and some above
+/// the row, so that it does not reach the surface.
 Packing bed_with_clusters() {
   Packing packing = test::empty_packing(20.0, false);
   for (int k = 0; k < 12; ++k) test::add_grain(packing, 4.5 + k, 0.5);
@@ -144,58 +144,60 @@ Packing bed_with_clusters() {
   for (int k = 0; k < 3; ++k) test::add_grain(packing, 18.5, 0.5 + k);
   for (Index i = 0; i < 11; ++i) test::add_contact(packing, i, i + 1, 1.0);
   for (Index i : {12, 13}) test::add_contact(packing, i, i + 1, 1.0);
+  test::add_grain(packing, 10.0, 3.0);
+  for (int k = 0; k < 14; ++k) test::add_grain(packing, 4.0 + k, 3.0);
   packing.frame.gamma.assign(15, 0.9);
-  packing.frame.gamma.resize(18, 0.1);
+  packing.frame.gamma.resize(packing.frame.x.size(), 0.1);
   test::complete(packing);
   return packing;
 }
 
 TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
-  Packing packing = bed_with_clusters();
-  test::add_grain(packing, 10.0, 3.0);  // above the row, so that the row does not reach the surface
-  for (int k = 0; k < 14; ++k) test::add_grain(packing, 4.0 + k, 3.0);
-  packing.frame.gamma.resize(packing.frame.x.size(), 0.1);
-  test::complete(packing);
-  const FrameView view = map_of(packing, "clusters");
+  const FrameView view = map_of(bed_with_clusters(), "clusters");
   const std::vector<Colour> palette = pictures::cluster_palette();
-  EXPECT_EQ(view.discs[0].fill, palette[0]);
+  EXPECT_EQ(view.discs[0].fill, palette[1]);
   EXPECT_NE(view.discs[0].rim, black);
-  EXPECT_EQ(view.discs[12].fill, gray(0.4)) << "three grains have no colour";
-  EXPECT_EQ(view.discs[12].rim, black) << "but they span";
+  EXPECT_EQ(view.discs[12].fill, palette[0]) << "three grains have no colour of their own, but they span";
+  EXPECT_EQ(view.discs[12].rim, black);
   EXPECT_EQ(view.discs[15].fill, white);
-  EXPECT_EQ(view.title, "2 clusters, single grains; the largest has 80 % of the overloaded grains");
-  EXPECT_EQ(view.legends[0].swatches[0].label, "spans floor to surface");
-  EXPECT_EQ(view.legends[0].swatches[0].fill, gray(0.4));
+  EXPECT_EQ(view.title, "Overloaded grains, single grains, 2 clusters, largest 80 %");
+  EXPECT_EQ(view.legends[0].swatches[0].label, "spans the bed");
+  EXPECT_EQ(view.legends[0].swatches[0].fill, palette[0]);
 }
 
-TEST(ClustersMap, SaysNothingOfSpanningWhereNoClusterSpans) {
+TEST(ClustersMap, HasTheSameLegendWhichever) {
   Packing packing = bed_with_clusters();
+  const std::vector<Swatch> with = map_of(packing, "clusters").legends[0].swatches;
   packing.frame.gamma.assign(packing.frame.gamma.size(), 0.1);
   const FrameView view = map_of(packing, "clusters");
-  EXPECT_EQ(view.title, "No clusters of overloaded grains, single grains");
-  for (const Swatch& swatch : view.legends[0].swatches)
-    EXPECT_EQ(swatch.label.find("spans"), std::string::npos) << swatch.label;
+  EXPECT_EQ(view.title, "Overloaded grains, single grains, no cluster");
+  ASSERT_EQ(view.legends[0].swatches.size(), with.size()) << "entries keep their places in a movie";
+  for (std::size_t k = 0; k < with.size(); ++k) EXPECT_EQ(view.legends[0].swatches[k].label, with[k].label);
 }
 
 TEST(ClustersMap, TakesTheColoursThatAreGiven) {
   const Packing packing = bed_with_clusters();
-  const std::vector<pictures::ClusterColour> colours = {{7, 5}, {8, -1}};
-  const FrameView view = pictures::make_map({{packing.frame, packing.statics}, nullptr, true, colours},
-                                            settings_of("clusters"), test::extent_of(packing));
-  EXPECT_EQ(view.discs[0].fill, pictures::cluster_palette()[5]);
-  EXPECT_EQ(view.discs[12].fill, gray(0.4));
+  pictures::SeenFrames seen;
+  seen.rule = settings_of("clusters");
+  seen.instants = {{packing.frame.step}};
+  seen.cluster_colours = {{{7, 5}, {8, -1}}};
+  const FrameView view = pictures::make_map({{packing.frame, packing.statics}}, settings_of("clusters"),
+                                            test::extent_of(packing), &seen);
+  EXPECT_EQ(view.discs[0].fill, pictures::cluster_palette()[6]);
+  EXPECT_EQ(view.discs[12].fill, pictures::cluster_palette()[0]) << "it spans, whatever it had before";
 }
 
-TEST(ClustersMap, OfAnotherPaletteRepeatsItAndMarksDarkClustersByALightRim) {
+TEST(ClustersMap, OfAnotherPaletteRepeatsAllButTheColourOfSpanningClusters) {
   const Packing packing = bed_with_clusters();
-  const std::vector<pictures::ClusterColour> colours = {{7, 6}, {8, -1}};
+  pictures::SeenFrames seen;
+  seen.rule = settings_of("clusters");
+  seen.instants = {{packing.frame.step}};
+  seen.cluster_colours = {{{7, 4}, {8, -1}}};
   pictures::MapSettings settings = settings_of("clusters");
   settings.palette = pictures::ClusterPalette::contrast;
-  const FrameView view = pictures::make_map({{packing.frame, packing.statics}, nullptr, true, colours},
-                                            settings, test::extent_of(packing));
-  const Colour dark = pictures::cluster_palette(settings.palette).at(1);
-  EXPECT_EQ(view.discs[0].fill, dark);
-  EXPECT_GT(luma(view.discs[0].rim), luma(dark) + 100.0) << "the row spans";
+  const FrameView view =
+      pictures::make_map({{packing.frame, packing.statics}}, settings, test::extent_of(packing), &seen);
+  EXPECT_EQ(view.discs[0].fill, pictures::cluster_palette(settings.palette).at(1));
 }
 
 TEST(OverloadedClusters, AreJoinedByForcesOrByNeighbours) {

@@ -5,6 +5,7 @@
 #include "base/errors.h"
 #include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
+#include "support/exit_code.h"
 
 namespace talus::render {
 namespace {
@@ -42,12 +43,7 @@ TEST(FrameChoice, TheNearestIsByTilt) {
 
 TEST(FrameChoice, RefusesWhatIsNotThere) {
   const auto code = [](const std::string& entry, double theta_c) {
-    try {
-      pictures::frames_at(run_tilts(), {entry}, theta_c);
-    } catch (const Error& error) {
-      return error.code();
-    }
-    return ExitCode::done;
+    return test::exit_code_of([&] { pictures::frames_at(run_tilts(), {entry}, theta_c); });
   };
   EXPECT_EQ(code("17.3", nan), ExitCode::done);
   EXPECT_EQ(code("18", nan), ExitCode::bad_data);
@@ -57,22 +53,23 @@ TEST(FrameChoice, RefusesWhatIsNotThere) {
     EXPECT_EQ(code(entry, nan), ExitCode::usage);
 }
 
-TEST(FrameChoice, TakesFramesByTheirNumbers) {
-  EXPECT_EQ(pictures::frames_listed({"7", "2-4", "3"}, 8), (pictures::FrameChoice{2, 3, 4, 7}));
-  EXPECT_EQ(pictures::frames_listed({"0"}, 1), pictures::FrameChoice{0});
-  for (const char* entry : {"", "-1", "1-", "4-2", "1.5", "1-2-3", " 1", "a", "99999999999999999999"}) try {
-      pictures::frames_listed({entry}, 8);
-      ADD_FAILURE() << entry;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage) << entry;
-    }
-  try {
-    pictures::frames_listed({"6-8"}, 8);
-    ADD_FAILURE() << "there is no frame 8";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_STREQ(error.what(), "--frames 6-8: the run has 8 frames, 0 to 7; there is no frame 8");
-  }
+TEST(FrameChoice, TakesRangesOfFrames) {
+  const std::vector<double> tilts(4, 0.0);  // and four frames of a flow
+  EXPECT_EQ(pictures::frames_at(tilts, {"frame7", "frame2-frame4", "frame3"}, nan, 8),
+            (pictures::FrameChoice{2, 3, 4, 7}));
+  EXPECT_EQ(pictures::frames_at({0.0}, {"frame0-frame0"}, nan), pictures::FrameChoice{0});
+  for (const char* entry : {"frame1-", "-frame1", "frame4-frame2", "frame1-2", "1-2", "frame1-frame2-frame3",
+                            "frame1 - frame2", "frame99999999999999999999"})
+    EXPECT_TRUE(test::refuses([&] { pictures::frames_at(tilts, {entry}, nan, 8); }, ExitCode::usage))
+        << entry;
+  EXPECT_EQ(
+      test::refusal_of([&] { pictures::frames_at(tilts, {"frame6-frame8"}, nan, 8); }),
+      (test::Refusal{ExitCode::bad_data, "--at frame6-frame8: the run has 8 frames, frame0 to frame7"}));
+  EXPECT_EQ(pictures::single_frame({3}, "frame3-frame3"), 3u);
+  EXPECT_EQ(test::refusal_of([&] {
+              pictures::single_frame({3, 4}, "frame3-frame4");
+            }),
+            (test::Refusal{ExitCode::usage, "--at frame3-frame4: expected one frame, found 2"}));
 }
 
 TEST(FrameChoice, ReposeIsTheLastFrameNotAboveThetaC) {
@@ -122,19 +119,12 @@ TEST(FrameChoice, WhereTheTiltGoesUpAndDownTheFirstFrameAtAnAngleCounts) {
 TEST(FrameChoice, AFrameMayBeTakenByItsNumber) {
   EXPECT_EQ(pictures::frames_at(cycled_tilts(), {"frame16", "1", "frame0"}, nan),
             (pictures::FrameChoice{0, 2, 16}));
-  for (const char* entry : {"frame", "frame-1", "frame1.5", "Frame1", "frame 1"}) try {
-      pictures::frames_at(cycled_tilts(), {entry}, nan);
-      ADD_FAILURE() << entry;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage) << entry;
-    }
-  try {
-    pictures::frames_at(cycled_tilts(), {"frame21"}, nan);
-    ADD_FAILURE() << "there is no frame 21";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_STREQ(error.what(), "--at frame21: the tilt of the run has 21 frames, frame0 to frame20");
-  }
+  for (const char* entry : {"frame", "frame-1", "frame1.5", "Frame1", "frame 1"})
+    EXPECT_TRUE(test::refuses([&] { pictures::frames_at(cycled_tilts(), {entry}, nan); }, ExitCode::usage))
+        << entry;
+  EXPECT_EQ(test::refusal_of([&] { pictures::frames_at(cycled_tilts(), {"frame21"}, nan); }),
+            (test::Refusal{ExitCode::bad_data,
+                           "--at frame21: the tilt of the run has 21 frames, frame0 to frame20"}));
 }
 
 TEST(FrameChoice, ReposeIsInTheLastRise) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "base/errors.h"
 #include "render/map_bed.h"
@@ -12,18 +11,11 @@
 namespace talus::render {
 namespace {
 
+using test::in_gray;
 using test::map_of;
 using test::Packing;
 using test::row_of_grains;
 using test::settings_of;
-
-pictures::MapSettings in_gray(const std::string& layers, double low, double high) {
-  pictures::MapSettings settings = settings_of(layers);
-  settings.colours = ColourMap::gray;
-  settings.range_low = low;
-  settings.range_high = high;
-  return settings;
-}
 
 /// Expects a shade from 0 (white) to 1 (black), within one of 255 steps.
 testing::AssertionResult is_shade(const Colour& fill, double shade) {
@@ -74,9 +66,9 @@ Packing two_columns() {
 
 TEST(DyedMap, GrainsKeepTheColoursOfTheirLayerAndColumn) {
   Packing packing = two_columns();
-  std::vector<Vec2> begin;
+  pictures::SeenFrames seen;
   for (std::size_t i = 0; i < packing.frame.x.size(); ++i)
-    begin.push_back({packing.frame.x[i], packing.frame.y[i]});
+    seen.begin.push_back({packing.frame.x[i], packing.frame.y[i]});
   const FrameView before = map_of(packing, "dyed");
   EXPECT_EQ(before.discs[0].fill, viridis(0.5 / 8.0));
   EXPECT_EQ(before.discs[2].fill, before.discs[0].fill) << "three grains in each of eight layers";
@@ -85,12 +77,11 @@ TEST(DyedMap, GrainsKeepTheColoursOfTheirLayerAndColumn) {
   EXPECT_LT(luma(before.discs[24].fill), luma(before.discs[0].fill)) << "the second column is darker";
   std::swap(packing.frame.y[0], packing.frame.y[23]);
   packing.frame.x[0] = 35.0;
-  pictures::MapFrame now{{packing.frame, packing.statics}};
-  now.dyed_at = begin;
-  const FrameView after = pictures::make_map(now, settings_of("dyed"), test::extent_of(packing));
+  const analysis::GrainSource now{{packing.frame, packing.statics}};
+  const FrameView after = pictures::make_map(now, settings_of("dyed"), test::extent_of(packing), &seen);
   for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(after.discs[i].fill, before.discs[i].fill) << i;
-  now.dyed_at = std::span(begin).first(47);
-  EXPECT_EQ(pictures::make_map(now, settings_of("dyed"), test::extent_of(packing)).discs[47].fill,
+  seen.begin.pop_back();
+  EXPECT_EQ(pictures::make_map(now, settings_of("dyed"), test::extent_of(packing), &seen).discs[47].fill,
             before.discs[47].fill)
       << "a grain that arrived later is at its current place";
 }
@@ -135,10 +126,10 @@ TEST(RigidMap, TellsTheLargestClusterFromOthers) {
   EXPECT_NE(other, white);
   EXPECT_EQ(view.discs[7].fill, other);
   EXPECT_EQ(view.discs[8].fill, white) << "it rolls on its only contact";
-  EXPECT_EQ(view.title, "Rigid clusters, the largest has 44 % of the grains");
+  EXPECT_EQ(view.title, "Rigid clusters, largest 44 %");
   EXPECT_EQ(view.legends[0].swatches[0].label, "largest");
   EXPECT_TRUE(view.coloured);
-  EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "rigid").title, "No rigid cluster");
+  EXPECT_EQ(map_of(row_of_grains({0.1, 0.1}), "rigid").title, "Rigid clusters, none");
 }
 
 /// A lattice, and its state 2 degrees earlier: it has been sheared by 0.1 since.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/errors.h"
 #include "render/map_bed.h"
@@ -11,26 +10,17 @@
 namespace talus::render {
 namespace {
 
+using test::in_gray;
 using test::map_of;
 using test::Packing;
 using test::row_of_grains;
 using test::settings_of;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-pictures::MapSettings with_range(const std::string& layers, double low, double high) {
-  pictures::MapSettings settings = settings_of(layers);
-  settings.colours = ColourMap::gray;
-  settings.range_low = low;
-  settings.range_high = high;
-  return settings;
-}
-
 TEST(PressureMap, IsTheTraceOverTheAreaInUnitsOfRhoGD) {
   Packing packing = row_of_grains({0.1, 0.1});
   // rho g D = 2 * 10 * 1 = 20 Pa, the area pi / 4.
   packing.frame.internal_moment[0] = {30.0 * pi / 4.0, 7.0, 7.0, 50.0 * pi / 4.0};  // 80 Pa: 4
-  const FrameView view = map_of(packing, with_range("pressure", 0.0, 16.0));
+  const FrameView view = map_of(packing, in_gray("pressure", 0.0, 16.0));
   EXPECT_EQ(view.discs[0].fill, gray(0.25));
   EXPECT_EQ(view.discs[1].fill, white);
   EXPECT_EQ(view.legends[0].bars[0].title, "P = σ_1 + σ_2 in ρgD");
@@ -48,7 +38,7 @@ TEST(CoarseMap, SumsTheMomentsOfNeighbourhoods) {
   Packing packing = row_of_grains({1.0, 1.0, 1.0, 0.0, 0.0});
   // Two grains loaded in perpendicular directions cancel their deviators; the third is alone within 1 D.
   packing.frame.internal_moment = {{1, 0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0.7, 0, 0, 0.3}};
-  pictures::MapSettings settings = with_range("coarse", 0.0, 1.0);
+  pictures::MapSettings settings = in_gray("coarse", 0.0, 1.0);
   settings.length = 2.5;
   const FrameView view = map_of(packing, settings);
   EXPECT_EQ(view.discs[0].fill, white);
@@ -107,7 +97,7 @@ std::vector<Colour> fills_of(const FrameView& view) {
 
 TEST(DisplacementMap, IsUnrolledOverThePeriodAndLogarithmic) {
   const MovedBed moved = moved_grains();
-  const pictures::MapSettings settings = with_range("displacement", 0.1, 10.0);
+  const pictures::MapSettings settings = in_gray("displacement", 0.1, 10.0);
   const FrameView since = map_of(moved.now, settings, &moved.before.frame, false);
   const auto shade = [](double value) { return gray(0.5 * std::log10(value / 0.1)); };
   EXPECT_EQ(fills_of(since), (std::vector<Colour>{shade(0.8), shade(0.5)}));
@@ -119,7 +109,7 @@ TEST(DisplacementMap, IsUnrolledOverThePeriodAndLogarithmic) {
 }
 
 TEST(DisplacementMap, NothingHasMovedWithoutAReference) {
-  const FrameView view = map_of(moved_grains().now, with_range("displacement", 0.1, 10.0));
+  const FrameView view = map_of(moved_grains().now, in_gray("displacement", 0.1, 10.0));
   EXPECT_EQ(fills_of(view), (std::vector<Colour>{white, white}));
   EXPECT_EQ(view.title, "Displacement per degree of tilt");
 }
@@ -127,7 +117,7 @@ TEST(DisplacementMap, NothingHasMovedWithoutAReference) {
 TEST(DisplacementMap, OfAFlowAtOneTiltIsNotOverDegrees) {
   MovedBed moved = moved_grains();
   moved.before.frame.tilt = moved.now.frame.tilt;
-  const FrameView view = map_of(moved.now, with_range("displacement", 0.1, 10.0), &moved.before.frame, true);
+  const FrameView view = map_of(moved.now, in_gray("displacement", 0.1, 10.0), &moved.before.frame, true);
   EXPECT_EQ(fills_of(view)[1], gray(0.5 * std::log10(0.5 / 0.1)));
   EXPECT_EQ(view.title, "Displacement since 7.00°");
 }
@@ -221,17 +211,7 @@ Packing chain() {
   Packing packing = row_of_grains({0.1, 0.1, 0.1});
   test::add_contact(packing, 0, 1, 3.0, 1.0);
   test::add_contact(packing, 1, 2, 1.0, 0.5);  // sliding, mu = 0.5
-  FrameContacts& contacts = packing.frame.contacts;
-  contacts.a.push_back(0);
-  contacts.b.push_back(3);
-  contacts.shift.push_back(0);
-  contacts.nx.push_back(-1.0);
-  contacts.ny.push_back(0.0);
-  contacts.px.push_back(0.0);
-  contacts.py.push_back(0.5);
-  contacts.fn.push_back(2.0);
-  contacts.ft.push_back(0.0);
-  contacts.status.push_back(ContactStatus::sticking);
+  test::add_left_wall_contact(packing, 0, 2.0);
   return packing;
 }
 
@@ -302,8 +282,8 @@ TEST(ForcesMap, ContactsAcrossThePeriodicEdgeAreDrawnAtBothEnds) {
 }
 
 TEST(ForcesMap, OfABedWithoutContactsHasNoLines) {
-  EXPECT_TRUE(map_of(row_of_grains({0.1, nan}), "forces").lines.empty());
-  EXPECT_EQ(map_of(row_of_grains({0.1, nan}), "critical").title, "Critical contacts");
+  EXPECT_TRUE(map_of(row_of_grains({0.1, std::nan("")}), "forces").lines.empty());
+  EXPECT_EQ(map_of(row_of_grains({0.1, std::nan("")}), "critical").title, "Critical contacts");
 }
 
 TEST(CriticalMap, MarksContactsThatSlideAlongTheirSurfaces) {

@@ -5,7 +5,6 @@
 
 #include "base/errors.h"
 #include "render/map_bed.h"
-#include "stress/overload.h"
 
 namespace talus::render {
 namespace {

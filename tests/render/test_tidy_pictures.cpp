@@ -113,8 +113,9 @@ TEST(TidyPictures, of_every_overlay) {
       const std::string layers = fmt::format("{}+{}", pictures::map_name(lower), pictures::map_name(upper));
       const pictures::MapSettings settings = longest_settings(layers);
       const FrameView view = view_of(bed, settings);
-      for (const int width : {200, 400, 1600})
-        expect_readable(view, width, fmt::format("{}, {} px", layers, width));
+      for (const FrameView& variant : {view, variants(view, settings)[2].second})  // plain, and with traces
+        for (const int width : {200, 400, 1600})
+          expect_readable(variant, width, fmt::format("{}, {} px", layers, width));
     }
 }
 

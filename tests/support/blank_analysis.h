@@ -1,7 +1,7 @@
 #pragma once
 /// Analyses to be filled by hand.
 
-#include "io/analysis_schema.h"
+#include "io/run_schema.h"
 
 namespace talus::test {
 

@@ -12,11 +12,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
-#include "base/sanitizers.h"
+#include "base/version.h"
 #include "support/places.h"
+#include "support/resource_limit.h"
 
 namespace talus::test {
 namespace {
@@ -32,8 +34,8 @@ void note(const std::string& line) {
   close(file);
 }
 
-pid_t start(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-            const std::vector<std::string>& environment, const std::string& out, const std::string& err) {
+pid_t start(const Words& arguments, const std::filesystem::path& folder, const Words& environment,
+            const std::string& out, const std::string& err) {
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(folder.c_str()) != 0) _exit(126);
@@ -44,7 +46,7 @@ pid_t start(const std::vector<std::string>& arguments, const std::filesystem::pa
   std::vector<char*> argv;
   std::string program = talus_program();
   argv.push_back(program.data());
-  std::vector<std::string> copies = arguments;
+  Words copies = arguments;
   for (std::string& argument : copies) argv.push_back(argument.data());
   argv.push_back(nullptr);
   execv(program.c_str(), argv.data());
@@ -65,8 +67,7 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-Outcome run_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                  const std::vector<std::string>& environment) {
+Outcome run_talus(const Words& arguments, const std::filesystem::path& folder, const Words& environment) {
   const std::string out = (folder / ".stdout").string();
   const std::string err = (folder / ".stderr").string();
   Outcome outcome;
@@ -78,7 +79,7 @@ Outcome run_talus(const std::vector<std::string>& arguments, const std::filesyst
   return outcome;
 }
 
-pid_t start_talus(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+pid_t start_talus(const Words& arguments, const std::filesystem::path& folder) {
   return start(arguments, folder, {}, "/dev/null", (folder / ".stderr").string());
 }
 
@@ -134,6 +135,21 @@ std::vector<int> stop_until_done(const std::function<pid_t()>& start, int signal
 std::string write_file(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
   std::ofstream(folder.path(name)) << text;
   return name;
+}
+
+std::vector<Words> talus_commands(const std::string& page, const Words& names) {
+  std::ifstream file(source_folder() + "/" + page);
+  std::vector<Words> found;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream text(line.substr(0, line.find('#')));
+    std::string program;
+    text >> program;
+    const Words words{std::istream_iterator<std::string>(text), {}};
+    const bool is_talus = program == "talus" || program.ends_with("/talus");
+    if (is_talus && !words.empty() && std::ranges::find(names, words[0]) != names.end())
+      found.push_back(words);
+  }
+  return found;
 }
 
 std::string json_value(const std::string& json, const std::string& key) {

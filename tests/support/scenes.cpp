@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/detection.h"
-#include "contact/memory.h"
 #include "core/random.h"
 #include "core/trigonometry.h"
-#include "dynamics/collapse.h"
-#include "dynamics/form_problem.h"
+#include "dynamics/bed.h"
+#include "dynamics/step.h"
 
 namespace talus::test {
 namespace {
@@ -161,6 +162,28 @@ Momentum momentum(const Grains& grains) {
     sum.angular += grains.x[i] * py - grains.y[i] * px + grains.inertia[i] * grains.omega[i];
   }
   return sum;
+}
+
+double smallest_gap(const World& world, Index grain) {
+  const Grains& g = world.grains;
+  const int images = world.boundary.periodic ? 1 : 0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Index other = 0; other < g.count(); ++other)
+    for (int image = -images; image <= images; ++image) {
+      if (other == grain) continue;
+      const double dx = g.x[other] + image * world.boundary.length - g.x[grain];
+      const double distance = std::hypot(dx, g.y[other] - g.y[grain]);
+      smallest = std::min(smallest, distance - g.radius[grain] - g.radius[other]);
+    }
+  for (const Plane& plane : world.boundary.planes)
+    if (!plane.wall) smallest = std::min(smallest, g.y[grain] - plane.offset - g.radius[grain]);
+  return smallest;
+}
+
+double smallest_gap(const World& world) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < world.grains.free_count; ++i) smallest = std::min(smallest, smallest_gap(world, i));
+  return smallest;
 }
 
 double mechanical_energy(const World& world) {

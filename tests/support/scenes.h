@@ -60,6 +60,11 @@ struct Momentum {
 };
 Momentum momentum(const Grains& grains);
 
+/// Returns the smallest gap between a free grain and other grains, their periodic images and the floor, m.
+double smallest_gap(const World& world, Index grain);
+/// Returns the smallest of all free grains.
+double smallest_gap(const World& world);
+
 /// Returns kinetic and potential energy of the free grains in the gravity of the world, J per metre.
 double mechanical_energy(const World& world);
 /// Returns the weight of the free grains, N per metre.

@@ -1,6 +1,7 @@
 #pragma once
 /// Folder for one test.
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -33,6 +34,12 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path folder_;
+};
+
+/// Tests in a folder of their own.
+class FolderTest : public testing::Test {
+ protected:
+  const TemporaryFolder folder;
 };
 
 /// Returns the path of the entry whose name begins with `name`: the store appends a mark of the writer to the

@@ -36,14 +36,14 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("-o", "--output", required=True, metavar="FOLDER", help="folder of the figures, created if missing")
     parser.add_argument("--only", action="append", default=[], metavar="NAME,...", help="figures by name or number [all]")
     parser.add_argument("--at", action="append", default=[], metavar="DEG,...", help="frames instead of those of the paper")
-    parser.add_argument("--size", default="", metavar="CM", help="width in cm, or WIDTHxHEIGHT")
+    parser.add_argument("--size", default="", metavar="SIZE", help="8.6cm, 17.8x10cm, or pixels as in 1600 or 1920x1080")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="change a parameter of the analysis")
     parser.add_argument("--add", action="append", default=[], metavar="WHAT,...",
                         help="; ".join(f"{name}: {text}" for name, text in ADDITIONS.items()))
     parser.add_argument("--style", metavar="FILE", help="style sheet of matplotlib")
     parser.add_argument("--threads", type=int, default=min(2, os.cpu_count() or 1), help="number of processes that draw")
     parser.add_argument("--overwrite", action="store_true", help="replace existing files")
-    parser.add_argument("-q", "--quiet", action="store_true", help="show no progress")
+    parser.add_argument("-q", "--quiet", action="store_true", help="print errors and warnings only")
     parser.add_argument("--command", default="", help=argparse.SUPPRESS)
     found = parser.parse_intermixed_args(words)
     found.threads = max(found.threads, 1)
@@ -53,14 +53,16 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
 
 
 def parse_size(text: str) -> tuple[float, float]:
-    """Parses "8.6" or "17.8x10", cm; 0 stands for the default of each figure."""
+    """Parses "8.6cm", "17.8x10cm", "1600" or "1920x1080" (pixels of a PNG), and returns cm; 0 stands for the default of each
+    figure."""
     narrowest, lowest, largest = 8, 4, 60
     if not text:
         return 0, 0
-    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)(?:x(\d+\.?\d*|\.\d+))?", text)
-    width, height = (float(part or 0) for part in found.groups()) if found else (0, 0)
+    found = re.fullmatch(r"(\d+\.?\d*|\.\d+)(?:x(\d+\.?\d*|\.\d+))?(cm)?", text)
+    width, height = (float(part or 0) * (1 if found[3] else 2.54 / Recipe.dpi) for part in found.groups()[:2]) if found else (0, 0)
     if not narrowest <= width <= largest or height and not lowest <= height <= largest or found and found[2] and not height:
-        raise WrongValue(f"--size {text}: expected a width in cm from {narrowest} to {largest}, or WIDTHxHEIGHT with a height from {lowest}")
+        raise WrongValue(f"--size {text}: expected a width from {narrowest} to {largest} cm, such as 8.6cm or, in pixels at {Recipe.dpi} "
+                         f"per inch, 1600, and perhaps a height from {lowest} cm, as in 17.8x10cm")
     return width, height
 
 
@@ -117,12 +119,6 @@ class Count:
             report(text)
 
 
-def has_material(recipe: Recipe, runs: Sequence[AnalysedRun]) -> bool:
-    """Whether any run has the kind of data that a figure needs."""
-    return any(recipe.material == "values" or run.has_frames or (recipe.material == "distributions" and run.has_distributions)
-               for run in runs)
-
-
 def make_data(recipes: Sequence[Recipe], groups: Sequence[Group], wanted: Wanted) -> list[tuple[Recipe, Data]]:
     """Returns the data of the figures that can be made of the runs, and reports the requirements of the others."""
     made = []
@@ -131,9 +127,7 @@ def make_data(recipes: Sequence[Recipe], groups: Sequence[Group], wanted: Wanted
         if data is not None:
             made.append((recipe, data))
             continue
-        lacking = "" if has_material(recipe, [run for group in groups for run in group.runs]) else (
-            "; the input has only values of members, without frames of their runs")
-        report(f"left out: {recipe.name} needs {recipe.needs}{lacking}")
+        report(f"left out: {recipe.name} needs {recipe.needs}")
     if not made:
         raise Error("no figure can be made of these runs")
     return made
@@ -253,6 +247,8 @@ def main(words: Sequence[str]) -> None:
         if word not in ADDITIONS:
             raise usage_error(f"--add {word}: expected one of {', '.join(ADDITIONS)}")
     check_style(asked.style)
+    if asked.output.endswith((".pdf", ".png", ".svg")):
+        raise usage_error(f"{asked.output}: expected a folder, in which the figures have their names")
     formats = ("pdf", "png", "svg") if "svg" in asked.add else ("pdf", "png")
     progress = None if asked.quiet else Count("analysis", False)
     runs = read_runs(asked.runs, asked.set, threads=asked.threads, progress=progress, report=report)
@@ -280,6 +276,8 @@ def main(words: Sequence[str]) -> None:
     draw_into(folder, [job(*each) for each in longest_first], asked.threads, Count("figures", asked.quiet))
     if asked.overwrite:
         remove_left_out(folder, [recipe for recipe in recipes if recipe not in [each for each, _ in made]])
+    if asked.quiet:
+        return
     for recipe, data in made:
         print(f"{recipe.name:<34} {data.title or recipe.title}")
     print(f"{len(made)} figure{'' if len(made) == 1 else 's'} in {asked.output}: {', '.join('.' + each for each in formats)}; data in .csv, "

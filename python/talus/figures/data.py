@@ -2,14 +2,16 @@
 
 import itertools
 import os
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from talus.ensemble import flat
 from talus.errors import Error, WrongValue
-from talus.figures.groups import Group, flat
+from talus.figures.groups import Group
 from talus.figures.means import Abscissa, Series, mean_columns, mean_rows, run_columns, run_curve
 from talus.figures.runs import AnalysedRun
 from talus.figures.tables import Column, Table, column, short_text
@@ -146,6 +148,13 @@ def named_frames(word: str) -> ShownFrames:
     return ShownFrames(word, f"$θ$ = {word}°", f"at {word} deg", [], [])
 
 
+def single_words(word: str) -> list[str]:
+    """Returns the words for the single frames of a range "frame0-frame10", and any other word alone."""
+    ends = re.fullmatch(r"frame([0-9]{1,5})-frame([0-9]{1,5})", word)
+    frames = range(int(ends[1]), int(ends[2]) + 1) if ends else []
+    return [f"frame{k}" for k in frames] or [word]
+
+
 def frames_of(run: AnalysedRun, at: Sequence[str]) -> list[int]:
     """Returns the frames of `--at` in one run, ascending. Raises Error for invalid words, and for frames that it lacks."""
     return list(run.core.frames_at([os.fsencode(word) for word in at]))
@@ -154,6 +163,7 @@ def frames_of(run: AnalysedRun, at: Sequence[str]) -> list[int]:
 def shown_frames(groups: Sequence[Sequence[AnalysedRun]], at: Sequence[str], usual: Sequence[str]) -> list[list[ShownFrames]]:
     """Returns for the runs of each group the frames of `at` or, if it is empty, those of `usual`; a usual angle is shown for
     the runs that reach it. Raises Error if a word is invalid, or if no run of any group has its frame."""
+    at = [each for word in at for each in single_words(word)]
     found = [[frames_in(runs, word, not at) for word in at or usual] for runs in groups]
     for word, *frames in zip(at, *found):
         if not any(each.runs for each in frames):

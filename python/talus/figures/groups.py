@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from talus.ensemble import flat
 from talus.errors import Error
 from talus.figures.runs import AnalysedRun, read_runs
 from talus.figures.tables import literal, short_text
@@ -46,20 +47,6 @@ class Group:
     def select(self, wanted: Callable[[AnalysedRun], Any]) -> list[AnalysedRun]:
         """Returns the runs for which a condition holds."""
         return [run for run in self.runs if wanted(run)]
-
-
-def flat(scenario: dict[str, Any]) -> dict[str, Any]:
-    """Returns the keys of a scenario with their sections, "bed.length"; those of command 1 are "command.1.kind", ..."""
-    keys: dict[str, Any] = {}
-    for name, value in scenario.items():
-        if isinstance(value, list) and name == "command":
-            commands = [{"at": "none", "time": "none", "grain": -1, "x": 0.0, "y": 0.0, **each} for each in value]
-            keys |= {f"command.{k}.{key}": each for k, command in enumerate(commands, 1) for key, each in command.items()}
-        elif isinstance(value, dict):
-            keys |= {f"{name}.{key}": each for key, each in value.items()}
-        else:
-            keys[name] = value
-    return keys
 
 
 def value_text(value: Any) -> str:

@@ -17,7 +17,7 @@ from talus.figures.style import MARK, as_math, curve_style, logarithmic, set_tit
 from talus.figures.tables import Table, column
 from talus.simulation import _extension
 
-FORMATS = ("pdf", "png", "svg")
+FORMATS = ("pdf", "png")
 
 
 def numbers(values: Sequence[float | None]) -> np.ndarray:
@@ -79,7 +79,7 @@ def main(words: Sequence[str]) -> None:
     plots = json.loads(Path(source).read_text(encoding="utf-8"))
     made = []
     for plot in plots:
-        recipe = Recipe("plot-" + plot["name"].replace("/", "-"), plot["title"], "", "values", lambda groups, wanted: None, draw_plot)
+        recipe = Recipe("plot-" + plot["name"].replace("/", "-"), plot["title"], "", lambda groups, wanted: None, draw_plot)
         made.append((recipe, plot_data(plot)))
     for recipe, data in made:
         for name in figure_files(recipe, data, FORMATS):

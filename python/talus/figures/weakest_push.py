@@ -197,8 +197,8 @@ def write_picture(folder: Path, table: Table, groups: Sequence[Group], patch: st
     runs = [run for group in groups for run in group.runs]
     data = Data(caption_of(groups[0].label, patch, len(runs)), tables=[table], runs=runs,
                 facts={"estimates": {"$l_c$": mean_distance(runs, "lc_jump"), "dilation": mean_distance(runs, "dilation_high")}})
-    recipe = Recipe("perturb", TITLE, "", "values", lambda groups, wanted: data, draw, TWO_COLUMNS)
-    write_figure(recipe, data, groups, folder, formats=("pdf", "svg", "png"), command=command)
+    recipe = Recipe("perturb", TITLE, "", lambda groups, wanted: data, draw, TWO_COLUMNS)
+    write_figure(recipe, data, groups, folder, command=command)
 
 
 def report(folder: str, patch: str, first: str, command: str, *paths: str) -> None:

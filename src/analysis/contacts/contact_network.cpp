@@ -1,19 +1,22 @@
 #include "analysis/contacts/contact_network.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
+#include <iterator>
 #include <numeric>
 
 #include "analysis/free_grains.h"
 #include "analysis/overload/clusters.h"
-#include "analysis/texture/contact_moment.h"
-#include "analysis/texture/fabric.h"
+#include "analysis/texture/texture.h"
+#include "base/errors.h"
 #include "core/tensor.h"
 #include "core/trigonometry.h"
-#include "stress/bed.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::analysis {
+
 namespace {
 
 double mean_normal_force(const FrameContacts& contacts) {
@@ -97,7 +100,7 @@ Histogram mobilised_friction(const BedFrame& bed, int bins) {
 }
 
 std::vector<double> mobilised_friction_of_grains(const BedFrame& bed) {
-  const auto count = static_cast<std::size_t>(bed.statics.free_count);
+  const std::size_t count = bed.statics.free_count;
   std::vector<double> sum(count, 0.0), contacts(count, 0.0);
   for (Index c = 0; c < bed.frame.contacts.count(); ++c)
     for_each_free_end(bed, c, [&](Index i) {
@@ -139,7 +142,7 @@ void measure_networks(const BedFrame& bed, FrameRecord& record) {
 
 void measure_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   const FrameContacts& contacts = bed.frame.contacts;
-  std::vector<bool> touched(static_cast<std::size_t>(bed.statics.free_count), false);
+  std::vector<bool> touched(bed.statics.free_count, false);
   std::vector<Link> links;
   Index critical = 0;
   for (Index c = 0; c < contacts.count(); ++c) {
@@ -161,6 +164,96 @@ void measure_critical_contacts(const BedFrame& bed, FrameRecord& record) {
   record.critical_weighted_mean = size.empty() ? not_known : squares / critical;
   record.critical_largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
   record.critical_correlation_length = correlation_length(clusters, bed.frame.y);
+}
+
+namespace {
+
+/// Mean of unit vectors at twice the angles of the normals.
+struct FabricSum {
+  std::complex<double> sum = 0.0;
+  Index count = 0;
+
+  void add(std::complex<double> doubled) {
+    sum += doubled;
+    ++count;
+  }
+  /// Returns 2 <cos 2 (direction - d)>, where `direction` is the unit vector at twice d.
+  double along(std::complex<double> direction) const {
+    return count > 0 ? 2.0 * (sum * std::conj(direction)).real() / count : not_known;
+  }
+};
+
+std::size_t bin_of(double value, std::span<const double> edges) {
+  const auto inner = edges.subspan(1, edges.size() - 2);
+  return static_cast<std::size_t>(std::ranges::upper_bound(inner, value) - inner.begin());
+}
+
+}  // namespace
+
+void measure_weak_contacts(const BedFrame& bed, std::span<const double> edges, FrameRecord& record) {
+  const FrameContacts& contacts = bed.frame.contacts;
+  FabricSum strong, coherent, incoherent;
+  std::vector<FabricSum> by_friction(edges.size() - 1);
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const std::complex<double> normal = {contacts.nx[c], contacts.ny[c]};
+    if (contacts.fn[c] > record.mean_normal_force) {
+      strong.add(normal * normal);
+      continue;
+    }
+    const double mobilised = mobilisation_of(bed, c);
+    (mobilised >= coherent_mobilisation ? coherent : incoherent).add(normal * normal);
+    by_friction[bin_of(mobilised, edges)].add(normal * normal);
+  }
+  const std::complex<double> chains = strong.sum / std::abs(strong.sum);
+  if (contacts.count() > 0) record.coherent_share = static_cast<double>(coherent.count) / contacts.count();
+  record.coherent_fabric = coherent.along(chains);
+  record.incoherent_fabric = incoherent.along(chains);
+  for (const FabricSum& bin : by_friction) record.weak_fabric_by_friction.push_back(bin.along(chains));
+}
+
+namespace {
+
+/// Identification of a contact that is the same in every frame.
+struct ContactKey {
+  Index a = 0, b = 0;
+  Index image = 0;  ///< number of additional periods at which b touches a, compared with the unwrapped bed
+  Index place = 0;  ///< index in its frame
+
+  auto bodies() const { return std::array<Index, 3>{a, b, image}; }
+};
+
+std::vector<ContactKey> keys_of(const Frame& frame) {
+  const FrameContacts& contacts = frame.contacts;
+  std::vector<ContactKey> keys;
+  keys.reserve(contacts.a.size());
+  for (Index c = 0; c < contacts.count(); ++c) {
+    const Index a = contacts.a[c], b = contacts.b[c];
+    const bool grains = b < frame.grain_count();  // otherwise a plane, which has one image
+    keys.push_back({a, b, grains ? contacts.shift[c] + frame.image[a] - frame.image[b] : 0, c});
+  }
+  std::ranges::sort(keys, {}, &ContactKey::bodies);
+  return keys;
+}
+
+/// Returns the indices of the contacts in the first list that are not in the second.
+std::vector<Index> places_of_rest(const std::vector<ContactKey>& keys,
+                                  const std::vector<ContactKey>& without) {
+  std::vector<ContactKey> rest;
+  std::ranges::set_difference(keys, without, std::back_inserter(rest), {}, &ContactKey::bodies,
+                              &ContactKey::bodies);
+  std::vector<Index> places;
+  for (const ContactKey& key : rest) places.push_back(key.place);
+  std::ranges::sort(places);
+  return places;
+}
+
+}  // namespace
+
+ContactChanges contact_changes(const Frame& before, const Frame& after) {
+  if (before.grain_count() != after.grain_count())
+    throw Error(ExitCode::internal, "cannot compare the contacts of frames with different grains");
+  const std::vector<ContactKey> earlier = keys_of(before), later = keys_of(after);
+  return {places_of_rest(later, earlier), places_of_rest(earlier, later)};
 }
 
 }  // namespace talus::analysis

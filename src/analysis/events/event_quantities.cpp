@@ -1,4 +1,6 @@
-#include "analysis/events/event_quantities.h"
+/// Rows of the table of quantities that describe rearrangements.
+
+#include "analysis/quantities.h"
 
 namespace talus::analysis {
 namespace {
@@ -11,56 +13,48 @@ const std::string sizes = bursts + " event_size_min";
 std::vector<Quantity> rows_of_events() {
   return {
       {&EventRecord::begin, "events/begin", "E", "rad",
-       "tilt at which an event begins: the first step whose rms velocity is at or above events/threshold",
-       bursts},
+       "tilt at which an event begins, the first step whose rms velocity reaches events/threshold", bursts},
       {&EventRecord::end, "events/end", "E", "rad",
-       "tilt after its last such step, after which the bed is quiet for events/quiet_time", bursts},
+       "tilt after its last such step; the bed is then quiet for events/quiet_time", bursts},
       {&EventRecord::time, "events/time", "E", "s", "simulated time at which it begins", bursts},
       {&EventRecord::duration, "events/duration", "E", "s",
        "time from its first to its last such step, both included", bursts},
       {&EventRecord::waiting, "events/waiting", "E", "rad",
-       "angle by which the bed is tilted between the end of the preceding event and this one; NaN for the "
-       "first",
-       bursts},
+       "increase of the tilt from the end of the preceding event; NaN for the first", bursts},
       {&EventRecord::kind, "events/kind", "E", "1",
-       "0: a rearrangement; 1: the flow that made the slope fail, and later events; 2: an event not over at "
-       "the end of the tilt; distributions include kind 0 only",
+       "0: a rearrangement; 1: the flow at failure and later events; 2: not over at the end of the tilt; "
+       "distributions include kind 0 only",
        bursts},
       {&EventRecord::peak_velocity, "events/peak_velocity", "E", "m/s",
        "largest rms velocity of the free grains, from /steps", bursts},
       {&EventRecord::path, "events/path", "E", "m",
-       "integral of the rms velocity over the event: the path length of the free grains, as a root mean "
-       "square in each step",
-       bursts},
+       "integral of the rms velocity over the event: path of the free grains", bursts},
       {&EventRecord::energy, "events/energy", "E", "J/m",
-       "energy released, which contacts dissipate: work of gravity M g (sin(theta) dx - cos(theta) dy) on "
-       "the displacement of the centre of mass between two frames, at the mean of their tilts, times the "
-       "share of the path between them that belongs to the event",
+       "energy dissipated: work of gravity M g (sin(theta) dx - cos(theta) dy) on the centre of mass between "
+       "two frames, at the mean of their tilts, times the share of the path between them that belongs to the "
+       "event",
        bursts},
       {&EventRecord::volume_strain, "events/volume_strain", "E", "1",
-       "change of the volume strain from the row of observables before the event to that after it; negative "
-       "= contraction",
+       "change of the volume strain between the rows of observables before and after the event; negative = "
+       "contraction",
        bursts},
       {&EventRecord::centre_of_mass_strain, "events/centre_of_mass_strain", "E", "1",
-       "change of the centre-of-mass strain between the same rows, with less noise; positive = dilation",
-       bursts},
+       "change of the centre-of-mass strain between these rows; positive = dilation", bursts},
       {&EventRecord::coordination_number, "events/coordination_number", "E", "1",
-       "change of z between the same rows", bursts},
+       "change of z between these rows", bursts},
       {&EventRecord::grains, "events/grains", "E", "1",
-       "grains moved: free grains displaced by event_displacement or more from the frame before the event to "
-       "the frame after it; 0 without a later frame",
+       "free grains displaced by at least event_displacement between the frames before and after the event; "
+       "0 without a later frame",
        movements},
       {&EventRecord::depth, "events/depth", "E", "m",
        "depth below the mean free surface, V / L, above which 95 % of their displacement lies", movements},
       {&EventRecord::centre, "events/centre", "E 2", "m",
-       "centre (x, y) of the event: mean position of these grains in the frame before, weighted by their "
-       "displacement",
-       movements},
+       "centre (x, y): mean position of these grains before the event, weighted by displacement", movements},
       {&EventRecord::frame_tilt, "events/frame_tilt", "E 2", "rad",
-       "tilts of these two frames: the resolution of grains moved, depth, centre and energy", bursts},
+       "tilts of these two frames: the resolution of grains, depth, centre and energy", bursts},
       {&EventRecord::sharing, "events/sharing", "E", "1",
-       "events that overlap the interval between these two frames, this one included; if there are several, "
-       "grains moved, depth and centre refer to all of them",
+       "events that overlap the interval between these frames, this one included; grains, depth and centre "
+       "refer to all of them",
        bursts},
   };
 }
@@ -73,16 +67,14 @@ std::vector<Quantity> rows_of_event_laws() {
       {&Analysis::event_threshold, "events/threshold", "", "m/s",
        "rms velocity of the free grains from which the bed counts as rearranging", "event_velocity"},
       {&Analysis::event_noise, "events/noise", "", "m/s",
-       "median of the rms velocity over the steps of the tilt that belong to no event", bursts},
+       "median rms velocity over the steps of the tilt outside events", bursts},
       {&Analysis::event_quiet_time, "events/quiet_time", "", "s",
        "time below the threshold after which an event is over", "event_quiet"},
       {&Analysis::event_count, "events/count", "", "1", "rearrangements: events of kind 0", bursts},
       {&Analysis::event_energy, "events/total_energy", "", "J/m",
        "total energy released by the rearrangements", bursts},
       {&Analysis::event_dilating_share, "events/dilating_share", "", "1",
-       "share of the rearrangements that dilate the bed, those with centre_of_mass_strain above 0; NaN "
-       "without any",
-       bursts},
+       "share of the rearrangements with centre_of_mass_strain above 0; NaN without any", bursts},
       {&Analysis::event_dilating_share_error, "events/dilating_share_error", "", "1",
        "its standard error, sqrt(p (1 - p) / n)", bursts},
       {&Analysis::event_size_exponent, "events/size_exponent", "", "1",
@@ -93,9 +85,7 @@ std::vector<Quantity> rows_of_event_laws() {
       {&Analysis::event_size_exponent_error, "events/size_exponent_error", "", "1",
        "its standard error, (alpha - 1) / sqrt(n)", sizes},
       {&Analysis::event_size_minimum, "events/size_minimum", "", "J/m",
-       "lower end of the fitted range of energies: the value with the smallest size_distance, or "
-       "event_size_min",
-       sizes},
+       "lower end of the fitted energies: the one with the smallest size_distance, or event_size_min", sizes},
       {&Analysis::event_size_distance, "events/size_distance", "", "1",
        "largest distance between their cumulative distribution and that of the law (Kolmogorov-Smirnov)",
        sizes},
@@ -112,8 +102,8 @@ std::vector<Quantity> rows_of_event_laws() {
       {&Analysis::event_waiting_count, "events/waiting_count", "", "1",
        "n, waiting angles at or above waiting_minimum", bursts},
       {&Analysis::event_waiting_mean, "events/waiting_mean", "", "rad",
-       "mean of all waiting angles minus the smallest: the scale of an exponential law, by maximum "
-       "likelihood; NaN with fewer than 10",
+       "scale of an exponential law of the waiting angles, by maximum likelihood: their mean minus the "
+       "smallest; NaN with fewer than 10",
        bursts},
       {&Analysis::event_waiting_mean_error, "events/waiting_mean_error", "", "rad",
        "its standard error, mean / sqrt(n), if the law holds", bursts},

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "analysis/free_grains.h"
+#include "core/statistics.h"
+#include "core/trigonometry.h"
 
 namespace talus::analysis {
 
 std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int layers) {
   const FrameContacts& contacts = bed.frame.contacts;
-  std::vector<ForceCount> counts(static_cast<std::size_t>(layers));
-  std::vector<bool> carries(static_cast<std::size_t>(bed.statics.free_count), false);
+  std::vector<ForceCount> counts(layers);
+  std::vector<bool> carries(bed.statics.free_count, false);
   std::vector<bool> turns = carries;
   const auto layer_of = [&](Index i) -> ForceCount& {
     const auto layer = static_cast<int>(std::clamp(bed.frame.y[i] / height * layers, 0.0, layers - 1.0));
-    return counts[static_cast<std::size_t>(layer)];
+    return counts[layer];
   };
   for (Index c = 0; c < contacts.count(); ++c) {
     const bool is_shared = contacts.a[c] < bed.statics.free_count && contacts.b[c] < bed.statics.free_count;
@@ -45,6 +48,15 @@ void measure_failure_distance(const BedFrame& bed, double height, FrameRecord& r
   }
   record.critical_bound = whole.bound();
   record.critical_share_of_bound = whole.share_of_bound();
+}
+
+Statistics failure_ratio(std::span<const double> tilts, std::span<const double> ratios, double theta_c,
+                         double window) {
+  std::vector<double> found;
+  for (std::size_t k = 0; k < tilts.size(); ++k)
+    if (tilts[k] > 0.0 && tilts[k] <= theta_c && tilts[k] > theta_c - window)
+      found.push_back(ratios[k] * cosine(tilts[k]) / sine(tilts[k]));
+  return statistics_of(found);
 }
 
 }  // namespace talus::analysis

@@ -2,8 +2,11 @@
 /// Distance of a bed from the limit of its friction: the share of critical contacts and its upper bound from
 /// the number of forces and equations.
 
+#include <span>
+
 #include "analysis/record.h"
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
+#include "core/statistics.h"
 
 namespace talus::analysis {
 
@@ -36,5 +39,16 @@ std::vector<ForceCount> count_forces(const BedFrame& bed, double height, int lay
 /// Sets members of a record that are defined in the table of quantities, except the share of the whole bed,
 /// which measure_critical_contacts sets. `height`: mean height of the bed, m.
 void measure_failure_distance(const BedFrame& bed, double height, FrameRecord& record);
+
+// Ratio of the shear stress of a packing to that of an infinite slope, just before failure.
+
+/// Window before theta_c that analyses use for failure_ratio, deg.
+inline constexpr double failure_window = 0.5;
+
+/// Returns the statistics of (sigma_T / sigma_N) / tan(theta), 1 for a periodic bed and less between walls
+/// (paper, Eq. 15 and Fig. 7), over the last `window` (rad) before theta_c (rad). `tilts` (rad) and `ratios`,
+/// sigma_T / sigma_N, correspond row by row. NaN if the slope has not failed.
+Statistics failure_ratio(std::span<const double> tilts, std::span<const double> ratios, double theta_c,
+                         double window);
 
 }  // namespace talus::analysis

@@ -1,16 +1,115 @@
 #include "analysis/overload/coarse_graining.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "analysis/overload/neighbourhoods.h"
+#include "analysis/cells.h"
+#include "analysis/free_grains.h"
 #include "core/statistics.h"
-#include "stress/overload.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::analysis {
 namespace {
+
+/// A grain and its distance.
+struct Neighbour {
+  double square = 0.0;  ///< squared distance, m^2
+  Index grain = 0;
+  bool operator<(const Neighbour& other) const {
+    return square < other.square || (square == other.square && grain < other.grain);
+  }
+};
+
+/// Moves the entries with a squared distance up to `high` (m^2) to the front, sorted, and returns their
+/// number. No entry may be below `low` (m^2). Fast if the grains are evenly spread over an area. `scratch` is
+/// working memory.
+std::size_t sort_nearest(std::vector<Neighbour>& neighbours, double low, double high,
+                         std::vector<Neighbour>& scratch) {
+  // The squared distances of grains that are evenly spread over an area are uniformly distributed, so this
+  // number of buckets gives about one grain each.
+  constexpr Index max_buckets = 256;
+  const Index buckets = std::clamp<Index>(static_cast<Index>(neighbours.size()), 1, max_buckets);
+  const double scale = std::isfinite(high) && high > low ? buckets / (high - low) : 0.0;
+  const auto bucket_of = [&](const Neighbour& one) {
+    if (one.square > high) return buckets;
+    return std::min(buckets - 1, static_cast<Index>((one.square - low) * scale));
+  };
+  std::array<Index, max_buckets + 2> start;
+  std::fill_n(start.begin(), buckets + 2, 0);
+  for (const Neighbour& one : neighbours) ++start[bucket_of(one) + 1];
+  for (Index k = 1; k <= buckets; ++k) start[k] += start[k - 1];
+  const std::size_t count = start[buckets];
+  scratch.resize(neighbours.size());
+  for (const Neighbour& one : neighbours) scratch[start[bucket_of(one)]++] = one;
+  neighbours.swap(scratch);
+  // Only the order within a bucket may still be wrong.
+  for (std::size_t k = 1; k < count; ++k) {
+    const Neighbour one = neighbours[k];
+    std::size_t place = k;
+    for (; place > 0 && one < neighbours[place - 1]; --place) neighbours[place] = neighbours[place - 1];
+    neighbours[place] = one;
+  }
+  return count;
+}
+
+/// The free grains of a frame, visited in the order of their distance from one of them. Only the nearest
+/// periodic image counts.
+class Neighbourhoods {
+ public:
+  explicit Neighbourhoods(const BedFrame& bed)
+      : moments_(bed.frame.internal_moment),
+        x_(free_grain_values(bed.frame.x, bed.statics)),
+        y_(free_grain_values(bed.frame.y, bed.statics)),
+        cells_(sort_into_cells(x_, y_, bed.statics.mean_diameter, period_of(bed.statics))) {}
+
+  /// Adds up the internal moments of the grains within `radius` (m) of a grain, itself included, in the order
+  /// of their distance, and of their ids at equal distance. Calls visit(distance, sum) after each distance
+  /// until it returns false.
+  template <typename Visit>
+  void around(Index centre, double radius, const Visit& visit) {
+    const Index column = column_of(cells_, x_[centre]);
+    const Index row = row_of(cells_, y_[centre]);
+    neighbours_.clear();
+    Tensor2 sum;
+    double reached = 0.0;  // all grains up to this distance are in the sum
+    // Slightly larger than the square because of rounding; the distance itself is compared below.
+    const double farthest = radius * radius * (1.0 + 1e-9);
+    for (Index ring = 0; reached <= radius; ++ring) {
+      const bool more =
+          visit_ring(cells_, column, row, ring, [&](Index grain) { add(centre, grain, farthest); });
+      // Grains in none of the rings so far are farther than `known`, which is slightly less than the width of
+      // the rings because distances are rounded.
+      const double known = more ? ring * cells_.size * (1.0 - 1e-9) : std::numeric_limits<double>::infinity();
+      const std::size_t count = sort_nearest(neighbours_, reached * reached, known * known, scratch_);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double distance = std::sqrt(neighbours_[k].square);
+        if (distance > radius) return;
+        add_to(sum, moments_[neighbours_[k].grain]);  // (T24)
+        const bool last_of_distance = k + 1 == count || neighbours_[k + 1].square > neighbours_[k].square;
+        if (last_of_distance && !visit(distance, sum)) return;
+      }
+      neighbours_.erase(neighbours_.begin(), neighbours_.begin() + static_cast<std::ptrdiff_t>(count));
+      reached = known;
+    }
+  }
+
+ private:
+  /// Adds a grain if its squared distance is at most `farthest`.
+  void add(Index centre, Index grain, double farthest) {
+    double dx = x_[grain] - x_[centre];
+    dx += nearest_image(dx, cells_.period) * cells_.period;
+    const double dy = y_[grain] - y_[centre];
+    const double square = dx * dx + dy * dy;
+    if (square <= farthest) neighbours_.push_back({square, grain});
+  }
+
+  const std::vector<Tensor2>& moments_;
+  std::vector<double> x_, y_;
+  Cells cells_;
+  std::vector<Neighbour> neighbours_, scratch_;
+};
 
 /// Whether the ratio Q/P of stress_state is at most the threshold. The test avoids the square root and the
 /// arc tangent because it is the most frequent operation of the analysis.
@@ -63,7 +162,7 @@ double length_cut(const RunStatics& statics, double l_min, std::optional<double>
 
 CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& rule) {
   CoarseGraining result;
-  result.length.assign(static_cast<std::size_t>(bed.statics.free_count), not_known);
+  result.length.assign(bed.statics.free_count, not_known);
   Neighbourhoods neighbourhoods(bed);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     if (!stress::is_overloaded(bed.frame.gamma[i], rule.threshold)) continue;
@@ -77,7 +176,7 @@ CoarseGraining coarse_graining(const BedFrame& bed, const CoarseGrainingRule& ru
 }
 
 std::vector<double> coarse_stress_ratio(const BedFrame& bed, double l) {
-  std::vector<double> result(static_cast<std::size_t>(bed.statics.free_count), not_known);
+  std::vector<double> result(bed.statics.free_count, not_known);
   Neighbourhoods neighbourhoods(bed);
   for (Index i = 0; i < bed.statics.free_count; ++i) {
     Tensor2 all;

@@ -6,13 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "core/bed_frame.h"
+#include "analysis/record.h"
 #include "core/snapshot.h"
 
 namespace talus::analysis {
-
-/// Default of l_min, in D: a grain together with its first neighbours.
-inline constexpr double default_l_min = 3.0;
 
 /// Returns the frame with the gamma of each free grain replaced by gamma_l at l = l_min (m). The
 /// neighbourhood of diameter l of a grain consists of all free grains, itself included, whose centres or

@@ -1,5 +1,3 @@
-#include "analysis/packing/pair_correlation.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "analysis/free_grains.h"
+#include "analysis/packing/packing.h"
 #include "core/trigonometry.h"
 
 namespace talus::analysis {

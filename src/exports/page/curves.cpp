@@ -1,13 +1,12 @@
-#include "exports/page/curves.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 #include <optional>
 
 #include "analysis/quantities.h"
 #include "core/trigonometry.h"
-#include "exports/page/json.h"
+#include "exports/page/page_data.h"
 #include "runs/event_catalogue.h"
 #include "session/command.h"
 #include "view/frame_values.h"
@@ -16,14 +15,7 @@
 namespace talus::exports {
 namespace {
 
-constexpr int digits = 5;
 constexpr std::size_t max_rows = 1000;  // rows of a curve: about the number of pixels
-
-struct PageCurve {
-  std::string label;  ///< rich text, empty if there is only one curve
-  bool recorded = false;
-  std::vector<double> values;
-};
 
 /// Returns every row, or an even selection of about as many as there are pixels.
 std::vector<ObservableRow> shown_rows(const io::RunFile& file) {
@@ -33,46 +25,39 @@ std::vector<ObservableRow> shown_rows(const io::RunFile& file) {
   return shown;
 }
 
-PageCurve recorded_curve(const analysis::Quantity& quantity, std::span<const ObservableRow> rows,
-                         double diameter) {
-  PageCurve curve{"", true, {}};
-  for (const ObservableRow& row : rows)
-    curve.values.push_back(analysis::shown(quantity, at(row, *quantity.display.observable), diameter));
-  return curve;
+Json curve_json(const std::string& label, const char* over, const std::vector<double>& values) {
+  return {{"label", label}, {"over", over}, {"values", rounded(values, "{:.5g}")}};
 }
 
-PageCurve curve_of_frames(const analysis::Quantity& quantity, const PageRun& run, std::size_t f) {
-  PageCurve curve;
-  for (const analysis::FrameRecord& frame : run.analysis.frames)
-    curve.values.push_back(
-        analysis::shown(quantity, analysis::number_of(quantity, frame, f), run.statics().mean_diameter));
-  return curve;
-}
-
-std::string threshold_label(double factor) {
-  return factor == 1.0 ? "at Γ_c" : fmt::format("at {:.6g} Γ_c", factor);
-}
-
-std::vector<PageCurve> curves_of(const analysis::Quantity& quantity, const PageRun& run,
-                                 std::span<const ObservableRow> rows) {
-  if (quantity.display.observable) return {recorded_curve(quantity, rows, run.statics().mean_diameter)};
-  if (!analysis::needs_threshold(quantity)) return {curve_of_frames(quantity, run, 0)};
-  std::vector<PageCurve> curves;
-  for (std::size_t f = 0; f < run.analysis.thresholds.size(); ++f) {
-    curves.push_back(curve_of_frames(quantity, run, f));
-    curves.back().label = threshold_label(run.analysis.thresholds[f].factor);
+/// Returns the curve of a quantity or, if it depends on a threshold, one for each; a rich label distinguishes
+/// them.
+Json curves_of(const analysis::Quantity& quantity, const PageRun& run, std::span<const ObservableRow> rows) {
+  const auto shown = [&](double value) {
+    return analysis::shown(quantity, value, run.statics().mean_diameter);
+  };
+  std::vector<double> values;
+  if (quantity.display.observable) {
+    for (const ObservableRow& row : rows) values.push_back(shown(at(row, *quantity.display.observable)));
+    return Json::array({curve_json("", "rows", values)});
+  }
+  const bool by_threshold = analysis::needs_threshold(quantity);
+  Json curves = Json::array();
+  for (std::size_t f = 0; f < (by_threshold ? run.analysis.thresholds.size() : 1); ++f) {
+    const double factor = by_threshold ? run.analysis.thresholds[f].factor : 1.0;
+    values.clear();
+    for (const analysis::FrameRecord& frame : run.analysis.frames)
+      values.push_back(shown(analysis::number_of(quantity, frame, f)));
+    curves.push_back(curve_json(!by_threshold   ? ""
+                                : factor == 1.0 ? "at Γ_c"
+                                                : fmt::format("at {:.6g} Γ_c", factor),
+                                "frames", values));
   }
   return curves;
 }
 
-bool has_value(const PageCurve& curve) {
-  return std::ranges::any_of(curve.values, [](double value) { return std::isfinite(value); });
-}
-
-std::string curve_json(const PageCurve& curve) {
-  return json::line({{"label", json::quoted(curve.label)},
-                     {"over", json::quoted(curve.recorded ? "rows" : "frames")},
-                     {"values", json::rounded(curve.values, digits)}});
+bool has_value(const Json& curve) {
+  return std::any_of(curve["values"].begin(), curve["values"].end(),
+                     [](const Json& value) { return value.is_number(); });
 }
 
 /// Returns the title used for curves, or name and unit of a quantity without a symbol.
@@ -81,63 +66,44 @@ std::string title_of(const analysis::Quantity& quantity) {
   return analysis::axis_title(quantity.name, analysis::scaled_unit(quantity.unit));
 }
 
-std::string quantity_json(const analysis::Quantity& quantity, const std::vector<PageCurve>& curves) {
-  std::vector<std::string> texts;
-  for (const PageCurve& curve : curves) texts.push_back(curve_json(curve));
-  return json::line({{"name", json::quoted(quantity.name)},
-                     {"title", json::quoted(title_of(quantity))},
-                     {"common", json::truth(!quantity.display.symbol.empty())},
-                     {"definition", json::quoted(quantity.definition)},
-                     {"curves", json::list(texts)}});
-}
-
-std::string kind_text(view::TimelineEvent::Kind kind) {
-  switch (kind) {
-    case view::TimelineEvent::Kind::failure:
-      return "failure";
-    case view::TimelineEvent::Kind::command:
-      return "command";
-    case view::TimelineEvent::Kind::rearrangement:
-      return "rearrangement";
-    case view::TimelineEvent::Kind::transition:
-      break;
-  }
-  return "transition";
-}
-
-/// Returns the tilts of the page's frames that belong to the tilt.
-std::vector<double> tilts_on_page(const PageRun& run) {
-  std::vector<double> tilts;
-  for (const std::size_t k : run.frames)
-    if (k < run.file.frame_count()) tilts.push_back(run.file.frame_tilts()[k]);
-  return tilts;
-}
+/// Names of the kinds of events, in the order of view::TimelineEvent::Kind.
+constexpr std::array<const char*, 4> kind_names = {"transition", "failure", "command", "rearrangement"};
 
 }  // namespace
 
-std::string curves_json(const PageRun& run) {
+Json curves_json(const PageRun& run) {
   const std::vector<ObservableRow> rows = shown_rows(run.file);
-  std::vector<double> row_tilts, frame_tilts;
-  for (const ObservableRow& row : rows) row_tilts.push_back(degrees(at(row, Observable::tilt)));
-  for (const double tilt : run.file.frame_tilts()) frame_tilts.push_back(degrees(tilt));
-  std::vector<std::string> texts;
+  std::vector<double> row_tilts, row_places, frame_places;
+  for (const ObservableRow& row : rows) {
+    row_tilts.push_back(degrees(at(row, Observable::tilt)));
+    row_places.push_back(run.place(at(row, Observable::tilt), at(row, Observable::time)));
+  }
+  for (std::size_t k = 0; k < run.file.frame_count(); ++k) frame_places.push_back(run.place(k));
+  Json quantities = Json::array();
   for (const analysis::Quantity& quantity : analysis::quantities()) {
     if (!analysis::is_number_of_frame(quantity)) continue;
-    const std::vector<PageCurve> curves = curves_of(quantity, run, rows);
-    if (std::ranges::any_of(curves, has_value)) texts.push_back(quantity_json(quantity, curves));
+    const Json curves = curves_of(quantity, run, rows);
+    if (std::any_of(curves.begin(), curves.end(), has_value))
+      quantities.push_back({{"name", quantity.name},
+                            {"title", title_of(quantity)},
+                            {"common", !quantity.display.symbol.empty()},
+                            {"definition", quantity.definition},
+                            {"curves", curves}});
   }
-  return json::line({{"rows", json::rounded(row_tilts, 6)},
-                     {"frames", json::rounded(frame_tilts, 6)},
-                     {"quantities", json::list(texts)}});
+  return {{"rows", rounded(row_places, "{:.6g}")},
+          {"tilts", rounded(row_tilts, "{:.6g}")},
+          {"frames", rounded(frame_places, "{:.6g}")},
+          {"quantities", quantities}};
 }
 
-std::string events_json(const PageRun& run) {
+Json events_json(const PageRun& run) {
   const std::vector<Command> commands = session::given_commands(run.file.commands());
   const std::vector<ObservableRow> rows = run.file.observables();
   const std::vector<analysis::FrameRecord> values =
       run.has_threshold() ? view::stored_records(run.analysis, 0) : std::vector<analysis::FrameRecord>();
   view::TimelineSource source;
   source.tilts = run.file.frame_tilts();
+  source.times = run.file.all_frame_times();
   source.rows = rows;
   source.values = values;
   source.commands = commands;
@@ -152,22 +118,25 @@ std::string events_json(const PageRun& run) {
   source.mean_diameter = run.statics().mean_diameter;
   source.cut = run.analysis.lc_cut;
   source.may_change = !run.file.complete();
-  const std::vector<double> tilts = tilts_on_page(run);
-  std::vector<std::string> texts;
+  std::vector<double> places;  // of the page's frames that belong to the tilt
+  for (const std::size_t k : run.frames)
+    if (k < run.file.frame_count()) places.push_back(run.place(k));
+  Json events = Json::array();
   for (const view::TimelineEvent& event : view::timeline_events(source)) {
     // An event outside the range of the page's frames cannot be placed; theta_c may lie just after the last.
-    const double spacing = source.tilts.size() > 1 ? source.tilts[1] - source.tilts[0] : 0.0;
-    if (tilts.empty() || event.tilt < tilts.front() - spacing || event.tilt > tilts.back() + spacing)
-      continue;
-    texts.push_back(json::line({{"name", json::quoted(event.name)},
-                                {"label", json::quoted(event.label)},
-                                {"what", json::quoted(event.what)},
-                                {"kind", json::quoted(kind_text(event.kind))},
-                                {"size", fmt::format("{:.3f}", event.size)},
-                                {"tilt", fmt::format("{:.4f}", degrees(event.tilt))},
-                                {"place", fmt::format("{:.4f}", view::place_among(tilts, event.tilt))}}));
+    const double at = run.place(event.tilt, event.time);
+    const double spacing = source.tilts.size() > 1 ? run.place(1) - run.place(0) : 0.0;
+    if (places.empty() || at < places.front() - spacing || at > places.back() + spacing) continue;
+    events.push_back({{"name", event.name},
+                      {"label", event.label},
+                      {"what", event.what},
+                      {"kind", kind_names.at(static_cast<std::size_t>(event.kind))},
+                      {"size", rounded(event.size, "{:.3f}")},
+                      {"tilt", rounded(degrees(event.tilt), "{:.4f}")},
+                      {"at", rounded(at, "{:.8g}")},
+                      {"place", rounded(view::place_among(places, at), "{:.4f}")}});
   }
-  return json::list(texts);
+  return events;
 }
 
 }  // namespace talus::exports

@@ -1,10 +1,8 @@
 #pragma once
-/// The varying data of a page: numbers in 16 bits, tables of them as short texts, and texts that are stored
-/// only once.
+/// Numbers of a page as codes of 16 bits, and tables of codes as short texts.
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -24,18 +22,16 @@ inline constexpr std::uint32_t no_code = 65535;
 /// logarithmic scale, everything up to `low` gives code 0.
 std::uint32_t code_of(const Quantum& quantum, double value);
 
-/// Returns the number of a code, within half a step of the original; NaN for no_code.
-double value_of(const Quantum& quantum, std::uint32_t code);
+/// Return the quantum of positions, which are never missing: along a period, with 65536 steps, or in a box
+/// from low to high, with 65535 steps so that both ends have a code.
+Quantum places_of_period(double period);
+Quantum places_of_box(double low, double high);
+/// Returns the code of a position; codes wrap around a period.
+std::uint32_t place_code(const Quantum& places, double place);
 
-/// Positions along a line, which are never missing: all 65536 codes are used, and wrap around a period.
-struct PlaceQuantum {
-  double low = 0.0, step = 1.0;
-};
-/// Return the quantum of a period, with 65536 steps, or of a box from low to high, with 65535 steps so that
-/// both ends have a code.
-PlaceQuantum places_of_period(double period);
-PlaceQuantum places_of_box(double low, double high);
-std::uint32_t place_code(const PlaceQuantum& quantum, double place);
+/// Returns the code of a force, 1 to 255; 0 means no contact. Forces are stored up to the value at which
+/// lines reach their largest width, in steps of their square root.
+std::uint32_t force_code(double force_over_mean);
 
 /// One row for each grain or contact, one column for each frame. The numbers are below 256^bytes.
 struct CodeTable {
@@ -48,30 +44,15 @@ struct CodeTable {
 };
 
 /// Returns a table filled with `code`.
-CodeTable code_table(std::size_t rows, std::size_t columns, int bytes, std::uint32_t code = 0);
+CodeTable code_table(std::size_t rows, std::size_t columns, int bytes = 2, std::uint32_t code = 0);
 
 /// Returns the differences from column to column (in the first column from row to row) modulo 256^bytes:
 /// first the lowest byte of all of them, then the next one. Slowly varying data then become runs of zeros.
 std::vector<std::byte> difference_bytes(const CodeTable& table);
 
-/// Returns these bytes deflated, as base64.
-std::string packed_text(const CodeTable& table);
-
-/// Compresses the bytes to a zlib stream (RFC 1950), which a browser decompresses with
-/// DecompressionStream("deflate"). The result depends only on the bytes and the version of zlib. Throws
+/// Returns these bytes as base64 of a zlib stream (RFC 1950), which a browser decompresses with
+/// DecompressionStream("deflate"). The text depends only on the table and the version of zlib. Throws
 /// std::bad_alloc.
-std::vector<std::byte> deflated(std::span<const std::byte> bytes);
-
-/// Texts of frames, most of which are equal; each distinct text is stored once.
-class DistinctTexts {
- public:
-  void add(const std::string& text);
-  /// Returns {"kinds": [...], "of": [index of each frame's text]}; the texts are already JSON.
-  std::string json() const;
-
- private:
-  std::vector<std::string> texts_;
-  std::vector<int> places_;
-};
+std::string packed_text(const CodeTable& table);
 
 }  // namespace talus::exports

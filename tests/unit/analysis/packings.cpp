@@ -4,9 +4,7 @@
 
 #include "core/random.h"
 #include "core/trigonometry.h"
-#include "stress/bed.h"
-#include "stress/internal_moment.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::test {
 namespace {
@@ -60,6 +58,12 @@ void add_contact(Packing& packing, Index a, Index b, double fn, double ft, int s
   contacts.fn.push_back(fn);
   contacts.ft.push_back(ft);
   contacts.status.push_back(stress::contact_status(fn, ft, packing.frame.friction.grains));
+}
+
+void add_left_wall_contact(Packing& packing, Index a, double fn, double ft) {
+  add_contact(packing, a, packing.frame.grain_count(), fn, ft);
+  packing.frame.contacts.nx.back() = -1.0;
+  packing.frame.contacts.px.back() = packing.frame.x[a] - packing.statics.radius[a];
 }
 
 void moments_from_contacts(Packing& packing) {
@@ -117,17 +121,6 @@ Packing random_packing(std::uint64_t seed, Index count, double length, double he
 
 Packing moved(Packing packing, double shift) {
   for (double& x : packing.frame.x) x = modulo(x + shift, packing.statics.length);
-  return packing;
-}
-
-Packing turned(Packing packing) {
-  for (Index i = 0; i < packing.frame.grain_count(); ++i) {
-    const double x = packing.frame.x[i];
-    packing.frame.x[i] = -packing.frame.y[i];
-    packing.frame.y[i] = x;
-    const Tensor2 moment = packing.frame.internal_moment[i];
-    packing.frame.internal_moment[i] = {moment.yy, -moment.yx, -moment.xy, moment.xx};
-  }
   return packing;
 }
 

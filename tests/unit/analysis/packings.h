@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
 
 namespace talus::test {
 
@@ -23,6 +23,8 @@ Index add_floor_grain(Packing& packing, double x, double y, double radius = 0.5)
 /// Appends a contact; the normal points to b, and the force (fn, ft) acts on b. Sliding if |ft| = mu fn. A b
 /// after all grains is a wall on the right.
 void add_contact(Packing& packing, Index a, Index b, double fn, double ft = 0.0, int shift = 0);
+/// Appends a contact with the wall on the left, the first body after the grains.
+void add_left_wall_contact(Packing& packing, Index a, double fn, double ft = 0.0);
 /// Computes internal moments from the contacts, with talus_stress.
 void moments_from_contacts(Packing& packing);
 /// Computes gamma of all grains from their internal moments.
@@ -37,8 +39,6 @@ Packing random_packing(std::uint64_t seed, Index count, double length, double he
 
 /// Returns the packing with all x shifted by `shift` modulo the length.
 Packing moved(Packing packing, double shift);
-/// Returns the packing turned by 90 deg: x' = -y, y' = x. Not for a periodic packing.
-Packing turned(Packing packing);
 /// Returns the packing mirrored: x' = length - x, modulo the length if periodic.
 Packing mirrored(Packing packing);
 

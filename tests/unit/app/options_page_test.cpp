@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <fmt/core.h>
-#include <fstream>
 #include <map>
 #include <set>
 
-#include "app/command_tree.h"
 #include "app/commands.h"
-#include "app/value_words.h"
+#include "app/help_text.h"
+#include "app/map_options.h"
 #include "base/text.h"
+#include "support/has.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::app {
 namespace {
@@ -23,23 +24,30 @@ struct SharedOption {
   std::set<std::string> values;
 };
 
-void collect(const CommandPage& page, std::map<std::string, SharedOption>& options) {
-  for (const OptionPage& option : page.options) {
-    if (option.names.empty() || option.names.back() == "--help") continue;
-    SharedOption& shared = options[option.names.back()];
-    shared.commands.push_back(page.name.substr(page.name.find(' ') + 1));
-    shared.values.insert(option.choices.empty() ? option.value : joined(option.choices, "|"));
+/// `name`: that of the command without the program, empty for the program itself.
+void collect(const CLI::App& app, const std::string& name, std::map<std::string, SharedOption>& options) {
+  for (const CLI::Option* option : visible_options(app)) {
+    if (name.empty() || option->get_positional() || option == app.get_help_ptr()) continue;
+    SharedOption& shared = options["--" + option->get_lnames().back()];
+    shared.commands.push_back(name);
+    std::string value = value_text(*option);
+    value = value.substr(0, value.find(" in ["));
+    if (value.starts_with('{')) {
+      value = value.substr(1, value.size() - 2);
+      std::ranges::replace(value, ',', '|');
+    }
+    shared.values.insert(value);
   }
-  for (const CommandPage& command : page.commands) collect(command, options);
+  for (const CLI::App* command : visible_commands(app))
+    collect(*command, name + (name.empty() ? "" : " ") + command->get_name(), options);
 }
 
 /// Returns the options that at least two commands have.
 std::map<std::string, SharedOption> shared_options() {
   CLI::App app;
   add_commands(app);
-  name_values(app);
   std::map<std::string, SharedOption> options;
-  for (const CommandPage& command : command_tree(app, "talus").commands) collect(command, options);
+  collect(app, "", options);
   std::erase_if(options, [](const auto& option) { return option.second.commands.size() < 2; });
   return options;
 }
@@ -59,18 +67,44 @@ std::string table_of(const std::map<std::string, SharedOption>& options) {
 
 TEST(OptionsPage, has_the_table_of_the_parser) {
   if (!has_window) GTEST_SKIP() << "built without talus view";
-  std::ifstream file(test::source_folder() + "/docs/options.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}}, table = table_of(shared_options());
-  EXPECT_NE(page.find(table), std::string::npos) << "docs/options.md must have this table:\n" << table;
+  const std::string page = test::text_of(test::source_folder() + "/docs/options.md"),
+                    table = table_of(shared_options());
+  EXPECT_TRUE(test::has(page, table)) << "docs/options.md must have this table";
 }
 
-/// A frame, a threshold or a key has the same syntax everywhere.
+/// Returns the number of options of a command and of those below it. Options of maps, which have one page,
+/// are collected in `maps`, so that each counts once.
+std::size_t count_options(const CLI::App& app, std::set<std::string>& maps) {
+  std::size_t count = 0;
+  for (const CLI::Option* option : visible_options(app)) {
+    if (option->get_positional() || option == app.get_help_ptr()) continue;
+    if (option->get_group() == map_group)
+      maps.insert(option->get_name());
+    else
+      ++count;
+  }
+  for (const CLI::App* command : visible_commands(app)) count += count_options(*command, maps);
+  return count;
+}
+
+/// An option more needs a reason, and another that goes.
+TEST(OptionsPage, options_are_few) {
+  if (!has_window) GTEST_SKIP() << "built without talus view";
+  CLI::App app;
+  add_commands(app);
+  std::set<std::string> maps;
+  const std::size_t count = count_options(app, maps);
+  EXPECT_LE(count + maps.size(), 150u);
+}
+
+/// A frame, a size or a key has the same syntax everywhere.
 TEST(OptionsPage, shared_options_have_one_kind_of_value) {
   const std::map<std::string, SharedOption> options = shared_options();
   const std::map<std::string, std::set<std::string>> kinds = {
       {"--at", {"DEG,...", "DEG"}},  // several frames, or one
-      {"--theta-c", {"DEG"}},       {"--threshold", {"FACTOR"}}, {"--l-min", {"D"}},
-      {"--frames", {"K,K-K,..."}},  {"--set", {"KEY=VALUE"}},    {"--every", {"DEG"}}};
+      {"--size", {"SIZE"}},
+      {"--set", {"KEY=VALUE"}},
+      {"--every", {"DEG"}}};
   for (const auto& [name, values] : kinds) {
     ASSERT_TRUE(options.contains(name)) << name;
     EXPECT_EQ(options.at(name).values, values) << name;

@@ -11,7 +11,8 @@
 #include <system_error>
 #include <vector>
 
-#include "base/sanitizers.h"
+#include "base/version.h"
+#include "support/resource_limit.h"
 
 namespace talus {
 namespace {
@@ -64,7 +65,8 @@ TEST(ThreadTeam, waits_for_all_between_two_parts_of_a_task) {
 
 // Threads already started must be joined, or their destructors would end the program.
 TEST(ThreadTeam, that_the_system_has_no_threads_for_is_an_error) {
-  if (sanitizes_addresses || sanitizes_threads) GTEST_SKIP() << "sanitizers reserve memory beyond any limit";
+  if (sanitizes_addresses || test::sanitizes_threads)
+    GTEST_SKIP() << "sanitizers reserve memory beyond any limit";
   const auto make = [] {
     std::ifstream pages("/proc/self/statm");
     rlim_t size = 0;

@@ -108,32 +108,6 @@ TEST(NeighbourList, finds_all_images_in_short_periodic_beds) {
   for (double length : {3.0, 4.5, 6.0, 7.5, 9.0}) compare_lists(true, length * radius, 20);
 }
 
-TEST(NeighbourList, finds_each_image_of_a_pair_that_meets_twice) {
-  World world;
-  world.boundary.periodic = true;
-  world.boundary.length = 4.0 * radius;
-  add_disk(world.grains, {radius, radius}, radius, test::density, false);
-  add_disk(world.grains, {3.0 * radius, radius}, radius, test::density, false);
-  NeighbourList list;
-  Contacts contacts;
-  detect_contacts(list, world.grains, world.boundary, 1e-6, contacts);
-  EXPECT_EQ(keys_of(contacts), (std::vector<Key>{{0, 1, -1}, {0, 1, 0}}));
-}
-
-TEST(NeighbourList, is_sorted_by_key_and_pairs_no_two_fixed_grains) {
-  World world = crowded_world(3, true, 14.0 * radius);
-  NeighbourList list;
-  update_neighbour_list(list, world.grains, world.boundary, 0.5 * radius);
-  ASSERT_GT(list.pairs.a.size(), 100u);
-  for (std::size_t k = 0; k < list.pairs.a.size(); ++k) {
-    EXPECT_LT(list.pairs.a[k], world.grains.free_count);
-    EXPECT_LT(list.pairs.a[k], list.pairs.b[k]);
-    if (k == 0) continue;
-    EXPECT_LT((Key{list.pairs.a[k - 1], list.pairs.b[k - 1], list.pairs.shift[k - 1]}),
-              (Key{list.pairs.a[k], list.pairs.b[k], list.pairs.shift[k]}));
-  }
-}
-
 TEST(NeighbourList, is_kept_while_no_grain_moved_by_half_the_skin) {
   World world = crowded_world(1, true, 14.0 * radius);
   NeighbourList list;
@@ -272,14 +246,6 @@ TEST(NeighbourList, bears_a_grain_far_away) {
   detect_contacts(list, world.grains, world.boundary, 0.1 * radius, contacts);
   EXPECT_EQ(keys_of(contacts), brute_force(world.grains, world.boundary, 0.1 * radius));
   EXPECT_LT(list.cells.start.size(), 10000u);
-}
-
-TEST(NeighbourList, of_no_grains_is_empty) {
-  NeighbourList list;
-  Contacts contacts;
-  contacts.resize(3);
-  detect_contacts(list, Grains{}, Boundary{}, 0.1, contacts);
-  EXPECT_EQ(contacts.count(), 0);
 }
 
 TEST(NeighbourList, a_position_that_is_no_number_has_a_cell_as_all_have) {

@@ -1,29 +1,13 @@
-#include "dynamics/collapse.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/trigonometry.h"
+#include "dynamics/bed.h"
 #include "support/scenes.h"
 
 namespace talus::dynamics {
 namespace {
-
-/// Returns the smallest gap between any two grains, including periodic images.
-double smallest_gap(const World& world) {
-  const Grains& g = world.grains;
-  double smallest = 1e300;
-  for (Index a = 0; a < g.free_count; ++a)
-    for (Index b = a + 1; b < g.count(); ++b)
-      for (int shift = world.boundary.periodic ? -1 : 0; shift <= (world.boundary.periodic ? 1 : 0);
-           ++shift) {
-        const double dx = g.x[b] + shift * world.boundary.length - g.x[a];
-        smallest = std::min(smallest, std::hypot(dx, g.y[b] - g.y[a]) - g.radius[a] - g.radius[b]);
-      }
-  return smallest;
-}
 
 BedPlan plan_of(bool periodic, double columns, Index count) {
   BedPlan plan;
@@ -95,7 +79,7 @@ TEST(LooseBed, grains_do_not_overlap) {
     for (double columns : {6.0, 8.0, 10.0, 13.0, 20.0, 50.0})
       for (double fraction : {0.3, 0.5, 0.7}) {
         BedPlan plan = plan_of(periodic, columns, 100);
-        EXPECT_GE(smallest_gap(make_loose_bed(plan, fraction)), -1e-16)
+        EXPECT_GE(test::smallest_gap(make_loose_bed(plan, fraction)), -1e-16)
             << columns << " D long, solid fraction " << fraction;
       }
 }

@@ -67,22 +67,10 @@ TEST(Failure, a_flow_that_goes_on_gives_the_tilt_of_its_onset) {
 TEST(Failure, the_velocity_of_the_threshold_is_no_flow_yet) {
   SurfaceFlow flow;
   follow(flow, threshold, 0.1, 5000);
-  EXPECT_FALSE(flow.flowing);
+  follow(flow, -10.0 * threshold, 0.1, 1000);
+  EXPECT_FALSE(flow.flowing) << "upslope neither";
   follow(flow, threshold * (1.0 + 1e-12), 0.1, 1);
   EXPECT_TRUE(flow.flowing);
-}
-
-TEST(Failure, a_creep_below_the_threshold_never_fails) {
-  SurfaceFlow flow;
-  follow(flow, 0.99 * threshold, 0.1, 100000);
-  EXPECT_FALSE(flow.flowing);
-  EXPECT_FALSE(flow.failed);
-}
-
-TEST(Failure, only_downslope_counts) {
-  SurfaceFlow flow;
-  follow(flow, -10.0 * threshold, 0.1, 1000);
-  EXPECT_FALSE(flow.flowing);
 }
 
 TEST(Failure, is_final) {
@@ -96,12 +84,6 @@ TEST(Failure, is_final) {
   EXPECT_TRUE(flow.failed);
   EXPECT_EQ(flow.onset_tilt, before.onset_tilt);
   EXPECT_EQ(flow.displacement, before.displacement);
-}
-
-TEST(Failure, displacement_is_velocity_times_time) {
-  SurfaceFlow flow;
-  follow(flow, 2.0 * threshold, 0.1, 7);
-  EXPECT_NEAR(flow.displacement, 7 * h * 2.0 * threshold, 1e-15);
 }
 
 TEST(SurfaceVelocity, is_the_mean_along_x_of_the_free_grains_above) {

@@ -1,5 +1,3 @@
-#include "dynamics/form_problem.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "contact/detection.h"
 #include "core/trigonometry.h"
+#include "dynamics/step.h"
 #include "support/scenes.h"
 
 namespace talus::dynamics {
@@ -15,6 +14,13 @@ namespace {
 
 constexpr double h = 1e-3;
 constexpr double tolerance = 1e-4;
+
+Contacts contacts_of(const World& world, double margin) {
+  Contacts contacts;
+  contact::NeighbourList list;
+  contact::detect_contacts(list, world.grains, world.boundary, margin, contacts);
+  return contacts;
+}
 
 /// Disk above the plane y = 0 with the given gap and velocity, and its contact problem.
 struct Scene {
@@ -28,9 +34,7 @@ struct Scene {
     world.grains.vy[0] = vy;
   }
   void form_now() {
-    Contacts contacts;
-    contact::NeighbourList list;
-    contact::detect_contacts(list, world.grains, world.boundary, 1.0, contacts);
+    Contacts contacts = contacts_of(world, 1.0);
     std::copy(fn.begin(), fn.end(), contacts.fn.begin());
     std::copy(ft.begin(), ft.end(), contacts.ft.begin());
     form_problem(world, contacts, law, h, tolerance, problem);
@@ -162,41 +166,10 @@ TEST(FormProblem, tangential_restitution_enters_where_the_contact_closes) {
   EXPECT_EQ(scene.problem.ct[0], 0.0);
 }
 
-TEST(FormProblem, a_team_forms_the_problem_of_one_thread) {
-  World world = test::random_cloud(5, 900, true, 30.0 * test::radius);
-  world.boundary.planes = {{{0.0, 1.0}, 4.0 * test::radius, true}};
-  Contacts contacts;
-  contact::NeighbourList list;
-  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
-  for (std::size_t c = 0; c < contacts.fn.size(); c += 3) contacts.fn[c] = 1.0 + static_cast<double>(c);
-  ContactLawParameters law;
-  law.rolling_friction = 0.1;
-  solver::ContactProblem alone, together;
-  form_problem(world, contacts, law, h, tolerance, alone);
-  ThreadTeam team(3);
-  form_problem(world, contacts, law, h, tolerance, together, &team);
-  EXPECT_EQ(together.a, alone.a);
-  EXPECT_EQ(together.b, alone.b);
-  for (const auto field : {&solver::ContactProblem::vx, &solver::ContactProblem::vy,
-                           &solver::ContactProblem::omega, &solver::ContactProblem::inverse_mass,
-                           &solver::ContactProblem::inverse_inertia, &solver::ContactProblem::lever}) {
-    EXPECT_EQ(together.*field, alone.*field);
-    EXPECT_EQ((alone.*field).size(), world.grains.x.size() + 1);
-  }
-  for (const auto field : {&solver::ContactProblem::nx, &solver::ContactProblem::ny,
-                           &solver::ContactProblem::cn, &solver::ContactProblem::ct,
-                           &solver::ContactProblem::mu, &solver::ContactProblem::rolling_friction}) {
-    EXPECT_EQ(together.*field, alone.*field);
-    EXPECT_EQ((alone.*field).size(), contacts.a.size());
-  }
-}
-
 // Large beds are swept by columns, so contacts must connect only neighbouring columns.
 TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
   const World world = test::random_cloud(5, 20'000, true, 300.0 * test::radius);
-  Contacts contacts;
-  contact::NeighbourList list;
-  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  const Contacts contacts = contacts_of(world, 0.1 * test::radius);
   solver::ContactProblem problem;
   form_problem(world, contacts, {}, h, tolerance, problem);
   ASSERT_EQ(problem.column.size(), problem.vx.size());
@@ -219,9 +192,7 @@ TEST(FormProblem, contacts_of_a_large_bed_join_columns_next_to_each_other) {
 
 TEST(FormProblem, what_has_left_a_large_bed_has_a_column) {
   World world = test::random_cloud(5, 20'000, false, 300.0 * test::radius);
-  Contacts contacts;
-  contact::NeighbourList list;
-  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  const Contacts contacts = contacts_of(world, 0.1 * test::radius);
   world.grains.x[0] = -1.0;
   world.grains.x[1] = 1e12;
   world.grains.x[2] = std::numeric_limits<double>::quiet_NaN();
@@ -234,9 +205,7 @@ TEST(FormProblem, what_has_left_a_large_bed_has_a_column) {
 
 TEST(FormProblem, a_small_bed_has_no_columns) {
   const World world = test::random_cloud(5, 900, true, 300.0 * test::radius);
-  Contacts contacts;
-  contact::NeighbourList list;
-  contact::detect_contacts(list, world.grains, world.boundary, 0.1 * test::radius, contacts);
+  const Contacts contacts = contacts_of(world, 0.1 * test::radius);
   solver::ContactProblem problem;
   problem.column = {1, 2, 3};  // left over from a larger problem
   problem.columns = 4;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "dynamics/collapse.h"
+#include "dynamics/bed.h"
 #include "support/scenes.h"
 
 namespace talus::dynamics {
@@ -91,31 +91,6 @@ TEST_P(PeriodicEdge, a_grain_that_passes_it_comes_in_at_the_other_side) {
   EXPECT_NEAR(world.grains.x[0], 0.4995, 1e-12);
   EXPECT_NEAR(world.grains.x[1], 0.5005, 1e-12);
   EXPECT_EQ(world.grains.image, (std::vector<Index>{3, -3}));
-}
-
-// A rolling disk keeps its contact force and its motion across the edge.
-TEST_P(PeriodicEdge, a_stack_moves_across_it_without_a_jolt) {
-  const StepSettings settings = test::exact_step(GetParam());
-  World middle = test::column(3);
-  World edge = middle;
-  middle.boundary.periodic = edge.boundary.periodic = true;
-  for (Index i = 0; i < 3; ++i) {
-    middle.grains.x[i] = 0.5;
-    edge.grains.x[i] = 1.0 - 0.01 * radius;
-  }
-  for (World* world : {&middle, &edge}) {
-    StepWorkspace workspace;
-    for (Index i = 0; i < 3; ++i) world->grains.vx[i] = 0.01;
-    for (int k = 0; k < 20; ++k) step(*world, settings, workspace);
-  }
-  EXPECT_EQ(edge.grains.image[2], 1);
-  for (Index i = 0; i < 3; ++i) {
-    EXPECT_NEAR(edge.grains.vx[i], middle.grains.vx[i], 1e-11);
-    EXPECT_NEAR(edge.grains.vy[i], middle.grains.vy[i], 1e-11);
-  }
-  ASSERT_EQ(edge.contacts.count(), middle.contacts.count());
-  for (Index c = 0; c < edge.contacts.count(); ++c)
-    EXPECT_NEAR(edge.contacts.fn[c], middle.contacts.fn[c], 1e-8 * test::weight(edge));
 }
 
 // Grains that fall in a periodic box without a floor: internal forces and gravity perpendicular to x conserve

@@ -1,11 +1,8 @@
-#include "dynamics/pour.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "dynamics/bed.h"
 #include "dynamics/step.h"
 #include "support/scenes.h"
 
@@ -30,20 +27,8 @@ World bare_floor(const BedPlan& plan) {
   return world;
 }
 
-/// Returns the smallest gap between a free grain and the bodies onto which it can fall, including periodic
-/// images, m.
-double smallest_gap(const World& world, Index grain) {
-  const Grains& g = world.grains;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (Index other = 0; other < g.count(); ++other)
-    for (const double image : {-world.boundary.length, 0.0, world.boundary.length}) {
-      if (other == grain || (image != 0.0 && !world.boundary.periodic)) continue;
-      const double dx = g.x[other] + image - g.x[grain], dy = g.y[other] - g.y[grain];
-      smallest = std::min(smallest, std::sqrt(dx * dx + dy * dy) - g.radius[grain] - g.radius[other]);
-    }
-  for (const Plane& plane : world.boundary.planes)
-    if (!plane.wall) smallest = std::min(smallest, g.y[grain] - plane.offset - g.radius[grain]);
-  return smallest;
+std::pair<std::vector<Arrival>, World> before_pouring(const BedPlan& plan) {
+  return {pour_arrivals(plan), bare_floor(plan)};
 }
 
 TEST(PourArrivals, have_sizes_and_places_in_range_all_along_the_bed) {
@@ -98,8 +83,7 @@ TEST(LetArrive, a_grain_stands_half_a_step_of_its_fall_above_what_it_touches_fir
   for (const bool periodic : {true, false})
     for (const bool rough : {true, false}) {
       const BedPlan plan = plan_of(periodic, rough, 60);
-      const std::vector<Arrival> arrivals = pour_arrivals(plan);
-      World world = bare_floor(plan);
+      auto [arrivals, world] = before_pouring(plan);
       for (Index i = 0; i < plan.grain_count; ++i) {
         world.time = (i + 0.5) * rule.interval;
         add_due_grains(arrivals, rule, h, world);
@@ -108,27 +92,25 @@ TEST(LetArrive, a_grain_stands_half_a_step_of_its_fall_above_what_it_touches_fir
         EXPECT_EQ(world.grains.radius[i], arrivals[static_cast<std::size_t>(i)].radius);
         EXPECT_EQ(world.grains.vy[i], -rule.speed);
         EXPECT_EQ(world.grains.vx[i], 0.0);
-        EXPECT_GE(smallest_gap(world, i), -1e-16);
+        EXPECT_GE(test::smallest_gap(world, i), -1e-16);
         world.grains.y[i] -= 0.5 * h * rule.speed;
-        EXPECT_NEAR(smallest_gap(world, i), 0.0, 1e-15) << "grain " << i;
+        EXPECT_NEAR(test::smallest_gap(world, i), 0.0, 1e-15) << "grain " << i;
       }
     }
 }
 
 TEST(LetArrive, those_that_are_due_together_do_not_overlap) {
   const BedPlan plan = plan_of(true, true, 60);
-  const std::vector<Arrival> arrivals = pour_arrivals(plan);
-  World world = bare_floor(plan);
+  auto [arrivals, world] = before_pouring(plan);
   world.time = 59.5 * rule.interval;
   add_due_grains(arrivals, rule, h, world);
   ASSERT_EQ(world.grains.free_count, 60);
-  for (Index i = 0; i < 60; ++i) EXPECT_GE(smallest_gap(world, i), -1e-16);
+  for (Index i = 0; i < 60; ++i) EXPECT_GE(test::smallest_gap(world, i), -1e-16);
 }
 
 TEST(LetArrive, does_nothing_before_the_next_is_due_and_after_the_last) {
   const BedPlan plan = plan_of(true, true, 2);
-  const std::vector<Arrival> arrivals = pour_arrivals(plan);
-  World world = bare_floor(plan);
+  auto [arrivals, world] = before_pouring(plan);
   add_due_grains(arrivals, rule, h, world);
   const std::uint64_t with_one = state_hash(world);
   add_due_grains(arrivals, rule, h, world);
@@ -142,8 +124,7 @@ TEST(LetArrive, does_nothing_before_the_next_is_due_and_after_the_last) {
 
 TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
   const BedPlan plan = plan_of(false, true, 3);  // 10 floor grains, followed by planes 10 and 11
-  const std::vector<Arrival> arrivals = pour_arrivals(plan);
-  World world = bare_floor(plan);
+  auto [arrivals, world] = before_pouring(plan);
   add_due_grains(arrivals, rule, h, world);
   world.contacts.resize(3);  // the first grain on a floor grain, and at each wall
   world.contacts.a = {0, 0, 0};
@@ -165,8 +146,7 @@ TEST(LetArrive, ids_of_floor_and_planes_move_up_and_forces_stay) {
 
 TEST(WithAllArrivals, lists_those_on_their_way_behind_the_free_grains) {
   const BedPlan plan = plan_of(true, true, 5);
-  const std::vector<Arrival> arrivals = pour_arrivals(plan);
-  World world = bare_floor(plan);
+  auto [arrivals, world] = before_pouring(plan);
   world.time = 1.5 * rule.interval;
   add_due_grains(arrivals, rule, h, world);
   const Grains all = with_remaining_grains(world.grains, arrivals, rule.density);
@@ -180,35 +160,10 @@ TEST(WithAllArrivals, lists_those_on_their_way_behind_the_free_grains) {
             12);  // for a bed that is not poured
 }
 
-void pour_steps(const std::vector<Arrival>& arrivals, int steps, World& world, StepWorkspace& workspace) {
-  const StepSettings settings = test::bed_step(1e-4);
-  for (int k = 0; k < steps; ++k) {
-    add_due_grains(arrivals, {.speed = 1.0, .interval = 1.1e-3, .density = 2500.0}, settings.h, world);
-    step(world, settings, workspace);
-  }
-}
-
-// The workspace of a copy is empty and contains nothing of the poured bed.
-TEST(Pour, a_copied_bed_goes_on_with_the_same_bits) {
-  for (const bool periodic : {true, false}) {
-    const BedPlan plan = plan_of(periodic, true);
-    const std::vector<Arrival> arrivals = pour_arrivals(plan);
-    World world = bare_floor(plan);
-    StepWorkspace workspace, fresh;
-    pour_steps(arrivals, 51, world, workspace);
-    World copy = world;
-    pour_steps(arrivals, 60, world, workspace);
-    pour_steps(arrivals, 60, copy, fresh);
-    EXPECT_EQ(copy.grains.free_count, 100);
-    EXPECT_EQ(state_hash(copy), state_hash(world));
-  }
-}
-
 // The grain touches at the midpoint of the step: the plane stops it at once, and it stays on the plane.
 TEST(Pour, a_grain_that_arrives_touches_in_its_first_step) {
   const BedPlan plan = plan_of(true, false, 1);
-  const std::vector<Arrival> arrivals = pour_arrivals(plan);
-  World world = bare_floor(plan);
+  auto [arrivals, world] = before_pouring(plan);
   StepWorkspace workspace;
   add_due_grains(arrivals, rule, 1e-3, world);
   step(world, test::exact_step(solver::SolverKind::accelerated), workspace);

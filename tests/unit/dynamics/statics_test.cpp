@@ -61,24 +61,5 @@ TEST_P(Statics, three_disks_in_a_heap_balance) {
   EXPECT_EQ(floors, 2);
 }
 
-TEST_P(Statics, walls_and_floor_have_their_own_friction) {
-  World world = test::disk_on_plane(0.0);
-  world.gravity = 0.0;
-  world.boundary.planes[0].wall = true;
-  world.grains.vx[0] = 1.0;
-  world.grains.vy[0] = -0.1;
-  world.grains.y[0] += 0.5 * 0.1 * test::time_step;
-  StepSettings settings = test::exact_step(GetParam());
-  settings.law.friction = 0.5;
-  settings.law.wall_friction = 0.2;
-  World on_floor = world;
-  on_floor.boundary.planes[0].wall = false;
-  StepWorkspace workspace;
-  step(world, settings, workspace);
-  step(on_floor, settings, workspace);
-  EXPECT_NEAR(world.contacts.ft[0] / world.contacts.fn[0], 0.2, 1e-12);
-  EXPECT_NEAR(on_floor.contacts.ft[0] / on_floor.contacts.fn[0], 0.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace talus::dynamics

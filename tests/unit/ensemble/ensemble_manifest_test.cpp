@@ -10,13 +10,14 @@
 #include <fstream>
 #include <set>
 #include <span>
-#include <sstream>
 
 #include "base/hash.h"
 #include "ensemble/member_state.h"
 #include "io/durable_file.h"
 #include "scenario/text.h"
 #include "support/exit_code.h"
+#include "support/has.h"
+#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace talus::ensemble {
@@ -32,27 +33,30 @@ class EnsembleManifestTest : public testing::Test {
                           const std::vector<std::string>& settings = {}) {
     return {"", seeds, "", plan_variants(scenario, settings, axes)};
   }
-  static std::string text_of(const std::string& path) {
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-  }
-
   static std::string hash_of(const std::string& text) {
     return hash_text(hash_bytes(std::as_bytes(std::span(text))));
   }
-  /// Replaces the manifest by these lines, with a matching hash.
-  void replace_manifest(const std::string& lines) const {
-    const std::string text = "talus ensemble 1\n" + lines;
-    std::ofstream(manifest_path(ensemble)) << text << "hash " << hash_of(text) << "\n";
+  /// Replaces the manifest by this text, which lacks its end, with a matching hash.
+  void replace_manifest(const std::string& begin) const {
+    const std::string text = begin + ",\n \"hash\": ";
+    std::ofstream(manifest_path(ensemble)) << text << "\"" << hash_of(text) << "\"\n}\n";
+  }
+  /// Returns the text of the manifest without its end.
+  std::string begin_of_manifest() const {
+    const std::string text = test::text_of(manifest_path(ensemble));
+    return text.substr(0, text.rfind(",\n \"hash\": "));
+  }
+  /// Replaces a part of the manifest, with a matching hash.
+  void change_manifest(const std::string& part, const std::string& other) const {
+    std::string text = begin_of_manifest();
+    ASSERT_TRUE(test::has(text, part)) << part;
+    replace_manifest(text.replace(text.find(part), part.size(), other));
   }
   std::string message_of_reading() const {
-    try {
-      read_ensemble(ensemble);
-    } catch (const Error& error) {
-      return error.code() == ExitCode::bad_data ? error.what() : "another exit code";
-    }
-    return "";
+    const test::Refusal refusal = test::refusal_of([&] { read_ensemble(ensemble); });
+    return refusal.code == ExitCode::bad_data
+               ? refusal.message
+               : std::string(refusal.message.empty() ? "" : "another exit code");
   }
 
   test::TemporaryFolder folder_;
@@ -62,6 +66,7 @@ class EnsembleManifestTest : public testing::Test {
 
 TEST_F(EnsembleManifestTest, is_read_back) {
   EXPECT_FALSE(is_ensemble(ensemble));
+  EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::missing_input);
   EnsembleManifest asked = wanted({2, 3, 4, 9}, {"contact.friction=0.3,0.5"});
   asked.until = "theta_c:0.2";
   extend_ensemble(ensemble, asked);
@@ -72,15 +77,13 @@ TEST_F(EnsembleManifestTest, is_read_back) {
   EXPECT_EQ(found.variants[1].name, "contact.friction=0.5");
   EXPECT_EQ(found.variants[0].scenario, asked.variants[0].scenario);
   EXPECT_EQ(found.variants[0].scenario.contact.friction, 0.3);
-  EXPECT_NE(text_of(manifest_path(ensemble)).find("seeds 2-4,9\n"), std::string::npos);
+  EXPECT_TRUE(test::has(test::text_of(manifest_path(ensemble)), "\"seeds\": \"2-4,9\""));
 }
 
 TEST_F(EnsembleManifestTest, remembers_which_runs_stay_until_it_is_told_otherwise) {
   EnsembleManifest asked = wanted({1, 2});
   extend_ensemble(ensemble, asked);
   EXPECT_EQ(read_ensemble(ensemble).keep, "");
-  EXPECT_EQ(text_of(manifest_path(ensemble)).find("keep"), std::string::npos)
-      << "written only if it differs from the default";
   for (const auto& [given, expected] :
        {std::pair{"analysis", "analysis"}, {"", "analysis"}, {"3", "3"}, {"all", "all"}}) {
     asked.keep = given;
@@ -107,14 +110,8 @@ TEST_F(EnsembleManifestTest, is_not_written_again_where_nothing_is_new) {
 
 TEST_F(EnsembleManifestTest, of_another_scenario_is_refused_and_says_why) {
   extend_ensemble(ensemble, wanted({1}));
-  try {
-    extend_ensemble(ensemble, wanted({1}, {}, {"contact.friction=0.4"}));
-    FAIL() << "nothing was rejected";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("contact.friction is 0.5 there, 0.4 here"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(test::refuses([&] { extend_ensemble(ensemble, wanted({1}, {}, {"contact.friction=0.4"})); },
+                            ExitCode::bad_data, {"contact.friction is 0.5 there, 0.4 here"}));
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({1}, {"tilt.rate=2"})); }),
             ExitCode::bad_data)
       << "variants none of which exists";
@@ -125,14 +122,8 @@ TEST_F(EnsembleManifestTest, has_one_task_for_its_members) {
   asked.task = ReadingsTask{};
   extend_ensemble(ensemble, asked);
   EXPECT_EQ(read_ensemble(ensemble).task, MemberTask(ReadingsTask{}));
-  try {
-    extend_ensemble(ensemble, wanted({1}));
-    FAIL() << "nothing was rejected";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("have the task 'readings', expected no task"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(test::refuses([&] { extend_ensemble(ensemble, wanted({1})); }, ExitCode::bad_data,
+                            {"have the task 'readings', expected no task"}));
   EXPECT_EQ(parse_task("", "e"), MemberTask(PlainTask{}));
   for (const char* text : {"dance", "readings ", "trials", "trials --from 12", "trials --from 12 --every x"})
     EXPECT_EQ(test::exit_code_of([&] { parse_task(text, "e"); }), ExitCode::bad_data) << text;
@@ -168,7 +159,7 @@ TEST(Patch, is_read_as_width_by_depth) {
 
 TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {
   extend_ensemble(ensemble, wanted({1}));
-  const std::string path = manifest_path(ensemble), whole = text_of(path);
+  const std::string path = manifest_path(ensemble), whole = test::text_of(path);
   for (std::size_t k = 0; k < whole.size(); k += 7) {
     std::string damaged = whole;
     damaged[k] = static_cast<char>(damaged[k] ^ 1);
@@ -181,35 +172,80 @@ TEST_F(EnsembleManifestTest, that_was_changed_is_refused) {
 
 TEST_F(EnsembleManifestTest, names_no_place_outside_of_its_folder) {
   extend_ensemble(ensemble, wanted({1}));
-  const std::string hash = hash_of(text_of(ensemble + "/scenarios/scenario.toml"));
+  const std::string whole = begin_of_manifest();
+  const std::string first = whole.substr(whole.find("  {\n"), whole.rfind("\n ]") - whole.find("  {\n"));
+  const auto with_second = [&](const std::string& name) {
+    std::string second = first;
+    second.replace(second.find("\"\""), 2, "\"" + name + "\"");
+    replace_manifest(std::string(whole).replace(whole.find(first), first.size(), first + ",\n" + second));
+  };
   for (const std::string& name :
        {std::string(".."), std::string("../victim"), std::string("a/../../victim"), folder_.path("outside"),
-        std::string("."), std::string("a//b"), std::string("a/"), std::string("a\tb"),
-        std::string("a\x1b[2J"), std::string("a\xff"), std::string(256, 'a')}) {
-    replace_manifest(fmt::format("seeds 1\nvariant {} {}\n", hash, name));
+        std::string("."), std::string("a//b"), std::string("a/b"), std::string("a/"), std::string("a\\tb"),
+        std::string("a\\u0000"), std::string("a\\u001b[2J"), std::string(256, 'a')}) {
+    with_second(name);
     const std::string message = message_of_reading();
-    EXPECT_TRUE(message.starts_with(manifest_path(ensemble) + ":3:1: error: ")) << name << ": " << message;
-    EXPECT_NE(message.find("expected a variant whose name is a folder in this one"), std::string::npos);
+    EXPECT_TRUE(message.starts_with(manifest_path(ensemble) + ": error at /variants/1/name: "))
+        << name << message;
+    EXPECT_TRUE(test::has(message, "expected a variant whose name is a folder in this one"));
   }
   for (const char* twice : {"", "scenario"}) {
-    replace_manifest(fmt::format("seeds 1\nvariant {} \nvariant {} {}\n", hash, hash, twice));
-    EXPECT_TRUE(message_of_reading().starts_with(manifest_path(ensemble) + ":4:1: error: ")) << twice;
+    with_second(twice);
+    EXPECT_TRUE(test::has(message_of_reading(), "/variants/1/name: expected unique names")) << twice;
+  }
+  with_second("a\xff");
+  EXPECT_TRUE(test::has(message_of_reading(), ": expected JSON")) << "no UTF-8";
+}
+
+TEST_F(EnsembleManifestTest, that_is_broken_is_named_with_the_place) {
+  extend_ensemble(ensemble, wanted({1}));
+  const std::string whole = begin_of_manifest();
+  const auto expect_refused = [&](const std::string& part, const std::string& other,
+                                  const std::string& place) {
+    replace_manifest(whole);
+    change_manifest(part, other);
+    const std::string message = message_of_reading();
+    EXPECT_TRUE(message.starts_with(manifest_path(ensemble) + ": error at " + place + ": "))
+        << other << message;
+  };
+  for (const char* seeds : {"5-1", "1-1000000000000", "1-9000,10000-19000", "9223372036854775808", "x", ""})
+    expect_refused("\"seeds\": \"1\"", fmt::format("\"seeds\": \"{}\"", seeds), "/seeds");
+  for (const char* seeds : {"1", "-0", "null", "[]", "{}", "123456789012345678901234567890"})
+    expect_refused("\"seeds\": \"1\"", fmt::format("\"seeds\": {}", seeds), "/seeds");
+  for (const char* until : {"theta_c", "theta_c:-1"})
+    expect_refused("\"until\": \"\"", fmt::format("\"until\": \"{}\"", until), "/until");
+  for (const char* keep : {"some", "99999999999999999999999"})
+    expect_refused("\"keep\": \"\"", fmt::format("\"keep\": \"{}\"", keep), "/keep");
+  for (const char* task :
+       {"dance", "trials --from 12 --every 0 --patch 10x2", "trials --from nan --every 1 --patch 10x2"})
+    expect_refused("\"task\": \"\"", fmt::format("\"task\": \"{}\"", task), "/task");
+  expect_refused("talus ensemble 2", "talus ensemble 3", "/format");
+  expect_refused("\"bed\": ", "\"bird\": ", "/variants/0/bed");
+  expect_refused("[\n", "[[[[[\n", "/");
+  expect_refused("\"seeds\": \"1\"", "\"seeds\": 1e400", "/");
+  expect_refused("[\n", "]\n", fmt::format("byte {}", whole.find("[\n") + 1));
+  expect_refused(" \"keep\": \"\"", " \"keep\": \"all\",\n \"keep\": \"\"", "line 7");
+  expect_refused(" \"keep\": \"\"", " \"frob\": 1,\n \"keep\": \"\"", "line 7");
+  expect_refused(" \"keep\": \"\"", "\"keep\": \"\"", "line 7");
+  replace_manifest(whole);
+  EXPECT_EQ(message_of_reading(), "");
+}
+
+TEST_F(EnsembleManifestTest, that_is_as_deep_as_it_is_long_is_refused) {
+  extend_ensemble(ensemble, wanted({1}));
+  for (const char* brackets : {"[", "{\"a\":"}) {
+    std::string deep;
+    while (deep.size() < 1000000) deep += brackets;
+    replace_manifest(deep);
+    EXPECT_TRUE(test::has(message_of_reading(), "expected at most three levels"));
   }
 }
 
-TEST_F(EnsembleManifestTest, that_is_broken_is_named_with_the_line) {
+TEST_F(EnsembleManifestTest, of_an_earlier_revision_is_refused) {
   extend_ensemble(ensemble, wanted({1}));
-  const std::string hash = hash_of(text_of(ensemble + "/scenarios/scenario.toml"));
-  for (const char* line :
-       {"seeds 5-1", "seeds 1-1000000000000", "seeds 1-9000,10000-19000", "seeds 9223372036854775808",
-        "seeds x", "until theta_c", "until theta_c:-1", "keep some", "keep 99999999999999999999999",
-        "task dance", "task trials --from 12 --every 0 --patch 10x2",
-        "task trials --from nan --every 1 --patch 10x2", "full a", "bed a", "frob 1", "", "Seeds 1"}) {
-    replace_manifest(fmt::format("{}\nseeds 1\nvariant {} \n", line, hash));
-    EXPECT_TRUE(message_of_reading().starts_with(manifest_path(ensemble) + ":2:1: error: ")) << line;
-  }
-  replace_manifest(fmt::format("seeds 1\nvariant {} \n", hash));
-  EXPECT_EQ(message_of_reading(), "");
+  std::ofstream(manifest_path(ensemble)) << "talus ensemble 1\nversion 0.1.0\nseeds 1\n";
+  EXPECT_TRUE(test::has(message_of_reading(),
+                        "ensemble.manifest was written by an earlier revision of Talus; start another"));
 }
 
 TEST_F(EnsembleManifestTest, has_short_names_that_differ_whatever_the_values_are) {
@@ -310,28 +346,6 @@ TEST_F(EnsembleManifestTest, withdraws_no_variant_that_was_stopped_or_has_begun)
   EXPECT_FALSE(std::filesystem::exists(members[2].path + ".run")) << "the name is free";
 }
 
-TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_its_names) {
-  EnsembleManifest before = wanted({1}, {"contact.friction=0.3"});
-  before.variants.front().name = "contact.friction=0.30000";
-  extend_ensemble(ensemble, before);
-  std::vector<Variant> now = wanted({1}, {"contact.friction=0.3"}).variants;
-  take_earlier_names(now, ensemble);
-  EXPECT_EQ(now.front().name, "contact.friction=0.30000");
-}
-
-TEST_F(EnsembleManifestTest, of_an_earlier_version_keeps_names_that_are_paths) {
-  std::ofstream(folder_.path("a.csv")) << "x,y,radius\n10,0.5,0.5\n";
-  const std::string axis = "deposition.file=" + folder_.path("a.csv");
-  const auto variants = plan_variants(scenario, {"deposition.method=file"}, {axis});
-  EnsembleManifest before{"", {1}, "", variants};
-  before.variants.front().name = axis;
-  extend_ensemble(ensemble, before);
-  std::vector<Variant> now = variants;
-  take_earlier_names(now, ensemble);
-  EXPECT_EQ(now.front().name, axis);
-  EXPECT_EQ(read_ensemble(ensemble).variants.front().name, axis);
-}
-
 TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
   const std::string file = folder_.path("a.csv");
   std::ofstream(file) << "x,y,radius\n10,0.5,0.5\n";
@@ -345,14 +359,8 @@ TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
   std::ofstream(file) << "# the same grains\nx,y,radius\n10.0,0.5,0.5\n";
   begin();
   std::ofstream(file) << "x,y,radius\n10,0.6,0.5\n";
-  try {
-    begin();
-    FAIL() << "nothing was rejected";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_TRUE(std::string(error.what()).starts_with(file + " (deposition.file) no longer holds the bed"))
-        << error.what();
-  }
+  EXPECT_TRUE(
+      test::refuses(begin, ExitCode::bad_data, {file + " (deposition.file) no longer holds the bed"}));
   std::filesystem::remove(file);
   begin();  // its members report it
   EnsembleManifest other =
@@ -361,20 +369,15 @@ TEST_F(EnsembleManifestTest, knows_the_beds_that_it_began_with) {
             ExitCode::missing_input);
 }
 
-TEST_F(EnsembleManifestTest, whose_scenario_was_changed_is_refused) {
-  extend_ensemble(ensemble, wanted({1}));
-  std::ofstream(ensemble + "/scenarios/scenario.toml", std::ios::app) << "# a word\n";
-  EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::bad_data);
-}
-
 TEST_F(EnsembleManifestTest, keeps_the_scenarios_that_it_began_with_as_they_were_written) {
   extend_ensemble(ensemble, wanted({1}));
   // State written by another version: the same values in different words.
   const std::string scenario_file = ensemble + "/scenarios/scenario.toml",
-                    text = text_of(scenario_file) + "# x\n";
+                    text = test::text_of(scenario_file) + "# x\n";
   std::ofstream(scenario_file) << text;
+  EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::bad_data);
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({2})); }), ExitCode::bad_data);
-  EXPECT_EQ(text_of(scenario_file), text);
+  EXPECT_EQ(test::text_of(scenario_file), text);
 }
 
 TEST_F(EnsembleManifestTest, of_too_many_seeds_is_refused_and_stays_as_it_is) {
@@ -383,10 +386,6 @@ TEST_F(EnsembleManifestTest, of_too_many_seeds_is_refused_and_stays_as_it_is) {
   extend_ensemble(ensemble, wanted(many));
   EXPECT_EQ(test::exit_code_of([&] { extend_ensemble(ensemble, wanted({10001})); }), ExitCode::usage);
   EXPECT_EQ(read_ensemble(ensemble).seeds.size(), 10000u);
-}
-
-TEST_F(EnsembleManifestTest, that_is_missing_is_missing_input) {
-  EXPECT_EQ(test::exit_code_of([&] { read_ensemble(ensemble); }), ExitCode::missing_input);
 }
 
 TEST_F(EnsembleManifestTest, names_the_file_of_a_bed_from_anywhere) {

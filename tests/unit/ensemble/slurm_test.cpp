@@ -1,18 +1,23 @@
-/// Ensembles as job arrays: the script of a task, arguments of Slurm's commands, and their output.
+/// Job arrays of Slurm.
 
 #include "ensemble/slurm.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <span>
 
 #include "base/errors.h"
+#include "io/run_folder.h"
 #include "support/exit_code.h"
+#include "support/has.h"
+#include "support/temporary_folder.h"
 
 namespace talus::ensemble {
 namespace {
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+using test::has;
 
 bool has_word(const std::vector<std::string>& words, const std::string& word) {
   return std::ranges::find(words, word) != words.end();
@@ -34,7 +39,7 @@ TEST(SlurmScript, holds_paths_as_words_of_a_shell) {
   EXPECT_TRUE(script.starts_with("#!/bin/bash\n"));
   EXPECT_TRUE(has(script, "\ntalus='/opt/my programs/talus'\n")) << script;
   EXPECT_TRUE(has(script, "\ncd -- $'/shared/it\\'s $(rm x)\\x0a-b' || exit 66\n")) << script;
-  EXPECT_TRUE(has(script, "\n\"$talus\" ensemble work . --stale 120 --max-wall 03:58:00 &\n")) << script;
+  EXPECT_TRUE(has(script, "\n  \"$talus\" ensemble work . --stale 120 --max-wall 03:58:00 &\n")) << script;
 }
 
 TEST(SlurmScript, of_a_task_without_end_has_no_limit) {
@@ -111,6 +116,76 @@ TEST(SlurmCommands, ask_one_cluster_at_a_time) {
 
 TEST(SlurmCommands, queue_one_task_again_and_not_its_array) {
   EXPECT_EQ(requeue_words("12", "3"), (std::vector<std::string>{"scontrol", "requeue", "12_3"}));
+}
+
+void write(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+class SlurmFolder : public test::FolderTest {
+ protected:
+  SlurmFolder() { std::filesystem::create_directory(slurm_folder(path)); }
+
+  const std::string path = folder.path().string();
+};
+
+TEST(SlurmJobs, of_no_folder_are_none) { EXPECT_TRUE(recorded_jobs("/nowhere").empty()); }
+
+TEST_F(SlurmFolder, jobs_are_remembered_until_they_are_forgotten) {
+  record_job(path, {"100", "", 8});
+  record_job(path, {"9", "far", 3});
+  write_memory(path, "9", "2", {{1, 50}, 1});
+  write(slurm_folder(path) + "/job-x.csv", "no job");
+  std::vector<SlurmJob> jobs = recorded_jobs(path);
+  ASSERT_EQ(jobs.size(), 2u);
+  EXPECT_EQ(jobs[0].id, "9");
+  EXPECT_EQ(jobs[0].cluster, "far");
+  EXPECT_EQ(jobs[0].tasks, 3u);
+  EXPECT_EQ(jobs[1].id, "100");
+  forget_job(path, jobs[0]);
+  EXPECT_EQ(recorded_jobs(path).size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(slurm_folder(path) + "/task-9_2.csv"));
+}
+
+TEST_F(SlurmFolder, jobs_that_are_damaged_are_named) {
+  for (const char* text : {"", "job,cluster,tasks\n13,,2\n", "job,cluster,tasks\n12,,x\n", "12,,2\n"}) {
+    write(slurm_folder(path) + "/job-12.csv", text);
+    EXPECT_EQ(test::exit_code_of([&] { recorded_jobs(path); }), ExitCode::bad_data) << text;
+  }
+}
+
+TEST(Starts, that_bring_no_member_further_are_counted) {
+  TaskMemory memory = after_start({}, {0, 10});
+  EXPECT_EQ(memory.idle_starts, 0);
+  memory = after_start(memory, {0, 10});
+  memory = after_start(memory, {0, 10});
+  EXPECT_EQ(memory.idle_starts, 2);
+  EXPECT_EQ(after_start(memory, {0, 11}).idle_starts, 0) << "steps";
+  EXPECT_EQ(after_start(memory, {1, 0}).idle_starts, 0) << "a finished member";
+  EXPECT_EQ(after_start(memory, {0, 10}).idle_starts, max_idle_starts);
+}
+
+TEST_F(SlurmFolder, remembers_starts_from_one_to_the_next) {
+  EXPECT_EQ(read_memory(path, "12", "3").idle_starts, 0);
+  write_memory(path, "12", "3", {{1, 30}, 2});
+  const TaskMemory memory = read_memory(path, "12", "3");
+  EXPECT_EQ(memory.idle_starts, 2);
+  EXPECT_EQ(memory.mark, (EnsembleMark{1, 30}));
+  write(slurm_folder(path) + "/task-12_3.csv", "done\nx");
+  EXPECT_EQ(read_memory(path, "12", "3").idle_starts, 0);
+}
+
+TEST(EnsembleMark, counts_members_and_committed_steps) {
+  const test::TemporaryFolder folder;
+  const EnsemblePlan plan = plan_ensemble({1, 2, 3, 4}, {{"", "", {}}}, folder.path().string());
+  write(folder.path("seed-1.h5"), "");
+  write(folder.path("seed-2.failed"), "");
+  std::filesystem::create_directory(folder.path("seed-3.h5.run"));
+  io::Manifest manifest;
+  const std::string bytes = "x";
+  const io::StoredFile file = io::describe("header.h5", std::as_bytes(std::span(bytes)));
+  manifest.header = manifest.checkpoint = file;
+  manifest.segments = {{file, 1, 0, 1, 40}, {file, 1, 0, 1, 2}};
+  write(folder.path("seed-3.h5.run/manifest"), io::manifest_text(manifest));
+  EXPECT_EQ(mark_of(plan), (EnsembleMark{2, 42}));
 }
 
 }  // namespace

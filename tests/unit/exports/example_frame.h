@@ -15,7 +15,9 @@ struct ExampleFrame {
   std::vector<double> gamma, factors;
   std::vector<analysis::FrameThreshold> thresholds;
 
-  analysis::GrainSource source() const { return {{frame, statics}, 7, gamma, &first, factors, thresholds}; }
+  analysis::GrainSource source() const {
+    return {{frame, statics}, nullptr, true, 7, gamma, &first, factors, thresholds};
+  }
 };
 
 inline ExampleFrame example_frame() {

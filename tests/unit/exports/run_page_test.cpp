@@ -1,19 +1,15 @@
 /// Page of a hand-made bed.
 
-#include "exports/page/run_page.h"
-
 #include <gtest/gtest.h>
 
 #include <regex>
 
 #include "base/errors.h"
-#include "core/trigonometry.h"
-#include "exports/page/map_texts.h"
-#include "exports/page/page_run.h"
-#include "exports/page/tables.h"
-#include "pictures/layers.h"
+#include "exports/page/page_data.h"
+#include "exports/writers.h"
 #include "runs/analysis_run.h"
 #include "support/exit_code.h"
+#include "support/has.h"
 #include "support/temporary_folder.h"
 #include "unit/exports/unpacked.h"
 #include "unit/view/example_bed.h"
@@ -57,9 +53,9 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 
 TEST_F(RunPage, holds_the_frames_that_are_asked_for) {
   const std::string some = page({0, 3, 6});
-  EXPECT_NE(some.find("\"numbers\":[0,3,6]"), std::string::npos);
-  EXPECT_NE(some.find("\"of_tilt\":2"), std::string::npos) << "frame 6 belongs to the flow";
-  EXPECT_NE(some.find("\"tilts\":[0,15,24]"), std::string::npos);
+  EXPECT_TRUE(test::has(some, "\"numbers\":[0,3,6]"));
+  EXPECT_TRUE(test::has(some, "\"of_tilt\":2")) << "frame 6 belongs to the flow";
+  EXPECT_TRUE(test::has(some, "\"tilts\":[0.0,15.0,24.0]"));
   const std::size_t grains = file_->header().statics.radius.size();
   EXPECT_EQ(table(some, "x", grains, 3).size(), 3 * grains);
 }
@@ -71,8 +67,8 @@ TEST_F(RunPage, holds_places_within_half_a_quantum) {
   const auto x = table(text, "x", statics.radius.size(), 3), y = table(text, "y", statics.radius.size(), 3);
   ASSERT_FALSE(x.empty());
   const PageRun run = begin_page(*file_, analysis_, frames);
-  const PlaceQuantum across = places_of_period(statics.length),
-                     up = places_of_box(run.extent.y_min, run.extent.y_max);
+  const Quantum across = places_of_period(statics.length),
+                up = places_of_box(run.extent.y_min, run.extent.y_max);
   for (std::size_t column = 0; column < frames.size(); ++column) {
     const Frame frame = file_->frame(frames[column]);
     for (std::size_t i = 0; i < statics.radius.size(); ++i) {
@@ -107,29 +103,31 @@ TEST_F(RunPage, says_what_the_pictures_say) {
   const std::string text = std::regex_replace(page(frames), std::regex(R"(\\u003c)"), "<");
   const PageRun run = begin_page(*file_, analysis_, frames);
   std::size_t maps = 0;
-  for_each_frame(run, {}, [&](const PageFrame& frame) {
-    std::vector<pictures::MapKind> kinds = filling_maps(run);
-    kinds.insert(kinds.end(), {pictures::MapKind::forces, pictures::MapKind::critical});
-    for (const pictures::MapKind kind : kinds) {
-      pictures::MapSettings settings = run.settings;
-      settings.layers = {kind};
-      const render::FrameView view = pictures::make_map(frame.mapped(run), settings, run.extent);
-      EXPECT_NE(text.find("\"" + view.title + "\""), std::string::npos) << view.title;
-      EXPECT_NE(text.find("\"" + view.caption + "\""), std::string::npos) << view.caption;
-      for (const render::Bar& bar : view.legends[0].bars)
-        for (const render::BarTick& tick : bar.ticks)
-          EXPECT_NE(text.find("\"label\":\"" + tick.label + "\""), std::string::npos) << tick.label;
-      for (const render::Swatch& swatch : view.legends[0].swatches)
-        EXPECT_NE(text.find("\"label\":\"" + swatch.label + "\""), std::string::npos) << swatch.label;
-      ++maps;
-    }
-  });
+  for_each_frame(
+      run, {},
+      [&](const analysis::GrainSource& frame, const pictures::SeenFrames& seen, const auto&, const auto&) {
+        std::vector<pictures::MapKind> kinds = filling_maps(run);
+        kinds.insert(kinds.end(), {pictures::MapKind::forces, pictures::MapKind::critical});
+        for (const pictures::MapKind kind : kinds) {
+          pictures::MapSettings settings = run.settings;
+          settings.layers = {kind};
+          const render::FrameView view = pictures::make_map(frame, settings, run.extent, &seen);
+          EXPECT_TRUE(test::has(text, "\"" + view.title + "\"")) << view.title;
+          EXPECT_TRUE(test::has(text, "\"" + view.caption + "\"")) << view.caption;
+          for (const render::Bar& bar : view.legends[0].bars)
+            for (const render::BarTick& tick : bar.ticks)
+              EXPECT_TRUE(test::has(text, "\"label\":\"" + tick.label + "\"")) << tick.label;
+          for (const render::Swatch& swatch : view.legends[0].swatches)
+            EXPECT_TRUE(test::has(text, "\"label\":\"" + swatch.label + "\"")) << swatch.label;
+          ++maps;
+        }
+      });
   EXPECT_GE(maps, 14U);
 }
 
 TEST_F(RunPage, needs_nothing_but_itself) {
   const std::string text = page({0});
-  EXPECT_NE(text.find("default-src 'none'"), std::string::npos);
+  EXPECT_TRUE(test::has(text, "default-src 'none'"));
   const std::regex address(R"(https?:|//[a-z]+\.[a-z]|url\(|src=|@import|<link)");
   std::string rest = text;
   const std::string names = "http://www.w3.org/2000/svg";  // the name of a namespace, which is never fetched
@@ -159,16 +157,33 @@ TEST_F(RunPage, is_the_same_each_time) { EXPECT_EQ(page({0, 3}), page({0, 3})); 
 TEST_F(RunPage, of_a_run_that_stands_has_no_clusters) {
   write(std::nan(""));
   const std::string text = page({0, 5});
-  EXPECT_EQ(text.find("\"name\":\"clusters\""), std::string::npos);
-  EXPECT_EQ(text.find("table-cluster\""), std::string::npos);
-  EXPECT_NE(text.find("(assumed)"), std::string::npos);
-  EXPECT_NE(text.find("the slope has not failed"), std::string::npos);
-  EXPECT_NE(text.find("\"theta_c\": null"), std::string::npos);
+  EXPECT_FALSE(test::has(text, "\"name\":\"clusters\""));
+  EXPECT_FALSE(test::has(text, "table-cluster\""));
+  EXPECT_TRUE(test::has_all(text, {"(assumed)", "the slope has not failed", "\"theta_c\":null"}));
 }
 
 TEST_F(RunPage, names_events_that_lie_among_its_frames) {
-  EXPECT_NE(page({0, 1, 2, 3, 4}).find("\"name\":\"theta_c\""), std::string::npos);
-  EXPECT_EQ(page({0, 1}).find("\"name\":\"theta_c\""), std::string::npos) << "5 deg is far from the failure";
+  EXPECT_TRUE(test::has(page({0, 1, 2, 3, 4}), "\"name\":\"theta_c\""));
+  EXPECT_FALSE(test::has(page({0, 1}), "\"name\":\"theta_c\"")) << "5 deg is far from the failure";
+}
+
+TEST_F(RunPage, of_a_tilt_that_is_held_and_lowered_is_in_time) {
+  EXPECT_TRUE(test::has_all(page({0, 1}), {"\"by_time\":false", "\"places\":[0.0,5.0]", "D per degree"}));
+  std::vector<Frame> frames;
+  for (const double tilt : {0.0, 10.0, 10.0, 4.0, 20.0}) {
+    frames.push_back(example::bed_frame(tilt, 1));
+    frames.back().step = 1000 * std::ssize(frames);
+    frames.back().time = 0.5 * static_cast<double>(frames.size());
+  }
+  example::write_run(path_, 22.0, std::move(frames));
+  file_.emplace(io::RunFile::open(path_));
+  analysis_ = runs::analyse_run(*file_, {}, 1, {});
+  const std::string text = page({0, 1, 2, 3, 4});
+  EXPECT_TRUE(test::has_all(
+      text, {"\"by_time\":true", "\"places\":[0.0,0.5,1.0,1.5,2.0]", "\"tilts\":[0.0,10.0,10.0,4.0,20.0]"}));
+  // The rows reach 22 deg after 2.2 s, which is 1.7 s after the first frame.
+  EXPECT_TRUE(test::has(text, "\"tilt\":22.0,\"at\":1.7,\"place\":3.4"));
+  EXPECT_FALSE(test::has(text, "D per degree")) << "values of frames are comparable only as totals";
 }
 
 TEST_F(RunPage, stops_when_asked) {

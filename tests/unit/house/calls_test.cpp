@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/has.h"
 #include "unit/house/source_tree.h"
 
 namespace talus::house {
@@ -57,7 +58,7 @@ std::vector<std::string> throwing_calls(const TextFile& file) {
   static const std::regex call(
       R"((?:std::filesystem|\bfs)::(?!path\b)(\w+)(?:\s+\w+)?\s*[({]|\b(directory_entry)\b)");
   const Code code(file);
-  const auto has = [&code](const char* word) { return code.text.find(word) != std::string::npos; };
+  const auto has = [&code](const char* word) { return test::has(code.text, word); };
   if (!has("fs::") && !has("std::filesystem") && !has("directory_entry")) return {};  // the search is slow
   const std::set<std::string> names = error_codes(code.text);
   std::vector<std::string> found;
@@ -75,7 +76,7 @@ TEST(Calls, of_std_filesystem_have_an_object_for_the_error) {
   for (const TextFile& file : read_texts({"src", "render"}))
     if (is_source(file))
       for (const std::string& found : throwing_calls(file))
-        ADD_FAILURE() << found << ": throws without a message; base/paths.h has replacements";
+        ADD_FAILURE() << found << ": throws without a message; base/output_file.h has replacements";
 }
 
 TEST(Calls, that_throw_are_found) {
@@ -100,10 +101,10 @@ TEST(Calls, that_print_are_in_one_file) {
     if (!is_source(file) || file.path == "src/app/terminal.cpp") continue;
     for (std::size_t k = 0; k < file.lines.size(); ++k) {
       const std::string code = file.lines[k].substr(0, file.lines[k].find("//"));
-      const bool prints = code.find("fmt::print") != std::string::npos ||
-                          std::ranges::any_of(words, [&](const std::string& word) {
-                            return has_word(code, word) && code.find("gnu::format") == std::string::npos;
-                          });
+      const bool prints =
+          test::has(code, "fmt::print") || std::ranges::any_of(words, [&](const std::string& word) {
+            return has_word(code, word) && !test::has(code, "gnu::format");
+          });
       if (prints) ADD_FAILURE() << place(file, k) << ": print through app/terminal.h";
     }
   }

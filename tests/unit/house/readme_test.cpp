@@ -4,22 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "support/has.h"
 #include "support/places.h"
+#include "support/process.h"
 
 namespace talus::house {
 namespace {
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(test::source_folder() + "/" + path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string text_of(const std::string& path) { return test::text_of(test::source_folder() + "/" + path); }
 
 /// Returns the command lines of a page, which are indented; fenced code has none.
 std::vector<std::string> commands(const std::string& page = "README.md") {
@@ -27,7 +23,7 @@ std::vector<std::string> commands(const std::string& page = "README.md") {
   std::vector<std::string> found;
   bool fenced = false;
   for (std::string line; std::getline(text, line);) {
-    fenced = fenced != (line.find("```") != std::string::npos);
+    fenced = fenced != (test::has(line, "```"));
     if (!fenced && line.rfind("    ", 0) == 0) found.push_back(line.substr(4));
   }
   return found;
@@ -37,7 +33,7 @@ TEST(Readme, test_command_is_the_one_of_ci) {
   bool named = false;
   for (const std::string& command : commands()) named = named || command.rfind("./bootstrap test", 0) == 0;
   EXPECT_TRUE(named);
-  EXPECT_NE(text_of(".ci/run").find("\n./bootstrap test\n"), std::string::npos);
+  EXPECT_TRUE(test::has(text_of(".ci/run"), "\n./bootstrap test\n"));
 }
 
 /// Returns the lines between two lines of a text.
@@ -66,7 +62,7 @@ TEST(Testing, page_has_the_parts_of_the_full_check) {
   const std::string page = text_of("docs/testing.md");
   std::string table;
   for (const std::string& part : parts) table += row_of_page(part) + "\n";
-  EXPECT_NE(page.find("|---|---|---|\n" + table), std::string::npos) << table;
+  EXPECT_TRUE(test::has(page, "|---|---|---|\n" + table)) << table;
 }
 
 TEST(Readme, commands_name_what_exists) {
@@ -76,11 +72,10 @@ TEST(Readme, commands_name_what_exists) {
     std::string program, subcommand, argument;
     words >> program >> subcommand >> argument;
     if (program == "./bootstrap") {
-      EXPECT_NE(text_of("bootstrap").find("\n  " + subcommand + " "), std::string::npos) << command;
+      EXPECT_TRUE(test::has(text_of("bootstrap"), "\n  " + subcommand + " ")) << command;
     } else {
       EXPECT_EQ(program, "build/release/talus");
-      EXPECT_TRUE(std::filesystem::exists(test::source_folder() + "/src/app/" + subcommand + "_command.cpp"))
-          << command;
+      EXPECT_TRUE(test::has(text_of("src/app/commands.cpp"), "add_" + subcommand + "_command")) << command;
       if (argument.rfind("assets/", 0) == 0) {
         EXPECT_TRUE(std::filesystem::exists(test::source_folder() + "/" + argument)) << command;
       }
@@ -100,7 +95,7 @@ std::string without_browser(const std::string& page) {
 /// Checks that the commands of a page are subcommands defined by these sources, and that its options are
 /// theirs; returns the number of options.
 int check_page(const std::string& name, const std::vector<const char*>& sources_of) {
-  std::string sources;
+  std::string sources = text_of("src/app/options.cpp");
   for (const char* source : sources_of) sources += text_of(std::string("src/app/") + source + ".cpp");
   for (const std::string& command : commands(name)) {
     std::istringstream words(command);
@@ -108,7 +103,7 @@ int check_page(const std::string& name, const std::vector<const char*>& sources_
     words >> program >> subcommand;
     if (program == "chromium" || program.starts_with("docs/")) continue;
     EXPECT_EQ(program, "build/release/talus");
-    EXPECT_NE(sources.find("\"" + subcommand + "\","), std::string::npos) << command;
+    EXPECT_TRUE(test::has(sources, "\"" + subcommand + "\",")) << command;
   }
   const std::string page = without_browser(text_of(name));
   int options = 0;
@@ -117,7 +112,7 @@ int check_page(const std::string& name, const std::vector<const char*>& sources_
     const std::string option = page.substr(at, end - at);
     const bool comment = at > 1 && page.compare(at - 2, 2, "<!") == 0;
     if (comment || option.find_first_not_of('-') == std::string::npos) continue;  // or the rule of a table
-    EXPECT_NE(sources.find(option), std::string::npos) << option;
+    EXPECT_TRUE(test::has(sources, option)) << option;
     ++options;
     at = end;
   }
@@ -127,7 +122,7 @@ int check_page(const std::string& name, const std::vector<const char*>& sources_
 TEST(MapsPage, commands_and_options_exist) {
   ASSERT_GT(commands("docs/maps.md").size(), 3u);
   EXPECT_GT(check_page("docs/maps.md", {"map_options", "frame_options", "render_command", "animate_command",
-                                        "panel_command", "run_command"}),
+                                        "panel_command", "run_command", "maps_command"}),
             20);
 }
 
@@ -160,7 +155,7 @@ TEST(ViewPage, lists_the_keys_of_the_window) {
     std::istringstream line(keys.substr(from, keys.find("\",", from) - from));
     for (std::string key; line >> key; ++found) {
       if (key.size() > 1 && key.back() == ',') key.pop_back();
-      EXPECT_NE(table.find(key), std::string::npos) << key;
+      EXPECT_TRUE(test::has(table, key)) << key;
     }
   }
   EXPECT_GT(found, 40);

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/seal.h"
+#include "io/durable_file.h"
 #include "unit/io/example_run.h"
 
 namespace talus::example {
@@ -36,7 +36,7 @@ Place place_of(const std::string& run, const std::string& path, unsigned row) {
     EXPECT_GE(H5Dget_chunk_info_by_coord(set, start, &mask, &offset, &size), 0) << path;
     // Versions of HDF5 count from the beginning of the file or from the end of the seal; deflated data begin
     // with an x.
-    if (file_text(run).at(static_cast<std::size_t>(offset)) != 'x') offset += user_block;
+    if (test::text_of(run).at(static_cast<std::size_t>(offset)) != 'x') offset += user_block;
     place = {static_cast<std::size_t>(offset), static_cast<std::size_t>(size)};
   } else {
     const hid_t space = H5Dget_space(set);
@@ -57,7 +57,7 @@ Place place_of(const std::string& run, const std::string& path, unsigned row) {
 void spoil_data_set(const std::string& run, const std::string& path, unsigned row) {
   const Place place = place_of(run, path, row);
   ASSERT_GT(place.size, 0U) << path;
-  std::string text = file_text(run);
+  std::string text = test::text_of(run);
   std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(place.offset), std::min<std::size_t>(place.size, 8),
               '\x55');
   write_text(run, text);
@@ -72,10 +72,9 @@ void swap_data_sets(const std::string& run, const std::string& one, const std::s
 }
 
 void seal_again(const std::string& run) {
-  const std::string text = file_text(run);
+  const std::string text = test::text_of(run);
   const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-  std::vector<std::byte> sealed(bytes, bytes + text.size());
-  io::seal(sealed);
+  const std::vector<std::byte> sealed = io::sealed({bytes, bytes + text.size()});
   write_text(run, {reinterpret_cast<const char*>(sealed.data()), sealed.size()});
 }
 
@@ -85,7 +84,7 @@ void set_version(const std::string& run, std::int32_t version) {
   EXPECT_GE(H5Dwrite(set, H5T_NATIVE_INT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, &version), 0);
   H5Dclose(set);
   H5Fclose(file);
-  if (file_text(run).starts_with("talus run file")) seal_again(run);
+  if (test::text_of(run).starts_with("talus run file")) seal_again(run);
 }
 
 }  // namespace talus::example

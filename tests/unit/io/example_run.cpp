@@ -4,10 +4,9 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fmt/core.h>
 #include <fstream>
-#include <iterator>
 #include <limits>
-#include <stdexcept>
 
 #include "core/random.h"
 #include "core/trigonometry.h"
@@ -120,9 +119,10 @@ io::RunStore store_with_commits(const std::string& path, int count) {
   return store;
 }
 
-std::string file_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+std::string row_text(const io::DataSetField& field) {
+  return fmt::format("| `{}` | {}{}{} | {} |\n", field.path, io::type_name(field.type),
+                     field.shape.empty() ? "" : " " + field.shape, field.unit == "1" ? "" : ", " + field.unit,
+                     field.help);
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -3,8 +3,9 @@
 
 #include <string>
 
+#include "io/run_schema.h"
 #include "io/run_store.h"
-#include "support/temporary_folder.h"
+#include "support/process.h"
 
 namespace talus::example {
 
@@ -22,7 +23,9 @@ io::Checkpoint checkpoint(int k);
 /// Returns a store with the commits 0 ... count - 1.
 io::RunStore store_with_commits(const std::string& path, int count);
 
-std::string file_text(const std::string& path);
+/// Returns the row of a data set in the tables of docs/file_format.md and docs/analysis.md.
+std::string row_text(const io::DataSetField& field);
+
 void write_text(const std::string& path, const std::string& text);
 
 }  // namespace talus::example

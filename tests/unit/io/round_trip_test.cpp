@@ -29,13 +29,14 @@ void expect_same_frame(const Frame& read, const Frame& written) {
   EXPECT_EQ(read.time, written.time);
   EXPECT_EQ(read.tilt, written.tilt);
   EXPECT_EQ(read.image, written.image);
-  expect_rounded(read.x, written.x, "x");
-  expect_rounded(read.y, written.y, "y");
-  expect_rounded(read.angle, written.angle, "angle");
-  expect_rounded(read.vx, written.vx, "vx");
-  expect_rounded(read.vy, written.vy, "vy");
-  expect_rounded(read.omega, written.omega, "omega");
-  expect_rounded(read.gamma, written.gamma, "gamma");
+  for (const auto& [name, field] : {std::pair("x", &Frame::x),
+                                    {"y", &Frame::y},
+                                    {"angle", &Frame::angle},
+                                    {"vx", &Frame::vx},
+                                    {"vy", &Frame::vy},
+                                    {"omega", &Frame::omega},
+                                    {"gamma", &Frame::gamma}})
+    expect_rounded(read.*field, written.*field, name);
   ASSERT_EQ(read.internal_moment.size(), written.internal_moment.size());
   for (std::size_t i = 0; i < read.internal_moment.size(); ++i) {
     const Tensor2 &r = read.internal_moment[i], &w = written.internal_moment[i];
@@ -48,12 +49,13 @@ void expect_same_contacts(const FrameContacts& read, const FrameContacts& writte
   EXPECT_EQ(read.b, written.b);
   EXPECT_EQ(read.shift, written.shift);
   EXPECT_EQ(read.status, written.status);
-  expect_rounded(read.nx, written.nx, "nx");
-  expect_rounded(read.ny, written.ny, "ny");
-  expect_rounded(read.px, written.px, "px");
-  expect_rounded(read.py, written.py, "py");
-  expect_rounded(read.fn, written.fn, "fn");
-  expect_rounded(read.ft, written.ft, "ft");
+  for (const auto& [name, field] : {std::pair("nx", &FrameContacts::nx),
+                                    {"ny", &FrameContacts::ny},
+                                    {"px", &FrameContacts::px},
+                                    {"py", &FrameContacts::py},
+                                    {"fn", &FrameContacts::fn},
+                                    {"ft", &FrameContacts::ft}})
+    expect_rounded(read.*field, written.*field, name);
 }
 
 /// Checks a frame of which only the positions were read.
@@ -157,9 +159,19 @@ void expect_example_run(const RunFile& run) {
   EXPECT_EQ(run.commands(), commands);
 }
 
-TEST(RoundTrip, of_a_folder_under_both_its_names) {
-  const example::TemporaryFolder folder;
-  const RunStore store = example::store_with_commits(folder.path("run.h5"), commits);
+class RoundTrip : public test::FolderTest {
+ protected:
+  /// Opens the run, of which `store` has been packed.
+  RunFile packed(RunStore store) const {
+    store.pack();
+    return RunFile::open(path);
+  }
+
+  const std::string path = folder.path("run.h5");
+};
+
+TEST_F(RoundTrip, of_a_folder_under_both_its_names) {
+  const RunStore store = example::store_with_commits(path, commits);
   for (const char* name : {"run.h5", "run.h5.run"}) {
     const RunFile run = RunFile::open(folder.path(name));
     EXPECT_FALSE(run.complete());
@@ -167,17 +179,14 @@ TEST(RoundTrip, of_a_folder_under_both_its_names) {
   }
 }
 
-TEST(RoundTrip, of_a_packed_file) {
-  const example::TemporaryFolder folder;
-  example::store_with_commits(folder.path("run.h5"), commits).pack();
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+TEST_F(RoundTrip, of_a_packed_file) {
+  const RunFile run = packed(example::store_with_commits(path, commits));
   EXPECT_TRUE(run.complete());
   expect_example_run(run);
   EXPECT_FALSE(std::filesystem::exists(folder.path("run.h5.run")));
 }
 
-TEST(RoundTrip, of_a_frame_with_contacts_that_carry_no_force_leaves_them_out) {
-  const example::TemporaryFolder folder;
+TEST_F(RoundTrip, of_a_frame_with_contacts_that_carry_no_force_leaves_them_out) {
   const RunHeader header = example::header();
   double weight = 0.0;  // mean of the free grains
   for (Index i = 0; i < header.statics.free_count; ++i)
@@ -185,10 +194,9 @@ TEST(RoundTrip, of_a_frame_with_contacts_that_carry_no_force_leaves_them_out) {
   Segment segment = example::segment(1);
   ASSERT_EQ(segment.frames.front().contacts.count(), 3) << "of the grains 0 and 3, 1 and 4, 2 and 5";
   segment.frames.front().contacts.fn = {1.01e-9 * weight, 0.99e-9 * weight, 0.0};
-  RunStore store = RunStore::create(folder.path("run.h5"), header, false);
+  RunStore store = RunStore::create(path, header, false);
   store.commit(segment, example::checkpoint(0));
-  store.pack();
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const RunFile run = packed(std::move(store));
   const Frame frame = run.frame(0), stored = run.stored_frame(0);
   EXPECT_EQ(frame.contacts.a, std::vector<Index>{0});
   EXPECT_EQ(frame.contacts.b, std::vector<Index>{3});
@@ -222,17 +230,15 @@ Checkpoint checkpoint_in_flow(int k, std::int64_t step, std::int64_t flow_steps)
   return checkpoint;
 }
 
-TEST(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
+TEST_F(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
   for (const double after : {0.3, 0.2, 0.4}) {  // held at the tilt of the failure, lowered, or beyond it
-    const example::TemporaryFolder folder;
-    RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+    RunStore store = RunStore::create(path, example::header(), true);
     store.commit(segment_at(1, {0.1, 0.2}), checkpoint_in_flow(0, 2, 0));
-    EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 2u);
+    EXPECT_EQ(RunFile::open(path).frame_count(), 2u);
     store.commit(segment_at(3, {0.3, after}), checkpoint_in_flow(1, 4, 1));
-    EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 3u);
+    EXPECT_EQ(RunFile::open(path).frame_count(), 3u);
     store.commit(segment_at(5, {after}), checkpoint_in_flow(2, 5, 2));
-    store.pack();
-    const RunFile run = RunFile::open(folder.path("run.h5"));
+    const RunFile run = packed(std::move(store));
     EXPECT_EQ(run.frame_tilts(), (std::vector{0.1, 0.2, 0.3}));
     EXPECT_EQ(run.frame_count(), 3u);
     EXPECT_EQ(run.observables().size(), 3u);
@@ -243,14 +249,13 @@ TEST(RoundTrip, of_a_flow_after_failure_which_is_told_apart) {
 }
 
 /// Without a flow after failure, a tilt that is held or falls is a tilt.
-TEST(RoundTrip, of_a_tilt_that_is_held_and_falls) {
-  const example::TemporaryFolder folder;
-  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+TEST_F(RoundTrip, of_a_tilt_that_is_held_and_falls) {
+  RunStore store = RunStore::create(path, example::header(), false);
   store.commit(segment_at(1, {0.1, 0.3, 0.3}), example::checkpoint(0));
   store.commit(segment_at(4, {0.2, -0.1}), example::checkpoint(1));
   for (const bool packed : {false, true}) {
     if (packed) store.pack();
-    const RunFile run = RunFile::open(folder.path("run.h5"));
+    const RunFile run = RunFile::open(path);
     EXPECT_EQ(run.frame_tilts(), (std::vector{0.1, 0.3, 0.3, 0.2, -0.1}));
     EXPECT_EQ(run.observables().size(), 5u);
     EXPECT_TRUE(run.goes_by_time());
@@ -258,19 +263,16 @@ TEST(RoundTrip, of_a_tilt_that_is_held_and_falls) {
   }
 }
 
-TEST(RoundTrip, of_a_run_without_frames) {
-  const example::TemporaryFolder folder;
-  RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
+TEST_F(RoundTrip, of_a_run_without_frames) {
+  RunStore store = RunStore::create(path, example::header(), false);
   store.commit({}, example::checkpoint(0));
-  store.pack();
-  const RunFile run = RunFile::open(folder.path("run.h5"));
+  const RunFile run = packed(std::move(store));
   EXPECT_EQ(run.frame_count(), 0u);
   EXPECT_TRUE(run.steps().empty());
   expect_same_checkpoint(run.checkpoint(), example::checkpoint(0));
 }
 
-TEST(RoundTrip, equal_runs_give_equal_bytes_however_they_were_committed) {
-  const example::TemporaryFolder folder;
+TEST_F(RoundTrip, equal_runs_give_equal_bytes_however_they_were_committed) {
   example::store_with_commits(folder.path("one.h5"), commits).pack();
 
   RunStore together = RunStore::create(folder.path("other.h5"), example::header(), false);
@@ -284,11 +286,10 @@ TEST(RoundTrip, equal_runs_give_equal_bytes_however_they_were_committed) {
   }
   together.commit(all, example::checkpoint(commits - 1));
   together.pack();
-  EXPECT_TRUE(example::file_text(folder.path("one.h5")) == example::file_text(folder.path("other.h5")));
+  EXPECT_TRUE(test::text_of(folder.path("one.h5")) == test::text_of(folder.path("other.h5")));
 }
 
-TEST(RoundTrip, a_resumed_run_continues_with_the_same_bits) {
-  const example::TemporaryFolder folder;
+TEST_F(RoundTrip, a_resumed_run_continues_with_the_same_bits) {
   example::store_with_commits(folder.path("one.h5"), commits).pack();
 
   { const RunStore interrupted = example::store_with_commits(folder.path("other.h5"), 3); }
@@ -299,7 +300,7 @@ TEST(RoundTrip, a_resumed_run_continues_with_the_same_bits) {
   expect_same_checkpoint(checkpoint, example::checkpoint(2));
   for (int k = 3; k < commits; ++k) resumed.commit(example::segment(k), example::checkpoint(k));
   resumed.pack();
-  EXPECT_TRUE(example::file_text(folder.path("one.h5")) == example::file_text(folder.path("other.h5")));
+  EXPECT_TRUE(test::text_of(folder.path("one.h5")) == test::text_of(folder.path("other.h5")));
 }
 
 }  // namespace

@@ -6,15 +6,14 @@
 #include <hdf5.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
-#include "base/errors.h"
-#include "io/manifest.h"
+#include "io/durable_file.h"
 #include "io/run_file.h"
-#include "io/seal.h"
+#include "io/run_folder.h"
+#include "support/exit_code.h"
+#include "support/process.h"
 #include "unit/io/example_run.h"
 
 namespace talus::io {
@@ -22,47 +21,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the error thrown by `action`; fails the test if none is thrown.
-template <typename Action>
-Error error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return Error(ExitCode::done, "");
-}
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
-  std::ranges::sort(names);
-  return names;
-}
-
-TEST(RunStore, a_second_writer_is_refused_and_told_whose_the_run_is) {
-  const example::TemporaryFolder folder;
+class RunStoreTest : public test::FolderTest {
+ protected:
   const std::string path = folder.path("run.h5");
+};
+
+TEST_F(RunStoreTest, a_second_writer_is_refused_and_told_whose_the_run_is) {
   const RunStore store = example::store_with_commits(path, 1);
   RunHeader header;
   Checkpoint checkpoint;
-  const std::vector<Error> errors = {
-      error_of([&] { RunStore::create(path, example::header(), true); }),
-      error_of([&] { RunStore::resume(path, header, checkpoint); }),
-  };
-  for (const Error& error : errors) {
-    EXPECT_EQ(error.code(), ExitCode::cannot_create);
-    EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid()) + " on host "),
-              std::string::npos)
-        << error.what();
-  }
+  const std::string owner = "process " + std::to_string(getpid()) + " on host ";
+  EXPECT_TRUE(test::refuses([&] { RunStore::create(path, example::header(), true); }, ExitCode::cannot_create,
+                            {owner}));
+  EXPECT_TRUE(
+      test::refuses([&] { RunStore::resume(path, header, checkpoint); }, ExitCode::cannot_create, {owner}));
   EXPECT_EQ(RunFile::open(path).frame_count(), 0u);  // nothing was changed
 }
 
-TEST(RunStore, a_run_is_told_from_a_scenario_by_what_it_holds) {
-  const example::TemporaryFolder folder;
-  const auto with = [&folder](const std::string& name, const std::string& bytes) {
+TEST_F(RunStoreTest, a_run_is_told_from_a_scenario_by_what_it_holds) {
+  const auto with = [this](const std::string& name, const std::string& bytes) {
     std::ofstream(folder.path(name), std::ios::binary) << bytes;
     return is_run(folder.path(name));
   };
@@ -76,29 +53,25 @@ TEST(RunStore, a_run_is_told_from_a_scenario_by_what_it_holds) {
   EXPECT_TRUE(is_run(folder.path("")));
 }
 
-TEST(RunStore, a_run_is_refused_where_one_exists) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, a_run_is_refused_where_one_exists) {
   { const RunStore store = example::store_with_commits(path, 2); }
   const auto create = [&] { RunStore::create(path, example::header(), false); };
   EXPECT_EQ(run_presence(path), RunPresence::folder);
-  EXPECT_EQ(error_of(create).code(), ExitCode::cannot_create);
+  EXPECT_EQ(test::exit_code_of(create), ExitCode::cannot_create);
 
   RunHeader header;
   Checkpoint checkpoint;
   RunStore::resume(path, header, checkpoint).pack();
   EXPECT_EQ(run_presence(path), RunPresence::packed);
-  const std::string before = example::file_text(path);
-  EXPECT_EQ(error_of(create).code(), ExitCode::cannot_create);
-  EXPECT_TRUE(example::file_text(path) == before);
+  const std::string before = test::text_of(path);
+  EXPECT_EQ(test::exit_code_of(create), ExitCode::cannot_create);
+  EXPECT_TRUE(test::text_of(path) == before);
   EXPECT_FALSE(fs::exists(run_folder(path)));
 }
 
-TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_it) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_it) {
   example::store_with_commits(path, 2).pack();
-  const std::string before = example::file_text(path);
+  const std::string before = test::text_of(path);
   fs::create_directory(run_folder(path));
   example::write_text(run_folder(path) + "/notes.txt", "mine");
   {
@@ -106,40 +79,36 @@ TEST(RunStore, overwrite_replaces_a_run_but_never_a_folder_or_a_foreign_file_in_
     EXPECT_EQ(run_presence(path), RunPresence::packed) << "the old run, until the new one has begun";
     store.commit(example::segment(1), example::checkpoint(1));
     EXPECT_EQ(run_presence(path), RunPresence::folder);
-    EXPECT_TRUE(example::file_text(path) == before) << "it stays until the new one is complete";
+    EXPECT_TRUE(test::text_of(path) == before) << "it stays until the new one is complete";
     store.pack();
   }
   EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
-  EXPECT_EQ(names_in(run_folder(path)), std::vector<std::string>{"notes.txt"});
+  EXPECT_EQ(test::names_in(run_folder(path)), std::set<std::string>{"notes.txt"});
 
   fs::create_directory(folder.path("folder.h5"));
-  EXPECT_EQ(error_of([&] { RunStore::create(folder.path("folder.h5"), example::header(), true); }).code(),
+  EXPECT_EQ(test::exit_code_of([&] { RunStore::create(folder.path("folder.h5"), example::header(), true); }),
             ExitCode::cannot_create);
 }
 
-TEST(RunStore, a_run_that_has_not_ended_stays_until_the_one_that_replaces_it_begins) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, a_run_that_has_not_ended_stays_until_the_one_that_replaces_it_begins) {
   { const RunStore old = example::store_with_commits(path, 2); }
   const std::size_t frames = RunFile::open(path).frame_count();
   RunStore store = RunStore::create(path, example::header(), true);
   EXPECT_EQ(RunFile::open(path).frame_count(), frames);
   store.commit(example::segment(1), example::checkpoint(1));
   EXPECT_EQ(RunFile::open(path).frame_count(), 1u);
-  EXPECT_EQ(names_in(run_folder(path)).size(), 5u) << "header, lock, manifest, segment, checkpoint";
+  EXPECT_EQ(test::names_in(run_folder(path)).size(), 5u) << "header, lock, manifest, segment, checkpoint";
 }
 
 // Reader and writer have the same bounds.
-TEST(RunStore, writes_nothing_that_cannot_be_read) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, writes_nothing_that_cannot_be_read) {
   const auto refuses_header = [&](const auto& spoil) {
     RunHeader header = example::header();
     spoil(header);
-    const Error error = error_of([&] { RunStore::create(path, header, false); });
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
+    const test::Refusal refusal = test::refusal_of([&] { RunStore::create(path, header, false); });
+    EXPECT_EQ(refusal.code, ExitCode::bad_data);
     EXPECT_FALSE(fs::exists(run_folder(path)));
-    return std::string(error.what());
+    return refusal.message;
   };
   EXPECT_EQ(refuses_header([](RunHeader& header) { header.statics.radius[2] = 9e-6; }),
             "the run cannot be stored: its data set /particles/grains/radius holds 9e-06 at index 2, "
@@ -159,7 +128,7 @@ TEST(RunStore, writes_nothing_that_cannot_be_read) {
     Checkpoint checkpoint = example::checkpoint(2);
     ASSERT_FALSE(segment.frames.empty());
     spoil(segment, checkpoint);
-    EXPECT_EQ(error_of([&] { store.commit(segment, checkpoint); }).code(), ExitCode::bad_data);
+    EXPECT_EQ(test::exit_code_of([&] { store.commit(segment, checkpoint); }), ExitCode::bad_data);
     EXPECT_EQ(RunFile::open(path).frame_count(), frames) << "the earlier commit stays";
   };
   using S = Segment&;
@@ -181,19 +150,16 @@ TEST(RunStore, writes_nothing_that_cannot_be_read) {
   EXPECT_GT(RunFile::open(path).frame_count(), frames);
 }
 
-TEST(RunStore, is_packed_over_nothing_that_has_appeared_under_its_name) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5"), other = folder.path("other.h5");
+TEST_F(RunStoreTest, is_packed_over_nothing_that_has_appeared_under_its_name) {
+  const std::string other = folder.path("other.h5");
   example::store_with_commits(other, 3).pack();
   for (const bool is_run : {false, true}) {
     RunStore store = example::store_with_commits(path, 2);
     is_run ? static_cast<void>(fs::copy_file(other, path)) : example::write_text(path, "precious");
-    const std::string before = example::file_text(path);
-    const Error error = error_of([&] { store.pack(); });
-    EXPECT_EQ(error.code(), ExitCode::cannot_create);
-    EXPECT_NE(std::string(error.what()).find("the run is in " + run_folder(path)), std::string::npos)
-        << error.what();
-    EXPECT_TRUE(example::file_text(path) == before);
+    const std::string before = test::text_of(path);
+    EXPECT_TRUE(
+        test::refuses([&] { store.pack(); }, ExitCode::cannot_create, {"the run is in " + run_folder(path)}));
+    EXPECT_TRUE(test::text_of(path) == before);
     EXPECT_EQ(run_presence(path), RunPresence::folder);
     EXPECT_FALSE(RunFile::open(path).complete());
     discard_folder(path);
@@ -206,9 +172,8 @@ TEST(RunStore, is_packed_over_nothing_that_has_appeared_under_its_name) {
   }
 }
 
-TEST(RunStore, of_an_interrupted_run_is_not_discarded_for_another_run_of_its_name) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5"), other = folder.path("other.h5");
+TEST_F(RunStoreTest, of_an_interrupted_run_is_not_discarded_for_another_run_of_its_name) {
+  const std::string other = folder.path("other.h5");
   example::store_with_commits(other, 3).pack();
   { const RunStore store = example::store_with_commits(path, 2); }
   fs::copy_file(other, path);
@@ -219,31 +184,27 @@ TEST(RunStore, of_an_interrupted_run_is_not_discarded_for_another_run_of_its_nam
   EXPECT_EQ(run_presence(path), RunPresence::folder);
 }
 
-TEST(RunStore, what_was_never_committed_does_not_exist) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, what_was_never_committed_does_not_exist) {
   { const RunStore begun = RunStore::create(path, example::header(), false); }
   EXPECT_EQ(run_presence(path), RunPresence::none);
-  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::missing_input);
+  EXPECT_EQ(test::exit_code_of([&] { RunFile::open(path); }), ExitCode::missing_input);
   RunHeader header;
   Checkpoint checkpoint;
-  EXPECT_EQ(error_of([&] { RunStore::resume(path, header, checkpoint); }).code(), ExitCode::missing_input);
+  EXPECT_EQ(test::exit_code_of([&] { RunStore::resume(path, header, checkpoint); }), ExitCode::missing_input);
   example::store_with_commits(path, 1);  // create takes over the folder
   EXPECT_EQ(run_presence(path), RunPresence::folder);
 }
 
-TEST(RunStore, resume_clears_leftovers_away_and_keeps_what_is_committed) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, resume_clears_leftovers_away_and_keeps_what_is_committed) {
   { const RunStore store = example::store_with_commits(path, 2); }
-  const std::vector<std::string> before = names_in(run_folder(path));
+  const std::set<std::string> before = test::names_in(run_folder(path));
   for (const char* name : {"segment_000003.h5", "checkpoint_000003-abcdefgh.h5", "manifest.talus.part",
                            "segment_000004-abcdefgh.h5.talus.part", "manifest-abcdefgh.talus.part"})
     example::write_text(run_folder(path) + "/" + name, "half");
   RunHeader header;
   Checkpoint checkpoint;
   const RunStore resumed = RunStore::resume(path, header, checkpoint);
-  EXPECT_EQ(names_in(run_folder(path)), before);
+  EXPECT_EQ(test::names_in(run_folder(path)), before);
   std::vector<std::string> kinds;
   for (const std::string& name : before) kinds.push_back(name.substr(0, name.find('-')));
   EXPECT_EQ(kinds, (std::vector<std::string>{"checkpoint_000002", "header_000001", "lock", "manifest",
@@ -262,35 +223,35 @@ int filters_of_angles(const std::string& path) {
   return filters;
 }
 
-TEST(RunStore, compresses_the_packed_run_and_not_its_segments) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, compresses_the_packed_run_and_not_its_segments) {
   RunStore store = example::store_with_commits(path, 2);
   EXPECT_EQ(filters_of_angles(test::path_beginning(run_folder(path), "segment_000002")), 0);
   store.pack();
   EXPECT_EQ(filters_of_angles(path), 2);
 }
 
-TEST(RunStore, a_missing_parent_folder_is_named) {
-  const example::TemporaryFolder folder;
-  const Error error = error_of([&] { RunStore::create(folder.path("no/run.h5"), example::header(), false); });
-  EXPECT_EQ(error.code(), ExitCode::cannot_create);
-  EXPECT_NE(std::string(error.what()).find(folder.path("no/run.h5.run")), std::string::npos) << error.what();
+TEST_F(RunStoreTest, a_missing_parent_folder_is_created) {
+  RunStore store = RunStore::create(folder.path("no/run.h5"), example::header(), false);
+  store.commit(example::segment(1), example::checkpoint(1));
+  EXPECT_EQ(RunFile::open(folder.path("no/run.h5")).frame_count(), 1u);
 }
 
-TEST(RunStore, a_frame_of_another_size_is_refused_as_a_defect) {
-  const example::TemporaryFolder folder;
+TEST_F(RunStoreTest, a_name_of_another_kind_of_file_is_refused) {
+  EXPECT_TRUE(test::refuses([&] { RunStore::create(folder.path("no/run.txt"), example::header(), false); },
+                            ExitCode::usage, {"such as " + folder.path("no/run.h5")}));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("no")));
+}
+
+TEST_F(RunStoreTest, a_frame_of_another_size_is_refused_as_a_defect) {
   RunStore store = RunStore::create(folder.path("run.h5"), example::header(), false);
   Segment segment = example::segment(1);
   segment.frames[0].gamma.pop_back();
-  EXPECT_EQ(error_of([&] { store.commit(segment, example::checkpoint(1)); }).code(), ExitCode::internal);
+  EXPECT_EQ(test::exit_code_of([&] { store.commit(segment, example::checkpoint(1)); }), ExitCode::internal);
   store.commit(example::segment(1), example::checkpoint(1));  // the failed commit left no obstacle
   EXPECT_EQ(RunFile::open(folder.path("run.h5")).frame_count(), 1u);
 }
 
-TEST(RunStore, a_state_lacks_grains_that_have_not_arrived_but_no_others) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, a_state_lacks_grains_that_have_not_arrived_but_no_others) {
   RunStore store = RunStore::create(path, example::header(), false);
   Checkpoint poured;
   add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, false);
@@ -301,29 +262,24 @@ TEST(RunStore, a_state_lacks_grains_that_have_not_arrived_but_no_others) {
   EXPECT_EQ(RunFile::open(path).checkpoint().world.grains.free_count, 1);
   add_disk(poured.world.grains, {0.0, 0.0}, 0.5, 1.0, true);
   store.commit({}, poured);
-  EXPECT_EQ(error_of([&] { RunFile::open(path); }).code(), ExitCode::bad_data) << "no floor grain is missing";
+  EXPECT_EQ(test::exit_code_of([&] { RunFile::open(path); }), ExitCode::bad_data)
+      << "no floor grain is missing";
 }
 
-TEST(RunStore, nothing_is_written_into_a_folder_that_took_the_place_of_its_own) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, nothing_is_written_into_a_folder_that_took_the_place_of_its_own) {
   RunStore store = example::store_with_commits(path, 2);
   fs::rename(run_folder(path), folder.path("moved.run"));
   const auto commit = [&] { store.commit(example::segment(2), example::checkpoint(2)); };
-  EXPECT_EQ(error_of(commit).code(), ExitCode::cannot_create);
+  EXPECT_EQ(test::exit_code_of(commit), ExitCode::cannot_create);
   const RunStore other = example::store_with_commits(path, 1);
-  const std::vector<std::string> before = names_in(run_folder(path));
-  EXPECT_EQ(error_of(commit).code(), ExitCode::cannot_create);
-  const Error error = error_of([&] { store.pack(); });
-  EXPECT_EQ(error.code(), ExitCode::cannot_create);
-  EXPECT_NE(std::string(error.what()).find("removed or replaced"), std::string::npos) << error.what();
-  EXPECT_EQ(names_in(run_folder(path)), before);
+  const std::set<std::string> before = test::names_in(run_folder(path));
+  EXPECT_EQ(test::exit_code_of(commit), ExitCode::cannot_create);
+  EXPECT_TRUE(test::refuses([&] { store.pack(); }, ExitCode::cannot_create, {"removed or replaced"}));
+  EXPECT_EQ(test::names_in(run_folder(path)), before);
   EXPECT_FALSE(fs::exists(path));
 }
 
-TEST(RunStore, the_folder_of_a_packed_run_can_be_discarded_and_no_other) {
-  const example::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(RunStoreTest, the_folder_of_a_packed_run_can_be_discarded_and_no_other) {
   { const RunStore store = example::store_with_commits(path, 2); }
   discard_folder(path);
   EXPECT_EQ(run_presence(path), RunPresence::folder);

@@ -7,15 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/frame_quantities.h"
 #include "analysis/quantities.h"
-#include "core/trigonometry.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "io/run_file.h"
 #include "library/simulation.h"
 #include "runs/run_view.h"
@@ -51,41 +49,6 @@ TEST(MeasuredFrame, of_a_file_has_the_numbers_of_its_analysis) {
     }
   }
   EXPECT_GT(compared, 30);
-}
-
-TEST(MeasuredFrame, of_a_live_run_has_the_quantities_of_its_grains) {
-  Simulation sim(test::small_tilted_bed(10.0));
-  sim.step(3);
-  for (const bool tilted : {false, true}) {
-    if (tilted) sim.tilt_to(5.0);
-    const auto count = static_cast<std::size_t>(sim.world().grains.count());
-    for (const analysis::FrameQuantity& quantity : analysis::grain_quantities()) {
-      if (quantity.name.empty()) continue;
-      EXPECT_EQ(sim.grain_values(quantity.name).size(), analysis::components(quantity) * count)
-          << quantity.name;
-    }
-    for (const analysis::FrameQuantity& quantity : analysis::contact_quantities())
-      EXPECT_EQ(sim.contact_values(quantity.name).size(),
-                analysis::components(quantity) * static_cast<std::size_t>(sim.frame().contacts.count()))
-          << quantity.name;
-  }
-}
-
-TEST(MeasuredFrame, is_judged_by_the_parameters_that_were_set) {
-  Simulation sim(test::small_tilted_bed(10.0));
-  sim.tilt_to(5.0);
-  const double assumed = sim.quantity("overloaded/fraction");
-  sim.set_analysis({"gamma_c=0.01"});
-  EXPECT_GT(sim.quantity("overloaded/fraction"), assumed);
-}
-
-TEST(MeasuredFrame, has_the_tilt_of_the_simulation_in_degrees) {
-  Simulation sim(test::small_tilted_bed(10.0));
-  sim.tilt_to(3.0);
-  EXPECT_EQ(sim.tilt(), 3.0) << "150 steps of 0.02 deg, without their rounding errors";
-  EXPECT_EQ(sim.quantity("tilt"), 3.0);
-  EXPECT_EQ(sim.tilt_rate(), 20.0);
-  EXPECT_NEAR(sim.world().tilt, 3.0 * std::numbers::pi / 180.0, 1e-12);
 }
 
 /// The grains at each threshold are counted from their gamma and Gamma_c = 0.1.
@@ -143,9 +106,11 @@ TEST(MeasuredFrame, draws_within_the_ranges_of_the_options) {
   EXPECT_EQ(code("gamma", &MapOptions::crop, Numbers{0.0, 1.0}), ExitCode::usage);
   EXPECT_EQ(code("gamma", &MapOptions::crop, Numbers{0.0, 0.0, 1.0, 1.0}), ExitCode::usage)
       << "no effect here";
-  FrameInput input = sim.measured().input();
-  input.parameters.l_min = infinite;
-  EXPECT_EQ(test::exit_code_of([&] { MeasuredFrame{input}; }), ExitCode::bad_data);
+  const BedFrame bed = sim.measured().bed();
+  analysis::AnalysisParameters impossible;
+  impossible.l_min = infinite;
+  EXPECT_EQ(test::exit_code_of([&] { MeasuredFrame(bed.frame, bed.statics, impossible); }),
+            ExitCode::bad_data);
 }
 
 }  // namespace

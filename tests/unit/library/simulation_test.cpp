@@ -21,7 +21,6 @@
 #include "base/hash.h"
 #include "core/random.h"
 #include "io/run_file.h"
-#include "session/recorder.h"
 #include "session/run.h"
 #include "session/run_check.h"
 #include "session/run_header.h"
@@ -90,22 +89,9 @@ TEST_P(SimulationOfChance, has_the_same_bits) {
 
 INSTANTIATE_TEST_SUITE_P(Chunks, SimulationOfChance, testing::Range(0, 30));
 
-TEST(Simulation, that_is_recorded_goes_on_where_it_was_left) {
-  const test::TemporaryFolder folder;
-  {
-    Simulation sim(poured_bed());
-    sim.record(folder.path("run.h5"));
-    sim.tilt_to(1.0);
-  }
-  Simulation sim = Simulation::resume(folder.path("run.h5"));
-  EXPECT_NEAR(sim.tilt(), 1.0, 0.5);
-  sim.finish();
-  EXPECT_EQ(sim.state_hash(), end_of(poured_bed()));
-  EXPECT_TRUE(io::RunFile::open(folder.path("run.h5")).complete());
-}
+using SimulationTest = test::FolderTest;
 
-TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, is_repeated_from_its_file_with_its_commands) {
   Simulation sim(poured_bed());
   sim.record(folder.path("run.h5"));
   sim.deposit();
@@ -121,8 +107,7 @@ TEST(Simulation, is_repeated_from_its_file_with_its_commands) {
   EXPECT_EQ(replayed(io::RunFile::open(folder.path("run.h5"))), sim.state_hash());
 }
 
-TEST(Simulation, of_a_grain_that_passes_several_periods_in_a_step_is_stored) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, of_a_grain_that_passes_several_periods_in_a_step_is_stored) {
   scenario::Scenario scenario = test::small_tilted_bed(10.0);
   scenario.tilt.rate = 100.0;
   scenario.tilt.step = scenario.output.frame_every = scenario.output.observable_every = 1.0;  // 10 ms
@@ -151,8 +136,7 @@ TEST(Simulation, of_a_grain_that_passes_several_periods_in_a_step_is_stored) {
   EXPECT_EQ(hash_text(state_hash(again.world())), sim.state_hash());
 }
 
-TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, is_recorded_by_several_threads_side_by_side) {
   std::vector<std::thread> threads;
   std::atomic<int> failed = 0;
   for (int k = 0; k < 4; ++k)
@@ -174,8 +158,7 @@ TEST(Simulation, is_recorded_by_several_threads_side_by_side) {
     EXPECT_EQ(io::RunFile::open(folder.path(std::to_string(k) + ".h5")).checkpoint().world.step, 24);
 }
 
-TEST(Simulation, that_is_resumed_measures_motion_from_the_first_frame_of_its_file) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, that_is_resumed_measures_motion_from_the_first_frame_of_its_file) {
   Simulation sim(test::small_tilted_bed(3.0));
   EXPECT_TRUE(std::isnan(sim.grain_values("rotation").front())) << "the tilt has not begun";
   sim.record(folder.path("run.h5"));
@@ -190,7 +173,7 @@ TEST(Simulation, that_is_resumed_measures_motion_from_the_first_frame_of_its_fil
   for (std::size_t i = 0; i < free_count; ++i) EXPECT_NEAR(after[i], before[i], 1e-6) << i;
 }
 
-TEST(Simulation, that_is_a_copy_says_what_the_original_says) {
+TEST_F(SimulationTest, that_is_a_copy_says_what_the_original_says) {
   Simulation sim(test::small_tilted_bed(3.0));
   sim.tilt_to(0.5);
   const Simulation copy = sim;
@@ -200,8 +183,7 @@ TEST(Simulation, that_is_a_copy_says_what_the_original_says) {
 }
 
 /// The overlap is that of the contacts of the state, computed here from their gaps.
-TEST(Simulation, that_is_resumed_or_branched_off_knows_its_last_step) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, that_is_resumed_or_branched_off_knows_its_last_step) {
   Simulation sim(test::small_tilted_bed(3.0));
   EXPECT_FALSE(sim.residual());
   EXPECT_FALSE(sim.converged());
@@ -229,8 +211,7 @@ TEST(Simulation, that_is_resumed_or_branched_off_knows_its_last_step) {
 }
 
 /// Paths are those of the folder in which a recording began, whatever the folder of the process is later.
-TEST(Simulation, goes_on_in_its_file_when_the_process_changes_its_folder) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, goes_on_in_its_file_when_the_process_changes_its_folder) {
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path(""));
   std::filesystem::create_directory("other");
@@ -245,17 +226,11 @@ TEST(Simulation, goes_on_in_its_file_when_the_process_changes_its_folder) {
   std::filesystem::current_path(before);
   EXPECT_TRUE(io::RunFile::open(folder.path("deep/down/run.h5")).complete());
   EXPECT_TRUE(io::RunFile::open(folder.path("deep/saved.h5")).complete());
-  try {
-    Simulation::resume(folder.path("deep/saved.h5"));
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::usage);
-    EXPECT_NE(std::string(error.what()).find("is complete"), std::string::npos);
-  }
+  EXPECT_TRUE(test::refuses([&] { Simulation::resume(folder.path("deep/saved.h5")); }, ExitCode::usage,
+                            {"is complete"}));
 }
 
-TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, of_a_replay_that_was_stopped_is_not_resumed) {
   const scenario::Scenario scenario = test::small_tilted_bed(3.0);
   {
     session::Session session(scenario);
@@ -270,18 +245,7 @@ TEST(Simulation, of_a_replay_that_was_stopped_is_not_resumed) {
   EXPECT_EQ(test::exit_code_of([&] { Simulation::resume(folder.path("replay.h5")); }), ExitCode::bad_data);
 }
 
-TEST(Simulation, of_a_held_tilt_has_no_end_to_step_to) {
-  Simulation sim(test::small_tilted_bed(3.0));
-  sim.tilt_to(0.5);
-  sim.set_tilt_rate(0.0);
-  EXPECT_EQ(test::exit_code_of([&] { sim.finish(); }), ExitCode::usage);
-  sim.set_tilt_rate(5.0);
-  sim.finish();
-  EXPECT_TRUE(sim.done());
-}
-
-TEST(Simulation, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
   Simulation sim(test::small_tilted_bed(3.0));
   sim.deposit();
   sim.set_friction(0.3);
@@ -298,8 +262,7 @@ TEST(Simulation, that_is_saved_goes_on_from_there_as_often_as_it_is_resumed) {
   EXPECT_EQ(later.theta_c(), sim.theta_c());
 }
 
-TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
   Simulation sim(poured_bed());
   sim.step(5);
   EXPECT_EQ(test::exit_code_of([&] { sim.record(folder.path("run.h5")); }), ExitCode::usage)
@@ -314,7 +277,7 @@ TEST(Simulation, that_is_recorded_later_is_a_branch_which_can_be_repeated) {
   EXPECT_EQ(replayed(run), sim.state_hash());
 }
 
-TEST(Simulation, has_its_grains_where_they_were_while_more_arrive) {
+TEST_F(SimulationTest, has_its_grains_where_they_were_while_more_arrive) {
   Simulation sim(poured_bed());
   const double* x = sim.world().grains.x.data();
   const Index first = sim.world().grains.count();
@@ -330,7 +293,7 @@ TEST(Simulation, has_its_grains_where_they_were_while_more_arrive) {
   EXPECT_EQ(copy.world().grains.x.data(), x);
 }
 
-TEST(Simulation, is_interrupted_between_two_steps) {
+TEST_F(SimulationTest, is_interrupted_between_two_steps) {
   scenario::Scenario slow = test::small_tilted_bed(3.0);
   slow.bed.length = 40.0;
   slow.bed.depth = 10.0;
@@ -360,8 +323,7 @@ int code_of_child(const Work& work) {
   return status;
 }
 
-TEST(Simulation, is_looked_at_and_copied_in_a_child_of_fork_and_goes_on_in_the_parent) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, is_looked_at_and_copied_in_a_child_of_fork_and_goes_on_in_the_parent) {
   std::optional<Simulation> sim(poured_bed());
   sim->record(folder.path("run.h5"));
   sim->tilt_to(1.0);
@@ -384,8 +346,7 @@ TEST(Simulation, is_looked_at_and_copied_in_a_child_of_fork_and_goes_on_in_the_p
   EXPECT_EQ(replayed(io::RunFile::open(folder.path("run.h5"))), sim->state_hash());
 }
 
-TEST(Simulation, that_is_left_is_free_though_a_child_of_fork_has_its_files) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, that_is_left_is_free_though_a_child_of_fork_has_its_files) {
   std::optional<Simulation> sim(poured_bed());
   sim->record(folder.path("run.h5"));
   sim->step(3);
@@ -404,7 +365,7 @@ TEST(Simulation, that_is_left_is_free_though_a_child_of_fork_has_its_files) {
   ::waitpid(child, nullptr, 0);
 }
 
-TEST(Simulation, pushes_all_grains_or_none) {
+TEST_F(SimulationTest, pushes_all_grains_or_none) {
   Simulation sim(test::small_tilted_bed(1.0));
   const std::string before = sim.state_hash();
   const std::vector<Vec2> velocities = {{0.1, 0.0}, {0.1, 0.0}};
@@ -414,8 +375,7 @@ TEST(Simulation, pushes_all_grains_or_none) {
   EXPECT_NE(sim.state_hash(), before);
 }
 
-TEST(Simulation, refuses_what_cannot_be) {
-  const test::TemporaryFolder folder;
+TEST_F(SimulationTest, refuses_what_cannot_be) {
   Simulation sim(test::small_tilted_bed(1.0));
   const auto refused = [](const auto& call) { return test::exit_code_of(call); };
   EXPECT_EQ(refused([&] { sim.step(-1); }), ExitCode::usage);

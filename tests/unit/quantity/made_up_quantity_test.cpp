@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "exports/writers.h"
@@ -51,13 +50,13 @@ TEST_F(MadeUpQuantity, is_a_map) {
 
 TEST_F(MadeUpQuantity, is_the_value_of_a_grain_on_it) {
   model_->first().map(2.0);
-  EXPECT_EQ(model_->first().values().values, diameters());
+  EXPECT_EQ(model_->first().bar()->values, diameters());
 }
 
 TEST_F(MadeUpQuantity, is_a_column_of_exports) {
   const Frame frame = example::bed_frame(10.0, 2);
   const RunStatics statics = example::bed_statics();
-  const exports::CsvRows csv = exports::grains_csv({{frame, statics}, 0, frame.gamma});
+  const exports::CsvRows csv = exports::grains_csv({{frame, statics}, nullptr, true, 0, frame.gamma});
   EXPECT_NE(csv.head.find(",made_up (m),"), std::string::npos) << csv.head;
 }
 

@@ -8,11 +8,9 @@
 #include <functional>
 
 #include "analysis/packing/packing.h"
-#include "analysis/quantities.h"
 #include "core/trigonometry.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
-#include "runs/first_moves.h"
 #include "support/temporary_folder.h"
 
 namespace talus::runs {

@@ -1,4 +1,4 @@
-/// A scenario that is written and read back is bit-identical.
+/// Texts of scenarios: written, documented, and with commands.
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,15 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
+#include "base/errors.h"
 #include "scenario/keys.h"
+#include "scenario/scripted_command.h"
 #include "scenario/text.h"
+#include "support/has.h"
+#include "support/key_rows.h"
+#include "support/places.h"
 
 namespace talus::scenario {
 namespace {
@@ -30,10 +36,10 @@ KeyValue other_value(const ScenarioKey& key) {
 TEST(ResolvedScenario, has_every_key_with_unit_and_meaning) {
   const std::string text = resolved_toml({});
   for (const ScenarioKey& key : scenario_keys()) {
-    EXPECT_NE(text.find(key.name + " = "), std::string::npos) << key.name;
-    EXPECT_NE(text.find("# " + (key.unit.empty() ? "" : key.unit + "; ") + key.help), std::string::npos);
+    EXPECT_TRUE(test::has(text, key.name + " = ")) << key.name;
+    EXPECT_TRUE(test::has(text, "# " + (key.unit.empty() ? "" : key.unit + "; ") + key.help));
   }
-  EXPECT_NE(text.find("density = 2500.0"), std::string::npos);
+  EXPECT_TRUE(test::has(text, "density = 2500.0"));
 }
 
 TEST(ResolvedScenario, reads_back_the_default) { EXPECT_EQ(read_back({}), Scenario{}); }
@@ -158,6 +164,127 @@ TEST(TomlText, of_text_has_its_escapes) {
   EXPECT_EQ(toml_text(std::string("a \"b\" \\c")), R"("a \"b\" \\c")");
   EXPECT_EQ(toml_text(std::string("\t\n\x1f\x7f")), R"("\u0009\u000a\u001f\u007f")");
   EXPECT_EQ(toml_text(std::string("caf\xc3\xa9 #1")), "\"caf\xc3\xa9 #1\"");
+}
+
+const std::string root = test::source_folder();
+
+TEST(ScenarioKeys, are_documented_as_they_are) {
+  std::string expected;
+  for (const ScenarioKey& key : scenario_keys()) expected += row_text(key, toml_text(key.get(Scenario{})));
+  for (const CommandKey& key : command_keys()) {
+    std::string row = row_text(key, "-");
+    expected += row.replace(row.find("`-`"), 3, "-");  // none of them has a default
+  }
+  EXPECT_EQ(rows_of("docs/scenario.md"), expected) << "the table of docs/scenario.md must be:\n" << expected;
+}
+
+TEST(ScenarioKeys, stand_once_and_admit_their_defaults) {
+  std::set<std::string> names;
+  for (const ScenarioKey& key : scenario_keys()) {
+    EXPECT_TRUE(names.insert(full_name(key)).second) << full_name(key);
+    EXPECT_EQ(find_key(full_name(key)), &key);
+    EXPECT_EQ(admitted(key, key.get(Scenario{})), key.get(Scenario{})) << full_name(key);
+  }
+}
+
+Scenario asset(const std::string& name) { return read_scenario(root + "/assets/scenarios/" + name); }
+
+/// Returns a bed with mu = 0.5, size ratio 1.5, no restitution, H = 40 D, rough floor, 1 deg/s, 0.001 deg per
+/// step, run to repose.
+Scenario paper_bed(BedBoundary boundary, double length) {
+  Scenario scenario;
+  scenario.grains.size_ratio = 1.5;
+  scenario.contact = {.friction = 0.5,
+                      .wall_friction = 0.5,
+                      .rolling_friction = 0.0,
+                      .restitution = 0.0,
+                      .tangential_restitution = 0.0};
+  scenario.bed = {.boundary = boundary, .length = length, .depth = 40.0, .floor = BedFloor::rough};
+  scenario.tilt = {.rate = 1.0, .step = 0.001, .end_angle = std::nullopt, .program = {}};
+  return scenario;
+}
+
+TEST(Assets, have_the_values_of_the_paper) {
+  EXPECT_EQ(asset("paper-pbc.toml"), paper_bed(BedBoundary::periodic, 200.0));
+  for (int length : {100, 150, 200, 250, 300})
+    EXPECT_EQ(asset("paper-wbc-" + std::to_string(length) + ".toml"), paper_bed(BedBoundary::walls, length));
+}
+
+TEST(Assets, have_a_small_demo) {
+  Scenario expected = paper_bed(BedBoundary::periodic, 50.0);
+  expected.bed.depth = 20.0;
+  EXPECT_EQ(asset("demo.toml"), expected);
+  expected.tilt.after_failure = AfterFailure::lower;
+  EXPECT_EQ(asset("dynamic-angle.toml"), expected) << "the same bed, lowered after failure";
+  expected.tilt.after_failure = AfterFailure::stop;
+  expected.tilt.program = {"to 12", "to 0", "10 times", "to repose"};
+  expected.output.frame_every = 0.5;
+  EXPECT_EQ(asset("cycles.toml"), expected) << "the same bed, in cycles";
+}
+
+const char* const commands =
+    "[bed]\nlength = 10\ndepth = 3\n[[command]]\nat = 12\nkind = 'push'\ngrain = 7\ny = 0.5\n"
+    "[[command]]\ntime = 2.5\nkind = 'friction'\nx = 0.3\n";
+
+std::string message_of_settings(const std::vector<std::string>& settings) {
+  try {
+    parse_scenario(commands, "s.toml", settings);
+  } catch (const LocatedError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ScriptedCommands, are_read_in_their_order) {
+  const Scenario scenario = parse_scenario(commands, "s.toml");
+  const std::vector<ScriptedCommand> expected = {{12.0, {}, CommandKind::push, 7, 0.0, 0.5},
+                                                 {{}, 2.5, CommandKind::friction, -1, 0.3, 0.0}};
+  EXPECT_EQ(scenario.commands, expected);
+  EXPECT_EQ(parse_scenario(resolved_toml(scenario), "resolved"), scenario);
+  EXPECT_EQ(moment_text(expected[0]), "at 12 deg");
+  EXPECT_EQ(moment_text(expected[1]), "2.5 s after the tilt began");
+}
+
+TEST(ScriptedCommands, are_changed_by_settings) {
+  const Scenario scenario = parse_scenario(commands, "s.toml", {"command.2.x=0.4", "command.1.at = 13 deg"},
+                                           {"command.1.grain=29"});
+  EXPECT_EQ(scenario.commands[1].x, 0.4);
+  EXPECT_EQ(scenario.commands[0].at, 13.0);
+  EXPECT_EQ(scenario.commands[0].grain, 29);
+  EXPECT_EQ(value_text(scenario, "command.1.at"), "13");
+  EXPECT_EQ(value_text(scenario, "command.3.at"), "none");
+  const Scenario later = parse_scenario(commands, "s.toml", {"command.1.at=none", "command.1.time=1"});
+  EXPECT_EQ(later.commands[0].at, std::nullopt);
+  EXPECT_EQ(later.commands[0].time, 1.0);
+}
+
+TEST(ScriptedCommands, refuse_settings_of_commands_that_are_not_there) {
+  const std::string none =
+      "': expected command.N.KEY with N from 1 to the number of [[command]] tables of the scenario, and KEY "
+      "one of at, time, kind, grain, x and y";
+  for (const std::string name : {"command.3.at", "command.0.at", "command.x"})
+    EXPECT_EQ(message_of_settings({name + "=1"}), "--set " + name + "=1: error: unknown key '" + name + none);
+  EXPECT_EQ(message_of_settings({"command.2.x=12"}),
+            "s.toml:9:1: error: command.2 is \"friction\" with coefficient 12, expected 0 ... 10");
+  EXPECT_EQ(
+      message_of_settings({"command.1.grain=-1"}),
+      "--set command.1.grain=-1: error: key 'command.1.grain' = -1: expected an integer in 0 ... 2000000");
+}
+
+TEST(ScriptedCommands, are_told_where_scenarios_differ) {
+  const Scenario one = parse_scenario(commands, "s.toml"),
+                 none = parse_scenario("bed.length = 10\nbed.depth = 3", "s.toml");
+  EXPECT_EQ(differences(one, parse_scenario(commands, "s.toml", {"command.2.x=0.4"})),
+            "command.2.x is 0.3 there, 0.4 here");
+  EXPECT_TRUE(differences(one, none).starts_with("command.1.at is 12 there, none here; "));
+  EXPECT_TRUE(differences(none, one).starts_with("command.1.at is none there, 12 here; "));
+}
+
+TEST(ScriptedCommands, are_at_most_a_thousand) {
+  std::string text;
+  for (int k = 0; k < 1000; ++k) text += "[[command]]\nat = 1\nkind = 'release'\n";
+  EXPECT_EQ(parse_scenario(text, "s.toml").commands.size(), 1000u);
+  EXPECT_THROW(parse_scenario(text + "[[command]]\nat = 1\nkind = 'release'\n", "s.toml"), LocatedError);
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/errors.h"
 #include "core/trigonometry.h"
 #include "scenario/keys.h"
-#include "scenario/rules.h"
 #include "scenario/text.h"
+#include "support/exit_code.h"
 
 namespace talus::scenario {
 namespace {
@@ -26,13 +25,7 @@ TiltProgram program_of(std::vector<std::string> program) {
 }
 
 std::string message_of(const std::string& text, const std::vector<std::string>& settings = {}) {
-  try {
-    parse_scenario(text, "s.toml", settings);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    return error.what();
-  }
-  return "";
+  return test::message_of([&] { parse_scenario(text, "s.toml", settings); });
 }
 
 TEST(ProgramPhrase, is_read_with_its_numbers_and_units) {
@@ -159,15 +152,11 @@ TEST(TiltProgram, is_given_in_a_file_or_on_the_command_line) {
 TEST(TiltProgram, with_a_bad_phrase_is_refused_at_that_phrase) {
   const std::string forms = "expected " + program_phrase_forms();
   EXPECT_EQ(message_of("[tilt]\nprogram = [\"to 12\", \"too 5\",\n  \"hold 4000\", 7]\n"),
-            "s.toml:2:21: error: key 'tilt.program' = \"too 5\": " + forms + "; did you mean 'to 5'?\n" +
+            "s.toml:2:21: error: key 'tilt.program' = \"too 5\": " + forms + "\n" +
                 "s.toml:3:3: error: key 'tilt.program' = \"hold 4000\": " + forms + "\n" +
                 "s.toml:3:16: error: key 'tilt.program' = 7: " + forms + ", found an integer");
-  EXPECT_EQ(
-      message_of("", {"tilt.program=to 12, 5"}),
-      "--set tilt.program=to 12, 5: error: key 'tilt.program' = \"5\": " + forms + "; did you mean 'to 5'?");
-  EXPECT_NE(message_of("tilt.program = ['repeat 10']").find("; did you mean '10 times'?"), std::string::npos);
-  EXPECT_NE(message_of("tilt.program = ['repose']").find("; did you mean 'to repose'?"), std::string::npos);
-  EXPECT_NE(message_of("tilt.program = ['Hold 5']").find("; did you mean 'hold 5'?"), std::string::npos);
+  EXPECT_EQ(message_of("", {"tilt.program=to 12, 5"}),
+            "--set tilt.program=to 12, 5: error: key 'tilt.program' = \"5\": " + forms);
 }
 
 TEST(TiltProgram, of_another_kind_is_refused) {

@@ -1,7 +1,5 @@
 /// Beds from files: tables and frames of runs.
 
-#include "session/bed_file.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +9,10 @@
 
 #include "base/errors.h"
 #include "io/run_file.h"
+#include "session/deposition.h"
 #include "session/estimate.h"
-#include "session/run_header.h"
+#include "support/exit_code.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -37,15 +37,11 @@ struct Table {
 /// Returns the message without the name of the folder.
 std::string message_of(const std::string& path, std::size_t frame, const dynamics::BedPlan& plan,
                        ExitCode code) {
-  try {
-    bed_of_file({path, static_cast<int>(frame)}, plan);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code);
-    const std::string message = error.what();
-    const std::string folder = std::filesystem::path(path).parent_path().string() + "/";
-    return message.starts_with(folder) ? message.substr(folder.size()) : message;
-  }
-  return "accepted";
+  const auto [found, message] = test::refusal_of([&] { bed_of_file({path, static_cast<int>(frame)}, plan); });
+  if (found == ExitCode::done) return "accepted";
+  EXPECT_EQ(found, code);
+  const std::string folder = std::filesystem::path(path).parent_path().string() + "/";
+  return message.starts_with(folder) ? message.substr(folder.size()) : message;
 }
 
 std::string message_of(const std::string& table, const dynamics::BedPlan& plan = plan_of()) {
@@ -327,10 +323,10 @@ TEST(RunOfFile, comes_to_rest_and_goes_on_without_the_file) {
     whole.emplace(scenario_of(run.path, 1));
     first.emplace(whole->scenario());
   }
-  while (whole->phase() != Phase::done) whole->advance();
+  test::run_session(*whole);
   for (int k = 0; k < 20; ++k) first->advance();
   Session second(first->scenario(), first->checkpoint(0.0));
-  while (second.phase() != Phase::done) second.advance();
+  test::run_session(second);
   EXPECT_EQ(state_hash(second.world()), state_hash(whole->world()));
   EXPECT_THROW(Session{whole->scenario()}, Error) << "a replay begins with the file";
 }

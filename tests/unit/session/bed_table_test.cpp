@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/errors.h"
+#include "support/exit_code.h"
 
 namespace talus::session {
 namespace {
@@ -22,13 +22,9 @@ void expect_two_grains(const std::string& text, std::size_t first_line = 1, std:
 }
 
 std::string message_of(const std::string& text) {
-  try {
-    parse_bed_table(text, "bed.csv", {});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    return error.what();
-  }
-  return "accepted";
+  const test::Refusal refusal = test::refusal_of([&] { parse_bed_table(text, "bed.csv", {}); });
+  EXPECT_EQ(refusal.code, ExitCode::bad_data);
+  return refusal.message;
 }
 
 TEST(BedTable, has_commas_or_white_space_between_its_numbers) {
@@ -88,14 +84,13 @@ TEST(BedTable, has_lengths_in_the_unit_that_is_named) {
   expect_two_grains("500 1250 400\n3000 -125 600\n", 1, 2, scenario::LengthUnit::millimetre);
   EXPECT_EQ(message_of("x [in],y,r\n1,2,1\n"),
             "bed.csv:1:1: error: the column \"x [in]\" has an unknown unit: expected D, m, cm, mm or um");
-  try {
+  const auto two_units = [] {
     parse_bed_table("x,y [m],r\n1,2,0.5\n", "bed.csv", {scenario::LengthUnit::millimetre});
-    ADD_FAILURE() << "two units";
-  } catch (const LocatedError& error) {
-    EXPECT_STREQ(error.what(),
-                 "bed.csv:1:3: error: the column \"y [m]\" has a unit other than deposition.file_unit: "
-                 "omit one of them");
-  }
+  };
+  EXPECT_EQ(
+      test::refusal_of(two_units).message,
+      "bed.csv:1:3: error: the column \"y [m]\" has a unit other than deposition.file_unit: omit one of "
+      "them");
   EXPECT_EQ(in_metres(2.0, scenario::LengthUnit::mean_diameter, 0.01), 0.02);
 }
 

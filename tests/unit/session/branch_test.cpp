@@ -4,37 +4,21 @@
 
 #include <cmath>
 
-#include "base/errors.h"
 #include "base/hash.h"
 #include "core/trigonometry.h"
-#include "io/run_file.h"
 #include "problems/step_problem.h"
 #include "scenario/tilt_program.h"
-#include "session/drag.h"
+#include "session/command.h"
 #include "session/frame_state.h"
 #include "session/run.h"
 #include "session/run_check.h"
-#include "session/run_header.h"
 #include "support/exit_code.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
 namespace talus::session {
 namespace {
-
-constexpr std::int64_t to_the_end = 1'000'000;
-
-void record(Session& session, const RunOrigin& origin, const std::string& path,
-            std::span<const Command> commands = {}) {
-  io::RunStore store = io::RunStore::create(path, run_header(session, origin), false);
-  ASSERT_EQ(replay(session, &store, commands, to_the_end, {}), RunEnd::complete);
-}
-
-/// Records a run during which friction and rate of tilt change.
-void record_run(const std::string& path, std::span<const Command> commands = {}) {
-  Session session(test::small_tilted_bed(3.0));
-  record(session, {}, path, commands);
-}
 
 io::BranchOrigin origin_at(const io::RunFile& run, const std::string& path, std::size_t k) {
   return {path, static_cast<std::int64_t>(k), hash_text(state_hash(run.checkpoint().world)),
@@ -47,22 +31,32 @@ Session begun(const io::BranchOrigin& branch) {
   return session;
 }
 
+/// Records a branch of a run at frame k to its end.
+io::RunFile recorded_branch(const io::RunFile& run, const std::string& path, std::size_t k) {
+  const io::BranchOrigin origin = origin_at(run, "run.h5", k);
+  return test::recorded_branch(runs::stored_scenario(run.header(), "run.h5"), origin, path);
+}
+
+void expect_whole(const io::RunFile& run) {
+  const RunCheck check = check_run(run, {});
+  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+}
+
 std::vector<Command> some_commands(std::int64_t step) {
   return {{step, CommandKind::push, 3, 0.2, 0.1},       {step + 2, CommandKind::drag, 7, 0.05, 0.06},
           {step + 5, CommandKind::drag, 7, 0.06, 0.06}, {step + 9, CommandKind::release},
           {step + 10, CommandKind::friction, -1, 0.3},  {step + 11, CommandKind::tilt_rate, -1, 10.0}};
 }
 
-TEST(Branch, is_replayed_from_its_own_file_with_any_number_of_threads) {
-  const test::TemporaryFolder folder;
+using Branch = test::FolderTest;
+
+TEST_F(Branch, is_replayed_from_its_own_file_with_any_number_of_threads) {
   const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
-  record_run(parent);
-  const io::RunFile run = io::RunFile::open(parent);
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), parent);
   const io::BranchOrigin origin = origin_at(run, parent, 2);
   Session session = begun(origin);
   const std::vector<Command> commands = some_commands(origin.start.world.step);
-  record(session, {"", "", "", 1, origin}, path, commands);
-  const io::RunFile branch = io::RunFile::open(path);
+  const io::RunFile branch = test::recorded(session, path, commands, {"", "", "", 1, origin});
   ASSERT_TRUE(branch.header().branch);
   EXPECT_EQ(branch.header().branch->run, parent);
   EXPECT_EQ(branch.header().branch->frame, 2);
@@ -74,24 +68,21 @@ TEST(Branch, is_replayed_from_its_own_file_with_any_number_of_threads) {
     again.use_threads(threads);
     replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
     EXPECT_EQ(state_hash(again.world()), state_hash(branch.checkpoint().world)) << threads;
-    EXPECT_EQ(schedule_hash(again.schedule()), schedule_hash(session.schedule()));
+    EXPECT_EQ(test::stored_values(again), test::stored_values(session));
   }
-  const RunCheck check = check_run(branch, {});
-  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
+  expect_whole(branch);
 }
 
-TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
   const std::string parent = folder.path("run.h5");
-  record_run(parent);
-  const io::RunFile run = io::RunFile::open(parent);
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), parent);
   Session session = begun(origin_at(run, parent, 2));
   const Frame first = session.segment().frames.front(), left = run.frame(2);
   EXPECT_EQ(first.step, left.step);
   EXPECT_EQ(first.tilt, left.tilt);
   EXPECT_EQ(first.contacts.fn, left.contacts.fn);
   for (std::size_t i = 0; i < first.x.size(); ++i) EXPECT_NEAR(first.x[i], left.x[i], 1e-8) << i;
-  while (session.phase() != Phase::done) session.advance();
+  test::run_session(session);
   EXPECT_EQ(session.world().step, run.checkpoint().world.step) << "the steps of the tilt continue to count";
   EXPECT_EQ(session.world().tilt, run.checkpoint().world.tilt);
   const World& end = run.checkpoint().world;
@@ -104,8 +95,7 @@ TEST(Branch, begins_with_the_frame_and_goes_on_as_the_run_did) {
 }
 
 /// The schedule at each frame is that of a session at this point.
-TEST(Branch, knows_how_the_run_stood_at_each_frame) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, knows_how_the_run_stood_at_each_frame) {
   Session session(test::small_tilted_bed(3.0));
   while (session.phase() != Phase::tilt) session.advance();
   const std::int64_t step = session.world().step;
@@ -114,8 +104,7 @@ TEST(Branch, knows_how_the_run_stood_at_each_frame) {
                                          {step + 30, CommandKind::drag, 5, 0.04, 0.05},
                                          {step + 60, CommandKind::tilt_rate, -1, 12.0},
                                          {step + 70, CommandKind::release}};
-  record_run(folder.path("run.h5"), commands);
-  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
   Session again(test::small_tilted_bed(3.0));
   std::size_t compared = 0;
   auto next = commands.begin();
@@ -149,59 +138,25 @@ TEST(Branch, knows_how_the_run_stood_at_each_frame) {
   EXPECT_GE(compared, 4u);
 }
 
-TEST(Branch, of_the_last_frame_is_refused_with_a_reason) {
-  const test::TemporaryFolder folder;
-  record_run(folder.path("run.h5"));
-  const io::RunFile run = io::RunFile::open(folder.path("run.h5"));
-  const std::size_t last = run.all_frame_tilts().size() - 1;
-  EXPECT_EQ(test::exit_code_of([&] { checkpoint_at_frame(run, last); }), ExitCode::usage);
-}
-
-TEST(Branch, of_a_branch_goes_on) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, of_a_branch_goes_on) {
   const std::string parent = folder.path("run.h5"), path = folder.path("branch.h5");
-  record_run(parent);
-  const io::RunFile run = io::RunFile::open(parent);
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), parent);
   const io::BranchOrigin origin = origin_at(run, parent, 1);
   Session session = begun(origin);
   const std::vector<Command> commands = {{origin.start.world.step, CommandKind::friction, -1, 0.9}};
-  record(session, {"", "", "", 1, origin}, path, commands);
-  const io::RunFile branch = io::RunFile::open(path);
+  const io::RunFile branch = test::recorded(session, path, commands, {"", "", "", 1, origin});
   const Schedule schedule = stored_schedule(checkpoint_at_frame(branch, 2), false, "the branch");
   EXPECT_EQ(schedule.friction, 0.9);
   EXPECT_EQ(schedule.tilt_steps,
             static_cast<std::int64_t>(std::lround(degrees(branch.frame(2).tilt) / 0.02)));
 }
 
-/// Records a complete run of a scenario.
-io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path,
-                     std::span<const Command> commands = {}) {
-  Session session(scenario);
-  record(session, {}, path, commands);
-  return io::RunFile::open(path);
-}
-
-/// Records a branch of it at frame k to its end.
-io::RunFile recorded_branch(const io::RunFile& run, const std::string& path, std::size_t k) {
-  const io::BranchOrigin origin = origin_at(run, "run.h5", k);
-  Session session(runs::stored_scenario(run.header(), "run.h5"), origin.start);
-  session.record_start();
-  record(session, {"", "", "", 1, origin}, path);
-  return io::RunFile::open(path);
-}
-
-void expect_whole(const io::RunFile& run) {
-  const RunCheck check = check_run(run, {});
-  EXPECT_TRUE(check.faults.empty()) << check.faults.front();
-}
-
-TEST(Branch, goes_on_with_the_programme_of_the_tilt) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, goes_on_with_the_programme_of_the_tilt) {
   scenario::Scenario scenario = test::small_tilted_bed(1.0);
   scenario.tilt.end_angle.reset();
   scenario.tilt.program = {"to 1", "hold 0.03", "to 0.5", "2 times"};
   const scenario::TiltProgram program(scenario);
-  const io::RunFile run = recorded(scenario, folder.path("run.h5"));
+  const io::RunFile run = test::recorded(scenario, folder.path("run.h5"));
   const std::int64_t first = run.frame(0).step;
   for (const std::size_t k : {std::size_t{0}, run.frame_count() / 2}) {
     SCOPED_TRACE(k);
@@ -219,10 +174,9 @@ TEST(Branch, goes_on_with_the_programme_of_the_tilt) {
   }
 }
 
-TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
   const std::vector<Command> commands = {{0, CommandKind::friction, -1, 0.9}};
-  const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
   const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
   EXPECT_TRUE(branch.commands().empty());
   expect_whole(branch);
@@ -231,8 +185,7 @@ TEST(Branch, is_judged_by_the_friction_that_was_set_before_it_began) {
 }
 
 /// Also if the branch has no command.
-TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, of_a_branch_has_what_was_set_before_the_first) {
   Session session(test::small_tilted_bed(3.0));
   while (session.phase() != Phase::tilt) session.advance();
   const std::int64_t step = session.world().step;
@@ -240,7 +193,7 @@ TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
   const std::vector<Command> commands = {{step + 1, CommandKind::friction, -1, 0.9},
                                          {step + 2, CommandKind::tilt_rate, -1, 12.0},
                                          {step + 3, CommandKind::drag, 5, grains.x[5], grains.y[5]}};
-  const io::RunFile run = recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
+  const io::RunFile run = test::recorded(test::small_tilted_bed(3.0), folder.path("run.h5"), commands);
   const io::RunFile branch = recorded_branch(run, folder.path("branch.h5"), 2);
   const Schedule first = stored_schedule(checkpoint_at_frame(run, 3), false, "the run"),
                  second = stored_schedule(checkpoint_at_frame(branch, 1), false, "the branch");
@@ -256,14 +209,13 @@ TEST(Branch, of_a_branch_has_what_was_set_before_the_first) {
   EXPECT_EQ(second.baseline.volume, first.baseline.volume);
 }
 
-TEST(Branch, goes_on_in_the_flow_after_failure) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, goes_on_in_the_flow_after_failure) {
   scenario::Scenario scenario = test::small_tilted_bed(3.0);
   scenario.contact.friction = 0.02;
   scenario.tilt.end_angle.reset();
   scenario.tilt.after_failure = scenario::AfterFailure::lower;
   scenario.tilt.lowering_rate = 100.0;
-  const io::RunFile run = recorded(scenario, folder.path("run.h5"));
+  const io::RunFile run = test::recorded(scenario, folder.path("run.h5"));
   const std::size_t k = run.frame_count();
   ASSERT_LT(k + 1, run.all_frame_tilts().size()) << "a frame of the flow";
   for (std::size_t j = k; j + 1 < run.all_frame_tilts().size(); ++j) {
@@ -277,13 +229,12 @@ TEST(Branch, goes_on_in_the_flow_after_failure) {
   EXPECT_EQ(find_value(branch.checkpoint().results, "theta_c"),
             find_value(run.checkpoint().results, "theta_c"));
   Session again = session_at_start(branch.header(), "branch.h5");
-  replay(again, nullptr, {}, to_the_end, {});
+  replay(again, nullptr, {}, test::to_the_end, {});
   EXPECT_EQ(state_hash(again.world()), state_hash(branch.checkpoint().world));
 }
 
 /// The tilt is turned back while the flow that fails the slope has begun.
-TEST(Branch, has_the_flow_in_progress_whatever_the_course_of_the_tilt) {
-  const test::TemporaryFolder folder;
+TEST_F(Branch, has_the_flow_in_progress_whatever_the_course_of_the_tilt) {
   scenario::Scenario scenario = test::small_tilted_bed(3.0);
   scenario.contact.friction = 0.02;
   scenario.tilt.end_angle.reset();
@@ -292,7 +243,7 @@ TEST(Branch, has_the_flow_in_progress_whatever_the_course_of_the_tilt) {
   while (steep.phase() != Phase::done && !(steep.schedule().flow.displacement > 0.005)) steep.advance();
   ASSERT_EQ(steep.phase(), Phase::tilt);
   const std::vector<Command> commands = {{steep.world().step, CommandKind::tilt_rate, -1, -5.0}};
-  const io::RunFile run = recorded(scenario, folder.path("run.h5"), commands);
+  const io::RunFile run = test::recorded(scenario, folder.path("run.h5"), commands);
   ASSERT_TRUE(std::isfinite(find_value(run.checkpoint().results, "theta_c").value_or(not_known)));
   Session session(scenario);
   int flowing = 0;

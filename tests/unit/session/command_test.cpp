@@ -8,9 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "base/errors.h"
 #include "core/trigonometry.h"
-#include "session/session.h"
+#include "support/exit_code.h"
+#include "support/recorded_run.h"
+#include "support/scenes.h"
 #include "support/small_bed.h"
 
 namespace talus::session {
@@ -36,20 +37,6 @@ World layers(bool periodic) {
     contacts.fn[k] = 1.0 + k;
   }
   return world;
-}
-
-/// Returns the smallest gap between two disks, also across the edge of a periodic bed.
-double smallest_gap(const World& world) {
-  const Grains& grains = world.grains;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < grains.count(); ++i)
-    for (Index k = 0; k < i; ++k) {
-      double dx = grains.x[i] - grains.x[k];
-      if (world.boundary.periodic) dx = std::remainder(dx, world.boundary.length);
-      smallest =
-          std::min(smallest, std::hypot(dx, grains.y[i] - grains.y[k]) - grains.radius[i] - grains.radius[k]);
-    }
-  return smallest;
 }
 
 TEST(Drop, finds_the_grains_that_nothing_covers) {
@@ -83,7 +70,7 @@ TEST(Drop, leaves_grains_at_rest_above_the_surface_that_touch_nothing) {
         grains.vx[i] = grains.vy[i] = grains.omega[i] = 1.0;
       }
       drop_grains(world, 7, x * diameter, 0.0);
-      EXPECT_GT(smallest_gap(world), -1e-12) << x;
+      EXPECT_GT(test::smallest_gap(world), -1e-12) << x;
       int lifted = 0;
       for (Index i = 0; i < grains.count(); ++i) {
         if (grains.vx[i] != 0.0) continue;
@@ -141,21 +128,6 @@ scenario::Scenario small_bed() {
   return scenario;
 }
 
-Session tilting(const scenario::Scenario& scenario) {
-  Session session(scenario);
-  while (session.phase() == Phase::deposition) session.advance();
-  return session;
-}
-
-ExitCode refusal(Session& session, const Command& command) {
-  try {
-    session.apply(command);
-  } catch (const Error& error) {
-    return error.code();
-  }
-  return ExitCode::done;
-}
-
 TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
   const double nan = std::nan("");
   const double infinite = std::numeric_limits<double>::infinity();
@@ -188,7 +160,8 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
         {0, CommandKind::tilt_rate, -1, infinite, 0.0}};
     if (boundary == scenario::BedBoundary::walls) refused.push_back({0, CommandKind::drop, 3, 0.101, 0.0});
     for (const Command& command : refused)
-      EXPECT_EQ(refusal(session, command), ExitCode::usage) << command_text(command);
+      EXPECT_EQ(test::exit_code_of([&] { session.apply(command); }), ExitCode::usage)
+          << command_text(command);
     EXPECT_EQ(state_hash(session.world()), before);
     EXPECT_TRUE(session.segment().commands.empty());
     EXPECT_EQ(session.law().friction, 0.5);
@@ -199,10 +172,10 @@ TEST(Command, that_cannot_be_done_is_refused_and_leaves_no_trace) {
 TEST(Command, after_the_end_is_refused) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 0.001;
-  Session session = tilting(scenario);
+  Session session = test::tilting(scenario);
   session.advance();
   ASSERT_EQ(session.phase(), Phase::done);
-  EXPECT_EQ(refusal(session, {0, CommandKind::push, 3, 0.1, 0.0}), ExitCode::usage);
+  EXPECT_EQ(test::exit_code_of([&] { session.apply({0, CommandKind::push, 3, 0.1, 0.0}); }), ExitCode::usage);
 }
 
 TEST(Command, is_recorded_with_its_step) {
@@ -230,7 +203,7 @@ TEST(Friction, holds_from_the_next_step_on) {
   scenario.bed.floor = scenario::BedFloor::smooth;
   scenario.tilt.rate = 20.0;
   scenario.tilt.step = 0.02;
-  Session session = tilting(scenario);
+  Session session = test::tilting(scenario);
   while (session.world().tilt < radians(3.0)) session.advance();
   const auto momentum = [&session] {
     double sum = 0.0, mass = 0.0;
@@ -266,7 +239,7 @@ TEST(Friction, holds_in_the_deposition_and_after_it) {
 
 // The state kept after an error must be the one that a resumed run and a replay reach.
 TEST(FailedStep, leaves_the_session_as_it_was) {
-  Session session = tilting(small_bed());
+  Session session = test::tilting(small_bed());
   for (int k = 0; k < 10; ++k) session.advance();
   const Grains& grains = session.world().grains;
   session.apply({0, CommandKind::drag, 3, grains.x[3] + 0.01, grains.y[3] + 0.05});
@@ -282,7 +255,7 @@ TEST(FailedStep, leaves_the_session_as_it_was) {
 }
 
 TEST(TiltRate, is_that_of_the_next_steps_whose_length_stays) {
-  Session session = tilting(small_bed());
+  Session session = test::tilting(small_bed());
   for (int k = 0; k < 10; ++k) session.advance();
   const double time = session.world().time;
   session.apply({0, CommandKind::tilt_rate, -1, 3.0, 0.0});
@@ -298,7 +271,7 @@ TEST(TiltRate, is_that_of_the_next_steps_whose_length_stays) {
 }
 
 TEST(TiltRate, below_0_leads_down_through_0_by_the_same_law) {
-  Session session = tilting(small_bed());
+  Session session = test::tilting(small_bed());
   for (int k = 0; k < 10; ++k) session.advance();
   session.apply({0, CommandKind::tilt_rate, -1, -3.0, 0.0});
   EXPECT_NEAR(degrees(session.tilt_rate()), -3.0, 1e-12);
@@ -313,7 +286,7 @@ TEST(TiltRate, below_0_leads_down_through_0_by_the_same_law) {
 
 TEST(TiltRate, below_0_ends_at_the_same_angle_on_the_other_side) {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
-  Session session = tilting(scenario);
+  Session session = test::tilting(scenario);
   for (int k = 0; k < 50; ++k) session.advance();
   session.apply({0, CommandKind::tilt_rate, -1, -20.0, 0.0});
   for (int k = 0; k < 149; ++k) session.advance();
@@ -330,7 +303,7 @@ TEST(TiltRate, below_0_fails_the_slope_on_the_other_side) {
   scenario.tilt.end_angle.reset();
   scenario.tilt.after_failure = scenario::AfterFailure::lower;
   scenario.tilt.lowering_rate = 50.0;
-  Session session = tilting(scenario);
+  Session session = test::tilting(scenario);
   session.apply({0, CommandKind::tilt_rate, -1, -50.0, 0.0});
   while (session.phase() == Phase::tilt) session.advance();
   ASSERT_EQ(session.phase(), Phase::flow);

@@ -4,11 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-
-#include "base/errors.h"
-#include "session/run_header.h"
-#include "session/session.h"
+#include "support/exit_code.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 
 namespace talus::session {
@@ -52,19 +49,8 @@ TEST(AdviceForRest, ends_the_message_about_a_bed_that_is_not_at_rest) {
   scenario::Scenario scenario = poured_bed();
   scenario.contact.restitution = 1.0;
   scenario.deposition.max_time = 0.05;
-  Session session(scenario);
-  try {
-    while (session.phase() == Phase::deposition) session.advance();
-    ADD_FAILURE() << "at rest";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("g h; with contact.restitution = 1, impacts"), std::string::npos)
-        << error.what();
-  }
-}
-
-void advance_to_tilt(Session& session) {
-  while (session.phase() == Phase::deposition) session.advance();
+  EXPECT_TRUE(test::refuses([&] { test::tilting(scenario); }, ExitCode::bad_data,
+                            {"g h; with contact.restitution = 1, impacts"}));
 }
 
 TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
@@ -72,7 +58,7 @@ TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
        {scenario::BedBoundary::periodic, scenario::BedBoundary::walls}) {
     Session session(poured_bed(boundary));
     EXPECT_EQ(session.world().grains.free_count, 1);
-    advance_to_tilt(session);
+    test::begin_tilt(session);
     EXPECT_EQ(session.world().grains.free_count, 30);
     ASSERT_EQ(session.segment().frames.size(), 1u);
     EXPECT_EQ(session.segment().frames[0].grain_count(), 40);
@@ -83,8 +69,7 @@ TEST(PouredRun, begins_with_its_first_grain_and_tilts_all_of_them) {
 TEST(PouredRun, tilts_when_all_have_arrived_even_if_those_before_are_at_rest) {
   scenario::Scenario scenario = poured_bed();
   scenario.deposition.rate = 0.05;  // 64 steps between grains, and 50 count as rest
-  Session session(scenario);
-  advance_to_tilt(session);
+  const Session session = test::tilting(scenario);
   EXPECT_EQ(session.world().grains.free_count, 30);
 }
 
@@ -103,7 +88,7 @@ TEST(PouredRun, holds_only_what_has_arrived_in_its_problem) {
 TEST(PouredRun, has_statics_of_all_its_grains_from_the_beginning) {
   Session session(poured_bed());
   const RunStatics before = run_statics(session.scenario(), session.world());
-  advance_to_tilt(session);
+  test::begin_tilt(session);
   const RunStatics after = run_statics(session.scenario(), session.world());
   EXPECT_EQ(before.free_count, 30);
   EXPECT_EQ(before.radius, after.radius);
@@ -118,13 +103,12 @@ TEST(PouredRun, has_statics_of_all_its_grains_from_the_beginning) {
 TEST(PouredRun, taken_up_after_any_step_ends_with_the_same_bits) {
   for (const scenario::BedBoundary boundary :
        {scenario::BedBoundary::periodic, scenario::BedBoundary::walls}) {
-    Session whole(poured_bed(boundary));
-    while (whole.phase() != Phase::done) whole.advance();
+    const Session whole = test::finished(poured_bed(boundary));
     for (const int stopped_after : {1, 6, 7, 50, 180}) {
       Session first(poured_bed(boundary));
       for (int k = 0; k < stopped_after; ++k) first.advance();
       Session second(first.scenario(), first.checkpoint(0.0));
-      while (second.phase() != Phase::done) second.advance();
+      test::run_session(second);
       EXPECT_EQ(state_hash(second.world()), state_hash(whole.world())) << stopped_after;
     }
   }
@@ -134,7 +118,7 @@ TEST(PouredRun, has_its_time_to_come_to_rest_after_the_last_arrival) {
   scenario::Scenario scenario = poured_bed();
   scenario.deposition.max_time = 0.02;  // the arrivals alone take ten times as long
   Session session(scenario);
-  EXPECT_THROW(advance_to_tilt(session), Error);
+  EXPECT_THROW(test::begin_tilt(session), Error);
   EXPECT_GE(session.world().time, end_of_arrivals(scenario) + 0.02);
   EXPECT_EQ(session.world().grains.free_count, 30);
 }
@@ -143,8 +127,7 @@ TEST(PouredRun, of_a_smooth_floor_and_of_still_grains) {
   scenario::Scenario scenario = poured_bed(scenario::BedBoundary::walls);
   scenario.bed.floor = scenario::BedFloor::smooth;
   scenario.deposition.arrival_speed = 0.0;
-  Session session(scenario);
-  advance_to_tilt(session);
+  const Session session = test::tilting(scenario);
   EXPECT_EQ(session.world().grains.count(), 30);
 }
 
@@ -159,18 +142,9 @@ TEST(Deposition, has_the_friction_of_the_run_unless_it_has_its_own) {
   Session session(scenario);
   EXPECT_EQ(session.law().friction, 0.4);
   EXPECT_EQ(session.law().wall_friction, 0.1);
-  advance_to_tilt(session);
+  test::begin_tilt(session);
   EXPECT_EQ(session.law().friction, 0.3);
   EXPECT_EQ(session.law().wall_friction, 0.2);
-}
-
-TEST(StoredScenario, is_that_of_the_run) {
-  scenario::Scenario scenario = poured_bed();
-  scenario.deposition.friction = 0.4;
-  scenario.deposition.wall_friction = 0.1;
-  io::RunHeader header;
-  header.scenario_resolved = scenario::resolved_toml(scenario);
-  EXPECT_EQ(runs::stored_scenario(header, "run"), scenario);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "base/errors.h"
@@ -11,6 +10,7 @@
 #include "problems/step_problem.h"
 #include "session/run.h"
 #include "session/run_header.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -62,9 +62,22 @@ CommandedRun commanded_run(std::int64_t steps, io::RunStore* store = nullptr,
   }
 }
 
-constexpr std::int64_t to_the_end = 1'000'000;
+using test::to_the_end;
 
-TEST(Replay, of_a_run_with_commands_gives_the_same_bits) {
+class Replay : public test::FolderTest {
+ protected:
+  /// Expects a stored run to be repeated to the bits of its last state.
+  static void expect_repeated(const io::RunFile& stored) {
+    Session again(small_bed());
+    replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
+    EXPECT_EQ(state_hash(again.world()), state_hash(stored.checkpoint().world));
+  }
+
+  const std::string path = folder.path("run.h5");
+  const io::RunHeader header = run_header(Session(small_bed()), {});
+};
+
+TEST_F(Replay, of_a_run_with_commands_gives_the_same_bits) {
   const CommandedRun run = commanded_run(to_the_end);
   ASSERT_EQ(run.commands.size(), 7u) << "every command was given";
   const std::int64_t steps = run.session->world().step;
@@ -81,46 +94,36 @@ TEST(Replay, of_a_run_with_commands_gives_the_same_bits) {
   }
 }
 
-TEST(Replay, of_a_run_that_was_resumed_again_and_again_gives_the_same_bits) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(Replay, of_a_run_that_was_resumed_again_and_again_gives_the_same_bits) {
   const CommandedRun whole = commanded_run(to_the_end);
-  io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
+  io::RunStore store = io::RunStore::create(path, header, false);
   const CommandedRun parts = commanded_run(to_the_end, &store);
   EXPECT_EQ(state_hash(parts.session->world()), state_hash(whole.session->world()));
   store.pack();
   const io::RunFile stored = io::RunFile::open(path);
   EXPECT_EQ(stored.commands(), whole.commands);
-  Session again(small_bed());
-  replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
-  EXPECT_EQ(state_hash(again.world()), state_hash(stored.checkpoint().world));
+  expect_repeated(stored);
 }
 
 /// The last command was given after the last step, so that its effect is only in the checkpoint.
-TEST(Replay, of_a_run_that_was_left_gives_the_same_bits) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(Replay, of_a_run_that_was_left_gives_the_same_bits) {
   {
-    io::RunStore store = io::RunStore::create(path, run_header(Session(small_bed()), {}), false);
+    io::RunStore store = io::RunStore::create(path, header, false);
     commanded_run(20, &store);
   }
   const io::RunFile left = io::RunFile::open(path);
   ASSERT_EQ(left.commands().size(), 1u);
   ASSERT_EQ(left.commands().front().step, left.checkpoint().world.step);
-  Session again(small_bed());
-  replay(again, nullptr, left.commands(), left.checkpoint().world.step, {});
-  EXPECT_EQ(state_hash(again.world()), state_hash(left.checkpoint().world));
+  expect_repeated(left);
 }
 
-TEST(Replay, is_kept_as_the_run_it_was) {
-  const test::TemporaryFolder folder;
+TEST_F(Replay, is_kept_as_the_run_it_was) {
   const CommandedRun run = commanded_run(to_the_end);
   const std::int64_t steps = run.session->world().step;
-  const io::RunHeader header = run_header(Session(small_bed()), {});
   Session again(small_bed());
-  io::RunStore store = io::RunStore::create(folder.path("again.h5"), header, false);
+  io::RunStore store = io::RunStore::create(path, header, false);
   replay(again, &store, run.commands, steps, {});
-  const io::RunFile stored = io::RunFile::open(folder.path("again.h5"));
+  const io::RunFile stored = io::RunFile::open(path);
   EXPECT_TRUE(stored.complete());
   EXPECT_EQ(stored.commands(), run.commands);
   EXPECT_EQ(stored.steps().size(), static_cast<std::size_t>(steps));
@@ -128,7 +131,7 @@ TEST(Replay, is_kept_as_the_run_it_was) {
   EXPECT_EQ(stored.all_observables(), run.session->segment().observables);
 }
 
-TEST(Replay, stops_when_asked) {
+TEST_F(Replay, stops_when_asked) {
   volatile std::sig_atomic_t stop = 0;
   RunControl control;
   control.stop = &stop;
@@ -142,7 +145,7 @@ TEST(Replay, stops_when_asked) {
 
 /// A bed that does not come to rest in time ends with an error after a complete step, and is stored in this
 /// state.
-TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
+TEST_F(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
   scenario::Scenario scenario = small_bed();
   scenario.deposition.max_time = 0.05;
   Session session(scenario);
@@ -155,9 +158,7 @@ TEST(Replay, of_a_run_that_ended_with_an_error_gives_the_same_bits) {
 }
 
 /// The problem of the step after a frame takes earlier commands into account.
-TEST(StepProblem, of_a_run_with_commands_is_that_of_its_next_step) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(Replay, of_a_run_with_commands_has_the_problem_of_its_next_step) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 2.0;
   Session session(scenario);

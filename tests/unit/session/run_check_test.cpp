@@ -1,15 +1,17 @@
-/// An intact run passes; impossible values are found and named.
+/// An intact run passes; impossible values are found and named. Guards detect what no sound run does: the run
+/// stops in a consistent state, or continues with a warning.
 
 #include "session/run_check.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 #include <limits>
 
-#include "session/run_header.h"
+#include "session/measure.h"
 #include "session/session.h"
+#include "support/exit_code.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -22,15 +24,9 @@ scenario::Scenario checked_bed() {
   return scenario;
 }
 
-Session run_of(const scenario::Scenario& scenario) {
-  Session run(scenario);
-  while (run.phase() != Phase::done) run.advance();
-  return run;
-}
-
 /// Returns a finished run of the small bed, computed once.
 const Session& finished_run() {
-  static const Session session = run_of(checked_bed());
+  static const Session session = test::finished(checked_bed());
   return session;
 }
 
@@ -38,16 +34,10 @@ const Session& finished_run() {
 RunCheck check_with(const std::function<void(io::Segment&)>& change,
                     const Session& session = finished_run()) {
   const test::TemporaryFolder folder;
-  io::Segment segment = session.segment();
-  change(segment);
-  io::RunStore store =
-      io::RunStore::create(folder.path("run.h5"), run_header(session, {"", {}, "", 1}), false);
-  store.commit(segment, session.checkpoint(0.0));
-  store.pack();
+  const io::RunFile run = test::stored(session, folder.path("run.h5"), change);
   std::size_t frames = 0;
-  const RunCheck check =
-      check_run(io::RunFile::open(folder.path("run.h5")), [&frames](std::size_t done) { frames = done; });
-  EXPECT_EQ(frames, segment.frames.size());
+  const RunCheck check = check_run(run, [&frames](std::size_t done) { frames = done; });
+  EXPECT_EQ(frames, session.segment().frames.size());
   return check;
 }
 
@@ -136,10 +126,10 @@ TEST(RunCheck, tells_of_overlaps_unless_the_guards_of_the_run_let_it_go_on) {
   EXPECT_TRUE(is_reported(finished_run()));
   scenario::Scenario scenario = checked_bed();
   scenario.guards.overlap = 10.0;
-  EXPECT_FALSE(is_reported(run_of(scenario)));
+  EXPECT_FALSE(is_reported(test::finished(scenario)));
   scenario.guards = {};
   scenario.guards.action = scenario::GuardAction::warn;
-  EXPECT_FALSE(is_reported(run_of(scenario))) << "the overlap is recorded and is not a damage";
+  EXPECT_FALSE(is_reported(test::finished(scenario))) << "the overlap is recorded and is not a damage";
 }
 
 TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
@@ -154,7 +144,7 @@ TEST(RunCheck, allows_a_bed_at_rest_what_its_rest_velocity_allows) {
         frame.contacts.ft[c] *= factor;
       }
     };
-    return faults_of(check_with(scale_forces, run_of(scenario))).find("forces and weight differ") !=
+    return faults_of(check_with(scale_forces, test::finished(scenario))).find("forces and weight differ") !=
            std::string::npos;
   };
   EXPECT_TRUE(is_reported(0.005, 0.9));
@@ -166,7 +156,7 @@ TEST(RunCheck, judges_the_first_frame_by_the_friction_of_the_deposition) {
   scenario::Scenario scenario = checked_bed();
   scenario.deposition.friction = scenario.deposition.wall_friction = 0.5;
   scenario.contact.friction = scenario.contact.wall_friction = 0.1;
-  EXPECT_EQ(faults_of(check_with([](io::Segment&) {}, run_of(scenario))), "");
+  EXPECT_EQ(faults_of(check_with([](io::Segment&) {}, test::finished(scenario))), "");
 }
 
 TEST(RunCheck, does_not_tell_more_than_can_be_read) {
@@ -175,6 +165,97 @@ TEST(RunCheck, does_not_tell_more_than_can_be_read) {
   });
   EXPECT_EQ(check.faults.size(), max_faults + 1);
   EXPECT_NE(check.faults.back().find("more"), std::string::npos);
+}
+
+scenario::Scenario small_bed() { return test::small_tilted_bed(0.2); }
+
+/// Returns the message of the guard that stops the run, and the step.
+std::pair<std::string, std::int64_t> stopped_by(const scenario::Scenario& scenario) {
+  Session session(scenario);
+  const test::Refusal refusal = test::refusal_of([&] { test::run_session(session); });
+  EXPECT_EQ(refusal.code, ExitCode::bad_data);
+  return {refusal.message, session.world().step};
+}
+
+TEST(Guards, sound_runs_break_none) {
+  const Session session = test::finished(small_bed());
+  for (const std::int64_t steps : session.schedule().warnings.steps) EXPECT_EQ(steps, 0);
+}
+
+TEST(Guards, each_stops_the_run_with_its_limit) {
+  scenario::Scenario fast = small_bed(), deep = small_bed(), energetic = small_bed(), unsolved = small_bed();
+  fast.guards.velocity = 0.5;
+  deep.guards.overlap = 1e-9;
+  energetic.guards.energy = 1e-3;
+  unsolved.guards.unconverged = 2;
+  unsolved.solver.max_iterations = 1;
+  for (const auto& [scenario, name] : {std::pair{fast, "guards.velocity allows 0.5"},
+                                       {deep, "guards.overlap allows 1e-09"},
+                                       {energetic, "guards.energy allows 0.001"},
+                                       {unsolved, "guards.unconverged allows 2"}}) {
+    const auto [message, step] = stopped_by(scenario);
+    EXPECT_NE(message.find(name), std::string::npos) << message;
+    EXPECT_EQ(message.find("step " + std::to_string(step) + ": "), 0u) << message;
+  }
+}
+
+TEST(Guards, stop_after_a_whole_step) {
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.velocity = 0.5;
+  Session stopped(scenario), plain(small_bed());
+  EXPECT_THROW(while (true) stopped.advance(), Error);
+  while (plain.world().step < stopped.world().step) plain.advance();
+  EXPECT_EQ(state_hash(stopped.world()), state_hash(plain.world()));
+  EXPECT_EQ(stopped.segment().steps, plain.segment().steps);
+}
+
+TEST(Guards, are_not_passed_by_a_resumed_run_or_a_copy) {
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.overlap = 1e-9;
+  Session session(scenario);
+  EXPECT_THROW(while (true) session.advance(), Error);
+  Session again(scenario, session.checkpoint(0.0));
+  Session copy = session.copy();
+  for (Session* stopped : {&session, &again, &copy}) {
+    EXPECT_TRUE(
+        test::has(test::refusal_of([&] { stopped->advance(); }).message, "guards.overlap allows 1e-09"));
+    EXPECT_EQ(stopped->world().step, session.world().step);
+  }
+}
+
+TEST(Guards, warn_counts_what_they_let_pass) {
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.action = scenario::GuardAction::warn;
+  scenario.guards.velocity = 0.5;
+  const Session session = test::finished(scenario);
+  const GuardWarnings& warnings = session.schedule().warnings;
+  const auto velocity = std::ranges::find(guard_names, "velocity") - guard_names.begin();
+  EXPECT_GT(warnings.steps[velocity], 5);
+  EXPECT_LT(warnings.steps[velocity], session.world().step);
+  scenario::Scenario stop = scenario;
+  stop.guards.action = scenario::GuardAction::stop;
+  EXPECT_EQ(warnings.first[velocity], stopped_by(stop).second);
+  EXPECT_EQ(state_hash(session.world()), state_hash(test::finished(small_bed()).world()))
+      << "monitoring changes nothing";
+
+  const io::Checkpoint checkpoint = session.checkpoint(0.0);
+  const Session again(scenario, checkpoint);
+  EXPECT_EQ(again.schedule().warnings.steps, warnings.steps);
+  EXPECT_EQ(again.schedule().warnings.first, warnings.first);
+  EXPECT_EQ(find_value(checkpoint.results, "warnings_velocity"),
+            static_cast<double>(warnings.steps[velocity]));
+}
+
+TEST(Guards, steps_in_a_row_are_counted_over_a_restart) {
+  scenario::Scenario scenario = small_bed();
+  scenario.guards.unconverged = 10;
+  scenario.solver.max_iterations = 1;
+  const std::int64_t whole = stopped_by(scenario).second;
+  Session before(scenario);
+  while (before.world().step < whole - 4) before.advance();
+  Session after(scenario, before.checkpoint(0.0));
+  EXPECT_THROW(while (true) after.advance(), Error);
+  EXPECT_EQ(after.world().step, whole);
 }
 
 }  // namespace

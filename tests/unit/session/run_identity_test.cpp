@@ -1,20 +1,20 @@
 /// Friction in force in a frame, and departures of a run from its scenario.
 
-#include "session/run_identity.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "analysis/contacts/contact_network.h"
-#include "core/bed_frame.h"
+#include "core/snapshot.h"
 #include "core/trigonometry.h"
 #include "problems/step_problem.h"
 #include "session/frame_state.h"
 #include "session/run.h"
 #include "session/run_check.h"
 #include "session/run_header.h"
+#include "support/has.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -25,7 +25,6 @@ namespace {
 io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path,
                      std::vector<std::pair<double, Command>> commands = {}) {
   Session session(scenario);
-  io::RunStore store = io::RunStore::create(path, run_header(session, {}), false);
   while (session.phase() != Phase::done) {
     for (auto& [tilt, command] : commands)
       if (session.phase() == Phase::tilt && degrees(session.world().tilt) > tilt - 1e-9) {
@@ -34,21 +33,7 @@ io::RunFile recorded(const scenario::Scenario& scenario, const std::string& path
       }
     session.advance();
   }
-  store.commit(session.segment(), session.checkpoint(0.0));
-  store.pack();
-  return io::RunFile::open(path);
-}
-
-/// Records a branch to its end, and returns it.
-io::RunFile recorded_branch(const scenario::Scenario& scenario, const io::BranchOrigin& origin,
-                            const std::string& path) {
-  Session session(scenario, origin.start);
-  io::RunStore store = io::RunStore::create(path, run_header(session, {"", "", "", 1, origin}), false);
-  session.record_start();
-  while (session.phase() != Phase::done) session.advance();
-  store.commit(session.segment(), session.checkpoint(0.0));
-  store.pack();
-  return io::RunFile::open(path);
+  return test::stored(session, path);
 }
 
 /// Returns the origin of a branch from frame k of a run.
@@ -128,15 +113,16 @@ TEST(FrictionInForce, of_a_branch_is_in_its_scenario) {
   origin.start = start_of(branch.checkpoint(0.0));
   scenario::Scenario other = branch.scenario();
   other.contact.friction = 0.9;
-  const io::RunFile read = recorded_branch(other, origin, folder.path("b.h5"));
+  const io::RunFile read = test::recorded_branch(other, origin, folder.path("b.h5"));
   EXPECT_EQ(read.header().friction.grains, 0.9);
   EXPECT_EQ(read.frame(0).friction.grains, 0.2);
   EXPECT_EQ(read.frame(1).friction.grains, 0.9);
   EXPECT_GT(counted(read.frame(read.frame_count() - 1), 0.9).largest, 0.2);
 }
 
-TEST(Departures, are_none_of_a_run_that_follows_its_scenario) {
-  const test::TemporaryFolder folder;
+using Departures = test::FolderTest;
+
+TEST_F(Departures, are_none_of_a_run_that_follows_its_scenario) {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
   EXPECT_TRUE(departures(recorded(scenario, folder.path("plain.h5")), scenario).empty());
   scenario.commands = {{1.05, {}, CommandKind::drop, 4, 0.05, 0.02},
@@ -149,8 +135,7 @@ TEST(Departures, are_none_of_a_run_that_follows_its_scenario) {
   EXPECT_TRUE(departures(recorded(scenario, folder.path("scripted.h5")), scenario).empty());
 }
 
-TEST(Departures, are_commands_that_the_scenario_does_not_have) {
-  const test::TemporaryFolder folder;
+TEST_F(Departures, are_commands_that_the_scenario_does_not_have) {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
   const Command rubs = {0, CommandKind::friction, -1, 0.1};
   const auto found = departures(recorded(scenario, folder.path("a.h5"), {{0.5, rubs}}), scenario);
@@ -160,14 +145,13 @@ TEST(Departures, are_commands_that_the_scenario_does_not_have) {
   scenario.commands = {{1.0, {}, CommandKind::friction, -1, 0.1, 0.0}};
   const auto twice = departures(recorded(scenario, folder.path("b.h5"), {{0.5, rubs}}), scenario);
   ASSERT_EQ(twice.size(), 1u);
-  EXPECT_NE(twice[0].find("at 0.50 deg"), std::string::npos) << twice[0];
+  EXPECT_TRUE(test::has(twice[0], "at 0.50 deg"));
   scenario.commands[0].at = 30.0;
   EXPECT_EQ(departures(recorded(scenario, folder.path("c.h5"), {{0.5, rubs}}), scenario).size(), 1u);
   EXPECT_EQ(departures_text({"one", "two", "three"}), "one and 2 more");
 }
 
-TEST(Departures, tell_where_a_drag_leads_and_ends) {
-  const test::TemporaryFolder folder;
+TEST_F(Departures, tell_where_a_drag_leads_and_ends) {
   scenario::Scenario scenario = test::small_tilted_bed(2.0);
   scenario.commands = {{0.5, {}, CommandKind::drag, 5, 0.05, 0.04}};
   const Command moves = {0, CommandKind::drag, 5, 0.05, 0.06}, ends = {0, CommandKind::release};
@@ -176,13 +160,12 @@ TEST(Departures, tell_where_a_drag_leads_and_ends) {
   EXPECT_EQ(departures(recorded(scenario, folder.path("c.h5"), {{1.0, ends}}), scenario).size(), 1u);
 }
 
-TEST(Departures, of_a_branch_tell_the_history_of_its_run) {
-  const test::TemporaryFolder folder;
+TEST_F(Departures, of_a_branch_tell_the_history_of_its_run) {
   const scenario::Scenario scenario = test::small_tilted_bed(2.0);
   const auto branch_of = [&](const std::string& name, std::vector<std::pair<double, Command>> commands) {
     const io::RunFile run = recorded(scenario, folder.path(name), std::move(commands));
     const io::BranchOrigin origin = origin_at(run, scenario, frame_from(run, 1.4));
-    return departures(recorded_branch(scenario, origin, folder.path("branch-" + name)), scenario);
+    return departures(test::recorded_branch(scenario, origin, folder.path("branch-" + name)), scenario);
   };
   const Command push = {0, CommandKind::push, 3, 0.1, 0.0};
   const auto plain = branch_of("plain.h5", {}), pushed = branch_of("pushed.h5", {{0.5, push}}),
@@ -190,7 +173,7 @@ TEST(Departures, of_a_branch_tell_the_history_of_its_run) {
   ASSERT_EQ(plain.size(), 1u);
   EXPECT_EQ(plain, later) << "what was done after the frame is not part of it";
   ASSERT_EQ(pushed.size(), 1u);
-  EXPECT_NE(pushed[0].find("after push grain 3 by (0.1, 0) m/s at 0.50 deg"), std::string::npos) << pushed[0];
+  EXPECT_TRUE(test::has(pushed[0], "after push grain 3 by (0.1, 0) m/s at 0.50 deg"));
   const std::vector<std::string> many(50, "push");
   EXPECT_LT(history_text(many).size(), 60u);
   EXPECT_NE(history_text(many), history_text(std::vector<std::string>(51, "push")));
@@ -206,17 +189,16 @@ TEST(FrictionInForce, of_the_deposition_is_stated_as_a_command_set_it) {
   EXPECT_EQ(session.scenario().contact.friction, 0.3);
 }
 
-TEST(Departures, tell_a_branch) {
-  const test::TemporaryFolder folder;
+TEST_F(Departures, tell_a_branch) {
   const scenario::Scenario scenario = test::small_tilted_bed(2.0);
   const io::RunFile run =
       recorded(scenario, folder.path("run.h5"), {{0.9, {0, CommandKind::tilt_rate, -1, 5.0}}});
-  const auto found =
-      departures(recorded_branch(scenario, {"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)},
-                                 folder.path("b.h5")),
-                 scenario);
+  const auto found = departures(
+      test::recorded_branch(scenario, {"run.h5", 2, "0123456789abcdef", checkpoint_at_frame(run, 2)},
+                            folder.path("b.h5")),
+      scenario);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].find("branch at 0.93 deg with a tilt rate of 5 deg/s"), std::string::npos) << found[0];
+  EXPECT_TRUE(test::has(found[0], "branch at 0.93 deg with a tilt rate of 5 deg/s"));
 }
 
 }  // namespace

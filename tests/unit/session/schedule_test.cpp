@@ -1,4 +1,5 @@
 /// Schedule of a run, stored in and read from its checkpoint by a table of names; every value matters.
+/// Measured quantities and estimates of a run.
 
 #include "session/schedule.h"
 
@@ -8,9 +9,10 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "base/errors.h"
+#include "session/estimate.h"
+#include "session/measure.h"
+#include "support/exit_code.h"
 
 namespace talus::session {
 namespace {
@@ -51,26 +53,22 @@ Schedule read(const io::Checkpoint& checkpoint, bool follows = true) {
   return stored_schedule(checkpoint, follows, "run.h5");
 }
 
+/// Returns the names from the given one on, each after a space.
 template <typename Named>
-std::vector<std::string> names(const Named& values) {
-  std::vector<std::string> found;
-  for (const auto& [name, value] : values) found.push_back(name);
+std::string names(const Named& values, std::size_t from = 0) {
+  std::string found;
+  for (; from < values.size(); ++from) found += " " + values[from].first;
   return found;
 }
 
 std::string refusal(const io::Checkpoint& checkpoint) {
-  try {
-    read(checkpoint);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    return error.what();
-  }
-  return "";
+  const test::Refusal refused = test::refusal_of([&] { read(checkpoint); });
+  EXPECT_EQ(refused.code, ExitCode::bad_data);
+  return refused.message;
 }
 
 TEST(Schedule, comes_back_from_a_checkpoint_as_it_was) {
   const io::Checkpoint checkpoint = stored(full_schedule()), again = stored(read(checkpoint));
-  EXPECT_EQ(schedule_hash(read(checkpoint)), schedule_hash(full_schedule()));
   EXPECT_EQ(again.integers, checkpoint.integers);
   EXPECT_EQ(again.reals, checkpoint.reals);
   EXPECT_EQ(again.results, checkpoint.results);
@@ -79,26 +77,24 @@ TEST(Schedule, comes_back_from_a_checkpoint_as_it_was) {
 
 TEST(Schedule, each_stored_value_counts) {
   const io::Checkpoint checkpoint = stored(full_schedule());
-  const std::uint64_t hash = schedule_hash(full_schedule());
   for (std::size_t k = 0; k < checkpoint.integers.size(); ++k) {
     io::Checkpoint other = checkpoint;
     other.integers[k].second = other.integers[k].second == 1 ? 0 : 1;
-    EXPECT_NE(schedule_hash(read(other)), hash) << checkpoint.integers[k].first;
+    EXPECT_NE(stored(read(other)).integers, checkpoint.integers) << checkpoint.integers[k].first;
   }
   for (std::size_t k = 0; k < checkpoint.reals.size(); ++k) {
     io::Checkpoint other = checkpoint;
     other.reals[k].second = std::nextafter(other.reals[k].second, 100.0);
-    EXPECT_NE(schedule_hash(read(other)), hash) << checkpoint.reals[k].first;
+    EXPECT_NE(stored(read(other)).reals, checkpoint.reals) << checkpoint.reals[k].first;
   }
 }
 
-/// No later step depends on the last one's report, so it counts for no hash, and files without it are read.
+/// No later step depends on the last one's report, so files without it are read.
 TEST(Schedule, has_the_last_step_beside_its_state) {
   Schedule schedule = full_schedule();
   schedule.last = {1e-9, 2e-7, 1.0, 0.4, 0.2};
   const io::Checkpoint checkpoint = stored(schedule);
   EXPECT_EQ(stored(read(checkpoint)).reals, checkpoint.reals);
-  EXPECT_EQ(schedule_hash(schedule), schedule_hash(full_schedule()));
   EXPECT_FALSE(read(stored(full_schedule())).last.residual);
   schedule.last.residual = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(read(stored(schedule)).last.residual) << "a file has no infinite number";
@@ -114,35 +110,25 @@ TEST(Schedule, has_the_last_step_beside_its_state) {
 }
 
 TEST(Schedule, has_names_of_its_own_in_a_checkpoint) {
-  const io::Checkpoint plain = stored({}, false);
+  const io::Checkpoint plain = stored({}, false), full = stored(full_schedule());
   EXPECT_EQ(names(plain.integers),
-            (std::vector<std::string>{"phase", "tilt_steps", "quiet_steps", "flowing", "failed",
-                                      "unconverged_deposition", "unconverged_tilt"}));
-  EXPECT_EQ(names(plain.reals), (std::vector<std::string>{"baseline_volume", "baseline_centre_of_mass_height",
-                                                          "onset_tilt", "flow_displacement", "surface_height",
-                                                          "surface_displacement", "residual_since_row"}));
+            " phase tilt_steps quiet_steps flowing failed unconverged_deposition unconverged_tilt");
+  EXPECT_EQ(names(plain.reals),
+            " baseline_volume baseline_centre_of_mass_height onset_tilt flow_displacement surface_height "
+            "surface_displacement residual_since_row");
   EXPECT_EQ(names(plain.results),
-            (std::vector<std::string>{"theta_c", "residual_max", "residual_max_rest", "residual_max_moving",
-                                      "unconverged_steps_deposition", "unconverged_steps"}));
+            " theta_c residual_max residual_max_rest residual_max_moving unconverged_steps_deposition "
+            "unconverged_steps");
   EXPECT_EQ(names(plain.timing),
-            (std::vector<std::string>{"deposition", "tilt", "stage_move", "stage_detect", "stage_recall",
-                                      "stage_assemble", "stage_solve", "stage_store"}));
-  const io::Checkpoint full = stored(full_schedule());
-  const auto added = [](const std::vector<std::string>& all, std::size_t from) {
-    return std::vector<std::string>(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
-  };
-  EXPECT_EQ(added(names(full.integers), plain.integers.size()),
-            (std::vector<std::string>{"tilt_since", "last_tilt_step", "unconverged_in_a_row", "flow_steps",
-                                      "unconverged_flow"}));
-  EXPECT_EQ(added(names(full.reals), plain.reals.size()),
-            (std::vector<std::string>{"friction", "tilt_rate", "tilt_from", "broken_velocity",
-                                      "broken_overlap", "broken_energy", "broken_unconverged"}));
-  EXPECT_EQ(
-      added(names(full.results), plain.results.size()),
-      (std::vector<std::string>{"warnings_velocity", "warnings_velocity_first_step", "warnings_overlap",
-                                "warnings_overlap_first_step", "warnings_energy",
-                                "warnings_energy_first_step", "warnings_unconverged",
-                                "warnings_unconverged_first_step", "theta_r", "unconverged_steps_flow"}));
+            " deposition tilt stage_move stage_detect stage_recall stage_assemble stage_solve stage_store");
+  EXPECT_EQ(names(full.integers, plain.integers.size()),
+            " tilt_since last_tilt_step unconverged_in_a_row flow_steps unconverged_flow");
+  EXPECT_EQ(names(full.reals, plain.reals.size()),
+            " friction tilt_rate tilt_from broken_velocity broken_overlap broken_energy broken_unconverged");
+  EXPECT_EQ(names(full.results, plain.results.size()),
+            " warnings_velocity warnings_velocity_first_step warnings_overlap warnings_overlap_first_step "
+            "warnings_energy warnings_energy_first_step warnings_unconverged warnings_unconverged_first_step "
+            "theta_r unconverged_steps_flow");
 }
 
 TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
@@ -163,12 +149,8 @@ TEST(Schedule, that_lacks_a_value_or_has_an_impossible_one_is_refused) {
               "run.h5: data set /checkpoint/reals/" + name + " is nan, expected a finite number");
     value = was;
   }
-  try {
-    stored_schedule(phase, true, "run.h5", "/branch");
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "run.h5: data set /branch/integers/phase is 4, expected 0, 1, 2 or 3");
-  }
+  EXPECT_TRUE(test::has(test::refusal_of([&] { stored_schedule(phase, true, "run.h5", "/branch"); }).message,
+                        "/branch/integers/phase"));
   io::Checkpoint untimed = checkpoint;
   untimed.timing.clear();
   EXPECT_EQ(read(untimed).seconds.tilt, 0.0) << "wall times are not part of the state";
@@ -181,6 +163,133 @@ TEST(Schedule, of_a_slope_at_rest_has_its_angle_and_one_before_has_none) {
   const io::Checkpoint checkpoint = stored(flowing);
   EXPECT_TRUE(std::isnan(*find_value(checkpoint.results, "theta_r")));
   EXPECT_FALSE(read(checkpoint).angle_at_rest);
+}
+
+constexpr double friction = 0.5;
+
+/// Returns three free grains above a floor grain, of which the first two rest on it. The force between these
+/// two, and that between the second and the third, are remains: `share` times the mean weight, sliding.
+World bed_with_remains(double share) {
+  World world;
+  for (const double x : {0.1, 0.2, 0.3}) add_disk(world.grains, {x, 0.2}, 0.05, 2500.0, false);
+  add_disk(world.grains, {0.15, 0.1}, 0.05, 2500.0, true);
+  world.boundary.periodic = true;
+  world.boundary.length = 1.0;
+  const double weight = world.grains.mass[0] * world.gravity;
+  Contacts& contacts = world.contacts;
+  contacts.resize(4);
+  contacts.a = {0, 0, 1, 1};
+  contacts.b = {1, 3, 2, 3};
+  contacts.nx = {1.0, 0.6, 1.0, -0.6};
+  contacts.ny = {0.0, -0.8, 0.0, -0.8};
+  contacts.fn = {share * weight, weight, share * weight, weight};
+  contacts.ft = {friction * share * weight, 0.0, friction * share * weight, 0.1 * weight};
+  return world;
+}
+
+dynamics::ContactLawParameters law() {
+  dynamics::ContactLawParameters law;
+  law.friction = friction;
+  return law;
+}
+
+TEST(Measure, takes_a_contact_below_1e_9_of_the_weight_of_a_grain_as_open) {
+  for (const double share : {0.99e-9, 1e-40}) {
+    const World world = bed_with_remains(share);
+    const ObservableRow row = measure(world, {.baseline = {1.0, 1.0}, .law = law()});
+    EXPECT_EQ(at(row, Observable::coordination_number), 1.0) << "two grains with one contact each";
+    EXPECT_EQ(at(row, Observable::critical_fraction), 0.0);
+    const Frame frame = make_frame(world, law());
+    EXPECT_EQ(frame.contacts.a, (std::vector<Index>{0, 1}));
+    EXPECT_EQ(frame.contacts.b, (std::vector<Index>{3, 3}));
+    EXPECT_TRUE(std::isfinite(frame.gamma[0]) && std::isfinite(frame.gamma[1]));
+    EXPECT_TRUE(std::isnan(frame.gamma[2])) << "it carries nothing but remains";
+    EXPECT_EQ(frame.internal_moment[2].xx, 0.0);
+  }
+}
+
+TEST(Measure, takes_a_contact_from_1e_9_of_the_weight_of_a_grain_on_as_loaded) {
+  const World world = bed_with_remains(1.01e-9);
+  const ObservableRow row = measure(world, {.baseline = {1.0, 1.0}, .law = law()});
+  EXPECT_DOUBLE_EQ(at(row, Observable::coordination_number), 2.0) << "two, three and one contacts";
+  EXPECT_EQ(at(row, Observable::critical_fraction), 0.5);
+  EXPECT_EQ(make_frame(world, law()).contacts.count(), 4);
+}
+
+TEST(Estimate, counts_what_the_scenario_says) {
+  scenario::Scenario scenario;
+  scenario.bed.length = 50.5;
+  scenario.bed.depth = 20.0;
+  scenario.tilt.rate = 2.0;
+  scenario.tilt.step = 0.004;
+  scenario.tilt.end_angle = 10.0;
+  scenario.output.frame_every = 0.5;
+  scenario.output.observable_every = 0.1;
+  const Estimate expected = estimate(scenario);
+  EXPECT_EQ(expected.grains, 1010);
+  EXPECT_EQ(expected.floor_grains, 50);
+  EXPECT_DOUBLE_EQ(expected.time_step, 0.002);
+  EXPECT_EQ(expected.tilt_steps, 2500);
+  EXPECT_EQ(expected.frames, 21);
+  EXPECT_EQ(expected.observable_rows, 101);
+}
+
+TEST(Estimate, counts_the_flow_after_failure_as_what_it_may_be) {
+  scenario::Scenario scenario;
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
+  const Estimate expected = estimate(scenario), without = estimate({});
+  EXPECT_GT(expected.flow_steps, 0);
+  EXPECT_NEAR(static_cast<double>(expected.frames - without.frames),
+              static_cast<double>(expected.flow_steps) * scenario.tilt.step / scenario.output.frame_every,
+              1.0);
+  EXPECT_GT(expected.disk, without.disk);
+}
+
+TEST(Estimate, a_long_flow_that_may_end_soon_needs_no_memory) {
+  scenario::Scenario scenario;
+  scenario.tilt.after_failure = scenario::AfterFailure::lower;
+  scenario.tilt.lowering_rate = 1e-4;
+  EXPECT_GT(estimate(scenario).memory, 1e11);
+  EXPECT_NO_THROW(require_memory(scenario));
+}
+
+TEST(Estimate, a_smooth_floor_has_no_grains) {
+  scenario::Scenario scenario;
+  scenario.bed.floor = scenario::BedFloor::smooth;
+  EXPECT_EQ(estimate(scenario).floor_grains, 0);
+}
+
+TEST(Estimate, a_bed_of_the_paper_is_a_matter_of_minutes_and_megabytes) {
+  const Estimate expected = estimate({});
+  EXPECT_EQ(expected.grains, 8000);
+  EXPECT_EQ(expected.tilt_steps, 20000);
+  EXPECT_GT(expected.seconds, 60.0);
+  EXPECT_LT(expected.seconds, 7200.0);
+  EXPECT_GT(expected.memory, 5e7);
+  EXPECT_LT(expected.memory, 1e9);
+  EXPECT_GT(expected.disk, 1e7);
+  EXPECT_LT(expected.disk, 2e8);
+}
+
+TEST(Estimate, grows_with_all_that_costs) {
+  const Estimate usual = estimate({});
+  scenario::Scenario longer;
+  longer.bed.length *= 2.0;
+  EXPECT_GT(estimate(longer).seconds, 1.9 * usual.seconds);
+  EXPECT_GT(estimate(longer).memory, 1.5 * usual.memory);
+  scenario::Scenario more_frames;
+  more_frames.output.frame_every /= 10.0;
+  EXPECT_GT(estimate(more_frames).disk, 8.0 * usual.disk);
+  EXPECT_GT(estimate(more_frames).memory, usual.memory);
+  scenario::Scenario exact;
+  exact.solver.tolerance = 1e-10;
+  EXPECT_GT(estimate(exact).seconds, usual.seconds);
+  scenario::Scenario reference;
+  reference.solver.method = scenario::SolverMethod::gauss_seidel;
+  EXPECT_GT(estimate(reference).seconds, 2.0 * usual.seconds);
+  scenario::Scenario hurried;
+  hurried.solver.max_iterations = 10;
+  EXPECT_LT(estimate(hurried).seconds, 0.15 * usual.seconds);
 }
 
 }  // namespace

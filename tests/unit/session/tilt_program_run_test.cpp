@@ -6,16 +6,12 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/failure/last_rise.h"
-#include "base/errors.h"
+#include "analysis/failure/transition.h"
 #include "core/trigonometry.h"
-#include "io/run_file.h"
-#include "problems/step_problem.h"
-#include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
 #include "session/estimate.h"
 #include "session/run.h"
-#include "session/run_header.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -31,28 +27,12 @@ scenario::Scenario programmed_bed(std::vector<std::string> program = {"to 1", "h
   return scenario;
 }
 
-void run_session(Session& session) {
-  while (session.phase() != Phase::done) session.advance();
-}
+using TiltProgramRun = test::FolderTest;
 
-void begin_tilt(Session& session) {
-  while (session.phase() == Phase::deposition) session.advance();
-}
-
-/// Carries a run through into a file.
-io::RunFile run_of(const scenario::Scenario& scenario, const std::string& path) {
-  Session session(scenario);
-  const io::RunHeader header = run_header(session, {});
-  io::RunStore store = io::RunStore::create(path, header, false);
-  EXPECT_EQ(run_to_end(session, store, {}), RunEnd::complete);
-  return io::RunFile::open(path);
-}
-
-TEST(TiltProgramRun, has_the_tilt_of_its_programme_in_every_step) {
+TEST_F(TiltProgramRun, has_the_tilt_of_its_programme_in_every_step) {
   const scenario::Scenario scenario = programmed_bed();
   const scenario::TiltProgram program(scenario);
-  Session session(scenario);
-  begin_tilt(session);
+  Session session = test::tilting(scenario);
   EXPECT_EQ(session.world().tilt, 0.0);
   std::vector<double> tilts;
   while (session.phase() == Phase::tilt) {
@@ -70,7 +50,7 @@ TEST(TiltProgramRun, has_the_tilt_of_its_programme_in_every_step) {
   EXPECT_EQ(session.angle_of_repose(), std::nullopt);
 }
 
-TEST(TiltProgramRun, to_repose_alone_is_the_run_without_a_programme) {
+TEST_F(TiltProgramRun, to_repose_alone_is_the_run_without_a_programme) {
   scenario::Scenario plain = programmed_bed({});
   plain.tilt.end_angle.reset();
   Session without(plain), with(programmed_bed({"to repose"})),
@@ -83,10 +63,9 @@ TEST(TiltProgramRun, to_repose_alone_is_the_run_without_a_programme) {
   EXPECT_NEAR(parts.world().tilt, without.world().tilt, 1e-12);
 }
 
-TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
-  const test::TemporaryFolder folder;
+TEST_F(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
   const scenario::Scenario scenario = programmed_bed();
-  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
+  const io::RunFile run = test::recorded(scenario, folder.path("run.h5"));
   EXPECT_TRUE(run.has_program());
   EXPECT_EQ(run.frame_count(), run.all_frame_tilts().size());
   std::vector<std::int64_t> steps;
@@ -109,46 +88,26 @@ TEST(TiltProgramRun, is_recorded_at_equal_times_and_where_it_turns) {
   EXPECT_GE(expected_of_it.frames, static_cast<std::int64_t>(steps.size()));
 }
 
-TEST(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
+TEST_F(TiltProgramRun, resumed_from_any_step_gives_the_same_bits) {
   const scenario::Scenario scenario = programmed_bed();
-  Session whole(scenario);
-  run_session(whole);
+  const Session whole = test::finished(scenario);
   // The tilt begins at 0. Its steps are 60 (held), 100 (slowly down), 180 (soon below 0), 193, 194 and 195 (a
   // turn).
-  Session begun(scenario);
-  begin_tilt(begun);
-  const std::int64_t begin = begun.world().step;
+  const std::int64_t begin = test::tilting(scenario).world().step;
   for (const std::int64_t stop : {0, 1, 49, 50, 51, 60, 79, 80, 100, 180, 193, 194, 195, 400}) {
     Session first(scenario);
     while (first.world().step < begin + stop) first.advance();
     Session second(scenario, first.checkpoint(0.0));
     EXPECT_EQ(second.tilt_rate(), first.tilt_rate()) << stop;
-    run_session(second);
+    test::run_session(second);
     EXPECT_EQ(state_hash(second.world()), state_hash(whole.world())) << stop;
-    EXPECT_EQ(schedule_hash(second.schedule()), schedule_hash(whole.schedule())) << stop;
+    EXPECT_EQ(test::stored_values(second), test::stored_values(whole)) << stop;
   }
 }
 
-TEST(TiltProgramRun, resumed_again_and_again_and_replayed_gives_the_same_bits) {
+TEST_F(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
   const scenario::Scenario scenario = programmed_bed();
-  Session whole(scenario);
-  run_session(whole);
-  std::optional<Session> parts(std::in_place, scenario);
-  while (parts->phase() != Phase::done) {
-    const io::Checkpoint checkpoint = parts->checkpoint(0.0);
-    parts.emplace(scenario, checkpoint);
-    for (int k = 0; k < 7; ++k) parts->advance();
-  }
-  EXPECT_EQ(state_hash(parts->world()), state_hash(whole.world()));
-  Session again(scenario);
-  replay(again, nullptr, {}, whole.world().step, {});
-  EXPECT_EQ(state_hash(again.world()), state_hash(whole.world()));
-}
-
-TEST(TiltProgramRun, is_left_by_a_command_for_the_rate_of_the_tilt) {
-  const scenario::Scenario scenario = programmed_bed();
-  Session session(scenario);
-  begin_tilt(session);
+  Session session = test::tilting(scenario);
   EXPECT_NEAR(degrees(session.tilt_rate()), 20.0, 1e-9);
   for (int k = 0; k < 60; ++k) session.advance();
   EXPECT_EQ(session.tilt_rate(), 0.0) << "held";
@@ -182,11 +141,10 @@ scenario::Scenario slippery_bed(std::vector<std::string> program) {
   return scenario;
 }
 
-TEST(TiltProgramRun, ends_with_failure_on_either_side) {
+TEST_F(TiltProgramRun, ends_with_failure_on_either_side) {
   for (const double side : {1.0, -1.0}) {
-    const test::TemporaryFolder folder;
-    const io::RunFile run =
-        run_of(slippery_bed({side > 0.0 ? "to 30" : "to -30", "hold 100"}), folder.path("run.h5"));
+    const io::RunFile run = test::recorded(slippery_bed({side > 0.0 ? "to 30" : "to -30", "hold 100"}),
+                                           folder.path(side > 0.0 ? "a.h5" : "b.h5"));
     const double end = run.checkpoint().world.tilt;
     const auto theta_c = find_value(run.checkpoint().results, "theta_c");
     ASSERT_TRUE(theta_c.has_value());
@@ -197,13 +155,12 @@ TEST(TiltProgramRun, ends_with_failure_on_either_side) {
   }
 }
 
-TEST(TiltProgramRun, is_followed_by_the_flow_that_is_asked_for) {
+TEST_F(TiltProgramRun, is_followed_by_the_flow_that_is_asked_for) {
   for (const double side : {1.0, -1.0}) {
-    const test::TemporaryFolder folder;
     scenario::Scenario scenario = slippery_bed({"to 1", side > 0.0 ? "to 30" : "to -30"});
     scenario.tilt.after_failure = scenario::AfterFailure::lower;
     scenario.tilt.lowering_rate = 100.0;
-    const io::RunFile run = run_of(scenario, folder.path("run.h5"));
+    const io::RunFile run = test::recorded(scenario, folder.path(side > 0.0 ? "a.h5" : "b.h5"));
     ASSERT_GT(run.all_frame_tilts().size(), run.frame_count()) << "frames of the flow";
     ASSERT_GT(run.all_observables().size(), run.observables().size());
     EXPECT_EQ(side * std::ranges::max(run.all_frame_tilts(), {}, [side](double tilt) { return side * tilt; }),
@@ -215,11 +172,10 @@ TEST(TiltProgramRun, is_followed_by_the_flow_that_is_asked_for) {
   }
 }
 
-TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_last_rise) {
-  const test::TemporaryFolder folder;
+TEST_F(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_last_rise) {
   scenario::Scenario scenario = programmed_bed({"to 3", "to 1", "to 2", "to 0"});
   scenario.output.frame_every = 0.2;
-  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
+  const io::RunFile run = test::recorded(scenario, folder.path("run.h5"));
   analysis::AnalysisParameters parameters;
   parameters.gamma_c = 0.3;
   const analysis::Analysis analysis = runs::analyse_run(run, parameters, 1, {});
@@ -238,18 +194,6 @@ TEST(TiltProgramRun, has_an_analysis_of_all_frames_whose_thresholds_are_of_the_l
   EXPECT_NEAR(degrees(rise.tilts.back()), 2.0, 1e-9);
   for (const double found : {analysis.thresholds.front().lc_jump, analysis.dilation[0], analysis.first_slide})
     EXPECT_TRUE(std::isnan(found) || (found >= radians(1.0) - 1e-9 && found <= radians(2.0) + 1e-9)) << found;
-}
-
-/// The problem of the step after a frame has the tilt of the run.
-TEST(StepProblem, of_a_run_with_a_programme_is_that_of_its_next_step) {
-  const test::TemporaryFolder folder;
-  const scenario::Scenario scenario = programmed_bed();
-  const io::RunFile run = run_of(scenario, folder.path("run.h5"));
-  const scenario::TiltProgram program(scenario);
-  for (std::size_t k = 0; k + 1 < run.frame_count(); ++k)
-    EXPECT_EQ(problems::problem_after_frame(run, k).scales.tilt,
-              program.tilt(run.positions(k).step - run.positions(0).step + 1))
-        << k;
 }
 
 }  // namespace

@@ -120,12 +120,7 @@ bool finite(const ContactSolution& solution) {
 SolverReport solve_and_check_report(SolverKind kind, const ContactProblem& problem, ContactSolution& solution,
                                     int max_iterations = 5000) {
   SCOPED_TRACE(test::name_of(kind));
-  SolverSettings settings;
-  settings.kind = kind;
-  settings.tolerance = tolerance;
-  settings.max_iterations = max_iterations;
-  SolverWorkspace workspace;
-  const SolverReport report = solve(problem, settings, workspace, solution);
+  const SolverReport report = test::solve_to(kind, problem, solution, tolerance, max_iterations);
   EXPECT_TRUE(finite(solution));
   for (Index c = 0; c < problem.contact_count(); ++c) {
     EXPECT_GE(solution.pn[c], 0.0);
@@ -137,18 +132,7 @@ SolverReport solve_and_check_report(SolverKind kind, const ContactProblem& probl
   EXPECT_TRUE(std::isfinite(report.residual.eta));
   EXPECT_NEAR(report.residual.eta, eta, 1e-5 * eta + 1e-12);
   EXPECT_EQ(report.converged, report.residual.eta <= tolerance * (1.0 + 1e-9));
-  testing::Test::RecordProperty(test::name_of(kind), std::to_string(report.iterations) + " iterations, eta " +
-                                                         std::to_string(report.residual.eta * 1e9) + "e-9");
   return report;
-}
-
-/// Returns the largest difference of velocities, m/s; rotation counts by its rim velocity.
-double difference(const ContactProblem& problem, const ContactSolution& one, const ContactSolution& other) {
-  double largest = 0.0;
-  for (Index i = 0; i < problem.body_count(); ++i)
-    largest = std::max({largest, std::fabs(one.vx[i] - other.vx[i]), std::fabs(one.vy[i] - other.vy[i]),
-                        problem.lever[i] * std::fabs(one.omega[i] - other.omega[i])});
-  return largest;
 }
 
 ContactSolution free_motion(const ContactProblem& problem) {
@@ -185,13 +169,13 @@ TEST_P(DegenerateProblem, ends_converged_or_says_what_is_left) {
   const SolverReport second = solve_and_check_report(SolverKind::accelerated, problem, accelerated);
   EXPECT_TRUE(first.converged || GetParam().converges != Convergence::both) << first.residual.eta;
   EXPECT_TRUE(second.converged || GetParam().converges == Convergence::nobody) << second.residual.eta;
-  const double scale = std::max(fall, difference(problem, free_motion(problem), rest(problem)));
+  const double scale = std::max(fall, test::difference(problem, free_motion(problem), rest(problem)));
   if (first.converged && second.converged) {
-    EXPECT_LT(difference(problem, swept, accelerated), 1e-5 * scale);
+    EXPECT_LT(test::difference(problem, swept, accelerated), 1e-5 * scale);
   }
   if (GetParam().rests) {
     // The errors of all contacts in a column add up.
-    EXPECT_LT(difference(problem, accelerated, rest(problem)), 1e-3 * fall);
+    EXPECT_LT(test::difference(problem, accelerated, rest(problem)), 1e-3 * fall);
   }
 }
 

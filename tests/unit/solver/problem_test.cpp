@@ -1,3 +1,5 @@
+/// Contact problems, of bodies and in local form.
+
 #include "solver/problem.h"
 
 #include <gtest/gtest.h>
@@ -5,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "core/random.h"
+#include "solver/local_problem.h"
 #include "unit/solver/small_problems.h"
 
 namespace talus::solver {
@@ -86,44 +89,106 @@ TEST(Problem, the_delassus_diagonal_is_that_of_W_and_its_blocks_are_diagonal) {
   }
 }
 
-// W_tt = 3 W_nn for two solid disks.
-TEST(Problem, solid_disks_are_three_times_softer_along_the_tangent) {
-  ContactProblem problem;
-  test::add_body(problem, 2.0, 0.1, 0.0, 0.0, 0.0);
-  test::add_body(problem, 5.0, 0.3, 0.0, 0.0, 0.0);
-  test::add_contact(problem, 0, 1, 1.0, 0.0, 0.5);
-  const DelassusDiagonal w = delassus_diagonal(problem, 0);
-  EXPECT_DOUBLE_EQ(w.normal, 0.7);
-  EXPECT_DOUBLE_EQ(w.tangential, 2.1);
+/// Computes column d of W from its definition: the difference of velocities with and without a unit impulse.
+/// The bodies are moved one by one, without forming H^T M^-1 H.
+std::vector<RelativeVelocity> column_of_W(const ContactProblem& problem, Index d, bool tangential) {
+  ContactSolution push = test::no_guess(problem);
+  (tangential ? push.pt : push.pn)[d] = 1.0;
+  velocities_from_impulses(problem, push);
+  std::vector<RelativeVelocity> column;
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    const RelativeVelocity with = relative_velocity(problem, push, c);
+    const RelativeVelocity without = free_relative_velocity(problem, c);
+    column.push_back({with.normal - without.normal, with.tangential - without.tangential});
+  }
+  return column;
 }
 
-// Signs: b moves away from a along n, and along t; counter-clockwise rotation moves both rims in the negative
-// direction.
-TEST(Problem, relative_velocities_have_the_signs_of_the_convention) {
-  ContactProblem problem;
-  test::add_body(problem, 1.0, 0.25, 1.0, 0.0, 3.0);
-  test::add_body(problem, 1.0, 0.5, 3.0, 7.0, 4.0);
-  test::add_contact(problem, 0, 1, 1.0, 0.0, 0.5, 10.0, 100.0);
-  ContactSolution solution = test::no_guess(problem);
-  velocities_from_impulses(problem, solution);
-  const RelativeVelocity u = relative_velocity(problem, solution, 0);
-  EXPECT_DOUBLE_EQ(u.normal, 2.0 + 10.0);
-  EXPECT_DOUBLE_EQ(u.tangential, 7.0 - (0.25 * 3.0 + 0.5 * 4.0) + 100.0);
+DelassusBlock block_at(const LocalProblem& local, Index c, Index d) {
+  for (Index k = local.row_begin[c]; k < local.row_begin[c + 1]; ++k)
+    if (local.column[k] == d) return local.block[k];
+  return {};
 }
 
-TEST(Problem, impulses_push_b_along_the_normal_and_a_back) {
-  ContactProblem problem;
-  test::add_body(problem, 2.0, 0.5, 0.0, 0.0, 0.0);
-  test::add_body(problem, 4.0, 0.25, 0.0, 0.0, 0.0);
-  test::add_contact(problem, 0, 1, 0.0, 1.0, 0.5);  // t = (-1, 0)
-  ContactSolution solution = test::no_guess(problem);
-  solution.pn = {8.0};
-  solution.pt = {1.0};
+/// Expects columns of each row to ascend, and each row to have its diagonal block where `diagonal` states.
+void expect_well_formed(const LocalProblem& local) {
+  ASSERT_EQ(local.row_begin.size(), local.mu.size() + 1);
+  for (Index c = 0; c < local.contact_count(); ++c) {
+    for (Index k = local.row_begin[c] + 1; k < local.row_begin[c + 1]; ++k)
+      EXPECT_LT(local.column[k - 1], local.column[k]);
+    EXPECT_GE(local.diagonal[c], local.row_begin[c]);
+    EXPECT_LT(local.diagonal[c], local.row_begin[c + 1]);
+    EXPECT_EQ(local.column[local.diagonal[c]], c);
+  }
+}
+
+TEST(LocalProblem, W_is_what_unit_impulses_do) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const ContactProblem problem = test::random_problem(seed, 9, 24);
+    const LocalProblem local = local_problem(problem);
+    expect_well_formed(local);
+    for (Index d = 0; d < problem.contact_count(); ++d) {
+      const auto normal = column_of_W(problem, d, false);
+      const auto tangential = column_of_W(problem, d, true);
+      for (Index c = 0; c < problem.contact_count(); ++c) {
+        const DelassusBlock w = block_at(local, c, d);
+        EXPECT_NEAR(w.nn, normal[c].normal, 1e-13);
+        EXPECT_NEAR(w.tn, normal[c].tangential, 1e-13);
+        EXPECT_NEAR(w.nt, tangential[c].normal, 1e-13);
+        EXPECT_NEAR(w.tt, tangential[c].tangential, 1e-13);
+      }
+    }
+  }
+}
+
+TEST(LocalProblem, relative_velocities_are_those_of_the_bodies) {
+  const ContactProblem problem = test::random_problem(6, 12, 25);
+  ContactSolution solution = random_impulses(problem, 6);
   velocities_from_impulses(problem, solution);
-  EXPECT_EQ(solution.vx, (std::vector<double>{0.5, -0.25}));
-  EXPECT_EQ(solution.vy, (std::vector<double>{-4.0, 2.0}));
-  // Both torques are -r P_t, with I = m r^2 / 2 = 0.25 and 0.125.
-  EXPECT_EQ(solution.omega, (std::vector<double>{-2.0, -2.0}));
+  const LocalSolution of_bodies = local_form(problem, solution);
+  LocalSolution of_W{of_bodies.p, {}};
+  velocities_from_impulses(local_problem(problem), of_W);
+  for (Index c = 0; c < problem.contact_count(); ++c) {
+    EXPECT_NEAR(of_W.u[c].normal, of_bodies.u[c].normal, 1e-13);
+    EXPECT_NEAR(of_W.u[c].tangential, of_bodies.u[c].tangential, 1e-13);
+  }
+}
+
+// An immobile floor transmits no impulse from one contact to the next.
+TEST(LocalProblem, contacts_of_a_fixed_body_do_not_feel_each_other) {
+  ContactProblem problem;
+  test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_body(problem, 1.0, 0.1, 0.0, 0.0, 0.0);
+  test::add_body(problem, 0.0, 0.0, 0.0, 0.0, 0.0);
+  test::add_contact(problem, 0, 2, 0.0, -1.0, 0.5);
+  test::add_contact(problem, 1, 2, 0.0, -1.0, 0.5);
+  EXPECT_EQ(local_problem(problem).block.size(), 2u);
+}
+
+TEST(LocalProblem, entries_of_any_order_become_block_rows) {
+  // Two contacts; block (1, 0) is given in two parts, and the diagonal of contact 1 is missing.
+  const LocalProblem local =
+      local_problem({{3, 0, 0.25}, {0, 0, 2.0}, {2, 1, 7.0}, {1, 1, 3.0}, {0, 1, 0.5}, {3, 0, 0.5}},
+                    {{1.0, 2.0}, {3.0, 4.0}}, {0.5, 0.25});
+  expect_well_formed(local);
+  ASSERT_EQ(local.block.size(), 3u);
+  EXPECT_EQ(block_at(local, 0, 0).nn, 2.0);
+  EXPECT_EQ(block_at(local, 0, 0).nt, 0.5);
+  EXPECT_EQ(block_at(local, 0, 0).tt, 3.0);
+  EXPECT_EQ(block_at(local, 1, 0).tn, 0.75);
+  EXPECT_EQ(block_at(local, 1, 0).nt, 7.0);
+  EXPECT_EQ(block_at(local, 1, 1).nn, 0.0);
+  // u = W p + q by hand for p = (1, 10) at the first contact and (100, 1000) at the second.
+  const std::vector<Impulse> p = {{1.0, 10.0}, {100.0, 1000.0}};
+  EXPECT_EQ(relative_velocity(local, p, 0).normal, 1.0 + 2.0 + 5.0);
+  EXPECT_EQ(relative_velocity(local, p, 0).tangential, 2.0 + 30.0);
+  EXPECT_EQ(relative_velocity(local, p, 1).normal, 3.0 + 70.0);
+  EXPECT_EQ(relative_velocity(local, p, 1).tangential, 4.0 + 0.75);
+}
+
+TEST(LocalProblem, of_no_contacts_is_empty) {
+  expect_well_formed(local_problem(ContactProblem{}));
+  expect_well_formed(local_problem({}, {}, {}));
 }
 
 }  // namespace

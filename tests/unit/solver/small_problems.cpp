@@ -31,11 +31,11 @@ void add_contact(solver::ContactProblem& problem, Index a, Index b, double nx, d
   problem.ct.push_back(ct);
 }
 
-solver::ContactProblem one_contact(double vx, double mu) {
+solver::ContactProblem one_contact(double vx, double mu, bool swapped) {
   solver::ContactProblem problem;
   add_body(problem, 2.0, 0.1, vx, -1.0, 0.0);
   add_body(problem, 0.0, 0.2, 0.0, 0.0, 0.0);
-  add_contact(problem, 0, 1, 0.0, -1.0, mu);
+  add_contact(problem, swapped ? 1 : 0, swapped ? 0 : 1, 0.0, swapped ? 1.0 : -1.0, mu);
   return problem;
 }
 
@@ -101,6 +101,29 @@ solver::ContactSolution no_guess(const solver::ContactProblem& problem) {
   solution.pt = solution.pn;
   if (problem.resists_rolling()) solution.pr = solution.pn;
   return solution;
+}
+
+solver::SolverSettings solver_settings(solver::SolverKind kind, double tolerance, int max_iterations) {
+  solver::SolverSettings settings;
+  settings.kind = kind;
+  settings.tolerance = tolerance;
+  settings.max_iterations = max_iterations;
+  return settings;
+}
+
+solver::SolverReport solve_to(solver::SolverKind kind, const solver::ContactProblem& problem,
+                              solver::ContactSolution& solution, double tolerance, int max_iterations) {
+  solver::SolverWorkspace workspace;
+  return solve(problem, solver_settings(kind, tolerance, max_iterations), workspace, solution);
+}
+
+double difference(const solver::ContactProblem& problem, const solver::ContactSolution& one,
+                  const solver::ContactSolution& other) {
+  double largest = 0.0;
+  for (Index i = 0; i < problem.body_count(); ++i)
+    largest = std::max({largest, std::fabs(one.vx[i] - other.vx[i]), std::fabs(one.vy[i] - other.vy[i]),
+                        problem.lever[i] * std::fabs(one.omega[i] - other.omega[i])});
+  return largest;
 }
 
 }  // namespace talus::test

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "solver/problem.h"
+#include "solver/solve.h"
 
 namespace talus::test {
 
@@ -13,8 +13,9 @@ void add_body(solver::ContactProblem& problem, double mass, double radius, doubl
 void add_contact(solver::ContactProblem& problem, Index a, Index b, double nx, double ny, double mu,
                  double cn = 0.0, double ct = 0.0);
 
-/// Returns body 0, of mass 2 and radius 0.1, which falls on the fixed body 1 at 1 m/s and slides at `vx`.
-solver::ContactProblem one_contact(double vx, double mu);
+/// Returns body 0, of mass 2 and radius 0.1, which falls on the fixed body 1 at 1 m/s and slides at `vx`;
+/// `swapped`: body 1 is the first of the contact.
+solver::ContactProblem one_contact(double vx, double mu, bool swapped = false);
 
 /// Returns bodies with random masses, radii and velocities, some of them fixed, with random contacts and
 /// without geometry.
@@ -27,5 +28,14 @@ solver::ContactProblem columns_problem(std::uint64_t seed, Index columns, Index 
 
 /// Returns zero impulses.
 solver::ContactSolution no_guess(const solver::ContactProblem& problem);
+
+solver::SolverSettings solver_settings(solver::SolverKind kind, double tolerance, int max_iterations = 5000);
+/// Solves from the guess in `solution`, with a new workspace.
+solver::SolverReport solve_to(solver::SolverKind kind, const solver::ContactProblem& problem,
+                              solver::ContactSolution& solution, double tolerance, int max_iterations = 5000);
+
+/// Returns the largest difference of velocities, m/s; rotation counts by its rim velocity.
+double difference(const solver::ContactProblem& problem, const solver::ContactSolution& one,
+                  const solver::ContactSolution& other);
 
 }  // namespace talus::test

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "solver/residual.h"
+#include "solver/problem.h"
 
 namespace talus::solver {
 namespace {
@@ -104,19 +104,6 @@ Scene scene_of_others(Index groups, Index bodies) {
   return scene;
 }
 
-/// Runs sweeps over bodies, then contacts, in two parts each.
-void run(Scene& scene, const SweepKernels& kernels) {
-  for (int k = 0; k < 5; ++k) {
-    const Index half = scene.groups() / 2;
-    SweepSums first, second;
-    kernels.bodies(scene.body_arrays(), 0, scene.rows() / 3, beta);
-    kernels.bodies(scene.body_arrays(), scene.rows() / 3, scene.rows(), beta);
-    kernels.contacts(scene.contact_arrays(), 0, half, beta, first);
-    kernels.contacts(scene.contact_arrays(), half, scene.groups(), beta, second);
-    scene.sums = {first.change + second.change, first.ascent + second.ascent};
-  }
-}
-
 /// Returns the value within its bounds; the bounds of chance may cross, which std::clamp does not permit.
 float within(float value, float low, float high) { return std::min(std::max(value, low), high); }
 
@@ -152,17 +139,11 @@ bool same_bits(const std::vector<T>& x, const std::vector<T>& y) {
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(T)) == 0;
 }
 
-TEST(SweepKernels, give_the_same_bits_whatever_the_processor) {
-  Scene baseline = scene_of_others(20, 64);
-  Scene fastest = baseline;
-  run(baseline, sweep_kernels_baseline());
-  run(fastest, sweep_kernels());
-  EXPECT_TRUE(same_bits(baseline.increment, fastest.increment));
-  EXPECT_TRUE(same_bits(baseline.last_move, fastest.last_move));
-  EXPECT_TRUE(same_bits(baseline.velocity, fastest.velocity));
-  EXPECT_TRUE(same_bits(baseline.before, fastest.before));
-  EXPECT_EQ(baseline.sums.change, fastest.sums.change);
-  EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
+void expect_same(const Scene& one, const Scene& other) {
+  EXPECT_TRUE(same_bits(one.increment, other.increment));
+  EXPECT_TRUE(same_bits(one.last_move, other.last_move));
+  EXPECT_TRUE(same_bits(one.velocity, other.velocity));
+  EXPECT_EQ(one.sums.change, other.sums.change);
 }
 
 TEST(SweepKernels, give_contacts_that_are_alike_the_same_bits_by_a_shorter_way) {
@@ -172,10 +153,7 @@ TEST(SweepKernels, give_contacts_that_are_alike_the_same_bits_by_a_shorter_way) 
   for (const SweepKernels& kernels : {sweep_kernels_baseline(), sweep_kernels()}) {
     Scene alike = start;
     kernels.contacts(alike.alike_arrays(), 0, alike.groups(), beta, alike.sums);
-    EXPECT_TRUE(same_bits(plain.increment, alike.increment));
-    EXPECT_TRUE(same_bits(plain.last_move, alike.last_move));
-    EXPECT_TRUE(same_bits(plain.velocity, alike.velocity));
-    EXPECT_EQ(plain.sums.change, alike.sums.change);
+    expect_same(plain, alike);
   }
 }
 
@@ -203,10 +181,7 @@ TEST(SweepKernels, give_the_same_bits_where_they_read_ahead) {
   arrays.reads_ahead = true;
   sweep_kernels().contacts(near.contact_arrays(), 0, near.groups(), beta, near.sums);
   sweep_kernels().contacts(arrays, 0, ahead.groups(), beta, ahead.sums);
-  EXPECT_TRUE(same_bits(near.increment, ahead.increment));
-  EXPECT_TRUE(same_bits(near.last_move, ahead.last_move));
-  EXPECT_TRUE(same_bits(near.velocity, ahead.velocity));
-  EXPECT_EQ(near.sums.change, ahead.sums.change);
+  expect_same(near, ahead);
 }
 
 /// The same contacts with rolling resistance.
@@ -259,8 +234,7 @@ TEST(SweepKernels, rolling_contacts_give_the_same_bits_whatever_the_processor) {
   }
   EXPECT_TRUE(same_bits(baseline.increment, fastest.increment));
   EXPECT_TRUE(same_bits(baseline.last_move, fastest.last_move));
-  EXPECT_TRUE(same_bits(baseline.scene.increment, fastest.scene.increment));
-  EXPECT_TRUE(same_bits(baseline.scene.velocity, fastest.scene.velocity));
+  expect_same(baseline.scene, fastest.scene);
   EXPECT_EQ(baseline.sums.change, fastest.sums.change);
   EXPECT_EQ(baseline.sums.ascent, fastest.sums.ascent);
 }
@@ -270,8 +244,7 @@ TEST(SweepKernels, give_rolling_contacts_that_are_alike_the_same_bits_by_a_short
   plain.sweep(sweep_kernels());
   alike.sweep(sweep_kernels(), alike.scene.alike_arrays());
   EXPECT_TRUE(same_bits(plain.increment, alike.increment));
-  EXPECT_TRUE(same_bits(plain.scene.increment, alike.scene.increment));
-  EXPECT_TRUE(same_bits(plain.scene.velocity, alike.scene.velocity));
+  expect_same(plain.scene, alike.scene);
 }
 
 TEST(SweepKernels, rolling_contacts_do_what_the_plain_arithmetic_does_one_by_one) {
@@ -314,47 +287,60 @@ TEST(SweepKernels, rolling_contacts_do_what_the_plain_arithmetic_does_one_by_one
 }
 
 TEST(SweepKernels, contacts_do_what_the_plain_arithmetic_does_one_by_one) {
-  Scene scene = scene_of_others(20, 64);
-  Scene plain = scene;
-  SweepSums sums;
-  sweep_kernels().contacts(scene.contact_arrays(), 0, scene.groups(), beta, scene.sums);
+  const Scene start = scene_of_others(20, 64);
+  Scene plain = start;
+  SweepSums sums, parts[2][2];
   for (Index g = 0; g < plain.groups(); ++g)
     for (int k = 0; k < lane_count; ++k) plain_contact(plain, g, k, sums);
-  int open = 0, sliding = 0;
-  for (Index g = 0; g < scene.groups(); ++g)
-    for (int k = 0; k < lane_count; ++k) {
-      const ImpulseGroup &got = scene.increment[g], &expected = plain.increment[g];
-      EXPECT_EQ(got.n[k], expected.n[k]);
-      EXPECT_EQ(got.t[k], expected.t[k]);
-      EXPECT_EQ(scene.last_move[g].n[k], plain.last_move[g].n[k]);
-      EXPECT_EQ(scene.last_move[g].t[k], plain.last_move[g].t[k]);
-      const ContactGroup& contact = scene.contacts[g];
-      open += got.n[k] == contact.least[k] ? 1 : 0;
-      sliding += got.t[k] == contact.above[k] + plain.unlike[g].mu[k] * got.n[k] ? 1 : 0;
+  for (int processor = 0; processor < 2; ++processor) {
+    const SweepKernels& kernels = processor == 0 ? sweep_kernels_baseline() : sweep_kernels();
+    Scene scene = start;
+    const Index half = scene.groups() / 2;
+    kernels.contacts(scene.contact_arrays(), 0, half, beta, parts[processor][0]);
+    kernels.contacts(scene.contact_arrays(), half, scene.groups(), beta, parts[processor][1]);
+    int open = 0, sliding = 0;
+    for (Index g = 0; g < scene.groups(); ++g)
+      for (int k = 0; k < lane_count; ++k) {
+        const ImpulseGroup &got = scene.increment[g], &expected = plain.increment[g];
+        EXPECT_EQ(got.n[k], expected.n[k]);
+        EXPECT_EQ(got.t[k], expected.t[k]);
+        EXPECT_EQ(scene.last_move[g].n[k], plain.last_move[g].n[k]);
+        EXPECT_EQ(scene.last_move[g].t[k], plain.last_move[g].t[k]);
+        const ContactGroup& contact = scene.contacts[g];
+        open += got.n[k] == contact.least[k] ? 1 : 0;
+        sliding += got.t[k] == contact.above[k] + plain.unlike[g].mu[k] * got.n[k] ? 1 : 0;
+      }
+    EXPECT_GT(open, 10);
+    EXPECT_GT(sliding, 10);
+    for (Index i = 0; i < scene.rows(); ++i) {
+      EXPECT_EQ(scene.velocity[i].x, plain.velocity[i].x);
+      EXPECT_EQ(scene.velocity[i].y, plain.velocity[i].y);
+      EXPECT_EQ(scene.velocity[i].spin, plain.velocity[i].spin);
     }
-  EXPECT_GT(open, 10);
-  EXPECT_GT(sliding, 10);
-  for (Index i = 0; i < scene.rows(); ++i) {
-    EXPECT_EQ(scene.velocity[i].x, plain.velocity[i].x);
-    EXPECT_EQ(scene.velocity[i].y, plain.velocity[i].y);
-    EXPECT_EQ(scene.velocity[i].spin, plain.velocity[i].spin);
+    const auto& [first, second] = parts[processor];
+    EXPECT_NEAR(first.change + second.change, sums.change, 1e-5 * sums.change);
+    EXPECT_NEAR(first.ascent + second.ascent, sums.ascent, 1e-5 * sums.change);
   }
-  EXPECT_NEAR(scene.sums.change, sums.change, 1e-5 * sums.change);
-  EXPECT_NEAR(scene.sums.ascent, sums.ascent, 1e-5 * sums.change);
+  for (const int part : {0, 1}) {
+    EXPECT_EQ(parts[0][part].change, parts[1][part].change) << "whatever the processor";
+    EXPECT_EQ(parts[0][part].ascent, parts[1][part].ascent) << "whatever the processor";
+  }
 }
 
 TEST(SweepKernels, bodies_go_on_as_they_went) {
-  Scene scene = random_scene(2, 64);
-  const Scene old = scene;
-  sweep_kernels().bodies(scene.body_arrays(), 0, scene.rows(), beta);
-  for (Index i = 0; i < scene.rows(); ++i) {
-    EXPECT_EQ(scene.velocity[i].x, old.velocity[i].x + beta * (old.velocity[i].x - old.before[i].x));
-    EXPECT_EQ(scene.velocity[i].y, old.velocity[i].y + beta * (old.velocity[i].y - old.before[i].y));
-    EXPECT_EQ(scene.velocity[i].spin,
-              old.velocity[i].spin + beta * (old.velocity[i].spin - old.before[i].spin));
-    EXPECT_EQ(scene.before[i].x, old.velocity[i].x);
-    EXPECT_EQ(scene.before[i].y, old.velocity[i].y);
-    EXPECT_EQ(scene.before[i].spin, old.velocity[i].spin);
+  const Scene old = random_scene(2, 64);
+  for (const SweepKernels& kernels : {sweep_kernels_baseline(), sweep_kernels()}) {
+    Scene scene = old;
+    kernels.bodies(scene.body_arrays(), 0, scene.rows(), beta);
+    for (Index i = 0; i < scene.rows(); ++i) {
+      const Row &now = scene.velocity[i], &was = old.velocity[i], &earlier = old.before[i];
+      EXPECT_EQ(now.x, was.x + beta * (was.x - earlier.x));
+      EXPECT_EQ(now.y, was.y + beta * (was.y - earlier.y));
+      EXPECT_EQ(now.spin, was.spin + beta * (was.spin - earlier.spin));
+      EXPECT_EQ(scene.before[i].x, was.x);
+      EXPECT_EQ(scene.before[i].y, was.y);
+      EXPECT_EQ(scene.before[i].spin, was.spin);
+    }
   }
 }
 

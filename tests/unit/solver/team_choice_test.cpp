@@ -1,10 +1,8 @@
 /// Choice between team and single thread, for windows of work with made-up costs.
 
-#include "solver/team_choice.h"
-
 #include <gtest/gtest.h>
 
-#include "solver/accelerated.h"
+#include "solver/solve.h"
 #include "unit/solver/small_problems.h"
 
 namespace talus::solver {

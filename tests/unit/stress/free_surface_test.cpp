@@ -67,21 +67,6 @@ World bed_of_chance(Random& random, bool periodic) {
   return world;
 }
 
-TEST(FreeSurface, is_the_envelope_of_the_grains) {
-  World world = empty_bed(4.0, false);
-  add_grain(world, 1.5, 2.0, 0.4);
-  add_grain(world, 1.4, 1.0, 0.4);
-  const std::vector<SurfaceArc> surface = free_surface(world.grains, world.boundary);
-  ASSERT_EQ(surface.size(), 4u);
-  EXPECT_DOUBLE_EQ(surface[0].end, 1.0);
-  EXPECT_DOUBLE_EQ(surface[1].end, 1.1);
-  EXPECT_DOUBLE_EQ(surface[2].end, 1.9);
-  EXPECT_EQ(surface[3].end, 4.0);
-  EXPECT_EQ(height_of(surface, 0.5), 0.0);
-  EXPECT_DOUBLE_EQ(height_of(surface, 1.5), 2.4);
-  EXPECT_EQ(height_of(surface, 3.5), 0.0);
-}
-
 TEST(FreeSurface, is_that_of_all_disks_and_their_images_at_every_place) {
   Random random(7);
   for (int k = 0; k < 400; ++k) {
@@ -111,30 +96,13 @@ TEST(FreeSurface, ends_in_ascending_order_at_the_length_of_the_bed) {
   }
 }
 
-/// Area below a surface by the midpoint rule, with an error bound from the variation of the surface.
-struct SampledArea {
-  double area = 0.0, error = 0.0;
-};
-SampledArea sampled_volume(const World& world, double samples_per_metre) {
+/// Returns the area below the surface by the midpoint rule.
+double sampled_volume(const World& world, double samples_per_metre) {
   const std::vector<double> heights =
       plain_surface(world, static_cast<std::size_t>(samples_per_metre * world.boundary.length));
-  const double step = world.boundary.length / static_cast<double>(heights.size());
-  SampledArea sampled;
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    sampled.area += step * heights[k];
-    if (k > 0) sampled.error += step * std::abs(heights[k] - heights[k - 1]);
-  }
-  return sampled;
-}
-
-TEST(BedVolume, is_that_of_very_many_samples) {
-  Random random(5);
-  for (int k = 0; k < 6; ++k) {
-    const World world = bed_of_chance(random, k % 2 == 0);
-    const SampledArea sampled = sampled_volume(world, 1e5);
-    EXPECT_LT(sampled.error, 3e-3);
-    EXPECT_NEAR(volume(world), sampled.area, sampled.error) << "bed " << k;
-  }
+  double sum = 0.0;
+  for (const double height : heights) sum += height;
+  return sum * world.boundary.length / static_cast<double>(heights.size());
 }
 
 // A row of touching disks of many sizes, like the surface of a bed: with 10 000 samples per diameter the
@@ -149,16 +117,7 @@ TEST(BedVolume, of_a_packing_has_no_error_that_would_hide_its_dilation) {
     x += 2.0 * radius;
   }
   world.boundary.length = x;
-  EXPECT_NEAR(volume(world), sampled_volume(world, 1e4).area, 3e-7 * 20.0 * x);
-}
-
-// The upper half of a disk is on average pi/4 r above its centre.
-TEST(BedVolume, of_a_row_of_touching_disks) {
-  for (const bool periodic : {true, false}) {
-    World world = empty_bed(10.0, periodic);
-    for (int k = 0; k < 10; ++k) add_grain(world, k + 0.5, 0.75);
-    EXPECT_NEAR(volume(world), 10.0 * (0.75 + 0.25 * pi * r), 1e-12);
-  }
+  EXPECT_NEAR(volume(world), sampled_volume(world, 1e4), 3e-7 * 20.0 * x);
 }
 
 // Two equal disks at distance d intersect at d/2: each side contributes the integral of sqrt(r^2 - u^2) from

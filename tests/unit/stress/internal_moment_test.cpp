@@ -1,14 +1,17 @@
-#include "stress/internal_moment.h"
+/// Stress states, and quantities of a bed.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/random.h"
 #include "core/trigonometry.h"
 #include "core/world.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 #include "support/scenes.h"
+#include "unit/stress/beds.h"
 
 namespace talus::stress {
 namespace {
@@ -55,16 +58,6 @@ TEST(InternalMoment, of_a_disk_pressed_between_two_plates) {
   const Tensor2 m = moment_of_one(one_disk(), contacts);
   expect_tensor(m, 0.0, 0.0, 0.0, 2.0 * r * 3.0);
   EXPECT_NEAR(stress_state(m).ratio, 1.0, 1e-14);
-}
-
-TEST(InternalMoment, of_a_disk_pressed_from_all_sides_is_isotropic) {
-  for (int count : {4, 6}) {
-    Contacts contacts;
-    for (int k = 0; k < count; ++k) add_contact(contacts, 0, 1 + k, 0.3 + 2.0 * pi * k / count, 3.0);
-    const Tensor2 m = moment_of_one(one_disk(), contacts);
-    expect_tensor(m, 0.5 * count * r * 3.0, 0.0, 0.0, 0.5 * count * r * 3.0);
-    EXPECT_NEAR(stress_state(m).ratio, 0.0, 1e-14);
-  }
 }
 
 // f_t = T on the right and left turns the disk one way, and -T above and below the other way. At (r, 0) the
@@ -161,24 +154,95 @@ TEST(InternalMoment, adds_up_to_the_moment_of_the_outer_forces) {
   expect_tensor(sum, expected.xx, expected.xy, expected.yx, expected.yy, 1e-11);
 }
 
-TEST(InternalMoment, of_parts_adds_to_that_of_the_whole) {
-  const RandomLattice lattice(2);
-  std::vector<Tensor2> moments;
-  internal_moments(lattice.grains, lattice.contacts, moments);
-  const Index count = lattice.grains.count();
-  const Tensor2 lower = sum_of_moments(moments, 0, 20);
-  const Tensor2 upper = sum_of_moments(moments, 20, count);
-  const Tensor2 whole = sum_of_moments(moments, 0, count);
-  expect_tensor(whole, lower.xx + upper.xx, lower.xy + upper.xy, lower.yx + upper.yx, lower.yy + upper.yy,
-                1e-13);
-  expect_tensor(sum_of_moments(moments, 5, 5), 0.0, 0.0, 0.0, 0.0);
-}
-
 TEST(InternalMoment, used_arrays_are_written_anew) {
   std::vector<Tensor2> moments(50, Tensor2{1.0, 1.0, 1.0, 1.0});
   internal_moments(one_disk(), {}, moments);
   ASSERT_EQ(moments.size(), 1u);
   expect_tensor(moments[0], 0.0, 0.0, 0.0, 0.0);
+}
+
+/// Returns a tensor with principal values s1, s2 and the major direction at `angle` to x.
+Tensor2 tensor_of(double s1, double s2, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {s1 * c * c + s2 * s * s, (s1 - s2) * c * s, (s1 - s2) * c * s, s1 * s * s + s2 * c * c};
+}
+
+TEST(StressState, has_the_principal_values_and_the_direction) {
+  for (double angle : {-1.5, -0.7, 0.0, 0.4, 1.2, 1.57}) {
+    const StressState state = stress_state(tensor_of(5.0, 3.0, angle));
+    EXPECT_NEAR(state.mean, 8.0, 1e-14);
+    EXPECT_NEAR(state.deviator, 2.0, 1e-14);
+    EXPECT_NEAR(state.ratio, 0.25, 1e-14);
+    EXPECT_NEAR(state.axis, angle, 1e-14);
+  }
+}
+
+TEST(StressState, sees_the_symmetric_part_alone) {
+  Tensor2 tensor = tensor_of(5.0, 3.0, 0.4);
+  tensor.xy += 7.0;
+  tensor.yx -= 7.0;
+  EXPECT_NEAR(stress_state(tensor).deviator, 2.0, 1e-14);
+  EXPECT_NEAR(stress_state(tensor).axis, 0.4, 1e-14);
+}
+
+TEST(StressState, the_ratio_is_between_zero_and_one_in_compression) {
+  EXPECT_EQ(stress_state({2.0, 0.0, 0.0, 2.0}).ratio, 0.0);
+  EXPECT_EQ(stress_state({0.0, 0.0, 0.0, 2.0}).ratio, 1.0);
+}
+
+// s1 = 3, s2 = -1, as in a grain under transverse tension (docs/notation.md, gamma).
+TEST(StressState, the_ratio_is_above_one_where_one_principal_value_is_a_tension) {
+  EXPECT_NEAR(stress_state(tensor_of(3.0, -1.0, 0.4)).ratio, 2.0, 1e-14);
+}
+
+TEST(StressState, has_no_ratio_without_compression) {
+  EXPECT_TRUE(std::isnan(stress_state({}).ratio));
+  EXPECT_TRUE(std::isnan(stress_state({-1.0, 0.0, 0.0, -1.0}).ratio));
+  EXPECT_TRUE(std::isnan(stress_state({1.0, 0.0, 0.0, -1.0}).ratio));
+}
+
+TEST(Overload, begins_at_the_threshold_and_leaves_out_grains_that_carry_nothing) {
+  EXPECT_TRUE(is_overloaded(0.35, 0.35));
+  EXPECT_TRUE(is_overloaded(0.36, 0.35));
+  EXPECT_FALSE(is_overloaded(0.34, 0.35));
+  EXPECT_FALSE(is_overloaded(std::numeric_limits<double>::quiet_NaN(), 0.35));
+}
+
+using test::add_grain;
+using test::empty_bed;
+
+TEST(Bed, area_and_height_are_those_of_the_free_grains) {
+  World world = empty_bed(10.0, true);
+  add_grain(world, 1.0, 1.0, 1.0);
+  add_grain(world, 4.0, 6.0, 2.0);
+  add_grain(world, 7.0, 100.0, 3.0, true);
+  EXPECT_DOUBLE_EQ(solid_area(world.grains), 5.0 * pi);
+  EXPECT_DOUBLE_EQ(centre_of_mass_height(world.grains), (1.0 * 1.0 + 4.0 * 6.0) / 5.0);
+  EXPECT_EQ(centre_of_mass_height({}), 0.0);
+}
+
+TEST(ContactStatus, tells_open_sticking_and_sliding_apart) {
+  EXPECT_EQ(contact_status(0.0, 0.0, 0.5), ContactStatus::open);
+  EXPECT_EQ(contact_status(2.0, 0.9, 0.5), ContactStatus::sticking);
+  EXPECT_EQ(contact_status(2.0, 1.0, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, -1.0, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, 0.0, 0.0), ContactStatus::sliding);  // no friction remains to be mobilised
+}
+
+TEST(ContactStatus, sliding_is_judged_within_the_tolerance) {
+  EXPECT_EQ(contact_status(2.0, 1.0 - 1.9e-6, 0.5), ContactStatus::sliding);
+  EXPECT_EQ(contact_status(2.0, 1.0 - 2.1e-6, 0.5), ContactStatus::sticking);
+  EXPECT_EQ(contact_status(2.0, 0.95, 0.5, 0.03), ContactStatus::sliding);
+}
+
+// Grains 0, 1, 2 are free, 3 is a rattler, 4 is glued, 5 is a plane. Ends at free grains: 0-1 has two, 1-4
+// and 2-5 have one each.
+TEST(CoordinationNumber, counts_each_contact_for_each_free_grain_it_touches) {
+  const std::vector<Index> a = {0, 1, 2}, b = {1, 4, 5};
+  EXPECT_EQ(contacts_of_grains(a, b, 4), (std::vector<Index>{1, 2, 1, 0}));
+  EXPECT_DOUBLE_EQ(coordination_number(contacts_of_grains(a, b, 4)), 4.0 / 3.0);
+  EXPECT_EQ(coordination_number(contacts_of_grains({}, {}, 4)), 0.0);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 /// Range of a bar that is dragged.
 
-#include "view/bar_range.h"
-
 #include <gtest/gtest.h>
+
+#include "view/view_state.h"
 
 namespace talus::view {
 namespace {

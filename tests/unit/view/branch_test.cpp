@@ -12,6 +12,7 @@
 #include "session/run_check.h"
 #include "session/run_header.h"
 #include "support/exit_code.h"
+#include "support/recorded_run.h"
 #include "support/small_bed.h"
 #include "support/temporary_folder.h"
 
@@ -42,7 +43,6 @@ TEST(Back, is_to_the_bit_before_the_command_as_often_as_one_likes) {
     EXPECT_EQ(run.status().state_hash, before.state_hash);
     EXPECT_EQ(run.status().step, 30);
     EXPECT_TRUE(run.commands().empty());
-    EXPECT_EQ(run.steps(0).size(), 30u);
     run.apply(push(0.3));
     EXPECT_EQ(after_steps(run, 40).state_hash, pushed);
   }
@@ -60,7 +60,7 @@ TEST(Back, is_to_the_bit_before_the_command_as_often_as_one_likes) {
 TEST(Back, takes_a_drag_back_as_a_whole) {
   LiveRun run = live();
   const std::string before = after_steps(run, 30).state_hash;
-  const double x = run.frame()->x[3], y = run.frame()->y[3];
+  const double x = run.newest()->x[3], y = run.newest()->y[3];
   for (int k = 1; k < 5; ++k) {
     run.apply({0, CommandKind::drag, 3, x, y + 0.005 * k});
     after_steps(run, 3);
@@ -99,28 +99,25 @@ TEST(Back, of_a_recorded_run_goes_on_in_another_file) {
   }
 }
 
-void record_run(const std::string& path) {
-  const scenario::Scenario scenario = test::small_tilted_bed(3.0);
-  session::Session session(scenario);
-  io::RunStore store = io::RunStore::create(
-      path, session::run_header(session, {scenario::resolved_toml(scenario), {}, {}, 1}), false);
-  session::run_to_end(session, store, {});
-}
+/// A replay of a recorded run.
+class BranchView : public test::FolderTest {
+ protected:
+  BranchView() { test::recorded(test::small_tilted_bed(3.0), path); }
 
-TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
-  const test::TemporaryFolder folder;
-  record_run(folder.path("run.h5"));
-  ViewModel model = example::opened(folder.path("run.h5"));
+  const std::string path = folder.path("run.h5");
+};
+
+TEST_F(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
+  ViewModel model = example::opened(path);
   model.go_to(std::size_t{3});
   const Frame shown = model.frame();
-  const std::size_t frames = model.frame_count();
   model.branch();
   ASSERT_TRUE(model.is_live());
   EXPECT_EQ(model.frame().step, shown.step);
   EXPECT_EQ(model.frame_count(), 1u) << "the frame with which it begins";
-  ASSERT_TRUE(model.branch_line());
-  EXPECT_EQ(model.branch_line()->frame, 3u);
-  EXPECT_EQ(model.branch_line()->tilts.size(), frames);
+  ASSERT_TRUE(model.origin());
+  EXPECT_EQ(model.origin()->frame, 3);
+  EXPECT_EQ(model.origin()->start.world.tilt, shown.tilt);
   EXPECT_TRUE(model.may_discard()) << "nothing has been done yet";
   EXPECT_EQ(model.state.run_path, folder.path("run-branch-1.h5"));
   model.live()->apply(push(0.3));
@@ -138,26 +135,25 @@ TEST(BranchView, goes_on_from_the_frame_shown_and_is_saved_as_a_run) {
   const io::RunFile branch = io::RunFile::open(folder.path("run-branch-1.h5"));
   EXPECT_EQ(hash_text(state_hash(branch.checkpoint().world)), hash);
   ASSERT_TRUE(branch.header().branch);
-  EXPECT_EQ(branch.header().branch->run, folder.path("run.h5"));
+  EXPECT_EQ(branch.header().branch->run, path);
   EXPECT_EQ(branch.header().branch->frame, 3);
   EXPECT_EQ(branch.header().branch->start.world.step, shown.step);
   EXPECT_EQ(branch.header().branch->run_hash,
-            hash_text(state_hash(io::RunFile::open(folder.path("run.h5")).checkpoint().world)));
+            hash_text(state_hash(io::RunFile::open(path).checkpoint().world)));
   session::Session again = session::session_at_start(branch.header(), "branch");
   session::replay(again, nullptr, branch.commands(), branch.checkpoint().world.step, {});
   EXPECT_EQ(hash_text(state_hash(again.world())), hash);
 }
 
-TEST(BranchView, has_the_friction_that_a_command_had_set) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(BranchView, has_the_friction_that_a_command_had_set) {
+  const std::string commanded = folder.path("commanded.h5");
   {
-    LiveRun run = live(path);
+    LiveRun run = live(commanded);
     after_steps(run, 30);
     run.apply({0, CommandKind::friction, -1, 0.2});
     after_steps(run, 500);
   }
-  ViewModel model = example::opened(path);
+  ViewModel model = example::opened(commanded);
   const ContactKey contact = key_of(model.frame().contacts, 0);
   model.select(contact);
   model.go_to(model.frame_count() - 2);
@@ -176,10 +172,8 @@ TEST(BranchView, has_the_friction_that_a_command_had_set) {
   EXPECT_EQ(model.contact_inspection()->friction, 0.2);
 }
 
-TEST(BranchView, is_reset_to_the_frame_that_it_left) {
-  const test::TemporaryFolder folder;
-  record_run(folder.path("run.h5"));
-  ViewModel model = example::opened(folder.path("run.h5"));
+TEST_F(BranchView, is_reset_to_the_frame_that_it_left) {
+  ViewModel model = example::opened(path);
   model.go_to(std::size_t{2});
   model.branch();
   const std::string before = model.live()->status().state_hash;
@@ -189,14 +183,13 @@ TEST(BranchView, is_reset_to_the_frame_that_it_left) {
   EXPECT_EQ(model.live()->status().state_hash, before);
 }
 
-TEST(BranchView, stays_a_replay_where_the_run_ends) {
-  const test::TemporaryFolder folder;
-  record_run(folder.path("run.h5"));
-  ViewModel model = example::opened(folder.path("run.h5"));
+TEST_F(BranchView, stays_a_replay_where_the_run_ends) {
+  ViewModel model = example::opened(path);
   model.go_to(Landmark::last);
   EXPECT_EQ(test::exit_code_of([&] { model.branch(); }), ExitCode::usage);
   EXPECT_FALSE(model.is_live());
-  EXPECT_TRUE(example::wait_for_condition(model, [&] { return model.has(Landmark::first); }));
+  EXPECT_TRUE(
+      example::wait_for_condition(model, [&] { return model.place_of(Landmark::first).has_value(); }));
 }
 
 }  // namespace

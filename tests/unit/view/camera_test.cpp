@@ -1,13 +1,12 @@
 /// Part of the bed shown, for a bed of 100 x 20 m with mean diameter 1 m.
 
-#include "view/camera.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/trigonometry.h"
+#include "view/view_state.h"
 
 namespace talus::view {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/trigonometry.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 
 namespace talus::example {
 
@@ -67,6 +67,12 @@ void write_run(const std::string& path, double theta_c, std::vector<Frame> frame
     at(row, Observable::tilt) = radians(0.5 * i);
     at(row, Observable::time) = 0.05 * i;
     segment.observables.push_back(row);
+    StepRow step{};
+    at(step, StepField::step) = 500.0 * i;
+    at(step, StepField::phase) = 1.0;
+    at(step, StepField::iterations) = i;
+    at(step, StepField::converged) = i % 10 == 7 ? 0.0 : 1.0;
+    segment.steps.push_back(step);
   }
   io::Checkpoint checkpoint;
   checkpoint.world.boundary = {true, header.statics.length, {}};

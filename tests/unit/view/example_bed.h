@@ -17,8 +17,9 @@ RunStatics bed_statics();
 /// Returns the bed at `tilt` (deg). Each grain touches the one below it; its index is row * columns + column.
 Frame bed_frame(double tilt, Index overloaded);
 
-/// Writes a run with these frames, and with a row of observables every 0.5 deg up to 25. `theta_c` in deg;
-/// NaN: the slope has not failed.
+/// Writes a run with these frames, and with a row of observables and a step every 0.5 deg up to 25; step k of
+/// these took k iterations, and 7, 17, ... have not converged. `theta_c` in deg; NaN: the slope has not
+/// failed.
 void write_run(const std::string& path, double theta_c, std::vector<Frame> frames);
 
 /// Number of overloaded grains in the frames of bed_run, at 0, 5, 10, 15, 20, 25 deg; the cluster spans from

@@ -9,6 +9,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <thread>
 
 #include "base/errors.h"
@@ -62,7 +64,19 @@ void expect_frame_of(const session::Session& session, const Frame& frame) {
   EXPECT_EQ(frame.contacts.status, expected.contacts.status);
 }
 
-TEST(LiveRun, begins_paused_before_its_first_step) {
+class LiveRunTest : public test::FolderTest {
+ protected:
+  /// Expects a stored run to be repeated to the bits of its last state.
+  static void expect_repeated(const io::RunFile& stored) {
+    session::Session again(small_bed());
+    session::replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
+    EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
+  }
+
+  const std::string path = folder.path("run.h5");
+};
+
+TEST_F(LiveRunTest, begins_paused_before_its_first_step) {
   const LiveRun run = live(small_bed());
   const LiveStatus status = run.status();
   EXPECT_EQ(status.step, 0);
@@ -73,18 +87,17 @@ TEST(LiveRun, begins_paused_before_its_first_step) {
   EXPECT_EQ(status.tilt_rate, 20.0);
   EXPECT_EQ(status.friction, 0.5);
   EXPECT_EQ(status.state_hash, hash_of(session::Session(small_bed())));
-  ASSERT_NE(run.frame(), nullptr);
-  EXPECT_EQ(run.frame()->step, 0);
-  EXPECT_EQ(run.frame()->grain_count(), 40) << "with its floor";
+  ASSERT_NE(run.newest(), nullptr);
+  EXPECT_EQ(run.newest()->step, 0);
+  EXPECT_EQ(run.newest()->grain_count(), 40) << "with its floor";
   EXPECT_EQ(run.statics().free_count, 30);
 }
 
-TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
+TEST_F(LiveRunTest, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
   LiveRun run = live(small_bed());
   run.play();
   while (run.status().running) {
-    run.frame();
-    run.steps(0);
+    run.newest();
     run.observables(0);
   }
   const session::Session plain = plain_run(1'000'000);
@@ -95,14 +108,14 @@ TEST(LiveRun, looked_at_all_the_time_gives_the_bits_of_a_plain_run) {
   EXPECT_EQ(status.state_hash, hash_of(plain));
   EXPECT_EQ(run.observables(0), plain.segment().observables);
   EXPECT_EQ(run.observables(3).size(), plain.segment().observables.size() - 3);
-  EXPECT_EQ(run.steps(0), plain.segment().steps);
-  ASSERT_EQ(run.recorded_frames(0).size(), plain.segment().frames.size());
-  EXPECT_EQ(run.recorded_frames(2).front()->step, plain.segment().frames[2].step);
-  EXPECT_TRUE(run.recorded_frames(99).empty());
+  run.take_frames();
+  ASSERT_EQ(run.count(), plain.segment().frames.size());
+  EXPECT_EQ(run.read(2)->step, plain.segment().frames[2].step);
+  EXPECT_THROW(run.read(99), std::out_of_range);
 }
 
 /// Times are lower bounds, which hold on a busy machine too.
-TEST(LiveRun, goes_no_faster_than_its_pace) {
+TEST_F(LiveRunTest, goes_no_faster_than_its_pace) {
   const auto seconds_of = [](LiveRun& run, std::int64_t steps) {
     const auto begin = std::chrono::steady_clock::now();
     run.step(steps);
@@ -128,8 +141,7 @@ TEST(LiveRun, goes_no_faster_than_its_pace) {
   EXPECT_EQ(run.status().friction, 0.4) << "requests do not wait";
 }
 
-TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
-  const test::TemporaryFolder folder;
+TEST_F(LiveRunTest, saved_late_is_recorded_from_its_beginning) {
   const std::string path = folder.path("late.h5");
   {
     LiveRun run = live(small_bed());
@@ -138,8 +150,8 @@ TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
     run.apply({0, CommandKind::push, 3, 0.2, 0.1});
     run.step(5);
     paused(run);
-    run.record(path, false);
-    EXPECT_THROW(run.record(folder.path("other.h5"), false), Error);
+    run.record(path);
+    EXPECT_THROW(run.record(folder.path("other.h5")), Error);
     run.play();
     EXPECT_TRUE(paused(run).done);
   }
@@ -156,19 +168,19 @@ TEST(LiveRun, saved_late_is_recorded_from_its_beginning) {
   EXPECT_EQ(run.commands()[0].grain, 3);
 }
 
-TEST(LiveRun, that_cannot_be_saved_goes_on) {
-  const test::TemporaryFolder folder;
+TEST_F(LiveRunTest, that_cannot_be_saved_goes_on) {
   LiveRun run = live(small_bed());
   run.step(4);
   paused(run);
-  EXPECT_THROW(run.record(folder.path("missing/late.h5"), false), Error);
+  std::ofstream(folder.path("file")) << "no folder";
+  EXPECT_THROW(run.record(folder.path("file/late.h5")), Error);
   run.step(4);
   EXPECT_EQ(paused(run).step, 8);
   EXPECT_EQ(run.status().error, "");
-  run.record(folder.path("late.h5"), false);
+  run.record(folder.path("late.h5"));
 }
 
-TEST(LiveRun, halted_rests_until_it_is_asked_to_go_on) {
+TEST_F(LiveRunTest, halted_rests_until_it_is_asked_to_go_on) {
   LiveRun run = live(small_bed());
   run.play();
   run.halt();
@@ -180,7 +192,7 @@ TEST(LiveRun, halted_rests_until_it_is_asked_to_go_on) {
   EXPECT_EQ(paused(run).step, rests.step + 1);
 }
 
-TEST(LiveRun, takes_as_many_steps_as_asked_for) {
+TEST_F(LiveRunTest, takes_as_many_steps_as_asked_for) {
   LiveRun run = live(small_bed());
   for (const std::int64_t count : {1, 10, 30}) {
     run.step(count);
@@ -189,16 +201,33 @@ TEST(LiveRun, takes_as_many_steps_as_asked_for) {
   const session::Session plain = plain_run(41);
   EXPECT_EQ(run.status().step, 41);
   EXPECT_EQ(run.status().state_hash, hash_of(plain));
-  expect_frame_of(plain, *run.frame());
+  expect_frame_of(plain, *run.newest());
 }
 
-TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
+TEST_F(LiveRunTest, counts_the_steps_that_miss_their_tolerance) {
+  scenario::Scenario scenario = small_bed();
+  scenario.solver.max_iterations = 1;
+  scenario.guards.action = scenario::GuardAction::warn;
+  LiveRun run = live(scenario);
+  EXPECT_FALSE(run.status().solved.last);
+  run.step(200);
+  const SolvedSteps solved = paused(run).solved;
+  session::Session plain(scenario);
+  while (plain.world().step < 200) plain.advance();
+  EXPECT_EQ(solved.count, 200);
+  EXPECT_GT(solved.unconverged, 0);
+  EXPECT_EQ(solved.unconverged, plain.schedule().record.unconverged());
+  EXPECT_EQ(solved.last, plain.segment().steps.back());
+}
+
+TEST_F(LiveRunTest, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
   LiveRun run = live(small_bed());
   run.finish_deposition();
   LiveStatus status = paused(run);
   EXPECT_FALSE(status.depositing);
   EXPECT_EQ(status.tilt, 0.0);
-  EXPECT_EQ(run.recorded_frames(0).size(), 1u) << "the state of the bed at rest";
+  run.take_frames();
+  EXPECT_EQ(run.count(), 1u) << "the state of the bed at rest";
   run.run_to(radians(1.0));
   status = paused(run);
   EXPECT_NEAR(degrees(status.tilt), 1.0, 1e-9);
@@ -213,18 +242,18 @@ TEST(LiveRun, plays_to_the_end_of_the_deposition_and_to_a_tilt) {
 }
 
 /// A frame taken from a running run equals that of a plain run after the same number of steps.
-TEST(LiveRun, shows_frames_that_are_whole) {
+TEST_F(LiveRunTest, shows_frames_that_are_whole) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 60.0;
   LiveRun run = live(scenario);
   run.play();
   std::vector<std::shared_ptr<const Frame>> frames;
   while (frames.size() < 4) {
-    const auto frame = run.frame();
+    const auto frame = run.newest();
     if (frames.empty() || frame != frames.back()) frames.push_back(frame);
   }
   run.pause();
-  frames.push_back((paused(run), run.frame()));
+  frames.push_back((paused(run), run.newest()));
   session::Session plain(scenario);
   for (const auto& frame : frames) {
     EXPECT_NEAR(frame->time, 1e-3 * static_cast<double>(frame->step), 1e-9);
@@ -235,7 +264,7 @@ TEST(LiveRun, shows_frames_that_are_whole) {
   EXPECT_EQ(run.status().state_hash, hash_of(plain));
 }
 
-TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
+TEST_F(LiveRunTest, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
   scenario::Scenario scenario = small_bed();
   scenario.tilt.end_angle = 5.0;
   LiveRun run = live(scenario);
@@ -244,7 +273,7 @@ TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
   run.finish_deposition();
   paused(run);
   run.apply({0, CommandKind::drop, 2, 0.03, 0.01});
-  const auto dropped = run.frame();
+  const auto dropped = run.newest();
   EXPECT_GT(*std::ranges::max_element(dropped->y), 0.03) << "the drop is visible at once";
   run.play();
   run.apply({0, CommandKind::tilt_rate, -1, 10.0, 0.0});
@@ -260,7 +289,7 @@ TEST(LiveRun, does_commands_while_it_goes_on_and_replays_to_the_same_bits) {
   EXPECT_EQ(end.state_hash, hash_of(again));
 }
 
-TEST(LiveRun, refuses_what_cannot_be_done_and_goes_on) {
+TEST_F(LiveRunTest, refuses_what_cannot_be_done_and_goes_on) {
   LiveRun run = live(small_bed());
   EXPECT_THROW(run.apply({0, CommandKind::push, 30, 0.1, 0.0}), Error);
   EXPECT_EQ(run.status().error, "");
@@ -273,7 +302,7 @@ TEST(LiveRun, refuses_what_cannot_be_done_and_goes_on) {
   EXPECT_FALSE(run.status().running);
 }
 
-TEST(LiveRun, that_fails_says_why_and_keeps_its_state) {
+TEST_F(LiveRunTest, that_fails_says_why_and_keeps_its_state) {
   scenario::Scenario scenario = small_bed();
   scenario.deposition.max_time = 0.02;
   LiveRun run = live(scenario);
@@ -282,14 +311,11 @@ TEST(LiveRun, that_fails_says_why_and_keeps_its_state) {
   EXPECT_NE(status.error.find("did not come to rest"), std::string::npos) << status.error;
   EXPECT_EQ(status.error_code, ExitCode::bad_data);
   EXPECT_EQ(status.step, 20);
-  EXPECT_EQ(run.frame()->step, 20);
+  EXPECT_EQ(run.newest()->step, 20);
   EXPECT_EQ(status.state_hash, hash_of(plain_run(20)));
-  EXPECT_EQ(run.steps(0).size(), 20u);
 }
 
-TEST(LiveRun, that_is_done_leaves_the_file_of_a_plain_run) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(LiveRunTest, that_is_done_leaves_the_file_of_a_plain_run) {
   std::vector<Command> commands;
   {
     LiveRun run = live(small_bed(), path);
@@ -302,14 +328,10 @@ TEST(LiveRun, that_is_done_leaves_the_file_of_a_plain_run) {
   EXPECT_TRUE(stored.complete());
   EXPECT_EQ(stored.commands(), commands);
   EXPECT_EQ(stored.header().scenario_given, "seed = 1\n");
-  session::Session again(small_bed());
-  session::replay(again, nullptr, commands, stored.checkpoint().world.step, {});
-  EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
+  expect_repeated(stored);
 }
 
-TEST(LiveRun, that_is_left_can_be_resumed) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(LiveRunTest, that_is_left_can_be_resumed) {
   {
     LiveRun run = live(small_bed(), path);
     run.finish_deposition();
@@ -326,14 +348,10 @@ TEST(LiveRun, that_is_left_can_be_resumed) {
   EXPECT_EQ(session::run_to_end(resumed, store, {}), session::RunEnd::complete);
   const io::RunFile stored = io::RunFile::open(path);
   ASSERT_EQ(stored.commands().size(), 1u);
-  session::Session again(small_bed());
-  session::replay(again, nullptr, stored.commands(), stored.checkpoint().world.step, {});
-  EXPECT_EQ(state_hash(stored.checkpoint().world), state_hash(again.world()));
+  expect_repeated(stored);
 }
 
-TEST(LiveRun, is_saved_when_asked) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(LiveRunTest, is_saved_when_asked) {
   LiveRun run = live(small_bed(), path);
   run.step(7);
   paused(run);
@@ -344,9 +362,7 @@ TEST(LiveRun, is_saved_when_asked) {
   EXPECT_THROW(live(small_bed(), path), Error) << "the file is locked, and exists";
 }
 
-TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("run.h5");
+TEST_F(LiveRunTest, that_cannot_write_says_so_and_tries_again) {
   LiveRun run = live(small_bed(), path);
   run.step(7);
   paused(run);
@@ -361,23 +377,6 @@ TEST(LiveRun, that_cannot_write_says_so_and_tries_again) {
   run.save();
   EXPECT_EQ(run.status().error, "");
   EXPECT_EQ(io::RunFile::open(path).steps().size(), 8u);
-}
-
-/// A bed of three grains, so that thousands of steps are fast.
-TEST(LiveRun, thins_the_history_of_its_steps) {
-  scenario::Scenario scenario = small_bed();
-  scenario.bed.length = 3.0;
-  scenario.bed.depth = 1.0;
-  scenario.tilt.rate = 1.0;
-  scenario.tilt.step = 0.001;
-  LiveRun run = live(scenario);
-  run.apply({0, CommandKind::tilt_rate, -1, 0.0, 0.0});
-  run.step(9000);
-  ASSERT_EQ(paused(run).step, 9000);
-  const std::vector<StepRow> rows = run.steps(0);
-  ASSERT_EQ(rows.size(), 2250u) << "every fourth";
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    ASSERT_EQ(at(rows[k], StepField::step), 4.0 * (static_cast<double>(k) + 1.0));
 }
 
 }  // namespace

@@ -1,12 +1,17 @@
 #pragma once
 /// Opens a view for a test, and waits for its results.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "support/temporary_folder.h"
+#include "unit/view/example_bed.h"
 #include "view/view_model.h"
 
 namespace talus::example {
@@ -28,6 +33,18 @@ inline bool wait_for_condition(view::ViewModel& model, const std::function<bool(
   }
   return holds();
 }
+
+/// View of the hand-made run.
+class ViewOfBed : public testing::Test {
+ protected:
+  explicit ViewOfBed(double theta_c = 20.0) {
+    write_bed_run(path_, theta_c);
+    model_.emplace(opened(path_));
+  }
+  test::TemporaryFolder folder_;
+  const std::string path_ = folder_.path("run.h5");
+  std::optional<view::ViewModel> model_;
+};
 
 inline const view::Plot& plot(const view::ViewModel& model, const std::string& name) {
   return *std::ranges::find(model.plots(), name, &view::Plot::name);

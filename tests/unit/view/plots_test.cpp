@@ -31,7 +31,7 @@ TEST(Plots, are_told_apart_by_name) {
     EXPECT_FALSE(each.series.empty());
     EXPECT_FALSE(each.series[0].law);
   }
-  EXPECT_EQ(names.size(), plot_count);
+  EXPECT_EQ(names.size(), empty_plots().size());
 }
 
 TEST(Plots, of_stress_have_the_laws_beside_them) {
@@ -101,6 +101,7 @@ TEST(Plots, are_over_the_tilt_the_angle_left_or_time) {
     plot_frames(std::vector{frame}, std::vector{3.5, 4.5}, 0.5, abscissa, plots);
     plot_observables(std::vector{row}, example::bed_statics(), abscissa, plots);
     EXPECT_EQ(plot(plots, "cluster").x_title, title);
+    EXPECT_EQ(plot(plots, "cluster").falling_x, axis == PlotAxis::angle_left);
     EXPECT_EQ(plot(plots, "gamma").x_title, "γ = q/p");
     EXPECT_NEAR(plot(plots, "cluster").series[0].x.at(0), of_frame, 1e-12) << title;
     for (const PlotSeries& series : plot(plots, "stress").series)
@@ -144,7 +145,7 @@ TEST(Plots, say_the_threshold_that_they_are_of) {
 TEST(Plots, have_statistics_of_a_range) {
   const PlotSeries series{"", {0.0, 1.0, 2.0, 3.0, 4.0}, {9.0, 2.0, not_known, 6.0, 9.0}, false, {}};
   const RangeStatistics statistics = statistics_of(series, 1.0, 3.0);
-  EXPECT_EQ(statistics.count, 2u);
+  EXPECT_EQ(statistics.count, 2);
   EXPECT_DOUBLE_EQ(statistics.mean, 4.0);
   EXPECT_DOUBLE_EQ(statistics.deviation, std::sqrt(8.0));
   EXPECT_DOUBLE_EQ(statistics.slope, 2.0);
@@ -162,26 +163,6 @@ TEST(Plots, of_gamma_are_a_density_of_the_frame) {
   const double width = density.x[1] - density.x[0];
   EXPECT_NEAR(density.y.front() * width, 0.9, 1e-12);  // 36 grains at 0, 4 at 1
   EXPECT_NEAR(density.y.back() * width, 0.1, 1e-12);
-}
-
-TEST(Plots, of_many_steps_keep_the_largest_of_neighbours) {
-  std::vector<StepRow> steps(10000);
-  for (std::size_t k = 0; k < steps.size(); ++k) {
-    at(steps[k], StepField::step) = static_cast<double>(k);
-    at(steps[k], StepField::residual) = k == 7003 ? 0.5 : 1e-6;
-    at(steps[k], StepField::iterations) = k == 42 ? 999.0 : 10.0;
-  }
-  std::vector<Plot> plots = empty_plots();
-  plot_steps(steps, plots);
-  const PlotSeries& residual = plot(plots, "residual").series[0];
-  EXPECT_LE(residual.x.size(), 2000u);
-  EXPECT_EQ(std::ranges::max(residual.y), 0.5);
-  EXPECT_EQ(std::ranges::count(residual.y, 0.5), 1);
-  const auto highest = std::ranges::max_element(residual.y) - residual.y.begin();
-  EXPECT_NEAR(residual.x[static_cast<std::size_t>(highest)], 7003.0, 5.0);
-  EXPECT_EQ(std::ranges::max(plot(plots, "iterations").series[0].y), 999.0);
-  plot_steps({}, plots);
-  EXPECT_TRUE(plot(plots, "iterations").series[0].x.empty());
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 /// Command line that draws the picture shown.
 
-#include "view/render_command.h"
-
 #include <gtest/gtest.h>
 
 #include "core/trigonometry.h"
+#include "view/scene.h"
 
 namespace talus::view {
 namespace {
@@ -39,14 +38,13 @@ TEST(RenderCommand, of_defaults_says_the_map_and_the_angle) {
 TEST(RenderCommand, has_each_setting_that_the_map_depends_on) {
   RenderRequest request = shown_with_all("coarse+clusters");
   request.settings.turned = true;
-  request.settings.transparent = true;
-  request.settings.printed = 8.6;
   request.settings.palette = pictures::ClusterPalette::contrast;
   EXPECT_EQ(
       render_command_line(request),
-      "talus render runs/a.h5 --map coarse+clusters --at 12.25 --theta-c 20 --l-min 4.5 --threshold 2 "
-      "--length 7.5 "
-      "--joined neighbours --colours viridis,contrast --range 0.1,0.6 --turned --transparent --printed 8.6");
+      "talus render runs/a.h5 --map coarse+clusters --at 12.25 --set gamma_c=0.34202014 --set l_min=4.5 "
+      "--set threshold_factors=2 "
+      "--set length=7.5 "
+      "--set joining=neighbours --colours viridis,contrast --range 0.1,0.6 --turned");
 }
 
 /// `talus render` rejects options that have no effect.

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/errors.h"
+#include "support/exit_code.h"
 #include "support/temporary_folder.h"
 #include "unit/io/example_run.h"
 #include "unit/view/example_bed.h"
@@ -15,17 +15,15 @@ class ReplayOfBed : public testing::Test {
  protected:
   ReplayOfBed() {
     example::write_bed_run(folder_.path("run.h5"), 20.0);
-    frames_ = std::make_shared<RunFrames>(folder_.path("run.h5"));
-    replay_.emplace(frames_);
+    replay_.emplace(folder_.path("run.h5"));
     replay_->set_speed(5.0);  // one frame per second
   }
   test::TemporaryFolder folder_;
-  std::shared_ptr<RunFrames> frames_;
   std::optional<Replay> replay_;
 };
 
 TEST_F(ReplayOfBed, moves_only_while_it_plays) {
-  EXPECT_EQ(frames_->count(), 8u);
+  EXPECT_EQ(replay_->count(), 8u);
   EXPECT_FALSE(replay_->advance(10.0));
   EXPECT_EQ(replay_->index(), 0u);
   replay_->play(true);
@@ -64,7 +62,7 @@ TEST_F(ReplayOfBed, shows_a_frame_as_long_as_the_tilt_takes_to_the_next) {
   const std::string path = folder_.path("uneven.h5");
   example::write_run(path, 20.0,
                      {example::bed_frame(0.0, 0), example::bed_frame(1.0, 0), example::bed_frame(5.0, 0)});
-  Replay replay(std::make_shared<RunFrames>(path));
+  Replay replay(path);
   replay.set_speed(1.0);
   replay.play(true);
   EXPECT_TRUE(replay.advance(1.5));
@@ -79,43 +77,36 @@ TEST_F(ReplayOfBed, stays_within_the_run) {
 }
 
 TEST_F(ReplayOfBed, keeps_the_frames_asked_for_last) {
-  const auto first = frames_->frame(0);
-  EXPECT_EQ(frames_->frame(3)->gamma[30], 1.0);
-  EXPECT_EQ(frames_->frame(0), first) << "read again";
-  EXPECT_EQ(frames_->frame(2)->gamma[30], 0.0);
+  const auto first = replay_->frame(0);
+  EXPECT_EQ(replay_->frame(3)->gamma[30], 1.0);
+  EXPECT_EQ(replay_->frame(0), first) << "read again";
+  EXPECT_EQ(replay_->frame(2)->gamma[30], 0.0);
   const auto read_elsewhere = std::make_shared<const Frame>(example::bed_frame(5.0, 1));
-  frames_->keep(1, read_elsewhere);
-  EXPECT_EQ(frames_->frame(1), read_elsewhere);
-  EXPECT_EQ(frames_->kept(1), read_elsewhere);
-  EXPECT_EQ(frames_->kept(5), nullptr) << "nobody has requested it";
-  EXPECT_EQ(frames_->frame(0), first);
-  const auto third = frames_->kept(3);
+  replay_->keep(1, read_elsewhere);
+  EXPECT_EQ(replay_->frame(1), read_elsewhere);
+  EXPECT_EQ(replay_->frame(0), first);
+  const auto third = replay_->frame(3);
   for (int k = 0; k < 60000; ++k)
-    frames_->frame(0);  // more often than the cache has room for frames of this bed
-  EXPECT_EQ(frames_->kept(3), third) << "a repeated request takes no more memory";
+    replay_->frame(0);  // more often than the cache has room for frames of this bed
+  EXPECT_EQ(replay_->frame(3), third) << "a repeated request takes no more memory";
 }
 
 TEST_F(ReplayOfBed, keeps_two_frames_of_the_largest_beds) {
   Frame of_three_million;
   of_three_million.x.resize(3'000'000);
   const auto large = std::make_shared<const Frame>(std::move(of_three_million));
-  for (const std::size_t k : {0u, 1u, 2u}) frames_->keep(k, large);
-  EXPECT_EQ(frames_->kept(0), nullptr);
-  EXPECT_EQ(frames_->kept(1), large);
-  EXPECT_EQ(frames_->kept(2), large);
+  for (const std::size_t k : {0u, 1u, 2u}) replay_->keep(k, large);
+  EXPECT_EQ(replay_->frame(2), large);
+  EXPECT_EQ(replay_->frame(1), large);
+  EXPECT_NE(replay_->frame(0), large) << "read again";
 }
 
 TEST(ReplayOfNothing, says_that_there_are_no_frames) {
   const test::TemporaryFolder folder;
   io::RunStore store = io::RunStore::create(folder.path("run.h5"), example::header(), true);
   store.commit({}, example::checkpoint(0));
-  try {
-    RunFrames frames(folder.path("run.h5"));
-    FAIL() << "expected an error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::bad_data);
-    EXPECT_NE(std::string(error.what()).find("no frames"), std::string::npos);
-  }
+  EXPECT_TRUE(
+      test::refuses([&] { const Replay replay(folder.path("run.h5")); }, ExitCode::bad_data, {"no frames"}));
 }
 
 }  // namespace

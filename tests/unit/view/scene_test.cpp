@@ -9,7 +9,7 @@
 #include <functional>
 
 #include "core/trigonometry.h"
-#include "pictures/overload_rule.h"
+#include "pictures/cluster_colours.h"
 #include "unit/view/example_bed.h"
 
 namespace talus::view {
@@ -37,7 +37,7 @@ struct DrawnScene {
   BedFrame bed() const { return {frame, pictures.run.statics}; }
   render::FrameView shown(const Overlay& overlay, const pictures::MapExtent& part) const {
     render::FrameView view = shown_map(map, part, bed());
-    add_overlay(view, bed(), overlay, clusters);
+    add_overlay(view, bed(), overlay, clusters, pictures.extent);
     return view;
   }
   render::FrameView shown(const Overlay& overlay) const { return shown(overlay, pictures.extent); }
@@ -95,6 +95,23 @@ TEST(Scene, draws_circles_through_the_periodic_edge) {
     const double dx = line.x0 > 5.0f ? line.x0 - 10.5 : line.x0 - 0.5;
     const double distance = std::hypot(dx, line.y0 - 1.5);
     EXPECT_TRUE(std::abs(distance - 1.5) < 1e-5 || distance < 0.75);
+  }
+}
+
+TEST(Scene, draws_no_circles_in_the_margins_of_a_bed) {
+  const DrawnScene drawn;
+  Overlay overlay = selection_of(10);
+  overlay.diameters = {8.0};
+  const pictures::MapExtent& bed = drawn.pictures.extent;
+  const render::FrameView view =
+      drawn.shown(overlay, {bed.x_min - 6.0, bed.x_max + 6.0, bed.y_min - 6.0, bed.y_max + 6.0});
+  ASSERT_FALSE(view.lines.empty());
+  constexpr double piece = 0.4;  // length of a straight line of that circle
+  for (const render::Line& line : view.lines) {
+    EXPECT_GT(std::min(line.x0, line.x1), bed.x_min - piece);
+    EXPECT_LT(std::max(line.x0, line.x1), bed.x_max + piece);
+    EXPECT_GT(std::min(line.y0, line.y1), bed.y_min - piece);
+    EXPECT_LT(std::max(line.y0, line.y1), bed.y_max + piece);
   }
 }
 
@@ -156,18 +173,18 @@ TEST(Scene, draws_walls_where_they_are) {
 TEST(Scene, knows_when_a_map_is_another) {
   const DrawnScene drawn;
   const auto frame = std::make_shared<const Frame>(drawn.frame);
-  const MapSource own = source_of(drawn.pictures, 0, frame, nullptr);
+  const MapKey own = map_key(drawn.pictures, 0, frame, nullptr);
   const auto changed = [&](const std::function<void(DrawnScene&)>& change, std::size_t k = 0) {
     DrawnScene other;
     change(other);
-    return !(source_of(other.pictures, k, frame, nullptr) == own);
+    return !(map_key(other.pictures, k, frame, nullptr) == own);
   };
   EXPECT_FALSE(changed([](DrawnScene&) {}));
   EXPECT_TRUE(changed([](DrawnScene& other) { other.settings().threshold_factor = 2.0; }));
   EXPECT_TRUE(changed([](DrawnScene& other) { other.pictures.extent.y_max += 1.0; }));
   EXPECT_TRUE(changed([](DrawnScene& other) { other.pictures.since = 1; }));
-  EXPECT_NE(own, source_of(drawn.pictures, 0, frame, frame));
-  EXPECT_NE(own, source_of(drawn.pictures, 0, std::make_shared<const Frame>(drawn.frame), nullptr));
+  EXPECT_NE(own, map_key(drawn.pictures, 0, frame, frame));
+  EXPECT_NE(own, map_key(drawn.pictures, 0, std::make_shared<const Frame>(drawn.frame), nullptr));
   EXPECT_FALSE(changed([](DrawnScene& other) { pictures::add_frame(other.pictures, other.frame); }))
       << "it shows no clusters";
 }
@@ -176,13 +193,13 @@ TEST(Scene, colours_of_clusters_depend_on_the_frames_met) {
   DrawnScene drawn;
   drawn.settings().layers = {pictures::MapKind::clusters};
   const auto frame = std::make_shared<const Frame>(drawn.frame);
-  const auto source = [&] { return source_of(drawn.pictures, 1, frame, nullptr); };
-  const MapSource none = source();
+  const auto source = [&] { return map_key(drawn.pictures, 1, frame, nullptr); };
+  const MapKey none = source();
   pictures::add_frame(drawn.pictures, drawn.frame);
-  const MapSource one = source();
+  const MapKey one = source();
   EXPECT_NE(none, one) << "colours follow those of the first frame";
   pictures::add_frame(drawn.pictures, drawn.frame);
-  const MapSource two = source();
+  const MapKey two = source();
   EXPECT_NE(one, two) << "the frame itself was added";
   pictures::add_frame(drawn.pictures, drawn.frame);
   EXPECT_EQ(two, source()) << "later frames change nothing";

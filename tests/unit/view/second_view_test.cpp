@@ -6,26 +6,13 @@
 #include <fstream>
 
 #include "core/trigonometry.h"
-#include "support/temporary_folder.h"
-#include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 #include "view/view_model.h"
 
 namespace talus::view {
 namespace {
 
-using example::opened;
-
-class TwoViews : public testing::Test {
- protected:
-  TwoViews() {
-    example::write_bed_run(folder_.path("run.h5"), 20.0);
-    model_.emplace(opened(folder_.path("run.h5")));
-  }
-
-  test::TemporaryFolder folder_;
-  std::optional<ViewModel> model_;
-};
+using TwoViews = example::ViewOfBed;
 
 TEST_F(TwoViews, another_map_of_the_same_frame) {
   model_->state.second_view = {.shown = true, .layers = {pictures::MapKind::pressure}};
@@ -38,7 +25,7 @@ TEST_F(TwoViews, another_map_of_the_same_frame) {
   EXPECT_NE(model_->first().annotated_map().title, model_->second().annotated_map().title);
   EXPECT_EQ(model_->first().annotated_map().caption, model_->second().annotated_map().caption);
   EXPECT_NE(model_->first().furnished_map().title, model_->second().furnished_map().title);
-  EXPECT_EQ(model_->second().values().values.size(), 40u);
+  EXPECT_EQ(model_->second().bar()->values.size(), 40u);
 }
 
 TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
@@ -56,11 +43,9 @@ TEST_F(TwoViews, a_map_is_not_made_again_where_nothing_has_changed) {
 TEST_F(TwoViews, a_frame_minus_another_one) {
   model_->state.second_view = {.shown = true, .minus = radians(5.0)};
   model_->go_to(3);
-  const GrainValues none = model_->second().values();  // nothing has been drawn yet
-  EXPECT_TRUE(none.values.empty());
   EXPECT_NE(model_->second().annotated_map().title.find("15.00° minus 5.00°"), std::string::npos)
       << model_->second().annotated_map().title;
-  const std::vector<double>& changes = model_->second().values().values;
+  const std::vector<double> changes = model_->second().bar()->values;
   ASSERT_EQ(changes.size(), 40u);
   EXPECT_EQ(changes[0], 0.0) << "overloaded in both";
   EXPECT_NEAR(changes[10], 1.0, 1e-6);
@@ -68,8 +53,7 @@ TEST_F(TwoViews, a_frame_minus_another_one) {
   EXPECT_EQ(changes[31], 0.0);
   EXPECT_EQ(model_->second().annotated_map().legends.at(1).swatches.at(0).label, "contacts gained: 0");
   model_->state.second_view.minus = radians(15.0);
-  model_->second().annotated_map();
-  EXPECT_EQ(std::ranges::max(model_->second().values().values), 0.0) << "minus itself";
+  EXPECT_EQ(std::ranges::max(model_->second().bar()->values), 0.0) << "minus itself";
 }
 
 TEST_F(TwoViews, a_range_belongs_to_its_map) {
@@ -84,19 +68,9 @@ TEST_F(TwoViews, a_range_belongs_to_its_map) {
   EXPECT_NE(end(model_->second().annotated_map()), "0.25") << "that belongs to another map";
 }
 
-TEST_F(TwoViews, show_the_same_place) {
-  model_->state.second_view = {.shown = true, .layers = {pictures::MapKind::pressure}};
-  model_->state.camera = {3.0, 2.0, 2.0};
-  model_->update(0.0);
-  const render::FrameView first = model_->first().map(2.0), second = model_->second().map(2.0);
-  EXPECT_LT(first.x_max - first.x_min, 7.0);
-  EXPECT_EQ(first.x_min, second.x_min);
-  EXPECT_EQ(first.x_max, second.x_max);
-}
-
 TEST_F(TwoViews, a_run_that_is_computed_has_them_too) {
   std::ofstream(folder_.path("a.toml")) << "[bed]\nlength = 10\ndepth = 3\n";
-  ViewModel live = opened(folder_.path("a.toml"));
+  ViewModel live = example::opened(folder_.path("a.toml"));
   live.state.second_view = {.shown = true, .layers = {pictures::MapKind::pressure}, .minus = 0.0};
   EXPECT_FALSE(live.second().annotated_map().title.empty()) << "there is no frame to subtract yet";
 }

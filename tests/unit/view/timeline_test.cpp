@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/trigonometry.h"
@@ -72,6 +73,8 @@ TEST(Timeline, has_what_happened_in_its_order) {
     EXPECT_EQ(events[k].frame, frames[k]) << events[k].name;
   }
   EXPECT_EQ(events[0].kind, TimelineEvent::Kind::command);
+  EXPECT_EQ(events[1].label, "θ_d, volume") << "there are three estimators";
+  EXPECT_EQ(events[3].label, "θ_d, clusters");
   EXPECT_NE(events[0].what.find("grain 3"), std::string::npos);
   EXPECT_EQ(events.back().kind, TimelineEvent::Kind::failure);
 }
@@ -143,6 +146,27 @@ TEST(Timeline, of_a_tilt_that_went_up_and_down_is_of_its_last_rise) {
   const double angles[] = {8.0, 10.0, 10.0, 11.2, 15.0, 20.0};
   for (std::size_t k = 1; k < events.size(); ++k)
     EXPECT_NEAR(events[k].place, 30.0 + angles[k - 1] / 5.0, 1e-9) << events[k].name;
+}
+
+TEST(Timeline, has_what_the_values_known_so_far_tell) {
+  ExampleRun run;
+  const auto has = [&run](Landmark landmark) {
+    return std::ranges::count(names_of(timeline_events(run.source)), text_of(landmark).event) == 1;
+  };
+  run.source.values = std::span(run.values).first(5);
+  EXPECT_FALSE(has(Landmark::length_jump)) << "not all values are known";
+  EXPECT_TRUE(has(Landmark::percolation));
+  run.source.values = std::span(run.values).first(2);
+  EXPECT_FALSE(has(Landmark::percolation));
+  run.source.values = run.values;
+  EXPECT_TRUE(has(Landmark::length_jump));
+  run.source.theta_c = radians(4.0);
+  EXPECT_FALSE(has(Landmark::length_jump)) << "up to 4 deg there is only one frame";
+  run.source.theta_c = radians(7.0);
+  EXPECT_FALSE(has(Landmark::theta_d)) << "up to 7 deg it contracts";
+  run.source.theta_c = radians(20.0);
+  run.source.rows = {};
+  EXPECT_FALSE(has(Landmark::theta_d));
 }
 
 TEST(Timeline, is_empty_before_the_first_frame) {

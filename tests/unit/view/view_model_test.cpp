@@ -13,12 +13,11 @@
 #include "base/errors.h"
 #include "base/hash.h"
 #include "core/trigonometry.h"
-#include "io/analysis_file.h"
+#include "io/packed_file.h"
 #include "io/run_file.h"
 #include "runs/analysis_parameters.h"
 #include "runs/analysis_run.h"
-#include "support/temporary_folder.h"
-#include "unit/view/example_bed.h"
+#include "support/exit_code.h"
 #include "unit/view/opened_view.h"
 
 namespace talus::view {
@@ -28,19 +27,13 @@ using example::wait_for_condition, example::opened, example::plot;
 
 const std::vector<std::string> single_grains = {"l_min=0"};  // settings of an analysis
 
-class ViewOfRun : public testing::Test {
+class ViewOfRun : public example::ViewOfBed {
  protected:
-  explicit ViewOfRun(double theta_c = 20.0) : path_(folder_.path("run.h5")) {
-    example::write_bed_run(path_, theta_c);
-    model_.emplace(opened(path_));
-  }
+  using ViewOfBed::ViewOfBed;
   bool wait_for_all() {
     return wait_for_condition(*model_,
                               [this] { return plot(*model_, "overloaded").series[0].x.size() == 6; });
   }
-  test::TemporaryFolder folder_;
-  std::string path_;
-  std::optional<ViewModel> model_;
 };
 
 class ViewOfUnfailedRun : public ViewOfRun {
@@ -51,7 +44,7 @@ class ViewOfUnfailedRun : public ViewOfRun {
 TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
   EXPECT_FALSE(model_->is_live());
   EXPECT_EQ(model_->live(), nullptr);
-  EXPECT_EQ(model_->seed(), 7u);
+  EXPECT_EQ(model_->recording().seed, 7u);
   EXPECT_EQ(model_->frame_count(), 8u);
   EXPECT_EQ(model_->frame_index(), 0u);
   EXPECT_EQ(model_->state.map.layers, pictures::MapLayers{pictures::MapKind::gamma});
@@ -64,6 +57,16 @@ TEST_F(ViewOfRun, opens_at_its_first_frame_with_the_map_of_gamma) {
   EXPECT_NEAR((region.x_max - region.x_min) / (region.y_max - region.y_min), 2.0, 1e-12);
   EXPECT_LE(region.y_min, -1.0);
   EXPECT_GE(region.y_max, 4.0);
+}
+
+TEST_F(ViewOfRun, knows_how_the_step_of_its_frame_was_solved) {
+  model_->go_to(3);
+  const SolvedSteps solved = model_->solved_steps();
+  EXPECT_EQ(solved.count, 51);
+  EXPECT_EQ(solved.unconverged, 5);
+  ASSERT_TRUE(solved.last.has_value());
+  EXPECT_EQ(at(*solved.last, StepField::step), static_cast<double>(model_->frame().step));
+  EXPECT_EQ(at(*solved.last, StepField::iterations), 30.0);
 }
 
 TEST_F(ViewOfRun, has_places_on_each_axis_of_its_plots) {
@@ -117,9 +120,9 @@ TEST_F(ViewOfUnfailedRun, has_no_angle_left) {
 }
 
 TEST_F(ViewOfRun, goes_to_its_landmarks) {
-  EXPECT_TRUE(model_->has(Landmark::theta_c));
+  EXPECT_TRUE(model_->place_of(Landmark::theta_c));
   model_.reset();  // its thread reads the file that will be opened again
-  EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").has(Landmark::length_jump))
+  EXPECT_FALSE(ViewModel::open(path_, {}, "", false, "talus view").place_of(Landmark::length_jump))
       << "nothing has been computed yet";
   model_.emplace(opened(path_));
   ASSERT_TRUE(wait_for_all());
@@ -129,7 +132,7 @@ TEST_F(ViewOfRun, goes_to_its_landmarks) {
                                                      {Landmark::percolation, 3},
                                                      {Landmark::first, 0}};
   for (const auto& [landmark, frame] : places) {
-    EXPECT_TRUE(model_->has(landmark));
+    EXPECT_TRUE(model_->place_of(landmark));
     model_->go_to(landmark);
     EXPECT_EQ(model_->frame_index(), frame);
   }
@@ -138,9 +141,9 @@ TEST_F(ViewOfRun, goes_to_its_landmarks) {
 TEST_F(ViewOfUnfailedRun, assumes_an_angle) {
   EXPECT_FALSE(model_->theta_c_known());
   EXPECT_NEAR(degrees(model_->theta_c()), 20.0, 1e-12);
-  EXPECT_FALSE(model_->has(Landmark::theta_c));
+  EXPECT_FALSE(model_->place_of(Landmark::theta_c));
   EXPECT_NE(model_->first().furnished_map().caption.find("assumed"), std::string::npos);
-  EXPECT_NE(model_->render_command().find("--theta-c 20"), std::string::npos);
+  EXPECT_NE(model_->render_command().find("--set gamma_c=0.342"), std::string::npos);
 }
 
 TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
@@ -149,7 +152,7 @@ TEST_F(ViewOfRun, tells_when_what_is_shown_has_changed) {
   while (model_->update(0.0)) {
   }
   EXPECT_FALSE(model_->update(1.0));
-  model_->set_speed(5.0);
+  model_->replay()->set_speed(5.0);
   model_->play(true);
   EXPECT_FALSE(model_->update(0.5));
   EXPECT_TRUE(model_->update(0.75));
@@ -177,8 +180,8 @@ TEST_F(ViewOfRun, takes_curves_from_a_stored_analysis) {
   ASSERT_EQ(plot(*model_, "overloaded").series[0].y.size(), 6u);
   EXPECT_EQ(plot(*model_, "overloaded").series[0].y[3], 0.75);
   EXPECT_NEAR(plot(*model_, "lengths").series[1].y[3], std::sqrt(8.0), 1e-6);
-  EXPECT_TRUE(model_->has(Landmark::length_jump));
-  EXPECT_TRUE(model_->has(Landmark::percolation));
+  EXPECT_TRUE(model_->place_of(Landmark::length_jump));
+  EXPECT_TRUE(model_->place_of(Landmark::percolation));
   model_->state.map.threshold_factor = 1.5;  // not in the analysis
   model_->update(0.0);
   ASSERT_TRUE(wait_for_all());
@@ -219,43 +222,43 @@ TEST_F(ViewOfRun, takes_grains_with_their_first_neighbours_unless_told_otherwise
   model_->go_to(3);
   model_->state.selected = 10;
   EXPECT_EQ(model_->frame().gamma[10], 1.0);
-  EXPECT_NE(model_->render_command().find("--l-min 0"), std::string::npos);
+  EXPECT_NE(model_->render_command().find("--set l_min=0"), std::string::npos);
   const double density = plot(*model_, "gamma").series[0].y.back();
   model_->state.map.l_min = 3.0;
   EXPECT_TRUE(model_->update(0.0));
   // Grain 10 has nine grains within 1.5 D, three of which are overloaded: Q = 3, P = 15.
   EXPECT_NEAR(model_->frame().gamma[10], 0.2, 1e-12);
-  EXPECT_NEAR(model_->inspection()->gamma, 0.2, 1e-12);
-  EXPECT_EQ(model_->inspection()->state.ratio, 1.0) << "the grain alone";
-  EXPECT_FALSE(model_->inspection()->overloaded);
+  EXPECT_NEAR(model_->first().inspection()->gamma, 0.2, 1e-12);
+  EXPECT_EQ(model_->first().inspection()->state.ratio, 1.0) << "the grain alone";
+  EXPECT_FALSE(model_->first().inspection()->overloaded);
   EXPECT_NE(model_->first().furnished_map().title.find("l = 3 D"), std::string::npos);
   EXPECT_LT(plot(*model_, "gamma").series[0].y.back(), density);
-  EXPECT_EQ(model_->render_command().find("--l-min"), std::string::npos);
+  EXPECT_EQ(model_->render_command().find("l_min"), std::string::npos);
   model_->state.map.l_min = 0.0;
   model_->update(0.0);
   EXPECT_EQ(model_->frame().gamma[10], 1.0);
 }
 
 TEST_F(ViewOfRun, inspects_the_selected_grain) {
-  EXPECT_EQ(model_->inspection(), nullptr);
+  EXPECT_EQ(model_->first().inspection(), nullptr);
   model_->go_to(3);
   model_->state.selected = find_grain(model_->bed(), 0.4, 1.5);
   ASSERT_TRUE(model_->state.selected.has_value());
-  const Inspection* inspection = model_->inspection();
+  const Inspection* inspection = model_->first().inspection();
   ASSERT_NE(inspection, nullptr);
   EXPECT_EQ(inspection->grain, 10);
   EXPECT_EQ(inspection->cluster_size, 4);
   EXPECT_EQ(inspection->coarse_graining_length, std::sqrt(8.0));
-  EXPECT_EQ(inspection, model_->inspection());
+  EXPECT_EQ(inspection, model_->first().inspection());
   model_->state.neighbourhood = 2.0;
-  EXPECT_NEAR(model_->inspection()->neighbourhood_gamma, 3.0 / 7.0, 1e-12);
+  EXPECT_NEAR(model_->first().inspection()->neighbourhood_gamma, 3.0 / 7.0, 1e-12);
   model_->go_to(0);
-  EXPECT_FALSE(model_->inspection()->overloaded);
+  EXPECT_FALSE(model_->first().inspection()->overloaded);
   model_->go_to(1);
   model_->state.selected = 0;
-  EXPECT_EQ(model_->inspection()->cluster_size, 1);
+  EXPECT_EQ(model_->first().inspection()->cluster_size, 1);
   model_->state.selected = 999;
-  EXPECT_EQ(model_->inspection(), nullptr);
+  EXPECT_EQ(model_->first().inspection(), nullptr);
 }
 
 TEST_F(ViewOfRun, draws_the_selection_and_its_cluster_where_it_is_asked_for) {
@@ -292,14 +295,14 @@ TEST_F(ViewOfRun, has_room_for_all_frames) {
   EXPECT_NEAR(model_->first().part(100.0).y_max, 5.0, 1e-6) << "the third frame is higher";
 }
 
-/// Two groups of twelve grains: only the right one, then both.
+/// Two groups of twelve grains below the surface: only the right one, then both.
 TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   model_.reset();
   std::vector<Frame> frames = {example::bed_frame(0.0, 0), example::bed_frame(5.0, 0)};
-  for (Index i = 0; i < 40; ++i) {
+  for (Index i = 0; i < 3 * example::columns; ++i) {
     const Index column = i % example::columns;
-    if (column >= 5 && column < 8) frames[0].gamma[i] = frames[1].gamma[i] = 1.0;
-    if (column < 3) frames[1].gamma[i] = 1.0;
+    if (column >= 5 && column < 9) frames[0].gamma[i] = frames[1].gamma[i] = 1.0;
+    if (column < 4) frames[1].gamma[i] = 1.0;
   }
   example::write_run(folder_.path("two.h5"), 20.0, frames);
   ViewModel model = opened(folder_.path("two.h5"));
@@ -313,8 +316,8 @@ TEST_F(ViewOfRun, keeps_the_colours_of_clusters) {
   const std::vector<render::Colour> palette = pictures::cluster_palette();
   // The colours follow from the previous frame once it has been processed; until then this frame is the
   // first.
-  EXPECT_TRUE(wait_for_condition(model, [&] { return fill_at(6.5f) == palette[0]; }));
-  EXPECT_TRUE(fill_at(1.5f) == palette[1]);
+  EXPECT_TRUE(wait_for_condition(model, [&] { return fill_at(6.5f) == palette[1]; }));
+  EXPECT_TRUE(fill_at(1.5f) == palette[2]);
   // Joined by contacts, each column is a separate cluster, too small for a colour; colours of the other rule
   // do not count.
   model.state.map.joined_by_neighbours = false;
@@ -405,7 +408,7 @@ TEST_F(ViewOfRun, tells_of_a_frame_that_cannot_be_read) {
   }
   model.play(true);
   model.go_to(1);
-  EXPECT_FALSE(model.playing());
+  EXPECT_FALSE(model.replay()->playing());
   EXPECT_EQ(model.frame().tilt, 0.0) << "the previous frame";
   model.update(0.0);
   EXPECT_NE(model.state.message.find("segment_"), std::string::npos) << model.state.message;
@@ -425,28 +428,17 @@ TEST_F(ViewOfRun, turned_shows_all_frames_in_one_size) {
 
 TEST_F(ViewOfRun, asks_for_the_flow_where_it_shows_it) {
   model_->go_to(6);
-  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map gamma --at 25 --flow --l-min 0");
+  EXPECT_EQ(model_->render_command(), "talus render " + path_ + " --map gamma --at 25 --flow --set l_min=0");
 }
 
 TEST_F(ViewOfRun, takes_no_settings_of_a_scenario) {
   model_.reset();
   for (const auto& [settings, output] :
        {std::pair<std::vector<std::string>, std::string>{{"seed=2"}, ""}, {{}, "x.h5"}})
-    try {
-      ViewModel::open(path_, settings, output, false, "");
-      FAIL() << "expected an error";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::usage);
-    }
-}
-
-TEST(ViewOfNothing, says_what_is_missing) {
-  for (const char* path : {"no-such-run.h5", "no-such-scenario.toml"}) try {
-      opened(path);
-      FAIL() << "expected an error";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::missing_input);
-    }
+    EXPECT_EQ(test::exit_code_of([&, &settings = settings, &output = output] {
+                ViewModel::open(path_, settings, output, false, "");
+              }),
+              ExitCode::usage);
 }
 
 }  // namespace

@@ -4,25 +4,16 @@
 
 #include <algorithm>
 
-#include "support/temporary_folder.h"
-#include "unit/view/example_bed.h"
 #include "unit/view/opened_view.h"
 #include "view/scene.h"
 
 namespace talus::view {
 namespace {
 
-class SelectionInRun : public testing::Test {
+class SelectionInRun : public example::ViewOfBed {
  protected:
-  SelectionInRun() {
-    example::write_bed_run(folder_.path("run.h5"), 20.0);
-    model_.emplace(example::opened(folder_.path("run.h5")));
-  }
   std::vector<Index> selected() { return model_->selected_grains(); }
   std::size_t lines() { return model_->first().map(2.0).lines.size(); }
-
-  test::TemporaryFolder folder_;
-  std::optional<ViewModel> model_;
 };
 
 TEST_F(SelectionInRun, stays_from_frame_to_frame) {
@@ -41,7 +32,7 @@ TEST_F(SelectionInRun, stays_from_frame_to_frame) {
 
 TEST_F(SelectionInRun, it_is_grains_or_a_contact) {
   model_->select(std::vector<Index>{1, 2, 3});
-  const auto contact = model_->contact_at(3.5, 2.0, 0.2);
+  const auto contact = find_contact(model_->bed(), 3.5, 2.0, 0.2);
   ASSERT_TRUE(contact);
   model_->select(*contact);
   EXPECT_TRUE(selected().empty());
@@ -61,7 +52,7 @@ TEST_F(SelectionInRun, it_is_drawn_by_lines_alone) {
     if (line.colour == selection_colour) {
       EXPECT_LE(line.half_width, 0.051f) << "thin";
     }
-  model_->select(*model_->contact_at(3.5, 2.0, 0.2));
+  model_->select(*find_contact(model_->bed(), 3.5, 2.0, 0.2));
   EXPECT_GT(lines(), before);
   model_->select(std::optional<Index>());
   EXPECT_EQ(lines(), before);

@@ -1,18 +1,20 @@
+/// Contact networks, and their weak contacts.
+
 #include "analysis/contacts/contact_network.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "base/errors.h"
 #include "core/trigonometry.h"
-#include "stress/internal_moment.h"
-#include "stress/stress_state.h"
+#include "stress/stress.h"
 #include "unit/analysis/packings.h"
 
 namespace talus::analysis {
 namespace {
 
-using test::Packing;
+using test::add_contact, test::add_grain, test::empty_packing, test::Packing;
 
 /// Returns the result of one of the functions for a packing.
 FrameRecord found(void (*take)(const BedFrame&, FrameRecord&), const Packing& packing) {
@@ -23,20 +25,20 @@ FrameRecord found(void (*take)(const BedFrame&, FrameRecord&), const Packing& pa
 
 /// Returns a triangle on the floor with an attached chain of two grains, and a grain without contacts.
 Packing triangle_with_chain() {
-  Packing packing = test::empty_packing(10.0, false);
-  const Index left = test::add_grain(packing, 2.0, 0.5);
-  const Index right = test::add_grain(packing, 3.0, 0.5);
-  const Index top = test::add_grain(packing, 2.5, 0.5 + std::sqrt(0.75));
-  const Index link = test::add_grain(packing, 3.5, 0.5 + std::sqrt(0.75));
-  const Index end = test::add_grain(packing, 4.5, 0.5 + std::sqrt(0.75));
-  test::add_grain(packing, 8.0, 0.5);
+  Packing packing = empty_packing(10.0, false);
+  const Index left = add_grain(packing, 2.0, 0.5);
+  const Index right = add_grain(packing, 3.0, 0.5);
+  const Index top = add_grain(packing, 2.5, 0.5 + std::sqrt(0.75));
+  const Index link = add_grain(packing, 3.5, 0.5 + std::sqrt(0.75));
+  const Index end = add_grain(packing, 4.5, 0.5 + std::sqrt(0.75));
+  add_grain(packing, 8.0, 0.5);
   const Index floor = test::add_floor_grain(packing, 2.0, -0.5);
-  test::add_contact(packing, left, right, 1.0);
-  test::add_contact(packing, left, top, 1.0);
-  test::add_contact(packing, right, top, 1.0);
-  test::add_contact(packing, top, link, 1.0);
-  test::add_contact(packing, link, end, 1.0);
-  test::add_contact(packing, left, floor, 1.0);
+  add_contact(packing, left, right, 1.0);
+  add_contact(packing, left, top, 1.0);
+  add_contact(packing, right, top, 1.0);
+  add_contact(packing, top, link, 1.0);
+  add_contact(packing, link, end, 1.0);
+  add_contact(packing, left, floor, 1.0);
   return packing;
 }
 
@@ -91,14 +93,14 @@ TEST(MobilisedFriction, is_that_of_the_walls_at_walls_and_that_of_grains_at_the_
 
 /// Returns a central grain with four neighbours: strong contacts along y, weak ones along x.
 Packing cross(double strong, double weak) {
-  Packing packing = test::empty_packing(10.0, false);
-  test::add_grain(packing, 5.0, 5.0);
-  test::add_grain(packing, 6.0, 5.0);
-  test::add_grain(packing, 4.0, 5.0);
-  test::add_grain(packing, 5.0, 6.0);
-  test::add_grain(packing, 5.0, 4.0);
-  for (Index i : {1, 2}) test::add_contact(packing, 0, i, weak);
-  for (Index i : {3, 4}) test::add_contact(packing, 0, i, strong);
+  Packing packing = empty_packing(10.0, false);
+  add_grain(packing, 5.0, 5.0);
+  add_grain(packing, 6.0, 5.0);
+  add_grain(packing, 4.0, 5.0);
+  add_grain(packing, 5.0, 6.0);
+  add_grain(packing, 5.0, 4.0);
+  for (Index i : {1, 2}) add_contact(packing, 0, i, weak);
+  for (Index i : {3, 4}) add_contact(packing, 0, i, strong);
   return packing;
 }
 
@@ -170,6 +172,151 @@ TEST(CriticalContacts, of_a_frame_where_nothing_slides) {
   EXPECT_TRUE(std::isnan(critical.critical_weighted_mean));
   EXPECT_EQ(critical.critical_largest, 0);
   EXPECT_TRUE(std::isnan(critical.critical_correlation_length));
+}
+
+/// Grain 0 in the middle, with contacts in the given directions (deg), each with a different grain.
+struct Star {
+  Packing packing = empty_packing(100.0, false);
+
+  Star() { add_grain(packing, 0.0, 0.0); }
+
+  void add(double direction, double fn, double mobilised) {
+    const Index tip = add_grain(packing, cosine(radians(direction)), sine(radians(direction)));
+    add_contact(packing, 0, tip, fn, mobilised * 0.5 * fn);
+  }
+};
+
+// Returns a star with two strong contacts at 0 deg; the mean force is 2.5.
+Star chain() {
+  Star star;
+  star.add(0.0, 5.0, 0.1);
+  star.add(0.0, 5.0, 0.9);
+  return star;
+}
+
+FrameRecord weak_contacts(const Packing& packing, double mean_normal_force) {
+  FrameRecord record;
+  record.mean_normal_force = mean_normal_force;
+  measure_weak_contacts(packing, std::vector{0.0, 0.5, 1.0}, record);
+  return record;
+}
+
+TEST(WeakContacts, coherent_ones_across_the_chains_have_negative_fabric) {
+  Star star = chain();
+  star.add(90.0, 1.0, 0.9);
+  star.add(90.0, 1.0, 1.0);
+  star.add(45.0, 1.0, 0.1);
+  star.add(0.0, 1.0, 0.1);
+  const FrameRecord weak = weak_contacts(star.packing, 2.5);
+  EXPECT_DOUBLE_EQ(weak.coherent_share, 2.0 / 6.0);
+  EXPECT_NEAR(weak.coherent_fabric, -2.0, 1e-15);
+  EXPECT_NEAR(weak.incoherent_fabric, 1.0, 1e-15);
+  ASSERT_EQ(weak.weak_fabric_by_friction.size(), 2U);
+  EXPECT_NEAR(weak.weak_fabric_by_friction[0], 1.0, 1e-15);
+  EXPECT_NEAR(weak.weak_fabric_by_friction[1], -2.0, 1e-15);
+}
+
+TEST(WeakContacts, friction_counts_without_its_sign_and_from_the_threshold_on) {
+  Star star = chain();
+  star.add(90.0, 1.0, -0.8);
+  star.add(90.0, 1.0, 0.79);
+  EXPECT_DOUBLE_EQ(weak_contacts(star.packing, 2.5).coherent_share, 1.0 / 4.0);
+}
+
+TEST(WeakContacts, fabric_is_relative_to_the_strong_contacts) {
+  Star star;
+  star.add(30.0, 5.0, 0.0);
+  star.add(-60.0, 1.0, 1.0);
+  star.add(75.0, 1.0, 0.0);
+  const FrameRecord weak = weak_contacts(star.packing, 2.0);
+  EXPECT_NEAR(weak.coherent_fabric, -2.0, 1e-14);
+  EXPECT_NEAR(weak.incoherent_fabric, 0.0, 1e-14);
+}
+
+TEST(WeakContacts, what_rounding_leaves_above_full_mobilisation_is_in_the_last_bin) {
+  Star star = chain();
+  star.add(90.0, 1.0, 1.0 + 1e-12);
+  EXPECT_NEAR(weak_contacts(star.packing, 2.5).weak_fabric_by_friction[1], -2.0, 1e-15);
+}
+
+TEST(WeakContacts, nothing_is_known_without_contacts) {
+  const Star star;
+  const FrameRecord weak = weak_contacts(star.packing, not_known);
+  EXPECT_TRUE(std::isnan(weak.coherent_share));
+  EXPECT_TRUE(std::isnan(weak.coherent_fabric));
+  EXPECT_TRUE(std::isnan(weak.weak_fabric_by_friction[0]));
+}
+
+using Indices = std::vector<Index>;
+
+/// Returns three grains in a row, at 0.5, 1.5, 2.5, without contacts; images 0.
+Packing three_grains() {
+  Packing packing = empty_packing(10.0, true);
+  for (const double x : {0.5, 1.5, 2.5}) add_grain(packing, x, 0.5);
+  packing.frame.image.assign(3, 0);
+  return packing;
+}
+
+TEST(ContactChanges, report_changes) {
+  Packing before = three_grains(), after = three_grains();
+  add_contact(before, 0, 1, 1.0);
+  add_contact(before, 1, 2, 1.0);
+  add_contact(after, 0, 2, 2.0);
+  add_contact(after, 1, 2, 5.0, 2.5);  // force and status do not matter
+  const ContactChanges changes = contact_changes(before.frame, after.frame);
+  EXPECT_EQ(changes.gained, (Indices{0}));
+  EXPECT_EQ(changes.lost, (Indices{0}));
+  const ContactChanges back = contact_changes(after.frame, before.frame);
+  EXPECT_EQ(back.gained, (Indices{0}));
+  EXPECT_EQ(back.lost, (Indices{0}));
+}
+
+TEST(ContactChanges, of_a_frame_and_itself_are_none) {
+  Packing packing = three_grains();
+  add_contact(packing, 0, 1, 1.0);
+  add_contact(packing, 0, 2, 1.0, 0.0, -1);
+  const ContactChanges changes = contact_changes(packing.frame, packing.frame);
+  EXPECT_TRUE(changes.gained.empty());
+  EXPECT_TRUE(changes.lost.empty());
+}
+
+TEST(ContactChanges, a_pair_that_goes_through_the_edge_keeps_its_contact) {
+  Packing before = three_grains(), after = three_grains();
+  add_contact(before, 0, 1, 1.0);
+  // Grain 0 has left on the left and re-entered on the right: seen from it, grain 1 is one period farther.
+  after.frame.x[0] = 9.5;
+  after.frame.image[0] = -1;
+  add_contact(after, 0, 1, 1.0, 0.0, 1);
+  EXPECT_TRUE(contact_changes(before.frame, after.frame).gained.empty());
+  EXPECT_TRUE(contact_changes(before.frame, after.frame).lost.empty());
+  // Now grain 1 has done so too.
+  after.frame.x[1] = 9.9;
+  after.frame.image[1] = -1;
+  after.frame.contacts.shift[0] = 0;
+  EXPECT_TRUE(contact_changes(before.frame, after.frame).gained.empty());
+}
+
+TEST(ContactChanges, another_image_of_a_grain_is_another_neighbour) {
+  Packing before = three_grains(), after = three_grains();
+  add_contact(before, 0, 1, 1.0);
+  add_contact(after, 0, 1, 1.0, 0.0, -1);
+  EXPECT_EQ(contact_changes(before.frame, after.frame).gained, (Indices{0}));
+  EXPECT_EQ(contact_changes(before.frame, after.frame).lost, (Indices{0}));
+}
+
+TEST(ContactChanges, a_smooth_floor_is_one_body_in_all_periods) {
+  Packing before = three_grains(), after = three_grains();
+  add_contact(before, 0, 1, 1.0);
+  add_contact(after, 0, 1, 1.0);
+  for (Packing* packing : {&before, &after}) packing->frame.contacts.b[0] = 3;  // a plane
+  after.frame.image[0] = 1;
+  EXPECT_TRUE(contact_changes(before.frame, after.frame).gained.empty());
+}
+
+TEST(ContactChanges, are_between_frames_of_the_same_grains) {
+  Packing more = three_grains();
+  add_grain(more, 5.0, 0.5);
+  EXPECT_THROW(contact_changes(three_grains().frame, more.frame), Error);
 }
 
 }  // namespace

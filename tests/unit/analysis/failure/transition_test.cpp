@@ -1,4 +1,5 @@
-/// theta_d from its three estimators, for hand-made series.
+/// Transitions before failure, and the distance to it. The last rise of a tilt, places in it, and ratios at
+/// its end.
 
 #include "analysis/failure/transition.h"
 
@@ -6,7 +7,12 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
+
+#include "analysis/failure/failure_distance.h"
+#include "core/trigonometry.h"
+#include "unit/analysis/packings.h"
 
 namespace talus::analysis {
 namespace {
@@ -143,6 +149,242 @@ TEST(GrowthExponent, has_the_standard_error_of_a_slope) {
   const GrowthExponent growth = growth_exponent(at, std::vector<double>{1.0, 1.0, 32.0, 1.0, 1.0}, 0.0, 16.0);
   EXPECT_NEAR(growth.exponent, 0.0, 1e-12);
   EXPECT_NEAR(growth.error, std::sqrt(2.0 / 3.0), 1e-12);
+}
+
+using test::Packing;
+
+/// Returns two layers, of heights up to 1 and up to 2: two grains on the floor, one above and between them,
+/// and one without contacts. N = 3, M = 5.
+Packing two_layers() {
+  Packing packing = test::empty_packing(10.0, false);
+  const Index left = test::add_grain(packing, 2.0, 0.5);
+  const Index right = test::add_grain(packing, 3.0, 0.5);
+  const Index top = test::add_grain(packing, 2.5, 0.5 + std::sqrt(0.75));
+  test::add_grain(packing, 8.0, 0.5);
+  const Index floor = test::add_floor_grain(packing, 2.0, -0.5);
+  test::add_contact(packing, left, right, 1.0);
+  test::add_contact(packing, left, top, 1.0, 0.5);  // critical, because the friction is 0.5
+  test::add_contact(packing, right, top, 1.0);
+  test::add_contact(packing, left, floor, 1.0, -0.5);
+  test::add_contact(packing, right, floor + 1, 1.0);  // walls are numbered after all grains
+  return packing;
+}
+
+// 2 M = 10 components of forces and 9 equations: 2 - 9/5 = 1/5 of the contacts may be critical.
+TEST(FailureDistance, bound_is_where_unknown_forces_are_as_many_as_equations) {
+  FrameRecord record;
+  measure_failure_distance(two_layers(), 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 0.2, 1e-15);
+  EXPECT_NEAR(record.critical_share_of_bound, 2.0, 1e-14);  // two are critical, so this is not an equilibrium
+}
+
+// 10 components minus 5 for the contacts, which are all critical, and 6 equations without those of torques.
+TEST(FailureDistance, without_friction_has_no_torques_to_balance) {
+  Packing packing = two_layers();
+  packing.frame.friction = {};
+  FrameRecord record;
+  measure_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
+  packing.frame.friction.walls = 0.5;
+  packing.frame.contacts.nx.back() = 0.0;  // with the floor
+  measure_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 6.0 / 5.0, 1e-15);
+  packing.frame.contacts.nx.back() = 1.0;  // with a wall
+  measure_failure_distance(packing, 2.0, record);
+  EXPECT_NEAR(record.critical_bound, 2.0 - 7.0 / 5.0, 1e-15) << "the torque on one grain";
+}
+
+// The lower layer contains the contact of its two grains, half of each contact with the top grain, and those
+// with floor and wall.
+TEST(FailureDistance, counts_of_layers_add_up) {
+  const std::vector<ForceCount> counts = count_forces(two_layers(), 2.0, 2);
+  EXPECT_EQ(counts[0].grains, 2.0);
+  EXPECT_EQ(counts[0].contacts, 4.0);
+  EXPECT_EQ(counts[0].critical, 1.5);
+  EXPECT_EQ(counts[1].grains, 1.0);
+  EXPECT_EQ(counts[1].contacts, 1.0);
+  EXPECT_EQ(counts[1].critical, 0.5);
+  EXPECT_EQ(counts[0].share(), 0.375);
+  EXPECT_EQ(counts[0].share_of_bound(), 0.75);
+  EXPECT_TRUE(std::isnan(counts[1].share_of_bound()));  // 2 - 3 gives no bound
+}
+
+TEST(FailureDistance, grains_above_the_height_belong_to_the_last_layer) {
+  const std::vector<ForceCount> counts = count_forces(two_layers(), 1.0, 4);
+  EXPECT_EQ(counts[1].grains, 0.0);
+  EXPECT_EQ(counts[2].grains, 2.0);
+  EXPECT_EQ(counts[3].grains, 1.0);
+}
+
+TEST(FailureDistance, of_a_bed_without_contacts_is_not_known) {
+  Packing packing = test::empty_packing(10.0, true);
+  test::add_grain(packing, 2.0, 0.5);
+  FrameRecord record;
+  measure_failure_distance(packing, 1.0, record);
+  EXPECT_TRUE(std::isnan(record.critical_bound));
+  EXPECT_TRUE(std::isnan(record.critical_share_of_bound));
+  EXPECT_EQ(record.layer_critical_share.size(), 10u);
+}
+
+std::pair<std::size_t, std::size_t> rise(const std::vector<double>& tilts) {
+  const SeriesPart part = last_rise(tilts);
+  return {part.first, part.end};
+}
+
+using Part = std::pair<std::size_t, std::size_t>;
+
+TEST(LastRise, is_all_of_what_never_falls_or_never_rises) {
+  EXPECT_EQ(rise({}), Part(0, 0));
+  EXPECT_EQ(rise({1}), Part(0, 1));
+  EXPECT_EQ(rise({0, 1, 2, 3}), Part(0, 4));
+  EXPECT_EQ(rise({0, 1, 1, 1, 3, 3}), Part(0, 6)) << "including its holds";
+  EXPECT_EQ(rise({3, 2, 1}), Part(0, 3));
+  EXPECT_EQ(rise({2, 2}), Part(0, 2));
+}
+
+TEST(LastRise, begins_where_the_tilt_was_lowest_and_ends_where_it_falls_again) {
+  EXPECT_EQ(rise({0, 1, 2, 1, 0, 1, 2, 3}), Part(4, 8));
+  EXPECT_EQ(rise({0, 1, 2, 1, 0, 0, 1, 2, 2, 1, 0, 0}), Part(4, 9)) << "including the holds at both ends";
+  EXPECT_EQ(rise({0, 2, 1}), Part(0, 2));
+}
+
+TEST(LastRise, goes_by_the_magnitude_of_the_tilt) {
+  EXPECT_EQ(rise({0, 2, 1, 0, -1, -2, -3}), Part(3, 7));
+  EXPECT_EQ(rise({0, -2, -0.5, 1, 2}), Part(2, 5)) << "from the tilt nearest to 0";
+  EXPECT_EQ(magnitudes(std::vector<double>{0, -2, -0.5, 1, 2}, {2, 5}), (std::vector<double>{0.5, 1, 2}));
+}
+
+TEST(LastRise, of_rows_is_as_if_the_bed_were_tilted_to_one_side) {
+  std::vector<ObservableRow> rows(5);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    at(rows[k], Observable::tilt) = std::vector{0.0, 0.2, 0.0, -0.1, -0.2}[k];
+    at(rows[k], Observable::sigma_t_over_n) = at(rows[k], Observable::tilt);
+    at(rows[k], Observable::surface_displacement) = -1.0 - static_cast<double>(k);
+    at(rows[k], Observable::volume_strain) = -0.5;
+  }
+  const std::vector<ObservableRow> rise = rows_of_last_rise(rows);
+  ASSERT_EQ(rise.size(), 3u);
+  EXPECT_EQ(at(rise[2], Observable::tilt), 0.2);
+  EXPECT_EQ(at(rise[2], Observable::sigma_t_over_n), 0.2);
+  EXPECT_EQ(at(rise[2], Observable::surface_displacement), 5.0);
+  EXPECT_EQ(at(rise[2], Observable::volume_strain), -0.5);
+}
+
+TEST(LastRise, of_frames_tells_them_and_their_tilts) {
+  std::vector<FrameRecord> frames(4);
+  for (std::size_t k = 0; k < 4; ++k) frames[k].tilt = std::vector{0.2, -0.1, -0.2, -0.1}[k];
+  const FramesOfRise rise = last_rise(frames);
+  EXPECT_EQ(rise.first, 1u);
+  EXPECT_EQ(rise.tilts, (std::vector<double>{0.1, 0.2}));
+  EXPECT_EQ(rise.frames, (std::vector<const FrameRecord*>{&frames[1], &frames[2]}));
+  EXPECT_TRUE(rise.mirrored_slope);
+  frames[3].tilt = 0.3;
+  EXPECT_FALSE(last_rise(frames).mirrored_slope);
+}
+
+TEST(LastRise, of_a_bed_that_slopes_to_the_other_side_is_mirrored) {
+  FrameRecord frame;
+  frame.sigma_t_over_n = -0.25;
+  frame.stress_ratio = 0.5;
+  frame.texture_axis = -1.2;
+  const auto number = [&frame](const QuantityMember& member, bool mirrored_slope) {
+    return number_on_one_side(quantity_of(member), frame, 0, mirrored_slope);
+  };
+  EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, false), -0.25);
+  EXPECT_EQ(number(&FrameRecord::sigma_t_over_n, true), 0.25);
+  EXPECT_EQ(number(&FrameRecord::stress_ratio, true), 0.5);
+  EXPECT_EQ(number(&FrameRecord::texture_axis, false), -1.2);
+  EXPECT_EQ(number(&FrameRecord::texture_axis, true), 1.2);
+}
+
+Analysis made_up() {
+  Analysis analysis;
+  analysis.theta_c = radians(16.0);
+  analysis.thresholds.resize(2);
+  analysis.thresholds[0].lc_jump = radians(10.0);
+  analysis.thresholds[1].percolation = radians(5.0);
+  for (int k = 0; k < 5; ++k) {
+    FrameRecord& frame = analysis.frames.emplace_back();
+    frame.tilt = radians(5.0 * k);
+    frame.sigma_t_over_n = 0.1 * k;
+    frame.thresholds.resize(2);
+    for (int f = 0; f < 2; ++f)
+      frame.thresholds[static_cast<std::size_t>(f)].overloaded_fraction = k + 0.1 * f;
+  }
+  return analysis;
+}
+
+double overloaded(const Analysis& analysis, Place place, std::size_t f = 0) {
+  return number_at(analysis, {&FrameThreshold::overloaded_fraction, place}, f);
+}
+
+TEST(NumberOfRun, is_that_of_the_frame_at_its_place) {
+  const Analysis analysis = made_up();
+  EXPECT_EQ(overloaded(analysis, Place::start), 0.0);
+  EXPECT_EQ(overloaded(analysis, Place::before_theta_d), 1.0);
+  EXPECT_EQ(overloaded(analysis, Place::theta_d), 2.0);
+  EXPECT_EQ(overloaded(analysis, Place::theta_c), 3.0) << "of 15 deg, not of 20";
+  EXPECT_EQ(overloaded(analysis, Place::theta_c, 1), 3.1);
+  EXPECT_EQ(overloaded(analysis, Place::percolation, 1), 1.1);
+  EXPECT_EQ(number_at(analysis, {&RunThreshold::lc_jump, Place::run}), radians(10.0));
+}
+
+TEST(NumberOfRun, is_not_known_where_the_run_does_not_get_there) {
+  Analysis analysis = made_up();
+  EXPECT_TRUE(std::isnan(overloaded(analysis, Place::theta_d, 1))) << "no jump";
+  EXPECT_TRUE(std::isnan(overloaded(analysis, Place::percolation, 0)));
+  EXPECT_TRUE(std::isnan(overloaded(analysis, Place::theta_c, 2))) << "no third threshold";
+  analysis.thresholds[0].lc_jump = 0.0;
+  EXPECT_TRUE(std::isnan(overloaded(analysis, Place::before_theta_d))) << "no frame before the first";
+  analysis.theta_c = not_known;
+  EXPECT_TRUE(std::isnan(overloaded(analysis, Place::theta_c)));
+  EXPECT_TRUE(std::isnan(overloaded(Analysis(), Place::start)));
+}
+
+TEST(NumberOfRun, is_of_the_last_rise_and_as_if_tilted_to_one_side) {
+  Analysis analysis = made_up();
+  for (int k = 0; k < 5; ++k) analysis.frames[static_cast<std::size_t>(k)].tilt *= -1.0;
+  analysis.frames[0].tilt = radians(12.0);  // first the other way, then back to -5 deg and upwards
+  EXPECT_EQ(overloaded(analysis, Place::start), 1.0);
+  EXPECT_EQ(number_at(analysis, {&FrameRecord::sigma_t_over_n, Place::theta_c}), -0.1 * 3);
+}
+
+TEST(NumberOfRun, is_that_of_the_first_frame_of_a_hold) {
+  Analysis analysis = made_up();
+  analysis.frames[3].tilt = radians(10.0);
+  EXPECT_EQ(overloaded(analysis, Place::theta_c), 2.0);
+  EXPECT_EQ(overloaded(analysis, Place::theta_d), 2.0);
+  EXPECT_EQ(overloaded(analysis, Place::before_theta_d), 1.0);
+}
+
+TEST(NumberOfRun, has_a_name_of_its_own) {
+  std::set<std::string> names;
+  for (const NumberOfRun& number : numbers_of_run()) {
+    EXPECT_TRUE(names.insert(name_of(number)).second) << name_of(number);
+    EXPECT_EQ(name_of(number).find('@') == std::string::npos, number.place == Place::run);
+  }
+  EXPECT_TRUE(names.contains("theta_c"));
+  EXPECT_TRUE(names.contains("overloaded/fraction@theta_c"));
+  EXPECT_TRUE(names.contains("lc/max@before_theta_d"));
+}
+
+TEST(FailureRatio, is_of_the_last_rows_before_it) {
+  std::vector<double> tilts, stresses;
+  for (const double ratio : {9.0, 9.0, 0.4, 0.6, 0.8, 9.0}) {
+    tilts.push_back(radians(19.0 + 0.25 * static_cast<double>(tilts.size())));
+    stresses.push_back(ratio * sine(tilts.back()) / cosine(tilts.back()));
+  }
+  const Statistics found = failure_ratio(tilts, stresses, radians(20.1), radians(0.75));
+  EXPECT_NEAR(found.mean, 0.6, 1e-12) << "19.5, 19.75 and 20 deg";
+  EXPECT_NEAR(found.deviation, 0.2, 1e-12);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(failure_ratio(tilts, stresses, none, radians(0.75)).mean))
+      << "the slope has not failed";
+}
+
+TEST(FailureRatio, leaves_out_the_horizontal_bed) {
+  EXPECT_NEAR(failure_ratio(std::vector{0.0, 0.1}, std::vector{0.0, std::tan(0.1)}, 0.2, 1.0).mean, 1.0,
+              1e-12);
 }
 
 }  // namespace

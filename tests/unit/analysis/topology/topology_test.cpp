@@ -1,13 +1,17 @@
+/// Topology and rigid clusters of contact networks.
+
 #include "analysis/topology/topology.h"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <utility>
 
+#include "core/random.h"
 #include "core/trigonometry.h"
 #include "unit/analysis/packings.h"
 
@@ -107,6 +111,12 @@ TEST(Topology, equal_forces_make_one_component) {
   EXPECT_EQ(in_order(force_persistence(packing, 1.0).components), (Pairs{{2.0, 0.0}}));
 }
 
+double sliced_distance(const std::vector<Lifetime>& one, const std::vector<Lifetime>& other) {
+  std::vector<FrameRecord> frames(2);
+  measure_network_changes({{one, {}}, {other, {}}}, 1, frames);
+  return frames[1].network_change[0];
+}
+
 // A point with birth b and death 0 is at distance b/2 |cos a - sin a| from the diagonal along direction a.
 // The mean over all directions is sqrt(2) b / pi, which sixteen directions approximate within 0.4 %.
 TEST(Topology, distance_to_an_empty_diagram_is_that_to_the_diagonal) {
@@ -136,6 +146,95 @@ TEST(Topology, change_is_from_the_frame_before_and_for_each_grain) {
   EXPECT_EQ(frames[1].network_change[1], 0.0);
   EXPECT_EQ(frames[2].network_change[0], 0.0);
   EXPECT_GT(frames[2].network_change[1], 0.0);
+}
+
+/// Computes the same by linear algebra: the rank of the constraint matrix at random places, and the bodies
+/// with equal motion in all of its null space.
+RigidClusters by_linear_algebra(Index bodies, const std::vector<Bond>& bonds, Random& random) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * static_cast<Index>(bonds.size()), 3 * bodies);
+  Index row = 0;
+  for (const Bond& bond : bonds) {
+    const double x = random.uniform(-1.0, 1.0), y = random.uniform(-1.0, 1.0);
+    for (int k = 0; k < bond.constraints; ++k, ++row) {  // no relative motion of the bodies at (x, y) along d
+      const double dx = random.uniform(-1.0, 1.0), dy = random.uniform(-1.0, 1.0);
+      const Eigen::RowVector3d force(dx, dy, x * dy - y * dx);
+      matrix.block<1, 3>(row, 3 * bond.a) -= force;
+      matrix.block<1, 3>(row, 3 * bond.b) += force;
+    }
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> decomposition(matrix.topRows(row));
+  const Eigen::MatrixXd motions = decomposition.kernel();
+  RigidClusters clusters;
+  clusters.independent = static_cast<Index>(decomposition.rank());
+  clusters.redundant = row - clusters.independent;
+  for (Index body = 0; body < bodies; ++body) {
+    Index first = 0;
+    while (!motions.middleRows(3 * body, 3).isApprox(motions.middleRows(3 * first, 3), 1e-7)) ++first;
+    clusters.label.push_back(first);
+  }
+  return clusters;
+}
+
+std::vector<Bond> random_bonds(Index bodies, Index count, Random& random) {
+  std::vector<Bond> bonds;
+  while (static_cast<Index>(bonds.size()) < count) {
+    const auto a = static_cast<Index>(random.below(bodies)), b = static_cast<Index>(random.below(bodies));
+    if (a != b) bonds.push_back({a, b, random.below(3) == 0 ? 1 : 2});
+  }
+  return bonds;
+}
+
+// 30 networks of 12 bodies, from too few constraints to more than enough.
+TEST(RigidClusters, agree_with_the_rank_of_the_constraint_matrix) {
+  Random random(7);
+  Index rigid = 0;
+  for (Index trial = 0; trial < 30; ++trial) {
+    const std::vector<Bond> bonds = random_bonds(12, 8 + trial / 2, random);
+    const RigidClusters game = find_rigid_clusters(12, bonds);
+    const RigidClusters algebra = by_linear_algebra(12, bonds, random);
+    ASSERT_EQ(game.label, algebra.label) << trial;
+    ASSERT_EQ(game.independent, algebra.independent) << trial;
+    ASSERT_EQ(game.redundant, algebra.redundant) << trial;
+    rigid += std::ranges::count(game.label, 0) > 1 ? 1 : 0;
+  }
+  EXPECT_GT(rigid, 5);  // the networks are of both kinds
+  EXPECT_LT(rigid, 25);
+}
+
+TEST(RigidClusters, are_not_counted_without_friction) {
+  Packing packing = test::empty_packing(10.0, false);
+  for (Index i = 0; i < 3; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
+  test::add_contact(packing, 0, 1, 1.0);
+  test::add_contact(packing, 1, 2, 1.0);
+  packing.frame.friction.grains = 0.0;
+  FrameRecord record;
+  measure_rigid_clusters(packing, record);
+  EXPECT_EQ(record.rigid_clusters, -1);
+  for (const double value : {record.rigid_largest_share, record.rigid_contact_share,
+                             record.rigid_floppy_modes, record.rigid_redundant})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+// Two adjacent grains on the floor form a triangle with it; a third lies on them and slides at one; a fourth
+// touches only the second, and rolls.
+TEST(RigidClusters, of_a_bed_stand_on_its_floor) {
+  Packing packing = test::empty_packing(10.0, false);
+  for (Index i = 0; i < 4; ++i) test::add_grain(packing, static_cast<double>(i), 0.5);
+  const Index floor = test::add_floor_grain(packing, 0.0, -0.5);
+  test::add_floor_grain(packing, 1.0, -0.5);
+  test::add_contact(packing, 0, 1, 1.0);
+  test::add_contact(packing, 0, 2, 1.0, 0.5);
+  test::add_contact(packing, 1, 2, 1.0);
+  test::add_contact(packing, 1, 3, 1.0);
+  test::add_contact(packing, 0, floor, 1.0);
+  test::add_contact(packing, 1, floor + 1, 1.0);
+  FrameRecord record;
+  measure_rigid_clusters(packing, record);
+  EXPECT_EQ(record.rigid_clusters, 1);
+  EXPECT_EQ(record.rigid_largest_share, 0.75);
+  EXPECT_EQ(record.rigid_contact_share, 5.0 / 6.0);
+  EXPECT_EQ(record.rigid_floppy_modes, 0.25);
+  EXPECT_EQ(record.rigid_redundant, 0.0);
 }
 
 }  // namespace
