@@ -440,10 +440,10 @@ TEST(GlObjects, SayWhichShaderDoesNotCompile) {
   const auto bytes = [](const std::string& text) {
     return std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size());
   };
-  for (const auto& [vertex, fragment, name] : {std::tuple{bad, good, "try.vert"}, {good, bad, "try.frag"}}) {
-    EXPECT_TRUE(test::refuses([&] { make_program(gl, "try", bytes(vertex), bytes(fragment)); },
-                              ExitCode::unavailable, {name}));
-  }
+  EXPECT_TRUE(test::refuses([&] { make_program(gl, "try", bytes(bad), bytes(good)); }, ExitCode::unavailable,
+                            {"try.vert"}));
+  EXPECT_TRUE(test::refuses([&] { make_program(gl, "try", bytes(good), bytes(bad)); }, ExitCode::unavailable,
+                            {"try.frag"}));
 }
 
 }  // namespace
