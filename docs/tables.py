@@ -76,14 +76,6 @@ def time_steps(beds):
     return of_groups(beds, STEPS, "time step", FLAT + ANGLES + OVERLOAD[1:2] + TRANSITION)
 
 
-def missed_steps(beds):
-    """Steps that miss their tolerance, in each bed."""
-    groups = [("the paper's bed, 8000 grains", "paper-pbc"), *((label, group) for label, group in [("poured, 4000 grains", "pour-6"), *PREPARATIONS[-2:]]),
-              ("between walls, L = 100 D", "paper-wbc-100"), ("the demo bed, 1000 grains", "demo:deposition.method=pour")]
-    columns = [("missed in the deposition of a bed", "unconverged_deposition", 1), ("missed in its tilt", "unconverged_tilt", 1)]
-    return of_groups(beds, groups, "bed", columns)
-
-
 #: What the paper gives, the quantity, its unit's digits and factor.
 FIFTY = [("theta_c, deg", "19 to 21, all beds", "theta_c", 2), ("first slide, deg", "", "first_slide", 2),
          ("theta_d by the jump of l_c max, deg", "15", "lc_jump", 2), ("theta_d by percolation, deg", "15", "percolation", 2),
@@ -424,7 +416,7 @@ def measured(beds, *groups):
 
 
 TABLES = {"measured": measured, "preparation-flat": preparation_flat, "preparation-slope": preparation_slope, "preparation": preparation_manual,
-          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "missed-steps": missed_steps, "fifty": fifty, "readings": readings, "walls": walls,
+          "directions": directions, "finite-size": finite_size, "time-steps": time_steps, "fifty": fifty, "readings": readings, "walls": walls,
           "smooth-walls": smooth_walls, "metastability": metastability, "dynamic-angle": dynamic_angle, "events": events,
           "events-by-tilt": events_by_tilt, "announcing-failure": announcing, "cycles": cycles, "forces": forces, "tolerances": tolerances}
 #: Numbers of single reports.
