@@ -66,6 +66,7 @@ struct PhraseList {
   std::string word;
   std::string forms;  ///< description of the accepted phrases
   bool (*good)(const std::string& phrase) = nullptr;
+  std::string (*meant)(const std::string& phrase) = nullptr;  ///< end of a message about one that is not
 };
 
 /// The accepted values of a key.

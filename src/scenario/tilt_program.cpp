@@ -107,9 +107,8 @@ struct Course {
   }
 
   void go_to(double angle, const std::optional<double>& rate) {
-    const double size =
-        // Exact, so that "at tilt.rate" changes no bit.
-        rate ? *rate * time_step(scenario) : scenario.tilt.step;
+    // Exact, so that "at tilt.rate" changes no bit.
+    const double size = rate ? *rate * time_step(scenario) : scenario.tilt.step;
     const double way = angle - tilt();
     add(angle, way < 0.0 ? -size : size, way == 0.0 ? 0.0 : std::max(1.0, std::round(std::abs(way) / size)));
   }
@@ -174,6 +173,11 @@ std::optional<ProgramPhrase> program_phrase(std::string_view text) {
     if (!phrase->rate) return std::nullopt;
   }
   return words.at_end() ? phrase : std::nullopt;
+}
+
+std::string meant_phrase(const std::string& text) {
+  const bool to_no_angle = text.starts_with("to ") && text.find_first_of("0123456789") == std::string::npos;
+  return did_you_mean(to_no_angle ? "to repose" : text, {"to repose", "once"});
 }
 
 std::string program_phrase_forms() {

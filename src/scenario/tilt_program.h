@@ -30,6 +30,9 @@ struct ProgramPhrase {
 /// Parses a phrase with its numbers in range; empty if the text is not a phrase.
 std::optional<ProgramPhrase> program_phrase(std::string_view text);
 
+/// Returns the end of a message about a text that is no phrase, such as "; did you mean 'to repose'?".
+std::string meant_phrase(const std::string& text);
+
 /// Describes the accepted phrases, for messages and documentation.
 std::string program_phrase_forms();
 

@@ -158,7 +158,7 @@ bool complain_of_phrases(ParsedKeys& reading, const KeyHead& key, const toml::no
     any = true;
     const SourcePlace at = place.in_file ? place_in_file(reading.name, element.source().begin) : place;
     reading.complain(at, "key '{}'{}: expected {}{}", full_name(key), shown(element), list->forms,
-                     text != nullptr ? "" : ", found " + kind_of(element));
+                     text != nullptr ? list->meant(text->get()) : ", found " + kind_of(element));
   }
   return any;
 }

@@ -12,10 +12,10 @@ namespace talus::house {
 namespace {
 
 const std::map<std::string, std::size_t> budgets = {
-    {"src/analysis", 5530}, {"src/app", 7150},      {"src/base", 1980},     {"src/contact", 730},
+    {"src/analysis", 5530}, {"src/app", 7146},      {"src/base", 1980},     {"src/contact", 730},
     {"src/core", 940},      {"src/dynamics", 1370}, {"src/ensemble", 3300}, {"src/exports", 2040},
-    {"src/gui", 4401},      {"src/io", 4780},       {"src/library", 905},   {"src/pictures", 4334},
-    {"src/problems", 1015}, {"src/runs", 850},      {"src/scenario", 2000}, {"src/session", 4780},
+    {"src/gui", 4401},      {"src/io", 4780},       {"src/library", 902},   {"src/pictures", 4334},
+    {"src/problems", 1015}, {"src/runs", 850},      {"src/scenario", 2007}, {"src/session", 4780},
     {"src/solver", 2680},   {"src/stress", 460},    {"src/view", 3795},     {"render", 3768},
 };
 constexpr std::size_t max_files = 390;

@@ -159,6 +159,17 @@ TEST(TiltProgram, with_a_bad_phrase_is_refused_at_that_phrase) {
             "--set tilt.program=to 12, 5: error: key 'tilt.program' = \"5\": " + forms);
 }
 
+TEST(TiltProgram, with_another_word_for_failure_is_told_that_it_ends_to_repose) {
+  for (const char* text : {"to failure", "to the end", "to-repose", "To Repose", "repose", "to repose 3"})
+    EXPECT_EQ(meant_phrase(text), "; did you mean 'to repose'?") << text;
+  EXPECT_EQ(meant_phrase("Once"), "; did you mean 'once'?");
+  for (const char* text : {"to", "to 61", "to -61", "to +61", "to 12deg", "by 0", "hold 3601", "0 times", ""})
+    EXPECT_EQ(meant_phrase(text), "") << text;
+  EXPECT_EQ(message_of("tilt.program = [\"to failure\"]"),
+            "s.toml:1:17: error: key 'tilt.program' = \"to failure\": expected " + program_phrase_forms() +
+                "; did you mean 'to repose'?");
+}
+
 TEST(TiltProgram, of_another_kind_is_refused) {
   const std::string expected =
       "expected a list of 1 ... 1000 phrases, each " + program_phrase_forms() + "; or \"none\"";
