@@ -149,10 +149,11 @@ void print_end(const RunArguments& arguments, const session::Session& session) {
 std::optional<pictures::LiveMaps> prepare_maps(const RunArguments& arguments, const RunRequest& request,
                                                bool resumed) {
   if (arguments.frames.empty()) return std::nullopt;
-  const pictures::MapPlan plan = pictures::plan_live_maps(map_options(arguments.maps));
+  const pictures::MapOptions options = map_options(arguments.maps);
+  const pictures::MapPlan plan = pictures::plan_live_maps(options);
   if (!request.scenario.empty())
     scenario::read_scenario(request.scenario, request.settings);  // creates no folder for an invalid scenario
-  if (plan.maps[0].theta_c_assumed && !arguments.quiet)
+  if (!options.theta_c && plan.maps[0].theta_c_assumed && !arguments.quiet)
     print_error(
         "talus: note: the angle of repose is unknown before the slope fails: maps are scaled by {:g} deg; "
         "--set gamma_c=0.34 sets another threshold, its sine\n",

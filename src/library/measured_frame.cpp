@@ -208,11 +208,9 @@ pictures::MapPlan plan_of(const pictures::MapChoice& what, pictures::MapOptions 
 
 render::FrameView MeasuredFrame::map(const pictures::MapChoice& what,
                                      const pictures::MapOptions& options) const {
-  pictures::MapSettings settings = plan_of(what, options).maps.at(0);
-  if (std::isnan(settings.theta_c)) {
-    settings.theta_c = theta_c();
-    settings.theta_c_assumed = !theta_c_;
-  }
+  pictures::MapPlan plan = plan_of(what, options);
+  pictures::settle_theta_c(plan, theta_c_.value_or(not_known));
+  const pictures::MapSettings& settings = plan.maps.at(0);
   const Frame mapped = pictures::mapped_frame(frame_, statics_, settings.l_min);
   analysis::GrainSource frame = {{mapped, statics_}};
   if (begin_ && begin_->grain_count() == mapped.grain_count()) frame.earlier = &*begin_;

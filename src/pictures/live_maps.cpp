@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/output_file.h"
-#include "core/trigonometry.h"
 #include "pictures/picture_files.h"
 
 namespace talus::pictures {
@@ -42,11 +41,7 @@ MapExtent live_extent(const BedFrame& bed) {
 
 MapPlan plan_live_maps(const MapOptions& options) {
   MapPlan plan = plan_maps(options);
-  if (!needs_theta_c(plan) || options.theta_c) return plan;
-  for (MapSettings& map : plan.maps) {
-    map.theta_c = radians(assumed_theta_c);
-    map.theta_c_assumed = true;
-  }
+  settle_theta_c(plan, not_known);
   return plan;
 }
 

@@ -8,7 +8,6 @@
 
 #include "base/errors.h"
 #include "base/text.h"
-#include "core/trigonometry.h"
 #include "pictures/frame_choice.h"
 #include "pictures/picture_files.h"
 
@@ -273,8 +272,7 @@ void check_panel(const std::string& path, const MapPlan& plan, const PanelReques
   series.plan = plan;
   series.run = file.header();
   series.extent = bed_extent(series.run.statics);
-  for (MapSettings& map : series.plan.maps)
-    if (!std::isfinite(map.theta_c)) map.theta_c = radians(assumed_theta_c);  // texts are as long
+  settle_theta_c(series.plan, find_value(file.checkpoint().results, "theta_c").value_or(not_known));
   const Frame first = as_mapped(series, file.frame(0));
   extend(series.extent, {first, series.run.statics});
   std::vector<render::FrameView> row;

@@ -21,18 +21,6 @@ std::string place_text(double x, double y, double diameter) {
   return fmt::format("{:.2f},{:.2f}", x / diameter, y / diameter);
 }
 
-void measure_theta_c(PictureSeries& series, const std::optional<double>& measured) {
-  for (MapSettings& map : series.plan.maps) {
-    map.theta_c_assumed = std::isfinite(map.theta_c) && map.theta_c != measured;
-    if (!std::isfinite(map.theta_c) && measured) map.theta_c = *measured;
-  }
-  if (std::isfinite(series.plan.maps[0].theta_c) || !needs_theta_c(series.plan)) return;
-  throw Error(ExitCode::bad_data,
-              series.path +
-                  ": the slope has not failed in this run, so Gamma_c, which scales the requested picture, "
-                  "is unknown; give it with --set gamma_c=0.34, or choose another map, such as pressure");
-}
-
 /// Returns the frame of --since; none if motion is measured from the preceding frame.
 std::optional<std::size_t> reference_since(const std::vector<double>& tilts, std::optional<double> since) {
   if (!since) return std::nullopt;
@@ -122,6 +110,14 @@ const Frame* reference_of(const DrawnRun& run) { return run.before ? &run.refere
 
 }  // namespace
 
+void settle_theta_c(MapPlan& plan, double theta_c) {
+  const double scale = std::isnan(theta_c) && needs_theta_c(plan) ? radians(assumed_theta_c) : theta_c;
+  for (MapSettings& map : plan.maps) {
+    if (std::isnan(map.theta_c)) map.theta_c = scale;
+    map.theta_c_assumed = !std::isnan(map.theta_c) && map.theta_c != theta_c;
+  }
+}
+
 Frame as_mapped(const PictureSeries& series, Frame frame) {
   if (!shows_gamma(series.plan)) return frame;
   return mapped_frame(std::move(frame), series.run.statics, series.plan.maps[0].l_min);
@@ -165,7 +161,7 @@ DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const Coun
   series.goes_by_time = run.file.goes_by_time();
   if (run.file.frame_count() == 0)
     throw Error(ExitCode::bad_data, path + " has no frames yet: nothing is drawn before the tilt begins");
-  measure_theta_c(series, find_value(run.file.checkpoint().results, "theta_c"));
+  settle_theta_c(series.plan, run.theta_c());
   series.since = reference_since(run.file.frame_tilts(), plan.since);
   series.curves.resize(plan.traces.size());
   series.extent = bed_extent(series.run.statics);

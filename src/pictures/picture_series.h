@@ -25,12 +25,16 @@ struct PictureSeries {
   std::string path;  ///< path of the run
   io::RunHeader run;
   bool goes_by_time = false;  ///< frames are identified by number and time (RunFile::goes_by_time)
-  MapPlan plan;      ///< plan with theta_c set: NaN only if neither the run nor the user has given one
+  MapPlan plan;      ///< plan with theta_c set: NaN only if it is unknown, and no map or trace needs it
   MapExtent extent;  ///< part of the bed shown, the same in all pictures
   std::optional<std::size_t> since;  ///< frame from which displacements are measured; none: the preceding one
   SeenFrames seen_frames;
   std::vector<TraceCurve> curves;  ///< one for each trace of the plan
 };
+
+/// Sets theta_c of maps for which the user has not given it: that of the run (rad); if it is NaN, because the
+/// slope has not failed, assumed_theta_c if a map or trace needs one.
+void settle_theta_c(MapPlan& plan, double theta_c);
 
 /// Returns a frame as the maps of the plan see it (mapped_frame, if one of them depends on gamma).
 Frame as_mapped(const PictureSeries& series, Frame frame);
@@ -64,8 +68,8 @@ struct DrawnRun {
 
 /// Opens a run and passes once through all of its frames, including those of the flow after failure, so that
 /// all pictures have one size, and the colour of a cluster does not depend on the selected frames. Throws
-/// Error(missing_input); Error(bad_data) if the run has no frames, theta_c is needed and unknown, or --since
-/// lies beyond the frames; and Error(usage) if --crop leaves the bed.
+/// Error(missing_input); Error(bad_data) if the run has no frames, or --since lies beyond the frames; and
+/// Error(usage) if --crop leaves the bed.
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress);
 
 /// Fits pictures to these frames: the ranges of maps of motion (fits_frames), and the room for the turn of a

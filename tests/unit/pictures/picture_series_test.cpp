@@ -110,6 +110,41 @@ TEST_F(PictureSeriesTest, the_cluster_that_spans_the_bed_has_one_colour_in_all_f
     EXPECT_EQ(fill_of(picture(run, 1, 0), grain), cluster_palette().front()) << "both of two";
 }
 
+TEST_F(PictureSeriesTest, of_a_slope_that_stands_have_the_assumed_angle_where_they_need_one) {
+  const std::string path = example_run(folder);
+  const auto caption = [&](const MapOptions& options) {
+    DrawnRun run = open_drawn_run(path, plan_maps(options), {});
+    return picture(run, 1, 0).caption;
+  };
+  for (const char* map : {"gamma", "overloaded", "clusters", "coarse+forces"}) {
+    MapOptions options;
+    options.maps = {map};
+    options.length = map == std::string("coarse+forces") ? std::optional(5.0) : std::nullopt;
+    EXPECT_EQ(caption(options), "θ = 1.00°, θ_c = 20.00° (assumed)") << map;
+    options.theta_c = 19.0;
+    EXPECT_EQ(caption(options), "θ = 1.00°, θ_c = 19.00° (assumed)") << map;
+  }
+  MapOptions pressure;
+  pressure.maps = {"pressure"};
+  EXPECT_EQ(caption(pressure), "θ = 1.00°");
+  pressure.traces = "overloaded";
+  EXPECT_EQ(caption(pressure), "θ = 1.00°, θ_c = 20.00° (assumed)");
+}
+
+TEST_F(PictureSeriesTest, of_a_slope_that_has_failed_have_its_angle_unless_another_is_given) {
+  MapOptions options;
+  options.maps = {"gamma"};
+  MapPlan plan = plan_maps(options);
+  settle_theta_c(plan, radians(25.0));
+  EXPECT_EQ(plan.maps[0].theta_c, radians(25.0));
+  EXPECT_FALSE(plan.maps[0].theta_c_assumed);
+  options.theta_c = 19.0;
+  plan = plan_maps(options);
+  settle_theta_c(plan, radians(25.0));
+  EXPECT_EQ(plan.maps[0].theta_c, radians(19.0));
+  EXPECT_TRUE(plan.maps[0].theta_c_assumed);
+}
+
 TEST_F(PictureSeriesTest, all_frames_have_one_extent_and_the_largest_turn) {
   MapOptions options;
   options.turned = true;
