@@ -193,7 +193,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
                        app.get_name());
   std::string text = visible_word(error.what(), 500);
   // CLI11 joins the name of a value and its range by a colon.
-  if (const std::size_t range = text.find(":in ["); range != std::string::npos) text[range] = ' ';
+  if (const std::size_t range = text.find(":("); range != std::string::npos) text[range] = ' ';
   text += expected_value(*commands.back().command, error);
   return fmt::format("{}{} see {} --help", text, text.ends_with('?') ? "" : ";", commands.back().name);
 }

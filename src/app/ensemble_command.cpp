@@ -169,7 +169,7 @@ CLI::App* add_folder_command(CLI::App& ensemble, const std::shared_ptr<EnsembleA
 
 void add_time_options(CLI::App& command, const std::shared_ptr<EnsembleArguments>& arguments) {
   add_option(command, "--max-wall", arguments->max_wall, "HH:MM[:SS]",
-             "Stop with checkpoints before this wall time is over, HH:MM or HH:MM:SS");
+             "Stop with checkpoints before this wall time is over");
   add_option(command, "--stale", arguments->times.stale, "S",
              "Seconds without a heartbeat after which a worker on another machine is considered dead; must "
              "be the same for all workers")

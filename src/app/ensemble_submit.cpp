@@ -211,9 +211,8 @@ void add_submit(CLI::App& ensemble) {
   add_option(*command, "--tasks", arguments->tasks, "N",
              "Number of workers [as many as members are missing and not yet queued for, at most 100]")
       ->check(in_range(std::size_t{1}, ensemble::max_tasks));
-  add_option(
-      *command, "--time", arguments->time, "HH:MM[:SS]",
-      "Time limit of a task, HH:MM or HH:MM:SS; its worker stops in time, and the task is queued again");
+  add_option(*command, "--time", arguments->time, "HH:MM[:SS]",
+             "Time limit of a task; its worker stops in time, and the task is queued again");
   add_option(*command, "--stale", arguments->stale, "S",
              "Seconds without a heartbeat after which a worker on another machine is considered dead")
       ->capture_default_str()

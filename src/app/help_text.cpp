@@ -105,13 +105,10 @@ std::vector<const CLI::Option*> visible_options(const CLI::App& app) {
 
 std::string value_text(const CLI::Option& option) {
   if (option.get_type_size() == 0 || option.get_expected_max() == 0) return {};
-  std::string type =
-      option.get_type_name();  // with the ranges of its validators: "DEG:in [2 - 89]", ":{a,b}"
+  const std::string type = option.get_type_name();  // with what is checked: "DEG:(2 to 89)", ":{a,b}"
   if (const std::size_t choices = type.find(":{"); choices != std::string::npos)
     return type.substr(choices + 1);
-  if (option.get_positional()) return {};
-  if (const std::size_t range = type.find(":in ["); range != std::string::npos) type[range] = ' ';
-  return type;
+  return option.get_positional() ? std::string() : type.substr(0, type.find(":("));
 }
 
 std::string wrapped(const std::string& text, std::size_t width) {
@@ -152,18 +149,21 @@ std::string argument_usage(const CLI::Option& argument) {
 }
 
 std::string option_row(const CLI::Option& option) {
-  std::string text = option_name(option);
+  std::string text = option_name(option), description = option.get_description();
   if (option.get_type_size() != 0) {
     if (const std::string value = value_text(option); !value.empty()) text += " " + value;
-    if (const std::string standard = without_brackets(option.get_default_str()); !standard.empty())
-      text += fmt::format(" [{}]", standard);
     if (option.get_expected_max() == CLI::detail::expected_max_vector_size && !text.ends_with("..."))
       text += " ...";
     if (option.get_required()) text += " (required)";
+    const std::string type = option.get_type_name(), standard = without_brackets(option.get_default_str());
+    if (const std::size_t range = type.find(":("); range != std::string::npos)
+      description.insert(description.ends_with(']') ? description.rfind(" [") : description.size(),
+                         " " + type.substr(range + 1));
+    if (!standard.empty()) description += fmt::format(" [{}]", standard);
   }
   for (const CLI::Option* other : option.get_needs()) text += " with " + other->get_name();
   for (const CLI::Option* other : option.get_excludes()) text += " without " + other->get_name();
-  return help_row(text, option.get_description());
+  return help_row(text, description);
 }
 
 /// Versions of CLI11 call the group of items that are given none "Options" or "OPTIONS".
@@ -241,7 +241,8 @@ void add_examples(CLI::App& app, const std::string& words) {
     const auto* const found = std::ranges::find(examples, name, &Example::command);
     if (found == std::end(examples)) continue;
     const std::string before = command->get_footer();
-    command->footer(fmt::format("{}{}Example:\n  {}", before, before.empty() ? "" : "\n", found->text));
+    const char* const gap = before.empty() ? "" : before.ends_with('\n') ? "\n" : "\n\n";
+    command->footer(fmt::format("{}{}Example:\n  {}", before, gap, found->text));
   }
 }
 

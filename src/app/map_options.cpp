@@ -65,15 +65,14 @@ void add_scale_options(CLI::App& command, MapArguments& arguments) {
              "angle in degrees [since the preceding frame, per degree of tilt]")
       ->check(in_range(pictures::since_range));
   add_option(command, "--range", options.range, "LOW,HIGH",
-             "LOW,HIGH: ends of the bar, in the unit of its title [default of the map]")
+             "Ends of the bar, in the unit of its title [default of the map]")
       ->delimiter(',')
       ->expected(2);
 }
 
 void add_look_options(CLI::App& command, pictures::MapOptions& options) {
-  add_option(
-      command, "--crop", options.crop, "X0,Y0,X1,Y1",
-      "X0,Y0,X1,Y1: draw only this region of the bed, in mean diameters; 0,0 is the left end of the floor")
+  add_option(command, "--crop", options.crop, "X0,Y0,X1,Y1",
+             "Draw only this region of the bed, in mean diameters; 0,0 is the left end of the floor")
       ->delimiter(',')
       ->expected(4);
   add_option(

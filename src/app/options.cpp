@@ -51,9 +51,10 @@ void add_threads_option(CLI::App& command, int& threads, const std::string& what
 int processor_count() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 void add_jobs_option(CLI::App& command, int& jobs) {
-  add_option(command, "--jobs", jobs, "N",
-             "Number of parallel workers, each on one thread; 0 leaves missing members to others (talus "
-             "ensemble work or submit)")
+  add_option(
+      command, "--jobs", jobs, "N",
+      "Number of parallel workers, each on one thread; 0 leaves missing members to talus ensemble work "
+      "or submit")
       ->capture_default_str()
       ->check(in_range(0, 256));
 }

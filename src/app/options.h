@@ -15,7 +15,7 @@ namespace talus::app {
 /// Accepts these names only; the message suggests the nearest one. Help and completions show them as {a,b}.
 CLI::Validator one_of(const std::vector<std::string>& names);
 
-/// Accepts numbers of this type from `low` to `high` inclusive. Help shows them as "in [low - high]".
+/// Accepts numbers of this type from `low` to `high` inclusive. Help shows them as "(low to high)".
 template <typename Number>
 CLI::Validator in_range(Number low, Number high) {
   return {[low, high](const std::string& word) {
@@ -25,7 +25,7 @@ CLI::Validator in_range(Number low, Number high) {
                                std::is_integral_v<Number> ? "whole number" : "number", low, high,
                                visible_word(word));
           },
-          fmt::format("in [{} - {}]", low, high)};
+          fmt::format("({} to {})", low, high)};
 }
 
 /// Adds an option whose value help shows as `type`: "DEG", "FILE".

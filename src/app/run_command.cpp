@@ -307,7 +307,7 @@ void add_run_command(CLI::App& app) {
              "failure, or frameN")
       ->needs(branch);
   add_option(*command, "--max-wall", arguments->max_wall, "HH:MM[:SS]",
-             "Stop with a checkpoint before this wall time is over, HH:MM or HH:MM:SS");
+             "Stop with a checkpoint before this wall time is over");
   command
       ->add_flag("--overwrite", arguments->overwrite,
                  "Replace an existing run of this name; the old file is kept until the new run is complete")

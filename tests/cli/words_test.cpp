@@ -72,7 +72,7 @@ TEST_F(TypedWords, options_without_what_they_need_are_named) {
       {{"render", "x.h5", "--map", "gamma", "--range", "1,2,3"}, "(expected --range LOW,HIGH)"},
       {{"render", "x.h5", "--map", "gamma", "--crop", "1,2"}, "(expected --crop X0,Y0,X1,Y1)"},
       {{"animate", "x.h5", "--speed"},
-       "--speed: 1 required DEG/S in [0.001 - 1000] missing (expected --speed DEG/S in"},
+       "--speed: 1 required DEG/S (0.001 to 1000) missing (expected --speed DEG/S); see"},
       {{"render", "x.h5", "--at", "1", "--every", "2"}, "--at excludes --every; see talus render --help"},
       {{"render"}, "RUN is required; see talus render --help"},
       {{"export", "x.h5", "-o", "y"}, "--to is required (expected --to {paraview,"},
@@ -250,7 +250,7 @@ TEST_F(TypedWords, man_pages_say_what_values_mean) {
       expect_no_parser_terms(text_of(entry.path()));
     }
   EXPECT_GE(files, 25u);
-  EXPECT_TRUE(has(folder_.text("share/talus-ensemble-work.1"), "  \\-\\-stale S in [1 \\- 86400] ["));
+  EXPECT_TRUE(has(folder_.text("share/talus-ensemble-work.1"), "all workers (1 to 86400) [120]"));
 }
 
 TEST_F(TypedWords, help_names_the_kind_of_a_value) {

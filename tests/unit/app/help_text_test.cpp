@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "app/options.h"
 #include "support/has.h"
 #include "support/process.h"
 
 namespace talus::test {
 namespace {
 
-/// tool [go [--fast] [-n,--number N] [--to] WHERE [near]] [hidden]
+/// tool [go [--fast] [-n,--number N] [--often N] [--to] WHERE [near]] [hidden]
 class HelpText : public testing::Test {
  protected:
   HelpText() {
@@ -18,7 +19,8 @@ class HelpText : public testing::Test {
     go->add_option("-n,--number", number_, ".5 times: as often")
         ->type_name("N")
         ->capture_default_str()
-        ->check(CLI::Validator([](std::string&) { return std::string(); }, "in [0 - 9]"));
+        ->check(CLI::Validator([](std::string&) { return std::string(); }, "(0 to 9)"));
+    go->add_option("--often", number_, "How often [once]")->type_name("N")->check(app::in_range(1, 5));
     go->add_option("--to", text_, "Where to")
         ->required()
         ->check(CLI::Validator([](std::string&) { return std::string(); }, "{north,south}"));
@@ -34,11 +36,11 @@ class HelpText : public testing::Test {
 };
 
 TEST_F(HelpText, shows_values_by_their_meaning_and_range) {
-  EXPECT_TRUE(
-      has_all(app::HelpText().make_help(app_.get_subcommand("go"), "tool go", {}),
-              {"Usage: tool go [OPTIONS] WHERE [SUBCOMMAND]\n", "\n  --fast                In haste [not]\n",
-               "\n  -n,--number N in [0 - 9] [3]\n                        .5 times: as often\n",
-               "\n  --to {north,south} (required)\n"}));
+  EXPECT_TRUE(has_all(
+      app::HelpText().make_help(app_.get_subcommand("go"), "tool go", {}),
+      {"Usage: tool go [OPTIONS] WHERE [SUBCOMMAND]\n", "\n  --fast                In haste [not]\n",
+       "\n  -n,--number N         .5 times: as often (0 to 9) [3]\n",
+       "\n  --often N             How often (1 to 5) [once]\n", "\n  --to {north,south} (required)\n"}));
 }
 
 TEST_F(HelpText, makes_a_man_page_of_each_visible_command) {
@@ -58,7 +60,7 @@ TEST_F(HelpText, offers_commands_options_and_values_to_shells) {
   EXPECT_EQ(offers({"go", ""}), "near Not far\n");
   EXPECT_EQ(offers({"go", "--"}),
             "--help Print this help message and exit\n-h Print this help message and exit\n--fast In "
-            "haste\n--number .5 times\n-n .5 times\n--to Where to\n");
+            "haste\n--number .5 times\n-n .5 times\n--often How often\n--to Where to\n");
   EXPECT_EQ(offers({"go", "--to", ""}), "north\nsouth\n");
   EXPECT_EQ(offers({"go", "--to", "n"}), "north\nsouth\n") << "the shell compares the beginnings";
   EXPECT_EQ(offers({"go", "--number", ""}), "") << "the shell offers files";

@@ -31,7 +31,6 @@ void collect(const CLI::App& app, const std::string& name, std::map<std::string,
     SharedOption& shared = options["--" + option->get_lnames().back()];
     shared.commands.push_back(name);
     std::string value = value_text(*option);
-    value = value.substr(0, value.find(" in ["));
     if (value.starts_with('{')) {
       value = value.substr(1, value.size() - 2);
       std::ranges::replace(value, ',', '|');
