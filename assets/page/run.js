@@ -117,6 +117,6 @@ const coordinations = remembering((frame) => {
 const grainQuantities = [
   ...data.fields.map((field) => (field.name === "cluster"
     ? { ...field, label: "cluster", title: "grains in its cluster", unit: "grains", of: clusterSize }
-    : { ...field, title: field.label + (field.unit ? ` in ${field.unit}` : ""), of: (grain, frame) => fieldValue(field, grain, frame) })),
+    : { ...field, title: field.label + (field.unit ? ` (${field.unit})` : ""), of: (grain, frame) => fieldValue(field, grain, frame) })),
   { name: "coordination", label: "contacts", title: "contacts", unit: "", digits: 0, of: (grain, frame) => coordinations(frame)[grain] },
 ];

@@ -50,7 +50,7 @@ enum class ScaleRule {
 /// The map of a grain quantity. Texts are rich text (render/frame_view.h); the unit is that of bed_unit.
 struct MapRule {
   std::string_view name, help;  ///< name of the map, and one line of help
-  /// Title ("Speed of grains"), label of the colour bar, and short form.
+  /// Title ("Speed of grains"), label of the colour bar ("speed (√(gD))"), and short form.
   std::string_view title, bar, symbol;
   ScaleRule scale = ScaleRule::none;
   double low = 0.0, high = 1.0;

@@ -222,7 +222,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     mapped(
         {"pressure", scalar, real, "Pa",
          "P = s1 + s2 of the stress of the grain, its internal moment over the area of its disk", pressures},
-        {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain", "P = σ_1 + σ_2 in ρgD",
+        {"pressure", "pressure in each grain, over rho g D", "Pressure in each grain", "P = σ_1 + σ_2 (ρgD)",
          "P", ScaleRule::by_depth, 0.0, 3.0}),
     {"gamma", scalar, single, "1", "stress ratio q/p of the single grain; no value if it carries nothing",
      of_grains<&Frame::gamma>},
@@ -239,7 +239,7 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
               return each_grain(source,
                                 [&](Index i) { return std::hypot(source.frame.vx[i], source.frame.vy[i]); });
             }},
-           {"speed", "speed of each grain, over sqrt(g D)", "Speed of grains", "in √(gD)", "speed",
+           {"speed", "speed of each grain, over sqrt(g D)", "Speed of grains", "speed (√(gD))", "speed",
             ScaleRule::sizes, 1e-5, 1.0}),
     mapped({"mobilised_friction", scalar, real, "1",
             "mobilised friction, the mean over the contacts of a grain; no value without contacts",
@@ -272,11 +272,11 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
     mapped({"distance", scalar, real, "m", "distance that a grain has moved", distances,
             FrameNeed::earlier_frame},
            {"displacement", "distance that each grain has moved; over another map: arrows", "Displacement",
-            "in D", "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
+            "displacement (D)", "displacement", ScaleRule::sizes, 1e-3, 10.0, false, "", 1e-4, 10.0}),
     mapped({"rotation", scalar, real, "rad", "rotation of a grain, counter-clockwise positive", rotations,
             FrameNeed::earlier_frame},
-           {"rotation", "rotation of each grain", "Rotation", "in °", "rotation", ScaleRule::about_zero,
-            -30.0, 30.0, false, "", -10.0, 10.0, turned}),
+           {"rotation", "rotation of each grain", "Rotation", "rotation (°)", "rotation",
+            ScaleRule::about_zero, -30.0, 30.0, false, "", -10.0, 10.0, turned}),
     mapped({"nonaffine_displacement", scalar, real, "m",
             "root mean square displacement of the neighbours relative to their common strain",
             [](const GrainSource& source, std::size_t) {
@@ -287,8 +287,8 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
            {"nonaffine",
             "non-affine displacement: how far the neighbours of a grain have moved relative to their common "
             "strain",
-            "Non-affine displacement", "D_m_i_n in D", "D_m_i_n", ScaleRule::sizes, 1e-4, 1.0, false, "",
-            1e-5, 1.0}),
+            "Non-affine displacement", "D_m_i_n (D)", "D_m_i_n", ScaleRule::sizes, 1e-4, 1.0, false, "", 1e-5,
+            1.0}),
     mapped(
         {"shear_strain", scalar, real, "1", "shear strain s1 - s2 of the neighbourhood",
          strains<shear_strain>, FrameNeed::earlier_frame},
@@ -303,26 +303,26 @@ constexpr auto all_of_grains = std::to_array<FrameQuantity>({
             "twice the angle by which the neighbourhood has turned, counter-clockwise positive",
             strains<vorticity>, FrameNeed::earlier_frame},
            {"vorticity", "twice the rotation of the neighbourhood of each grain", "Vorticity",
-            "2 × turn in rad", "vorticity", ScaleRule::about_zero, -0.5, 0.5, false, "", -0.2, 0.2, turned}),
+            "2 × turn (rad)", "vorticity", ScaleRule::about_zero, -0.5, 0.5, false, "", -0.2, 0.2, turned}),
     mapped({"coarse_solid_fraction", scalar, real, "1", "coarse-grained solid fraction",
             coarse_values<solid_fraction>, FrameNeed::length},
            {"density", "coarse-grained solid fraction", "Solid fraction", "area of grains over area",
             "solid fraction", ScaleRule::fixed, 0.7, 0.9, true}),
     mapped({"coarse_pressure", scalar, real, "Pa", "P = s1 + s2 of the coarse-grained stress",
             coarse_values<pressure>, FrameNeed::length},
-           {"stress", "coarse-grained pressure, over rho g D", "Pressure", "P = σ_1 + σ_2 in ρgD", "P",
+           {"stress", "coarse-grained pressure, over rho g D", "Pressure", "P = σ_1 + σ_2 (ρgD)", "P",
             ScaleRule::by_depth, 0.0, 2.0, true}),
     mapped({"coarse_shear_rate", scalar, real, "1/s", "coarse-grained shear rate",
             coarse_values<rate_of_shear>, FrameNeed::length},
-           {"shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "Shear rate", "in √(g/D)",
+           {"shear_rate", "coarse-grained shear rate, over sqrt(g / D)", "Shear rate", "shear rate (√(g/D))",
             "shear rate", ScaleRule::sizes, 1e-6, 0.1, true}),
     mapped({"temperature", scalar, real, "m^2/s^2", "granular temperature",
             [](const GrainSource& source, std::size_t) {
               return with_floor(granular_temperatures(source, 0.5 * source.length), source);
             },
             FrameNeed::length},
-           {"temperature", "granular temperature, over g D", "Granular temperature", "in gD", "temperature",
-            ScaleRule::sizes, 1e-10, 1e-2, true}),
+           {"temperature", "granular temperature, over g D", "Granular temperature", "temperature (gD)",
+            "temperature", ScaleRule::sizes, 1e-10, 1e-2, true}),
 });
 
 Numbers strong(const GrainSource& source, std::size_t) {

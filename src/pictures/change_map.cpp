@@ -49,7 +49,8 @@ MapLayer difference_layer(const analysis::GrainSource& bed, const Frame& before,
   const std::string& unit = after.legend.bars.at(0).title;
   return scaled_layer(fmt::format("Change of {}, {}", lowercase_first(after.title), between(bed, before)),
                       about_zero, std::move(changes),
-                      bar_of(about_zero, scale.logarithmic ? "in powers of ten" : "change of " + unit), true);
+                      bar_of(about_zero, scale.logarithmic ? "change (powers of ten)" : "change of " + unit),
+                      true);
 }
 
 /// Returns the vector, m, from grain a to body b of contact c of `at`, with their current positions; for a

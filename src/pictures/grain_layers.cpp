@@ -55,7 +55,7 @@ MapLayer size_layer(const analysis::GrainSource& bed, const ScaleChoice& choice)
     high += alike;
   }
   const Scale scale = chosen({render::ColourMap::viridis, low, high}, choice);
-  return scaled_layer("Size of grains", scale, std::move(sizes), bar_of(scale, "diameter in D"));
+  return scaled_layer("Size of grains", scale, std::move(sizes), bar_of(scale, "diameter (D)"));
 }
 
 MapLayer dyed_layer(const analysis::GrainSource& bed, const ScaleChoice& choice, const SeenFrames* seen) {
@@ -81,7 +81,7 @@ MapLayer dyed_layer(const analysis::GrainSource& bed, const ScaleChoice& choice,
     layer.styles.push_back({fill, rim_of(fill)});
     heights.push_back(at.y / diameter);
   }
-  render::Bar bar{"height above the floor at that time, in D", {}, {}, scale.low, scale.high};
+  render::Bar bar{"height above the floor at that time (D)", {}, {}, scale.low, scale.high};
   const std::size_t colours = render::colour_ramp(scale.colours).size();
   for (std::size_t k = 0; k < colours; ++k)
     bar.colours.push_back(render::colour_at(
@@ -149,9 +149,13 @@ MapLayer value_layer(MapKind kind, const analysis::GrainSource& bed, const MapSe
   const Scale scale = chosen(scale_of(kind, bed, settings, span.per_degree), choice);
   const std::string averaged =
       is_coarse(kind) ? fmt::format(", coarse-grained over {:.6g} D", settings.length) : std::string();
-  const render::Bar bar =
-      bar_of(scale, fmt::format("{}{}{}{}", rule.bar, span.unit, rule.sign,
-                                fitted_text(kind, settings.motion, span.per_degree, choice)));
+  std::string title(rule.bar);
+  if (title.ends_with(')'))
+    title.insert(title.size() - 1, span.unit);  // "displacement (D per degree)"
+  else if (!span.unit.empty())
+    title += " (" + span.unit.substr(1) + ")";
+  const render::Bar bar = bar_of(
+      scale, title + std::string(rule.sign) + fitted_text(kind, settings.motion, span.per_degree, choice));
   MapLayer layer = scaled_layer(fmt::format("{}{}{}", rule.title, span.title, averaged), scale,
                                 map_values(kind, bed, settings), bar, rule.outlines);
   if (!rule.without.empty())

@@ -110,7 +110,7 @@ render::FrameView own_map(const analysis::GrainSource& frame, const OwnQuantity&
     layer.legend.swatches.push_back({of_grains ? disc : line, style.fill, style.rim, 0.35, label});
   };
   if (own.kind == Kind::number) {
-    layer.legend.bars = {bar_of(scale, own.unit.empty() ? own.label : own.label + " in " + own.unit)};
+    layer.legend.bars = {bar_of(scale, own.unit.empty() ? own.label : own.label + " (" + own.unit + ")")};
     if (of_grains) layer.legend.bars[0].values = shown.values;
     if (!is_complete && of_grains) swatch(outline_style(), "no value");
   } else if (own.kind == Kind::flag) {

@@ -42,7 +42,18 @@ TEST(SpeedMap, IsInTheSpeedOfAFallOverAGrainAndLogarithmic) {
   const FrameView view = map_of(packing, in_gray("speed", 0.005, 50.0));
   EXPECT_TRUE(is_shade(view.discs[0].fill, 0.5)) << "0.5 sqrt(g D)";
   EXPECT_EQ(view.discs[1].fill, white);
-  EXPECT_EQ(view.legends[0].bars[0].title, "in √(gD)");
+  EXPECT_EQ(view.legends[0].bars[0].title, "speed (√(gD))");
+}
+
+TEST(OwnMap, HasItsUnitInParentheses) {
+  const Packing packing = row_of_grains({0.1, 0.1});
+  const auto title = [&](const char* unit) {
+    const pictures::OwnQuantity own{{1.0, 2.0}, pictures::OwnQuantity::Kind::number, "push", unit};
+    const analysis::GrainSource frame{{packing.frame, packing.statics}};
+    return pictures::own_map(frame, own, {}, test::extent_of(packing)).legends[0].bars[0].title;
+  };
+  EXPECT_EQ(title("m g"), "push (m g)");
+  EXPECT_EQ(title(""), "push");
 }
 
 TEST(SizeMap, GoesFromTheSmallestToTheLargest) {
@@ -160,7 +171,11 @@ TEST(StrainMaps, ShowTheDeformationOfNeighbourhoods) {
   EXPECT_EQ(sheared.map(in_gray("nonaffine", 1e-4, 1.0), false).discs[40].fill, white);
   EXPECT_EQ(sheared.map(settings_of("shear"), true).title, "Shear strain per degree of tilt");
   EXPECT_EQ(sheared.map(settings_of("nonaffine"), false).title, "Non-affine displacement since 5.00°");
-  EXPECT_EQ(sheared.map(settings_of("nonaffine"), true).legends[0].bars[0].title, "D_m_i_n in D per degree");
+  EXPECT_EQ(sheared.map(settings_of("nonaffine"), true).legends[0].bars[0].title, "D_m_i_n (D per degree)");
+  EXPECT_EQ(sheared.map(settings_of("vorticity"), true).legends[0].bars[0].title,
+            "2 × turn (rad per degree), counter-clockwise positive");
+  EXPECT_EQ(sheared.map(settings_of("dilation"), true).legends[0].bars[0].title,
+            "ΔA/A of neighbourhoods (per degree)");
 }
 
 TEST(StrainMaps, NonaffineIsTheRootOfTheMeanSquareThatIsLeft) {

@@ -23,7 +23,7 @@ TEST(PressureMap, IsTheTraceOverTheAreaInUnitsOfRhoGD) {
   const FrameView view = map_of(packing, in_gray("pressure", 0.0, 16.0));
   EXPECT_EQ(view.discs[0].fill, gray(0.25));
   EXPECT_EQ(view.discs[1].fill, white);
-  EXPECT_EQ(view.legends[0].bars[0].title, "P = σ_1 + σ_2 in ρgD");
+  EXPECT_EQ(view.legends[0].bars[0].title, "P = σ_1 + σ_2 (ρgD)");
 }
 
 TEST(PressureMap, RangeGoesByTheDepthOfTheBed) {
@@ -105,7 +105,7 @@ TEST(DisplacementMap, IsUnrolledOverThePeriodAndLogarithmic) {
   const FrameView rate = map_of(moved.now, settings, &moved.before.frame, true);
   EXPECT_EQ(fills_of(rate), (std::vector<Colour>{shade(0.4), shade(0.25)})) << "over two degrees";
   EXPECT_EQ(rate.title, "Displacement per degree of tilt");
-  EXPECT_EQ(rate.legends[0].bars[0].title, "in D per degree");
+  EXPECT_EQ(rate.legends[0].bars[0].title, "displacement (D per degree)");
 }
 
 TEST(DisplacementMap, NothingHasMovedWithoutAReference) {

@@ -101,10 +101,10 @@ TEST(MotionSample, RangesOfVelocitiesNeedNoEarlierFrame) {
   EXPECT_FALSE(ranges.range(pictures::MapKind::displacement, false) ||
                ranges.range(pictures::MapKind::displacement, true));
   pictures::MapSettings settings = test::settings_of("speed");
-  EXPECT_EQ(test::map_of(moved.now, settings).legends[0].bars[0].title, "in √(gD)");
+  EXPECT_EQ(test::map_of(moved.now, settings).legends[0].bars[0].title, "speed (√(gD))");
   settings.motion = ranges;
   const Bar bar = test::map_of(moved.now, settings).legends[0].bars[0];
-  EXPECT_EQ(bar.title, "in √(gD), 5 to 99 % of grains");
+  EXPECT_EQ(bar.title, "speed (√(gD)), 5 to 99 % of grains");
   EXPECT_EQ(bar.high, ranges.range(pictures::MapKind::speed, false)->high);
 }
 
@@ -138,11 +138,11 @@ TEST(MotionSample, BarSaysHowManyGrainsARangeHolds) {
     if (chosen) settings.range_low = 0.1, settings.range_high = 1.0;
     return test::map_of(moved.now, settings, &moved.before, false).legends[0].bars[0].title;
   };
-  EXPECT_EQ(title("displacement", true, false), "in D, 5 to 99 % of grains");
-  EXPECT_EQ(title("displacement", false, false), "in D");
-  EXPECT_EQ(title("displacement", true, true), "in D");
-  EXPECT_EQ(title("rotation", true, false), "in °, counter-clockwise positive, 95 % of grains");
-  EXPECT_EQ(title("rotation", false, false), "in °, counter-clockwise positive");
+  EXPECT_EQ(title("displacement", true, false), "displacement (D), 5 to 99 % of grains");
+  EXPECT_EQ(title("displacement", false, false), "displacement (D)");
+  EXPECT_EQ(title("displacement", true, true), "displacement (D)");
+  EXPECT_EQ(title("rotation", true, false), "rotation (°), counter-clockwise positive, 95 % of grains");
+  EXPECT_EQ(title("rotation", false, false), "rotation (°), counter-clockwise positive");
 }
 
 using test::extent_of, test::Packing, test::row_of_grains, test::settings_of;
@@ -206,7 +206,7 @@ TEST(ChangeMap, OfALogarithmicMapIsInPowersOfTen) {
   EXPECT_NEAR(layers[0].values[0], 2.0, 1e-12);
   EXPECT_NEAR(layers[0].values[1], -1.0, 1e-12);
   EXPECT_TRUE(std::isnan(layers[0].values[2])) << "from rest";
-  EXPECT_EQ(layers[0].legend.bars.at(0).title, "in powers of ten");
+  EXPECT_EQ(layers[0].legend.bars.at(0).title, "change (powers of ten)");
 }
 
 TEST(ChangeMap, WhereAMapGivesNoNumbersGrainsHaveMoved) {

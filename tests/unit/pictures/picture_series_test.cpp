@@ -190,7 +190,8 @@ TEST_F(PictureSeriesTest, ranges_of_motion_fit_the_frames_that_are_drawn) {
   EXPECT_EQ(ends({0}), std::pair(0L, 0L)) << "nothing has moved: the fixed range stays";
   DrawnRun fitted = open_drawn_run(path, plan_of("displacement"), {});
   fit_to_frames(fitted, std::vector<std::size_t>{0, 1, 2});
-  EXPECT_EQ(picture(fitted, 2, 0).legends[0].bars[0].title, "in D per degree, 5 to 99 % of grains");
+  EXPECT_EQ(picture(fitted, 2, 0).legends[0].bars[0].title,
+            "displacement (D per degree), 5 to 99 % of grains");
 }
 
 TEST_F(PictureSeriesTest, turned_beds_have_room_for_the_frames_that_are_drawn) {

@@ -39,7 +39,7 @@ TEST_F(MadeUpQuantity, is_a_map) {
   ASSERT_EQ(map.legends.size(), 1u);
   ASSERT_EQ(map.legends[0].bars.size(), 1u);
   const render::Bar& bar = map.legends[0].bars[0];
-  EXPECT_EQ(bar.title, "in D");
+  EXPECT_EQ(bar.title, "m (D)");
   EXPECT_EQ(bar.symbol, "m");
   EXPECT_EQ(bar.unit, "D");
   EXPECT_EQ(bar.high, 2.0);
