@@ -271,7 +271,7 @@ std::vector<GrainStyle> cluster_styles(std::span<const ClusterColour> colours, c
 }
 
 std::string clusters_title(const analysis::Clusters& clusters, const MapSettings& settings) {
-  const std::string title = "Overloaded grains, " + reading_text(settings);
+  const std::string title = "Clusters of overloaded grains, " + reading_text(settings);
   if (clusters.count() == 0) return title + ", no cluster";
   return fmt::format("{}, {}, largest {:.0f} %", title,
                      counted(static_cast<std::size_t>(clusters.count()), "cluster"),

@@ -160,7 +160,7 @@ TEST(ClustersMap, ColoursClustersAndMarksThoseThatSpan) {
   EXPECT_EQ(view.discs[12].fill, palette[0]) << "three grains have no colour of their own, but they span";
   EXPECT_EQ(view.discs[12].rim, black);
   EXPECT_EQ(view.discs[15].fill, white);
-  EXPECT_EQ(view.title, "Overloaded grains, single grains, 2 clusters, largest 80 %");
+  EXPECT_EQ(view.title, "Clusters of overloaded grains, single grains, 2 clusters, largest 80 %");
   EXPECT_EQ(view.legends[0].swatches[0].label, "spans the bed");
   EXPECT_EQ(view.legends[0].swatches[0].fill, palette[0]);
 }
@@ -170,7 +170,7 @@ TEST(ClustersMap, HasTheSameLegendWhichever) {
   const std::vector<Swatch> with = map_of(packing, "clusters").legends[0].swatches;
   packing.frame.gamma.assign(packing.frame.gamma.size(), 0.1);
   const FrameView view = map_of(packing, "clusters");
-  EXPECT_EQ(view.title, "Overloaded grains, single grains, no cluster");
+  EXPECT_EQ(view.title, "Clusters of overloaded grains, single grains, no cluster");
   ASSERT_EQ(view.legends[0].swatches.size(), with.size()) << "entries keep their places in a movie";
   for (std::size_t k = 0; k < with.size(); ++k) EXPECT_EQ(view.legends[0].swatches[k].label, with[k].label);
 }

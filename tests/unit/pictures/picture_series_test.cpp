@@ -310,11 +310,11 @@ TEST(PanelRows, say_once_what_all_say) {
 
 TEST(PanelRows, of_clusters_have_short_captions) {
   auto maps = four_maps("gray");
-  maps[0][1].title = "Overloaded grains, l = 3 D, 30 clusters, largest 13 %";
-  maps[1][1].title = "Overloaded grains, l = 3 D, 1 cluster, largest 100 %";
+  maps[0][1].title = "Clusters of overloaded grains, l = 3 D, 30 clusters, largest 13 %";
+  maps[1][1].title = "Clusters of overloaded grains, l = 3 D, 1 cluster, largest 100 %";
   const auto rows = panel_rows(maps, "");
-  ASSERT_EQ(rows[0].size(), 1u) << "one title for both columns";
   EXPECT_EQ(rows[0][0].title, "Overloaded grains, l = 3 D");
+  EXPECT_EQ(rows[0][1].title, "Clusters of overloaded grains, l = 3 D");
   EXPECT_EQ(rows[1][0].title, "(a) p_o = 0.5");
   EXPECT_EQ(rows[1][1].title, "(b) 30 clusters, largest 13 %");
 }
