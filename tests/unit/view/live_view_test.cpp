@@ -49,7 +49,7 @@ TEST_F(ViewOfScenario, follows_the_run) {
   model_->live()->play();
   ASSERT_TRUE(wait_for_condition(*model_, [this] {
     model_->first().map(2.0);
-    return has_ended(*model_);
+    return has_ended(*model_) && model_->frame().tilt > radians(0.99);
   }));
   ASSERT_TRUE(
       wait_for_condition(*model_, [this] { return plot(*model_, "overloaded").series[0].x.size() >= 5; }));
