@@ -26,8 +26,7 @@ double correlated_up_to(const RunStatics& statics) {
   return std::min(largest_distance * statics.mean_diameter, 0.5 * statics.length);
 }
 
-/// Returns edges of the bins of normal forces over their mean; both the tail and the small forces span
-/// decades.
+/// Returns edges of the bins of normal forces over their mean; both ends span decades.
 std::vector<double> force_edges(int bins) { return logarithmic_edges(force_range[0], force_range[1], bins); }
 
 void exclude_rattlers(int min_contacts, Index free_count, Frame& frame) {

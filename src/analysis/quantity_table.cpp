@@ -5,8 +5,7 @@ namespace {
 
 using QuantityRows = std::vector<Quantity>;
 
-/// Returns the display of a quantity: its symbol in a legend, its title, and the same quantity in the
-/// observables.
+/// Returns the display of a quantity: its symbol, its title, and the same quantity in the observables.
 Display curve(const std::string& symbol, const std::string& title, std::optional<Observable> recorded = {}) {
   return {symbol, title, false, recorded};
 }

@@ -205,8 +205,7 @@ bool is_of_grains(const analysis::Quantity& quantity) {
   return quantity.shape.find('N') != std::string::npos;
 }
 
-/// Nests numbers into lists; `extents` are the sizes from the outermost to the innermost, empty for a single
-/// number.
+/// Nests numbers into lists; `extents` are the sizes, outermost first, empty for a number.
 template <typename T>
 Json nested(std::span<const T> numbers, std::span<const std::uint64_t> extents) {
   if (extents.empty()) return numbers[0];

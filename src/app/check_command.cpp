@@ -1,5 +1,4 @@
-/// `talus check`: validates a scenario, prints it in full and estimates its cost; or checks that a run file
-/// is intact.
+/// `talus check`: validates a scenario and estimates its cost, or checks that a run is intact.
 
 #include <cmath>
 #include <cstdio>

@@ -136,8 +136,7 @@ std::string unknown_word(const std::vector<ParsedCommand>& commands) {
   return {};
 }
 
-/// Returns " (expected --range LOW,HIGH)" for an option that the parser names because of its value; empty if
-/// it names none.
+/// Returns " (expected --range LOW,HIGH)" for an option with a wrong value; empty if none is named.
 std::string expected_value(const CLI::App& command, const CLI::ParseError& error) {
   const std::string kind = error.get_name(), said = error.what();
   if (kind != "ConversionError" && kind != "ArgumentMismatch" && kind != "RequiredError") return {};

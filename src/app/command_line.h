@@ -7,8 +7,7 @@
 
 namespace talus::app {
 
-/// Returns the command line with shell quoting, e.g. `talus figures runs/a.h5 -o 'my figures'`, for
-/// provenance.
+/// Returns the quoted command line, e.g. `talus figures runs/a.h5 -o 'my figures'`, for provenance.
 std::string command_line();
 
 /// Checks the words before they are parsed. Throws Error(usage) for a first word that is not a command of

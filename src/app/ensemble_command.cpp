@@ -79,8 +79,7 @@ bool pack_member(const ensemble::Member& member, const ensemble::EnsembleManifes
   return store.pack(should_continue, parts);
 }
 
-/// Runs or resumes a member, does the additional work that the task of the ensemble requires, and packs it
-/// with its analysis.
+/// Runs or resumes a member, does the work of its task, and packs it with its analysis.
 void compute_member(const EnsembleArguments& arguments) {
   const ensemble::EnsembleManifest manifest = ensemble::read_ensemble(arguments.folder);
   const ensemble::EnsemblePlan plan = ensemble::plan_of(manifest, arguments.folder);

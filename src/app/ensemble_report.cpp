@@ -39,8 +39,7 @@ std::string unit_of(const EnsembleView& view, const std::string& quantity) {
   return is_known ? ensemble::unit_of_number(quantity) : "";
 }
 
-/// Returns "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty if no member has the
-/// quantity.
+/// Returns "  theta_c = 19.41 ± 0.28 deg, standard deviation 0.80, 8 of 8"; empty if no member has it.
 std::string mean_line(const EnsembleView& view, std::size_t variant, const std::string& quantity) {
   const std::vector<double> values = values_of(view, variant, quantity);
   const Statistics found = statistics_of(values);

@@ -21,19 +21,16 @@ struct EnsembleView {
   std::size_t with_frames = 0;                   ///< finished members that keep the frames of their runs
 };
 
-/// Reads the state of an ensemble; members with damaged files count as waiting. Throws as read_ensemble and
-/// numbers_of do.
+/// Reads the state of an ensemble; damaged members count as waiting. Throws as read_ensemble and numbers_of.
 EnsembleView view_of_ensemble(const std::string& folder, ensemble::KnownMembers& known);
 
-/// Returns the number of members that will not be started: done, failed, or not needed for the requested
-/// precision.
+/// Returns the number of members that will not be started: done, failed, or not needed.
 std::size_t count_ended(const EnsembleView& view);
 
 /// Returns "12 of 50 done, 2 under way, 1 failed".
 std::string count_text(const EnsembleView& view);
 
-/// Returns the counts, the active workers, the jobs in the queue, the failures, and the means of each variant
-/// with their errors.
+/// Returns the counts, the active workers, the jobs, the failures, and the means of each variant with errors.
 std::string ensemble_text(const EnsembleView& view, const EnsembleJobs& jobs = {});
 std::string ensemble_json(const EnsembleView& view, const EnsembleJobs& jobs = {});
 

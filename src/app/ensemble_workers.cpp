@@ -45,8 +45,8 @@ std::string wait_text(const ensemble::EnsemblePlan& plan, const std::vector<ense
 }
 
 /// Shows "ensemble: 3 of 50 members done, 2 under way, 1 failed", the fraction done, and the remaining time,
-/// extrapolated from the members that finished since the line was started. `before`: estimate (s) for the
-/// members done before that.
+/// extrapolated from the members that finished since the line was started. `before`: estimate (s) for those
+/// done before.
 void show(StatusLine& line, const ensemble::EnsemblePlan& plan, double before) {
   const std::vector<ensemble::MemberState> states = ensemble::scan_members(plan);
   const std::size_t done = ensemble::count_of(states, ensemble::MemberStage::done),
@@ -100,8 +100,7 @@ std::vector<std::string> worker_words(const EnsembleWorkers& workers) {
   return words;
 }
 
-/// Runs workers in parallel until no member is left that they can start. Returns those that ended with an
-/// error.
+/// Runs workers in parallel until no member is left that they can start. Returns those with an error.
 std::vector<ensemble::FailedJob> run_workers(const EnsembleWorkers& workers,
                                              const ensemble::EnsemblePlan& plan,
                                              ensemble::KnownMembers& known) {

@@ -166,8 +166,7 @@ std::string name_of(const analysis::Quantity& quantity) {
   return quantity.name.substr(group_of_events.size());
 }
 
-/// A table for programs, in SI units and radians: as JSON an object with a list of rows, as CSV one line for
-/// each row.
+/// A table for programs, in SI units and radians: as JSON a list of rows, as CSV lines.
 struct ExactTable {
   struct Column {
     std::string name, unit;  ///< no unit: empty

@@ -17,8 +17,7 @@ struct FrameOptions {
   bool flow = false;            ///< adds all frames after failure
 };
 
-/// Adds --at, with the same description for all commands that take several frames. `note`: additional text,
-/// such as the default.
+/// Adds --at of commands that take several frames. `note`: additional text, such as the default.
 CLI::Option* add_at_option(CLI::App& command, std::vector<std::string>& at, const std::string& note = "");
 
 /// Adds --at and --every, which exclude each other, and --flow. `usual`: the frames selected without them.

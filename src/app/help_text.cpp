@@ -186,8 +186,7 @@ std::string maps_row(const std::vector<const CLI::Option*>& options) {
 }
 std::string maps_row(const std::vector<const CLI::App*>&) { return {}; }
 
-/// Returns the rows of the items below the titles of their groups, in the order in which groups begin; the
-/// group "" is hidden.
+/// Returns the rows of the items below the titles of their groups, in order; the group "" is hidden.
 template <typename Items, typename Row>
 std::string grouped(const Items& items, const Row& row) {
   std::string text;

@@ -12,8 +12,7 @@ namespace talus::app {
 using Json = nlohmann::ordered_json;
 
 /// Returns JSON text with one object member per line, `depth` levels deep, and arrays on one line. Numbers
-/// have the shortest digits that read back as the same number, and are null for NaN; invalid UTF-8 becomes
-/// U+FFFD.
+/// have the shortest digits that read back, and are null for NaN; invalid UTF-8 becomes U+FFFD.
 std::string json_text(const Json& value, std::size_t depth = 0);
 
 /// Returns an object of names and values.
@@ -35,8 +34,7 @@ struct Fact {
 /// Returns the text of a number, e.g. with the format "{:.3g}"; "none" for NaN.
 std::string number_text(double value, const char* format = "{:.4g}");
 
-/// Returns the members as a JSON object, and the lines with their labels in a column of this width after
-/// `margin`.
+/// Returns the members as a JSON object, and the lines with their labels in a column of this width.
 Json members_of(const std::vector<Fact>& facts);
 std::string lines_of(const std::vector<Fact>& facts, int width, const std::string& margin = "");
 

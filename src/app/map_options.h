@@ -31,12 +31,10 @@ inline constexpr const char* map_group = "Maps";
 void add_map_options(CLI::App& command, MapArguments& arguments, MapOptionSet set,
                      CLI::Option* needs = nullptr);
 
-/// Returns the options with the size and the settings. Throws Error(usage) for an impossible size or Gamma_c,
-/// and as read_settings does.
+/// Returns the options with the size and the settings. Throws Error(usage), and as read_settings does.
 pictures::MapOptions map_options(const MapArguments& arguments);
 
-/// Returns the key of the width of coarse-grained fields, which maps and exports have in addition to those of
-/// an analysis.
+/// Returns the key of the width of coarse-grained fields, which maps and exports have.
 scenario::KeyHead length_key();
 
 /// Whether a setting "key=value" is a parameter of maps.

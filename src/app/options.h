@@ -1,6 +1,5 @@
 #pragma once
-/// Options that several commands share, and validators of option values: one of a few names, or a number
-/// within a range.
+/// Options that several commands share, and validators: one of a few names, or a number in a range.
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -48,8 +47,7 @@ CLI::Option* add_analysis_settings(CLI::App& command, std::vector<std::string>& 
 /// Adds --threads; `what` they do: "Threads of the solver".
 void add_threads_option(CLI::App& command, int& threads, const std::string& what);
 
-/// Returns the number of processors of this machine, the default number of threads and of beds computed in
-/// parallel.
+/// Returns the number of processors, the default number of threads and of beds in parallel.
 int processor_count();
 
 /// Adds --jobs of a command that computes many beds.

@@ -27,8 +27,7 @@ std::string stripped(const std::string& all) {
   return first == std::string::npos ? "" : all.substr(first, all.find_last_not_of(" \n") + 1 - first);
 }
 
-/// Reads the output of a program until it ends, or a signal asks to stop unless `until_its_end`. Returns its
-/// status.
+/// Reads the output of a program until it ends, or, unless `until_its_end`, a signal. Returns its status.
 int wait_reading(pid_t program, const std::vector<ProgramText*>& texts, bool until_its_end) {
   for (ProgramText* text : texts) text->close_end();
   const auto read = [&] {

@@ -1,6 +1,5 @@
 #pragma once
-/// Other programs: child processes and their output, and modules of the Python package that carry out
-/// commands of this program.
+/// Other programs: child processes and their output, and modules of the Python package.
 
 #include <string>
 #include <vector>

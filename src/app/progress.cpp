@@ -25,8 +25,7 @@ std::string progress_bar(double share) {
   return fmt::format("[{:#<{}}{:-<{}}]", "", full, "", cells - full);
 }
 
-/// Returns the usable columns: one less than the width, because some terminals wrap when the last column is
-/// filled.
+/// Returns the usable columns: one less than the width, because some terminals wrap at the last column.
 int columns_of_terminal() {
   winsize size{};
   const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

@@ -79,8 +79,7 @@ class StatusLine {
 /// because little time has passed since the last one.
 CountDone count_shown(std::string label, bool quiet);
 
-/// Returns a function that shows the state of a run in the same way; the line ends when the last copy of the
-/// function is destroyed.
+/// Returns a function that shows the state of a run in the same way; the line ends with its last copy.
 std::function<void(const session::RunProgress&)> run_shown(bool quiet);
 
 struct StepRemark {

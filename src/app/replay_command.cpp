@@ -48,8 +48,7 @@ void refuse_same(const ReplayArguments& arguments) {
                 arguments.output + " is the run that is replayed; choose another output with -o");
 }
 
-/// Creates the output, which records the run that it replays and the number of steps; until then it lacks
-/// commands (resume_run).
+/// Creates the output, which records the run that it replays; until its end it lacks commands (resume_run).
 std::optional<io::RunStore> begin_output(const ReplayArguments& arguments, const session::Session& session,
                                          const io::RunFile& run) {
   if (arguments.output.empty()) return std::nullopt;

@@ -83,8 +83,7 @@ void settle_names(RunArguments& arguments) {
                 run, io::run_folder(run), run);
 }
 
-/// Moves the settings of maps from those of the scenario, which have other names. Throws Error(usage) for one
-/// without --pictures.
+/// Moves the settings of maps from those of the scenario, which have other names. They need --pictures.
 void take_map_settings(RunArguments& arguments) {
   std::erase_if(arguments.settings, [&arguments](const std::string& setting) {
     if (!is_map_setting(setting)) return false;

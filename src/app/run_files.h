@@ -9,8 +9,7 @@
 
 namespace talus::app {
 
-/// Replaces each folder of an ensemble by the runs of its finished members. Throws Error(missing_input) if
-/// none is done.
+/// Replaces ensembles by the runs of their finished members. Throws Error(missing_input) if none is done.
 std::vector<std::string> with_members(const std::vector<std::string>& paths);
 
 /// Removes files that are no runs, such as a contact problem written by `talus dump`; each is reported on
@@ -18,12 +17,10 @@ std::vector<std::string> with_members(const std::vector<std::string>& paths);
 /// the error. Throws Error(bad_data) if no path is left.
 std::vector<std::string> runs_among(const std::vector<std::string>& paths);
 
-/// Returns the rule for output made from a run: it replaces neither the run file nor anything in the folder
-/// of the run.
+/// Returns the rule for output made from a run: it replaces neither its file nor anything in its folder.
 OutputRule output_of_run(const std::string& run, bool overwrite);
 
-/// Returns the rule for the run of a scenario: an existing run may be replaced, but neither the scenario nor
-/// the bed that it reads.
+/// Returns the rule for the run of a scenario: a run may be replaced, but neither the scenario nor its bed.
 OutputRule output_of_scenario(const std::string& file, const scenario::Scenario& scenario);
 
 /// Prints once that a file is written without a lock, if the file system has no locks.

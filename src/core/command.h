@@ -1,6 +1,5 @@
 #pragma once
-/// Commands that a user gives during a run. A run follows from its scenario and its commands: replaying both
-/// gives the same bits.
+/// Commands that a user gives during a run. Replaying a scenario and its commands gives the same bits.
 
 #include <array>
 #include <cstdint>
@@ -34,8 +33,7 @@ struct Command {
 
 // The spring with which a user drags a grain.
 
-/// Stiffness of the spring, m g / D, with m the mass of the grain: extended by n D, it pulls with 10 n times
-/// the weight of the grain.
+/// Stiffness of the spring, m g / D, m being the mass of the grain: extended by n D, it pulls with 10 n m g.
 inline constexpr double drag_stiffness = 10.0;
 /// Largest extension of the spring, D.
 inline constexpr double farthest_drag = 50.0;

@@ -1,6 +1,5 @@
 #pragma once
-/// The scalar series of a run: names, units and meanings in one place, so that file, help and documentation
-/// agree.
+/// The scalar series of a run: names, units and meanings, for file, help and documentation.
 
 #include <array>
 #include <cstddef>

@@ -21,8 +21,7 @@ struct Vec2 {
   double y = 0.0;
 };
 
-/// A 2 x 2 tensor in the frame of the bed. `xy` is the component M_12 of the paper's M_ij. core/tensor.h
-/// gives its matrix view.
+/// A 2 x 2 tensor in the frame of the bed; `xy` is M_12 of the paper. core/tensor.h gives its matrix view.
 struct Tensor2 {
   double xx = 0.0;
   double xy = 0.0;

@@ -57,8 +57,7 @@ std::vector<double> series_of(const Course& course, const Quantity& quantity, st
   return values;
 }
 
-/// The values of all members at the points of a grid. `tilt_at` returns the tilt of a member (deg) at an
-/// angle of the grid.
+/// The values of all members at the points of a grid. `tilt_at` returns that of a member (deg) at an angle.
 struct Grid {
   const std::vector<Course>& courses;
   const std::vector<double>& angles;  ///< deg

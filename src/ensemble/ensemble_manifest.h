@@ -1,6 +1,5 @@
 #pragma once
-/// The definition of an ensemble: a small text file in its folder, used by any number of processes on any
-/// number of machines.
+/// The definition of an ensemble: a small text file in its folder, for any number of processes and machines.
 
 #include <cstdint>
 #include <string>

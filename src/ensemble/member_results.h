@@ -56,8 +56,7 @@ double number_called(const MemberNumbers& numbers, const std::string& name);
 /// have more elements than others.
 void add_names(const MemberNumbers& numbers, std::vector<std::string>& names);
 
-/// Returns the name of element k of a result with several, such as "theta_d/lc_jump[1]"; element 0 has the
-/// plain name.
+/// Returns the name of element k of a result with several, such as "theta_d/lc_jump[1]"; [0] is left out.
 std::string element_name(const std::string& name, std::size_t k);
 
 /// Throws Error(bad_data) if a run has another scenario, seed or bed than the member, or if more was done to

@@ -141,8 +141,7 @@ std::string line_of_claim() { return fmt::format("{}, boot {}\n", io::this_proce
 constexpr double heartbeats = 12.0;  // in the time after which a claim is dead
 constexpr int last_number = std::numeric_limits<int>::max();
 
-/// Returns the number of the claim that replaces a dead one. After the last number, it is the lowest free
-/// one.
+/// Returns the number of the claim that replaces a dead one. At last it is the lowest free one.
 int number_after(const std::string& run, std::optional<int> found) {
   if (!found) return 0;
   if (*found < last_number) return *found + 1;

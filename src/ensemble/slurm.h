@@ -56,8 +56,7 @@ struct SlurmJob {
 /// Whether a text is the number of a job or of a task.
 bool is_slurm_number(const std::string& text);
 
-/// Parses the job in the last line printed by `sbatch --parsable`, "12" or "12;cluster"; nothing if there is
-/// none.
+/// Parses the job in the last line printed by `sbatch --parsable`, "12" or "12;cluster", if any.
 std::optional<SlurmJob> parse_submitted(const std::string& printed);
 
 /// Tasks of one job in the queue, by state, such as "RUNNING".

@@ -19,8 +19,7 @@ struct WidgetPlace {
 };
 
 /// Function that renders a picture for the map widget: draws the view into a texture of that width and
-/// returns its number in OpenGL. Each picture shown has its own texture: 0 for the first view, and 1 for the
-/// second.
+/// returns its number in OpenGL. Each view has its own texture, 0 or 1.
 using DrawMap = std::function<unsigned(const render::FrameView& view, int width, std::size_t texture)>;
 
 /// Requests from the widgets to the surrounding program.

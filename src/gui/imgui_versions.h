@@ -1,7 +1,6 @@
 #pragma once
 /// Mouse and keyboard input for Dear ImGui, with or without a window, and the differences between its
-/// versions 1.86 to 1.92: keys, input, textures and fonts. The rest of the window uses what they have in
-/// common.
+/// versions 1.86 to 1.92: keys, input, textures and fonts. The window uses what they share.
 
 #include <imgui.h>
 
@@ -41,8 +40,7 @@ struct InputEvent {
   bool down = false;         ///< for buttons and keys
 };
 
-/// Delivers events without loss: a button or key that is pressed and released between two pictures is down in
-/// one of them.
+/// Delivers events without loss: a button clicked between two pictures is down in one of them.
 class InputQueue {
  public:
   void add(const InputEvent& event) { events_.push_back(event); }

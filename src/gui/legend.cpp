@@ -82,8 +82,7 @@ float lay_out_legend(const render::FrameView& view, float room, float em, std::v
   return bottom;
 }
 
-/// Handles the mouse on a bar: dragging its ends sets the range of the map, and a double click restores the
-/// default range.
+/// Handles the mouse on a bar: dragging its ends sets the range of the map, a double click restores it.
 void use_bar(Gui& gui, const render::Bar& bar, const ImVec2& low, const ImVec2& high) {
   const float em = gui.em, length = high.x - low.x;
   pictures::MapSettings& map = gui.state.map;

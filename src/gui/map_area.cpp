@@ -16,8 +16,7 @@ namespace {
 
 constexpr float min_picture = 4.0f, caption_line = 1.2f;  ///< heights, em
 
-/// Returns the height (px) of the title with the caption to its right, or below it if there is no room for
-/// both.
+/// Returns the height (px) of the title with the caption to its right or, without room, below it.
 float caption_height(const render::FrameView& view, float width, float em) {
   const bool both = rich_width(view.caption) + rich_width(view.title) + em < width;
   const std::size_t lines =
@@ -62,8 +61,7 @@ void draw_gravity(const ImVec2& middle, float em, double fall, ImU32 ink) {
   list.AddText({middle.x - 1.5f * em, middle.y - 0.5f * em}, ink, "g");
 }
 
-/// Describes the grain under the mouse. The second view shows the text of the first, and its own value:
-/// another map, or a change.
+/// Describes the grain under the mouse. The second view shows the text of the first, and its own value.
 void describe_grain(Gui& gui, const view::View& view, const render::Point& place, Index grain) {
   const double diameter = view.run.mean_diameter();
   ImGui::BeginTooltip();
@@ -111,8 +109,7 @@ float legend_width(float width, float em) {
          (shows_scale(width, em) ? scale_room * em : 0.0f);
 }
 
-/// Draws the scale bar, which ends at `right`, with its length below it; `pixels` is the size of a mean
-/// diameter.
+/// Draws the scale bar, which ends at `right`, with its length; `pixels` is the size of a mean diameter.
 void draw_scale(Gui& gui, const ImVec2& right, double pixels) {
   const float em = gui.em;
   constexpr float longest = 0.3f;  // fraction of the width passed to scale_diameters
@@ -234,8 +231,7 @@ float map_area_height(const render::FrameView& annotated, float width, float pic
          2.0f * (style.WindowPadding.y + style.ItemSpacing.y);
 }
 
-/// Two views are side by side or one above the other, whichever shows more. If there is no room for two, the
-/// second is left out.
+/// Two views are side by side or one above the other, whichever shows more; without room there is one.
 void draw_map_area(Gui& gui) {
   static constexpr const char* no_room =
       "There is no room for two views: make the window larger, or hide panels (h, l).";

@@ -108,8 +108,7 @@ std::optional<Index> first_grain(const view::ViewModel& model, const ShownMap& m
   return grain && *grain < model.statics().free_count ? grain : std::nullopt;
 }
 
-/// Returns whether a grain would be dragged if the run had not ended. No lasso begins there then, because it
-/// would clear the selection.
+/// Returns whether a grain would be dragged if the run had not ended. No lasso begins there then.
 bool refuse_after_end(Gui& gui, const ShownMap& map) {
   view::SelectingState& selecting = gui.state.selecting;
   const bool waits = ImGui::IsItemActive() && !ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl &&

@@ -60,8 +60,7 @@ inline constexpr const char *play_icon = "▶", *pause_icon = "▮▮";
 /// Draws a line of text in the syntax of pictures: "_c" sets c as a subscript.
 void rich_text(std::string_view text);
 float rich_width(std::string_view text);
-/// Returns the text in lines of at most that width (px), at least one; only a single piece (breakable_pieces)
-/// may be wider.
+/// Returns the text in lines of at most that width (px), at least one; a piece may be wider.
 std::vector<std::string> wrapped_text(std::string_view text, float width);
 void add_rich_text(ImDrawList& list, const ImVec2& place, ImU32 colour, std::string_view text);
 
@@ -128,8 +127,7 @@ void toggle_following(Gui& gui);
 
 void toggle_playing(Gui& gui);
 /// Advances a live run by `count` steps, or a replay by `count` frames, which may be negative. In a live run,
-/// stepping back goes through the frames recorded so far; stepping forward beyond the last of them follows
-/// the run again.
+/// stepping back goes through the frames recorded so far; stepping beyond the last follows the run again.
 void advance(Gui& gui, int count);
 /// Computes until the bed has come to rest and the tilt begins.
 void deposit(Gui& gui);
@@ -165,8 +163,7 @@ struct ShownMap {
 /// lasso. The map must be the last item. Returns whether the mouse is used.
 bool select_by_outline(Gui& gui, const ShownMap& map);
 
-/// Selects at a click without modifiers: the grain there, or a nearby contact if the map shows contacts (m,
-/// frame of the bed).
+/// Selects at a click without modifiers: the grain there, or a nearby contact if the map shows them (m).
 void select_clicked(Gui& gui, double x, double y);
 
 /// Handles dragging a grain with ctrl and without shift, in a live run that is followed; it replaces the

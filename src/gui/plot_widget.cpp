@@ -91,8 +91,7 @@ void draw_ticks(ImDrawList& list, const Axes& axes, float em, ImU32 ink) {
 
 constexpr float column_width = 2.0f;  // px: without a GPU each line takes time
 
-/// Lowest and highest point of a curve in a narrow column, in order of x: everything that is visible of the
-/// points in it.
+/// Lowest and highest point of a curve in a narrow column, in order of x: all that is visible.
 struct PixelColumn {
   ImVec2 low, high;
   bool low_first = true;
@@ -203,8 +202,7 @@ std::optional<double> use_plot(view::ViewState& state, const view::Plot& plot, c
   return x_at(axes, io.MousePos.x);
 }
 
-/// Draws the title and, in their colours, the names of several curves next to it; without room for both, only
-/// the names.
+/// Draws the title and, in their colours, the names of several curves; without room only these.
 void draw_names(const Palette& colours, ImDrawList& list, const view::Plot& plot, const ImVec2& place,
                 float right, float em) {
   float names = 0.0f;

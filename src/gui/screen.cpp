@@ -40,8 +40,7 @@ class SameContext final : public render::Context {
   const render::Context& context_;
 };
 
-/// Time between two pictures of an OffscreenGui for ImGui, s: long enough that two clicks are not a double
-/// click.
+/// Time between two pictures of an OffscreenGui for ImGui, s: two clicks are no double click.
 constexpr double picture_seconds = 0.1;
 
 GLuint upload_font(const render::Gl& gl, ImFontAtlas& atlas) {
@@ -55,8 +54,7 @@ GLuint upload_font(const render::Gl& gl, ImFontAtlas& atlas) {
   return texture;
 }
 
-/// Returns the requested scale, or the largest, in steps, at which a small window still has room for its
-/// parts.
+/// Returns the requested scale, or the largest, in steps, with which a small window has room.
 float fitting_scale(float asked, int width, int height) {
   constexpr float needed_width = 640.0f, needed_height = 450.0f, step = 0.25f;  // px at scale 1
   const float room =
@@ -75,8 +73,7 @@ DrawDataPainter::DrawDataPainter(const render::Gl& gl) : gl_(gl) {
 
 DrawDataPainter::~DrawDataPainter() { render::delete_batch(gl_, batch_); }
 
-/// Resolves the indices here: widgets have tens of thousands of vertices, and the renderer then needs no
-/// index buffers.
+/// Resolves the indices here: the renderer then needs no index buffers.
 void DrawDataPainter::upload(const ImDrawData& data) {
   corners_.clear();
   corners_.reserve(static_cast<std::size_t>(data.TotalIdxCount));

@@ -1,6 +1,5 @@
 #pragma once
-/// Appearance of the window: all colours, text sizes, distances and the font. No other file of this folder
-/// defines colours.
+/// Appearance of the window: all colours, text sizes, distances and the font.
 
 #include <imgui.h>
 

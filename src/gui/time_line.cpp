@@ -107,8 +107,7 @@ void draw_labels(const Palette& colours, ImDrawList& list, const Track& track,
         draw_label(event);
 }
 
-/// Draws a stroke for each event. A rearrangement has a stroke at the bottom whose height shows its size,
-/// and a command has an arrow.
+/// Draws a stroke for each event. That of a rearrangement is as high as it is large; a command has an arrow.
 void draw_events(Gui& gui, ImDrawList& list, const Track& track) {
   const float em = gui.em, top = track.low.y;
   for (const view::TimelineEvent& event : gui.model.events()) {

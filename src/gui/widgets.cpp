@@ -22,8 +22,7 @@ std::size_t character_size(char lead) {
   return byte < 0x80 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
 }
 
-/// Calls piece(text, is_subscript, size, width) for each piece of a rich text in the current font, in order;
-/// sizes in px.
+/// Calls piece(text, is_subscript, size, width) for each piece of a rich text in order; px.
 template <typename Piece>
 void for_pieces(std::string_view text, const Piece& piece) {
   const auto pass = [&](std::string_view part, bool subscript) {

@@ -23,8 +23,7 @@ constexpr double picture_time = 1.0 / 60.0;  ///< s, minimum time per picture
 constexpr int smallest_side = 200;           ///< minimum side of the window, px
 constexpr float nowhere = -FLT_MAX;          ///< ImGui's value for a mouse outside the window
 constexpr double longest_wait = 0.1;         ///< s, until the model is polled again
-/// Pictures drawn after the last change: ImGui knows what is under the mouse one picture later, and hints
-/// fade in.
+/// Pictures drawn after the last change: ImGui knows the mouse one picture later, and hints fade in.
 constexpr int settling_pictures = 4;
 constexpr double fast_after_change = 0.5;  ///< s after a change during which the model is polled often
 constexpr double shortest_wait = 0.003;    ///< s between two polls, because the solver needs the core too

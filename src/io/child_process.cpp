@@ -39,8 +39,7 @@ void limit(__rlimit_resource resource, rlim_t most) {
   setrlimit(resource, &both);
 }
 
-/// Returns the memory that this process has mapped and its child inherits, in bytes; 0 if the system does not
-/// report it.
+/// Returns the memory mapped by this process, which its child inherits, bytes; 0 if unknown.
 rlim_t address_space() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

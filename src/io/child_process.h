@@ -23,8 +23,7 @@ using Parcels = std::map<std::string, std::vector<std::byte>>;
 /// threads do; no other resource that a thread may hold.
 Parcels in_child_process(const std::string& path, std::size_t input, const std::function<Parcels()>& work);
 
-/// Returns whether a child, just forked, can use HDF5: with HDF5 2 only if no thread of its parent was
-/// inside.
+/// Returns whether a child, just forked, can use HDF5: with HDF5 2 not if a thread of its parent was inside.
 bool may_use_hdf5();
 
 /// Convert parcels to a sequence of bytes and back. `decode` throws Error(bad_data), naming `path`, for bytes
@@ -32,8 +31,7 @@ bool may_use_hdf5();
 std::vector<std::byte> encode(const Parcels& parcels);
 Parcels decode(std::span<const std::byte> bytes, const std::string& path);
 
-/// Convert plain values to the bytes of a parcel, as they are in memory, and back; an incomplete value is
-/// dropped.
+/// Convert plain values to the bytes of a parcel and back; an incomplete value is dropped.
 template <typename Values>
 std::vector<std::byte> bytes_of(const Values& values) {
   const auto bytes = std::as_bytes(std::span(values));

@@ -1,6 +1,5 @@
 #pragma once
-/// Files that are complete or absent, even after a crash of the process or the machine, and the seal by which
-/// damage is found.
+/// Files that are complete or absent, even after a crash, and the seal by which damage is found.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,8 +12,7 @@
 
 namespace talus::io {
 
-/// Reads an entire file. Throws Error(missing_input) if it cannot be opened, and Error(io_error) if reading
-/// fails.
+/// Reads an entire file. Throws Error(missing_input) or Error(io_error).
 std::vector<std::byte> read_file(const std::string& path);
 std::string read_text(const std::string& path);
 
@@ -51,8 +49,7 @@ std::uint64_t sealed_size(std::span<const std::byte> file);
 /// Returns the hash of the seal of a packed file. The seal contains the hash of the rest, so different files
 /// have different hashes.
 std::uint64_t seal_hash(std::span<const std::byte> file);
-/// Returns the hash of the seal of the file at `path`, of which only the seal is read. Throws
-/// Error(missing_input).
+/// Returns the hash of the file at `path`, of which only the seal is read. Throws Error(missing_input).
 std::uint64_t seal_hash_of(const std::string& path);
 
 /// Reads the entire file at `path` once. Throws Error(missing_input) if it cannot be read, and

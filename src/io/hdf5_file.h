@@ -2,8 +2,7 @@
 /// HDF5 files, data set by data set: a Writer builds one in memory, a Reader reads one, by the rows of a
 /// schema or by path and shape. HDF5 never writes to the disk, because a failed write can leave a file that
 /// reads as zeros, or crash the process at its end: write_durably writes the finished image. In this process,
-/// only verified bytes may be read; in a child process (child_process.h), any. Private to src/io, and to code
-/// with its own file formats.
+/// only verified bytes may be read; in a child process (child_process.h), any.
 
 #include <hdf5.h>
 
@@ -22,8 +21,7 @@
 
 namespace talus::io::hdf5 {
 
-/// Owns one HDF5 identifier. After a failed allocation it is left open, because HDF5 can crash when it closes
-/// an incomplete object.
+/// Owns one HDF5 identifier. After a failed allocation it stays open, because closing it can crash HDF5.
 class Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -73,8 +71,7 @@ struct MemoryFile {
 /// itself.
 MemoryFile in_memory(const std::string& name);
 
-/// Returns the type in the file, which is always little-endian, as in memory. Not for text, whose type
-/// depends on its length.
+/// Returns the little-endian type in the file. Not for text, whose type depends on its length.
 hid_t file_type(ElementType type);
 
 /// Follows a path from "/"; links to other files or places are not followed.
@@ -125,8 +122,7 @@ struct DataSet {
 };
 
 /// A reader that checks type, rank and shape of each data set against the schema before it allocates memory.
-/// A letter in the shapes has one value per file. Every function throws Error(bad_data) naming the file and
-/// the data set.
+/// A letter in the shapes has one value per file. All throw Error(bad_data), naming file and data set.
 class Reader {
  public:
   /// Opens a file; `name` is its name in messages, and `known` are sizes that it must match.
@@ -213,8 +209,7 @@ class Writer {
   /// Creates a data set of a schema with its unit; floats are initialised to NaN.
   void create(const DataSetField& field);
 
-  /// Creates a data set and writes all its values and their hash. Throws Error(internal) if their number or
-  /// type is wrong.
+  /// Creates a data set and writes all its values and their hash. Throws Error(internal).
   template <typename T>
   void write(const DataSetField& field, const std::vector<T>& values) {
     create(field);
@@ -233,8 +228,7 @@ class Writer {
   void write_text(const DataSetField& field, const std::string& bytes);
   void write_text(const std::string& path, const std::string& bytes) { write_text(field_of(path), bytes); }
 
-  /// Writes rows from `first_row` along the first dimension of a created data set; `values` are complete
-  /// rows, as stored.
+  /// Writes rows from `first_row` along the first dimension of a created data set; `values` are whole rows.
   void write_rows(const std::string& path, std::uint64_t first_row, std::span<const std::byte> values);
 
   void create_group(const std::string& path);

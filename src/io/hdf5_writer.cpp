@@ -52,8 +52,7 @@ Handle properties(hid_t kind) {
   return list;
 }
 
-/// Keeps names in writing order inside their group; a separate index would grow at the end of the file and be
-/// lost with it.
+/// Keeps names in writing order inside their group; an index at the end of the file could be lost.
 void keep_names_in_order(const Handle& creation, const std::string& path) {
   constexpr unsigned max_in_group = 10000;
   checked(H5Pset_link_creation_order(creation.get(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
@@ -86,8 +85,7 @@ Handle access_properties(ElementType type, const Shape& chunk) {
   return access;
 }
 
-/// Returns the shape of a chunk: frames one by one, and series and tables of numbers in long pieces; empty
-/// for contiguous data.
+/// Returns the shape of a chunk: single frames, long pieces of series and tables, and else empty.
 Shape chunk_of(const DataSetField& field, Shape dims, const Sizes& sizes) {
   constexpr hsize_t series = 1 << 16;  // rows
   if (dims.empty() || std::ranges::count(dims, 0u) > 0) return {};

@@ -111,8 +111,7 @@ Manifest parse(const std::string& text) {
   return manifest;
 }
 
-/// Whether a name belongs to a file of the folder, such as header.h5 or checkpoint_000001.h5, whose number
-/// can be incremented.
+/// Whether a name belongs to a file of the folder, such as checkpoint_000001.h5, whose number can grow.
 bool is_name_of_store(const std::string& name) {
   const auto digits = std::ranges::count_if(name, [](char c) { return c >= '0' && c <= '9'; });
   return name.ends_with(".h5") && digits <= 16 && name.find('/') == std::string::npos;

@@ -76,8 +76,7 @@ struct Manifest {
   static constexpr const char* file_name = "manifest";
   static constexpr const char* header_name = "header.h5";
 
-  /// Whether the packed file next to the folder belongs to an earlier run, and is kept until this one is
-  /// packed.
+  /// Whether the packed file is that of an earlier run, kept until this one is packed.
   bool replaces = false;
   /// Hash of the seal of this run's packed file, from just before that file is renamed; 0 earlier. An
   /// existing run file belongs to this run if it has this seal, or none is known and none is replaced.
@@ -96,13 +95,11 @@ std::string manifest_text(const Manifest& manifest);
 /// Parses a manifest; `path` is its name in messages. Throws Error(bad_data) if it is damaged.
 Manifest parse_manifest(const std::string& text, const std::string& path);
 
-/// Reads `folder`/manifest. Throws Error(missing_input) if it does not exist, and Error(bad_data) if it is
-/// damaged.
+/// Reads `folder`/manifest. Throws Error(missing_input) or Error(bad_data).
 Manifest read_manifest(const std::string& folder);
 
 /// Whether the run of this name is that in the folder and not the packed file next to it: the folder has not
-/// been packed into this file, which it is to replace, or which is no run. Returns false for an unreadable
-/// folder.
+/// been packed into this file, which it is to replace, or which is no run. False if it is unreadable.
 bool hides_packed(const std::string& folder, const std::string& packed);
 
 /// Returns the bytes of a file in the folder. Throws Error(bad_data) if they do not match the manifest.

@@ -13,8 +13,7 @@
 
 namespace talus::io {
 
-/// Increases with each change of the table, or of the meaning of a stored scenario. Files of other versions
-/// are rejected.
+/// Increases with each change of the table, or of the meaning of a scenario. Other versions are rejected.
 inline constexpr std::int32_t run_schema_version = 4;
 
 enum class ElementType { float32, float64, int8, int32, int64, uint64, text };
@@ -45,8 +44,7 @@ const std::vector<DataSetField>& run_schema();
 /// frames instead of a separate hash.
 bool is_by_frame(const DataSetField& field);
 
-/// Returns the entry for the data set at this path, of a run or of its analysis. Throws Error(internal) if no
-/// table has it.
+/// Returns the entry for the data set at this path, of a run or of its analysis. Throws Error(internal).
 DataSetField field_of(const std::string& path);
 
 /// One dimension of a shape: the size of its letter (0 without one) plus a number.
@@ -62,11 +60,9 @@ using Sizes = std::map<char, std::uint64_t>;
 /// Returns the shape of a data set in numbers; empty for a scalar.
 std::vector<std::uint64_t> dimensions(const DataSetField& field, const Sizes& sizes);
 
-// The data sets of the analysis of a run, /analysis in its file: a version, a key, parameters as texts, and
-// the table of quantities.
+// The data sets in /analysis: a version, a key, parameters as texts, and the table of quantities.
 
-/// Increases with each change of the table or of the computation; stored analyses of other versions are
-/// recomputed.
+/// Increases with each change of the table or of the computation; analyses of other versions are repeated.
 inline constexpr std::int32_t analysis_version = 8;
 
 /// Returns the data set of a quantity.

@@ -44,8 +44,7 @@ std::uint64_t serial_of(const StoredFile& checkpoint) {
   return digit == std::string::npos ? 0 : std::stoull(checkpoint.name.substr(digit));
 }
 
-/// Whether a name is that of a numbered file, such as "segment_000001-abcdefgh.h5"; folders of earlier
-/// versions have no suffix.
+/// Whether a name is that of a numbered file, such as "segment_000001-abcdefgh.h5"; the suffix is optional.
 bool is_serial_name(const std::string& name) {
   static const std::regex form(R"((header|segment|checkpoint)_[0-9]{6,16}(-[a-z]{8})?\.h5)");
   return std::regex_match(name, form);
@@ -408,8 +407,7 @@ static std::string move_aside(const std::string& what, const std::string& path, 
   throw Error(ExitCode::cannot_create, "{} cannot be renamed to {}: {}", what, aside, std::strerror(error));
 }
 
-/// Describes the damage and its new location. Advice after a semicolon, which concerns runs that cannot be
-/// recomputed, is removed.
+/// Describes the damage and its new location. Advice after a semicolon is removed.
 static std::string damage_text(const std::string& damage, const std::string& aside) {
   if (aside.empty()) return "";
   return fmt::format("{}; what is left of it is in {}", damage.substr(0, damage.find(';')), aside);

@@ -70,8 +70,7 @@ struct Segment {
 inline constexpr const char* last_tilt_step_name = "last_tilt_step";
 inline constexpr const char* flow_steps_name = "flow_steps";
 
-/// Values from an analysis with other parameters than the stored one: a row for each threshold, a column for
-/// each quantity.
+/// Values of an analysis with other parameters: a row for each threshold, a column for each quantity.
 struct StoredReading {
   std::string name;  ///< for example "l_min=0,min_contacts=3"
   std::string key;   ///< key of the analysis

@@ -20,8 +20,7 @@ void add_line(render::FrameView& view, const render::Line& line, const RunStatic
 /// Returns the disc of a grain without its look; grains of the floor are hatched.
 render::Disc disc_of(const BedFrame& bed, Index grain);
 
-/// Returns the length of a scale bar in mean diameters: a round number, preferably 10, that suits a picture
-/// of this width (m).
+/// Returns the length of a scale bar, D: a round number, preferably 10, for a picture of this width (m).
 double scale_diameters(double width, double diameter);
 
 /// Adds the walls and the smooth floor, if they are in the view, and the scale bar.

@@ -1,14 +1,12 @@
 #pragma once
-/// The difference between two frames of a run as a map: changes of a grain quantity, and contacts gained and
-/// lost.
+/// The change between two frames as a map: of a grain quantity, and contacts gained and lost.
 
 #include "pictures/layers.h"
 
 namespace talus::pictures {
 
 /// Returns the map whose change is shown for these layers: the first one that gives each grain a number;
-/// gamma if they show something derived from it; otherwise the displacement of grains. Maps of motion already
-/// are a change.
+/// gamma if they show something derived from it; otherwise displacement. Maps of motion are a change.
 MapKind changing_kind(const MapLayers& layers);
 
 /// Returns two layers. The first shows, for each free grain, the value of changing_kind in the frame minus

@@ -53,8 +53,7 @@ class ClusterColours {
   std::vector<Track> tracks_;
 };
 
-/// The rule by which maps, traces and curves consider a grain overloaded, and join overloaded grains into
-/// clusters.
+/// The rule by which maps, traces and curves find overloaded grains, and join them into clusters.
 struct OverloadRule {
   double theta_c = 0.0;                    ///< rad, angle of repose: Gamma_c = sin(theta_c)
   double threshold_factor = 1.0;           ///< threshold of overloaded grains over Gamma_c
@@ -72,8 +71,7 @@ double threshold_of(const OverloadRule& rule);
 /// Maps, traces and clusters are all made from such a frame.
 Frame mapped_frame(Frame frame, const RunStatics& statics, double l_min);
 
-/// Returns the clusters of the overloaded free grains of a frame of mapped_frame, as the map `clusters` and
-/// ClusterColours use them.
+/// Returns the clusters of the overloaded free grains of a frame of mapped_frame.
 analysis::Clusters overloaded_clusters(const BedFrame& bed, const OverloadRule& rule);
 
 }  // namespace talus::pictures

@@ -24,8 +24,7 @@ double frame_spacing(const std::vector<double>& tilts) {
   return spacing;
 }
 
-/// Adds the frames nearest to multiples of `every` degrees on one rise or fall, which begins at frame
-/// `first`.
+/// Adds the frames nearest to multiples of `every` degrees on a rise or fall from frame `first` on.
 void add_every(const std::vector<double>& way, std::size_t first, double every, double spacing,
                FrameChoice& choice) {
   const auto [low, high] = std::ranges::minmax(way);

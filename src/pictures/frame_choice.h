@@ -36,8 +36,7 @@ std::optional<std::size_t> reference_frame(std::size_t k, std::optional<std::siz
 std::optional<std::size_t> frame_near(const std::vector<double>& tilts, double tilt);
 
 /// Returns the frames nearest to 0, `every`, 2 `every`, ... degrees; all frames if `every` is below their
-/// spacing. If the tilt goes up and down, this applies to each rise and each fall, and the turning points are
-/// included.
+/// spacing. If the tilt goes up and down, this applies to each rise and fall, with the turning points.
 FrameChoice frames_every(const std::vector<double>& tilts, double every);
 
 /// Returns the last frame with tilt <= theta_c (rad): the slope just before it failed, in its last_rise.

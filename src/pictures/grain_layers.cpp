@@ -30,8 +30,7 @@ double layer_share(double share) {
   return (std::clamp(std::floor(share * dyed_layers), 0.0, dyed_layers - 1.0) + 0.5) / dyed_layers;
 }
 
-/// Whether a position lies in a column of the second shade. The number of columns is even, also around the
-/// period.
+/// Whether a position lies in a column of the second shade. The number of columns is even.
 bool in_second_column(double x, double length, double diameter) {
   const double pairs = std::max(1.0, std::round(length / (2.0 * dyed_column * diameter)));
   return static_cast<long>(std::floor(2.0 * pairs * x / length)) % 2 != 0;
@@ -253,8 +252,7 @@ std::vector<ClusterColour> next_colours(const analysis::GrainSource& bed, const 
   return ClusterColours(seen->tracker).next(clusters);
 }
 
-/// Returns the looks of clusters. Those that span the bed have the first colour of the palette and a black
-/// rim.
+/// Returns the looks of clusters. Those that span the bed have the first colour and a black rim.
 std::vector<GrainStyle> cluster_styles(std::span<const ClusterColour> colours, const std::vector<bool>& spans,
                                        ClusterPalette chosen) {
   const std::vector<render::Colour> palette = cluster_palette(chosen);

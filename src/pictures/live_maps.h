@@ -29,16 +29,13 @@ class LiveMaps {
   LiveMaps(const MapPlan& plan, std::string folder, bool resumed, bool overwrite, Warn warn);
   ~LiveMaps();
 
-  /// Sets the run to be drawn. `path` is its file; `step` is its step of tilt, deg, which determines how
-  /// names distinguish frames.
+  /// Sets the run to be drawn. `path` is its file; `step` is its step of tilt, deg, for the names.
   void begin(const io::RunHeader& header, const std::string& path, double step, bool goes_by_time);
 
-  /// Adds the frames that an earlier process has stored: colours continue from them, and missing pictures are
-  /// drawn.
+  /// Adds the frames that an earlier process has stored: colours continue, and missing pictures are drawn.
   void add_frames(const io::RunFile& file);
 
-  /// Draws a new frame in the background; blocks while several are waiting. The first failure ends the
-  /// drawing, not the run.
+  /// Draws a new frame in the background; blocks while several are waiting. A failure ends the drawing only.
   void add(const Frame& frame);
 
   /// Whether a picture is being drawn or waiting.

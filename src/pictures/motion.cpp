@@ -92,8 +92,7 @@ MotionRanges MotionSample::ranges() const {
 
 namespace {
 
-/// Returns all free grains or, if `spacing` exceeds D, the one with the smallest id in each square of that
-/// side.
+/// Returns all free grains or, if `spacing` exceeds D, the first in each square of that side.
 std::vector<Index> evenly_spread(const analysis::GrainSource& bed, double spacing) {
   std::vector<Index> grains;
   std::set<std::pair<long, long>> taken;

@@ -23,16 +23,14 @@ struct PictureFile {
 PictureFile picture_file(const PictureSeries& series, const std::string& folder, std::size_t k,
                          std::size_t map, int decimals, const std::string& ending = "png");
 
-/// Returns the pictures of all maps of the chosen frames, frame by frame. Fits the ranges of motion to these
-/// frames.
+/// Returns the pictures of all maps, frame by frame. Fits the ranges of motion to these frames.
 std::vector<PictureFile> picture_files(DrawnRun& run, const FrameChoice& choice, const std::string& folder,
                                        const std::string& ending);
 
 /// Returns a picture as a sheet of the size of the plan. Throws the errors of sheet_of and arrange.
 render::Sheet sheet_of_plan(render::FrameView view, const MapPlan& plan, const render::Font& font);
 
-/// Writes a sheet to a file in the format of its name: pixels, with their resolution if the plan is for
-/// print, or a document.
+/// Writes a sheet to a file in the format of its name: pixels, with a resolution for print, or a document.
 void write_sheet(const std::string& path, const render::Sheet& sheet, const MapPlan& plan,
                  const render::PictureTexts& texts);
 

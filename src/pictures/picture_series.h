@@ -44,8 +44,7 @@ void add_frame(PictureSeries& series, const Frame& mapped);
 /// Adds a frame whose overloaded_clusters are known, if a map shows them.
 void add_frame(PictureSeries& series, const Frame& mapped, const analysis::Clusters& clusters);
 
-/// Returns the frame from which motion up to frame k is measured; none if no map shows motion, or nothing has
-/// moved yet.
+/// Returns the frame from which motion up to frame k is measured; none if no map shows motion, or at first.
 std::optional<std::size_t> reference_of(const PictureSeries& series, std::size_t k);
 
 /// Returns map `map` of the plan at frame k, with its traces. `frame` is as its maps see it; if it was not
@@ -61,8 +60,7 @@ struct DrawnRun {
   std::optional<std::size_t> current, before;  ///< indices of the frames in memory
   Frame frame, reference;
 
-  /// Returns the angle of repose of the run, rad, whatever Gamma_c its maps have; NaN if the slope has not
-  /// failed.
+  /// Returns the angle of repose of the run, rad; NaN if the slope has not failed.
   double theta_c() const { return find_value(file.checkpoint().results, "theta_c").value_or(not_known); }
 };
 
@@ -73,12 +71,10 @@ struct DrawnRun {
 DrawnRun open_drawn_run(const std::string& path, const MapPlan& plan, const CountDone& progress);
 
 /// Fits pictures to these frames: the ranges of maps of motion (fits_frames), and the room for the turn of a
-/// bed. Call it before the first picture; otherwise the ranges are fixed, and there is room for the
-/// turns of all frames.
+/// bed. Without it the ranges are fixed, and there is room for the turns of all frames.
 void fit_to_frames(DrawnRun& run, std::span<const std::size_t> frames);
 
-/// Returns map `map` of the plan at frame k. Fastest for ascending frames, with all maps of one frame after
-/// another.
+/// Returns map `map` of the plan at frame k. Fastest for ascending frames, one after another.
 render::FrameView picture(DrawnRun& run, std::size_t k, std::size_t map);
 
 }  // namespace talus::pictures

@@ -49,8 +49,7 @@ double share_of(const Scale& scale, double value);
 /// Returns the look of a value, clamped to the ends of its scale. NaN, for a grain without a value, looks
 /// like the lower end and is not marked.
 GrainStyle grain_style(const Scale& scale, double value);
-/// Returns the looks of values; with `outlines`, for a scale that does not contain white, grains without a
-/// value are white.
+/// Returns the looks of values; with `outlines`, for a scale without white, grains without a value are white.
 std::vector<GrainStyle> grain_styles(const Scale& scale, std::span<const double> values, bool outlines);
 
 /// Returns the bar, with round numbers or decades as ticks.
@@ -69,8 +68,7 @@ std::string power_label(double value);
 /// Returns "0.05", or a power of ten if that is easier to read.
 std::string number_label(double value);
 
-/// Returns 1, 2 or 5 times a power of ten: the smallest such step of which at most `most` fit into `width` >
-/// 0.
+/// Returns 1, 2 or 5 times a power of ten: the smallest of which at most `most` fit into `width` > 0.
 double round_step(double width, int most);
 
 /// Returns the multiples of round_step between low and high (low < high), both included.

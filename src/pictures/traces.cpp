@@ -50,8 +50,7 @@ std::vector<render::AxisTick> axis_ticks(double low, double high, int most) {
   return ticks;
 }
 
-/// Returns the range of the finite values; widened by `margin` on either side if they are all equal, and 0 to
-/// 1 if there are none.
+/// Returns the range of the finite values; widened by `margin` if all are equal; 0 to 1 without any.
 ScaleRange range_of(std::span<const double> values, double margin) {
   ScaleRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values)

@@ -34,8 +34,7 @@ struct BrokenRule {
   std::string expected;           ///< expected and found values, for a message
 };
 
-/// Returns the rules broken by a scenario whose keys are individually in range; empty if the scenario can be
-/// run.
+/// Returns the rules broken by a scenario whose keys are in range; empty if it can be run.
 std::vector<BrokenRule> broken_rules(const Scenario& scenario);
 
 }  // namespace talus::scenario

@@ -1,5 +1,4 @@
-/// Parser of scenarios and settings: converts TOML to values and fields, and reports every error with its
-/// place.
+/// Parser of scenarios and settings: TOML to values and fields, with the place of errors.
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -176,8 +176,7 @@ FileGrains read_table(const BedFile& file, const dynamics::BedPlan& plan) {
   return grains;
 }
 
-/// Returns the unit for which the mean diameter would be right, as the end of a message; otherwise general
-/// advice.
+/// Returns the unit for which the mean diameter would be right, as the end of a message; or general advice.
 std::string meant_unit(double mean, const dynamics::BedPlan& plan) {
   for (const auto& [unit, name] :
        {std::pair{LengthUnit::metre, "m"}, std::pair{LengthUnit::centimetre, "cm"},

@@ -143,8 +143,7 @@ struct DumpFrame {
   std::size_t fault_line = 0;
 };
 
-/// Removes the first line from a text and returns it, after lines that are only a comment, which are counted
-/// in `line` as well.
+/// Removes the first line from a text and returns it, after lines of comments; `line` counts all.
 std::string_view take_row(std::string_view& rest, std::size_t& line);
 
 /// Returns the frames in order; none for a text in another format. Throws LocatedError(bad_data) for a line

@@ -157,8 +157,7 @@ namespace {
 /// Gap between grains of the lattice, as a fraction of the largest diameter.
 constexpr double room = 0.02;
 
-/// Returns `count` grains at the surface, the farthest from x first; of equidistant grains, the smaller id
-/// first.
+/// Returns `count` grains at the surface, the farthest from x first, then by id.
 std::vector<Index> farthest_grains(const World& world, Index count, double x) {
   std::vector<Index> grains = surface_grains(world);
   if (grains.size() < static_cast<std::size_t>(count))

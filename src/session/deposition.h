@@ -61,8 +61,7 @@ dynamics::PourRule pour_rule(const Scenario& scenario);
 /// Returns the time of the last arrival, s; 0 if all grains are present from the start.
 double end_of_arrivals(const Scenario& scenario);
 
-/// Returns advice for a bed that did not come to rest in time, with the key that prevents it; `velocity` in g
-/// h.
+/// Returns advice for a bed that did not come to rest in time, with the key for it; `velocity` in g h.
 std::string advice_for_rest(const Scenario& scenario, double velocity);
 
 }  // namespace talus::session

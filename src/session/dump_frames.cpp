@@ -69,8 +69,7 @@ void skip_rows(DumpText& text, DumpFrame& frame, bool (*begins_frame)(std::strin
   }
 }
 
-/// Returns the flag of the boundaries along x in "ITEM: BOX BOUNDS [xy xz yz] pp ff pp"; empty if there is
-/// none.
+/// Returns the flag of the boundaries along x in "ITEM: BOX BOUNDS [xy xz yz] pp ff pp", if any.
 std::string_view flag_along_x(std::string_view head) {
   constexpr std::array<std::string_view, 6> others = {"ITEM:", "BOX", "BOUNDS", "xy", "xz", "yz"};
   for (const TableCell& cell : cells_of(head, false))
@@ -202,8 +201,7 @@ bool begins_xyz_frame(std::string_view rest) {
   return count_in(take_line(rest)) && is_description(take_line(rest));
 }
 
-/// Reads the numbers of an entry, if there is one; returns what was expected if they are not `size` finite
-/// ones.
+/// Reads the numbers of an entry, if there is one; returns what was expected if they are wrong.
 std::string read_entry(std::string_view line, std::string_view key, std::size_t size,
                        std::vector<double>& numbers) {
   const std::string_view value = value_of_entry(line, key);

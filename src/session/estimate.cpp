@@ -175,8 +175,7 @@ Estimate estimate(const Scenario& scenario) {
   result.tilt_steps = expected_tilt_steps(scenario);
   result.program_parts = static_cast<std::int64_t>(program.segments().size());
   result.flow_steps = std::llround(steps_of_flow(scenario, end));
-  // Frames of the flow and of a programme are stored at the same intervals of time as those of a growing
-  // tilt.
+  // Frames of the flow and of a programme have the same intervals of time as those of a growing tilt.
   const auto steps_of_tilt = static_cast<double>(result.tilt_steps);
   const double stored = (program.empty() ? end : steps_of_tilt * scenario.tilt.step) +
                         static_cast<double>(result.flow_steps) * scenario.tilt.step;

@@ -24,8 +24,7 @@ inline constexpr std::array<std::string_view, guard_count> guard_names = {"veloc
 /// Values that the guards check, in the units of their limits.
 using GuardValues = std::array<double, guard_count>;
 
-/// Returns the values after a step; `unconverged`: number of consecutive steps that have missed their
-/// tolerance.
+/// Returns the values after a step; `unconverged`: consecutive steps that have missed their tolerance.
 GuardValues guard_values(const World& world, const dynamics::StepReport& report, std::int64_t unconverged,
                          const Scenario& scenario);
 GuardValues guard_limits(const Scenario& scenario);

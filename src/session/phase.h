@@ -5,8 +5,7 @@
 
 namespace talus::session {
 
-/// Phases of a run. Flow: motion after failure, if the scenario follows it (tilt.after_failure), until the
-/// bed is at rest.
+/// Phases of a run. Flow: motion after failure, if the scenario follows it (tilt.after_failure), until rest.
 enum class Phase : std::int64_t { deposition = 0, tilt = 1, done = 2, flow = 3 };
 
 }  // namespace talus::session

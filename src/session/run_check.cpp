@@ -234,8 +234,7 @@ void check_moments(const Frame& frame, const Loads& loads, const std::string& na
               short_text(error / largest));
 }
 
-/// Returns the allowed imbalance, m g: twice the change of a velocity from one bound of rest to the other in
-/// one step.
+/// Returns the allowed imbalance, m g: twice the change of a velocity between the bounds of rest in a step.
 double imbalance_allowed(const Scenario& scenario) {
   return std::max(imbalance_limit, 4.0 * scenario.deposition.rest_velocity);
 }

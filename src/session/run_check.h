@@ -12,8 +12,7 @@
 namespace talus::session {
 
 struct RunCheck {
-  /// Faults, one sentence each with the data set or the frame; at most `max_faults`, then the number of
-  /// further ones.
+  /// Faults, one sentence each with the data set or the frame; at most `max_faults`, then their number.
   std::vector<std::string> faults;
   std::size_t changed = 0;  ///< number of data sets and frames that do not match their hashes
   std::size_t frames = 0, rows = 0, steps = 0, commands = 0, frames_at_rest = 0;

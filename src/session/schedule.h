@@ -67,8 +67,7 @@ struct RunSeconds {
   dynamics::StageSeconds stages{};
 };
 
-/// Schedule of a run, a value type. With the world and the scenario it is everything that a resumed run
-/// needs.
+/// Schedule of a run, a value type. A resumed run needs it, the world and the scenario.
 struct Schedule {
   Phase phase = Phase::deposition;
   std::int64_t tilt_steps = 0;  ///< steps taken in the tilt

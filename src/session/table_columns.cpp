@@ -47,8 +47,7 @@ std::string_view separator_of(std::string_view line, bool tabs) {
   return " \t";
 }
 
-/// Joins units with their names, because "x [mm]" in a line separated by blanks has its unit in a separate
-/// cell.
+/// Joins units with their names, because blanks separate "x [mm]" into two cells.
 void join_units(std::string_view line, std::vector<TableCell>& cells) {
   std::vector<TableCell> joined;
   for (const TableCell& cell : cells) {

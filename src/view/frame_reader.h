@@ -37,11 +37,9 @@ class FrameReader {
 
   /// Requests the history of a contact, or of none.
   void follow(const std::optional<ContactKey>& contact);
-  /// Requests the values of all frames by this rule. Those in `known`, of the first frames, are not
-  /// recomputed.
+  /// Requests the values of all frames by this rule. Those in `known` are not recomputed.
   void evaluate(const pictures::OverloadRule& rule, std::vector<analysis::FrameRecord> known);
-  /// Sets the number of frames, and how many of them (the first ones) belong to the tilt: only these have
-  /// values.
+  /// Sets the number of frames, and how many belong to the tilt: only these have values.
   void set_counts(std::size_t frames, std::size_t of_tilt);
 
   // Each collects what has been read; returns whether there was anything. Everything below, and what the

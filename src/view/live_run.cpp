@@ -62,8 +62,7 @@ int solver_threads() { return std::max(1, static_cast<int>(std::thread::hardware
 
 }  // namespace
 
-/// The session, the store and their data belong to the solver's thread alone once it runs; the rest is shared
-/// and protected by the mutex.
+/// Session and store belong to the solver's thread once it runs; the mutex protects the rest.
 struct LiveRun::State {
   session::Session session;
   const RunStatics statics;
@@ -123,8 +122,7 @@ struct LiveRun::State {
     asked.notify_one();
   }
 
-  /// Waits until the solver has executed the request between two steps, which takes at most one step.
-  /// Rethrows its exceptions.
+  /// Waits until the solver has executed the request between two steps. Rethrows its exceptions.
   void submit_request(std::function<void()> next) {
     std::unique_lock lock(mutex);
     request = std::move(next);

@@ -76,8 +76,7 @@ class LiveRun final : public FrameSource {
   void run_to(double tilt);
   void finish_deposition();             ///< runs until the tilt begins, then pauses
   void set_pace(const LivePace& pace);  ///< takes effect at the next step
-  /// Pauses, and returns once the solver rests. The solver then accesses no file until it is asked to
-  /// continue.
+  /// Pauses, and returns once the solver rests and accesses no file.
   void halt();
   /// Applies a command before the next step, and returns when that is done; sets the command's step number.
   /// Throws as Session::apply does: Error(usage) if the grain does not exist, a value is not finite or out of
@@ -92,14 +91,12 @@ class LiveRun final : public FrameSource {
   /// Starts to record a run that is not recorded yet, from its beginning, and returns when the data are on
   /// disk. Throws as RunStore::create does, and Error(usage) if the run is already recorded.
   void record(const std::string& output);
-  /// Commits a checkpoint and returns when that is done; does nothing without an output. A failure is
-  /// reported in the status.
+  /// Commits a checkpoint, if there is an output. A failure is reported in the status.
   void save();
 
   const RunStatics& statics() const;
   LiveStatus status() const;
-  /// Returns the newest state of the bed, updated about every 1/30 s while running, and at once when the run
-  /// pauses. Never null.
+  /// Returns the newest state of the bed, updated every 1/30 s, and when the run pauses. Never null.
   std::shared_ptr<const Frame> newest() const;
   std::shared_ptr<const Frame> read(std::size_t k) override;
   /// Adds what has been recorded since the last call to the frames.

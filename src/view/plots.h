@@ -68,13 +68,11 @@ enum class PlotKind : std::size_t {
   gamma,       ///< probability density of gamma in the frame shown
 };
 
-/// Returns an empty curve of a quantity, named by its symbol, and an empty plot of some quantities along the
-/// run.
+/// Returns an empty curve of a quantity, named by its symbol, and an empty plot along the run.
 PlotSeries series_of(const analysis::Quantity& quantity);
 Plot plot_along_run(const std::string& name, const std::string& title, std::vector<PlotSeries> series);
 
-/// Returns an empty plot of one quantity along the run. It has the quantity's name, its title (or else its
-/// name), and its unit.
+/// Returns an empty plot of one quantity along the run. It has its name, title and unit.
 Plot plot_of_quantity(const analysis::Quantity& quantity);
 
 /// Returns all plots, empty, over the tilt.
@@ -82,8 +80,7 @@ std::vector<Plot> empty_plots();
 /// Sets the abscissa of the plots along the run; the caller must then fill their curves again.
 void name_axis(PlotAxis axis, std::vector<Plot>& plots);
 
-/// Fills the curves of the observables: the quantities that a run records more often than its frames, their
-/// laws, and the energy.
+/// Fills the curves of the observables: those recorded between frames, their laws, and the energy.
 void plot_observables(std::span<const ObservableRow> rows, const RunStatics& statics,
                       const PlotAbscissa& abscissa, std::vector<Plot>& plots);
 /// Fills the curves of all other quantities, from frames with one threshold; from a `stored` analysis, only

@@ -33,12 +33,10 @@ MapKey map_key(const pictures::PictureSeries& series, std::size_t k, std::shared
 render::FrameView draw_map(const pictures::PictureSeries& series, std::size_t k, const Frame& frame,
                            const Frame* reference, bool change = false);
 
-/// Returns the layer that the bar of a map belongs to, if it is one of motion (fits_frames), whose range is
-/// fixed in the window.
+/// Returns the layer that the bar of a map belongs to, if it is one of motion (fits_frames).
 std::optional<pictures::MapKind> moving_layer(const pictures::MapLayers& layers);
 
-/// Returns the part of a map that is shown. Beyond the extent of the map only side walls and a smooth floor
-/// are drawn, as lines.
+/// Returns the part of a map that is shown. Beyond the map only walls and a smooth floor are drawn.
 render::FrameView shown_map(const render::FrameView& map, const pictures::MapExtent& part,
                             const BedFrame& bed);
 
@@ -55,8 +53,7 @@ struct Overlay {
       contact;  ///< contact of the frame: a ring about its point, and a line between its bodies
 };
 
-/// Returns the diameters of the circles for a neighbourhood that has grown to `largest`: round steps, and the
-/// largest.
+/// Returns the diameters of circles for a neighbourhood that has grown to `largest`: round steps, and that.
 std::vector<double> growing_diameters(double largest);
 
 /// Rings end at the edges of `extent`, that of the bed.

@@ -1,6 +1,5 @@
 #pragma once
-/// Selection as plain data, functions that find grains and contacts by position, and the properties of what
-/// is selected.
+/// Selection as plain data, grains and contacts by position, and the properties of what is selected.
 
 #include <optional>
 #include <span>
@@ -102,8 +101,7 @@ struct ContactInspection : HistoryInstant {
 /// Inspects a contact; one that is open is taken to be between grains.
 ContactInspection inspect_contact(const BedFrame& bed, const ContactKey& key);
 
-/// Returns the mobilised share of friction, |f_t| / (friction f_n); NaN if the contact is open or has no
-/// friction.
+/// Returns the mobilised share of friction, |f_t| / (friction f_n); NaN without one.
 double mobilised(double fn, double ft, double friction);
 
 /// Returns the grain whose disc contains the point (m, frame of the bed; in a periodic bed, any image of it),

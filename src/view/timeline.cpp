@@ -121,8 +121,7 @@ void add_of_frames(EventList& list, double theta_c) {
            analysis::percolation_onset(tilts, spans, theta_c).tilt);
 }
 
-/// Decades of energy below the largest rearrangement over which sizes differ, and the size of all smaller
-/// ones.
+/// Decades of energy over which sizes differ, and the size of all smaller rearrangements.
 constexpr double labelled_decades = 4.0;
 constexpr double min_size = 0.2;
 

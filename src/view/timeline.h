@@ -33,8 +33,7 @@ const LandmarkText& text_of(Landmark landmark);
 struct TimelineEvent {
   enum class Kind { transition, failure, command, rearrangement };
   std::string name;  ///< also the name of its widget: "dilation", "theta_c", "command 0"
-  /// Rich text: "θ_d, volume", or its part before the comma if there is little room; empty for a command or a
-  /// rearrangement.
+  /// Rich text: "θ_d, volume", or its part before the comma; empty for a command or a rearrangement.
   std::string label;
   std::string what;  ///< rich text: the event and the measure that shows it
   Kind kind = Kind::transition;

@@ -18,8 +18,7 @@ double rounded(double value, const BarEnds& bar) {
 
 constexpr double smallest_part = 3.0;  // D, shortest part that may fill the width of a picture
 
-/// Returns the maximum of a cos(turn) + b sin(turn) over 0 <= turn <= turn_max: the space that the turned
-/// part needs.
+/// Returns the maximum of a cos(turn) + b sin(turn) over 0 <= turn <= turn_max: the space of the turned part.
 double largest_extent(double a, double b, double turn_max) {
   const double turn = std::clamp(std::atan2(b, a), 0.0, turn_max);
   return a * std::cos(turn) + b * std::sin(turn);

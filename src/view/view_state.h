@@ -1,6 +1,5 @@
 #pragma once
-/// State of the interactive view: plain data that widgets change and drawing reads, with its camera, colour
-/// bar and theme.
+/// State of the interactive view: plain data that widgets change and drawing reads.
 
 #include <array>
 #include <cstdint>
@@ -140,8 +139,7 @@ double picture_aspect(double depth, double turn_max);
 pictures::MapExtent shown_part(const ViewCamera& camera, const pictures::MapExtent& bed, double mean_diameter,
                                double aspect, double turn_max);
 
-/// Returns the camera moved to the middle of the part that it shows. A centre pushed beyond an end of the bed
-/// then moves back at once.
+/// Returns the camera moved to the middle of the part that it shows, and back into the bed.
 ViewCamera centred(const ViewCamera& camera, const pictures::MapExtent& part);
 
 /// Returns the intersection of two parts.

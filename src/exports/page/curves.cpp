@@ -29,8 +29,7 @@ Json curve_json(const std::string& label, const char* over, const std::vector<do
   return {{"label", label}, {"over", over}, {"values", rounded(values, "{:.5g}")}};
 }
 
-/// Returns the curve of a quantity or, if it depends on a threshold, one for each; a rich label distinguishes
-/// them.
+/// Returns the curve of a quantity or, if it depends on a threshold, one for each, with a rich label.
 Json curves_of(const analysis::Quantity& quantity, const PageRun& run, std::span<const ObservableRow> rows) {
   const auto shown = [&](double value) {
     return analysis::shown(quantity, value, run.statics().mean_diameter);

@@ -36,14 +36,12 @@ struct PageRun {
   const RunStatics& statics() const { return file.header().statics; }
   /// Whether overloaded grains are defined; an analysis without threshold has none.
   bool has_threshold() const { return !analysis.thresholds.empty(); }
-  /// Returns a moment on the axis of the page: its tilt, deg, or, if the run goes by time, the time since the
-  /// first frame, s.
+  /// Returns a moment on the axis of the page: its tilt, deg, or, if the run goes by time, its time, s.
   double place(double tilt, double time) const {
     return file.goes_by_time() ? time - file.all_frame_times().front() : degrees(tilt);
   }
   double place(std::size_t k) const { return place(file.all_frame_tilts()[k], file.all_frame_times()[k]); }
-  /// Whether a page of this run has the map. Some maps need a threshold, or a bed that is larger than its
-  /// neighbourhoods.
+  /// Whether a page of this run has the map. Some maps need a threshold, or a larger bed.
   bool shows(pictures::MapKind kind) const;
 };
 
@@ -58,8 +56,7 @@ PageRun begin_page(const io::RunFile& file, const analysis::Analysis& analysis,
 using UseFrame = std::function<void(const analysis::GrainSource& frame, const pictures::SeenFrames& seen,
                                     const analysis::Clusters& clusters, const std::vector<float>& lc)>;
 
-/// Calls `use` with each frame of the page, in order. Throws Error(stopped) if it was stopped, and the errors
-/// of RunFile::frame.
+/// Calls `use` with each frame of the page, in order. Throws Error(stopped), and as RunFile::frame.
 void for_each_frame(const PageRun& run, const Watch& watch, const UseFrame& use);
 
 /// Returns a number with as many digits as its format ("{:.5g}") prints; null if it is not finite.
@@ -95,8 +92,7 @@ struct PageMap {
   Json ramp;                                       ///< fills and rims from end to end of a scale
 };
 
-/// Lines between grains or at contacts: their titles, and their legends for each colour of lines (over a map,
-/// or over outlines).
+/// Lines between grains or at contacts: titles, and legends for each colour (over a map or outlines).
 struct PageLines {
   pictures::MapKind kind;
   DistinctEntries titles;
@@ -151,8 +147,7 @@ class PageData {
 /// quantity that the run also records uses the recorded values.
 Json curves_json(const PageRun& run);
 
-/// Returns the events of the time line (view/timeline.h) between the frames of the page, each with its
-/// position among them.
+/// Returns the events of the time line (view/timeline.h) between the frames of the page, with positions.
 Json events_json(const PageRun& run);
 
 /// Return the sources of a page, assets/page, which are embedded in the binary: the document, with {{name}}

@@ -120,8 +120,7 @@ std::string run_page(const io::RunFile& file, const std::string& path, const ana
 
 namespace {
 
-/// Sets the angle that scales maps: the angle of repose, or the angle of the threshold that was given
-/// instead.
+/// Sets the angle that scales maps: that of repose, or of the given threshold.
 void take_angle(pictures::MapSettings& settings, const analysis::Analysis& analysis) {
   if (std::isfinite(analysis.theta_c)) {
     settings.theta_c = analysis.theta_c;

@@ -51,8 +51,7 @@ CodeTable code_table(std::size_t rows, std::size_t columns, int bytes = 2, std::
 std::vector<std::byte> difference_bytes(const CodeTable& table);
 
 /// Returns these bytes as base64 of a zlib stream (RFC 1950), which a browser decompresses with
-/// DecompressionStream("deflate"). The text depends only on the table and the version of zlib. Throws
-/// std::bad_alloc.
+/// DecompressionStream("deflate"). The text depends only on the table and zlib.
 std::string packed_text(const CodeTable& table);
 
 }  // namespace talus::exports
